@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+#
+# asperity_layer(<name> [SOURCES ...] [VARIANTS ...] DEPENDS ...)
+#   One static library a layer. Its include path is a directory that holds nothing but a link named
+#   <name> to the layer's folder, and the layers below come with DEPENDS; so
+#   #include "<name>/x.hpp" works, and an include that points upwards does not compile.
+#   Sources named under VARIANTS are compiled once for each x86-64 level and picked at start
+#   (kernels/variant.hpp).
+#
+# asperity_test(<name> SOURCES ... LINK ... [LABELS ...] [RANKS ...] [TIMEOUT s])
+#   A GoogleTest program. With RANKS it is run once for each number of ranks, under mpirun.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+if(NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release)
+endif()
+# -O3 for the kernels' loops; assertions stay a matter of the debug preset.
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+
+add_library(asperity_flags INTERFACE)
+# No contraction behind our back: where a fused multiply-add is meant, the kernel says so. The same
+# node then gets the same bits whichever loop, rank or thread computes it.
+target_compile_options(asperity_flags INTERFACE -ffp-contract=off)
+add_library(asperity_warnings INTERFACE)
+target_compile_options(asperity_warnings INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
+    $<$<BOOL:${ASPERITY_WERROR}>:-Werror>)
+
+set(ASPERITY_VARIANTS "")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set(ASPERITY_VARIANTS v2 v3 v4)
+endif()
+
+function(asperity_layer name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;VARIANTS;DEPENDS" ${ARGN})
+    set(include_dir ${PROJECT_BINARY_DIR}/layers/${name})
+    file(MAKE_DIRECTORY ${include_dir})
+    file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_dir}/${name} SYMBOLIC)
+    add_library(asperity_${name} STATIC ${ARG_SOURCES})
+    add_library(asperity::${name} ALIAS asperity_${name})
+    target_include_directories(asperity_${name} PUBLIC ${include_dir})
+    target_link_libraries(asperity_${name} PUBLIC asperity_flags ${ARG_DEPENDS}
+                                           PRIVATE asperity_warnings)
+    if(ARG_VARIANTS AND NOT ASPERITY_VARIANTS)
+        target_sources(asperity_${name} PRIVATE ${ARG_VARIANTS})
+    endif()
+    foreach(variant IN LISTS ASPERITY_VARIANTS)
+        if(ARG_VARIANTS)
+            add_library(asperity_${name}_${variant} OBJECT ${ARG_VARIANTS})
+            target_include_directories(asperity_${name}_${variant} PRIVATE ${include_dir})
+            target_link_libraries(asperity_${name}_${variant}
+                                  PRIVATE asperity_flags asperity_warnings ${ARG_DEPENDS})
+            target_compile_definitions(asperity_${name}_${variant}
+                                       PRIVATE ASPERITY_VARIANT=${variant})
+            target_compile_options(asperity_${name}_${variant} PRIVATE -march=x86-64-${variant})
+            target_sources(asperity_${name}
+                           PRIVATE $<TARGET_OBJECTS:asperity_${name}_${variant}>)
+        endif()
+    endforeach()
+    if(ARG_VARIANTS)
+        list(JOIN ASPERITY_VARIANTS "," list)
+        target_compile_definitions(asperity_${name} PRIVATE
+            ASPERITY_HAS_X86_VARIANTS=$<BOOL:${ASPERITY_VARIANTS}>)
+    endif()
+endfunction()
+
+function(asperity_test name)
+    cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS;RANKS" ${ARGN})
+    if(NOT ARG_TIMEOUT)
+        set(ARG_TIMEOUT 300)
+    endif()
+    add_executable(${name} ${ARG_SOURCES})
+    target_link_libraries(${name} PRIVATE asperity_warnings ${ARG_LINK})
+    if(NOT ARG_RANKS)
+        target_link_libraries(${name} PRIVATE GTest::gtest GTest::gtest_main)
+        add_test(NAME ${name} COMMAND ${name})
+        set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+                             ENVIRONMENT "OMP_NUM_THREADS=2")
+        return()
+    endif()
+    target_link_libraries(${name} PRIVATE GTest::gtest)
+    foreach(ranks IN LISTS ARG_RANKS)
+        add_test(NAME ${name}_ranks${ranks}
+                 COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root --bind-to none
+                         -n ${ranks} $<TARGET_FILE:${name}>)
+        set_tests_properties(${name}_ranks${ranks} PROPERTIES LABELS "${ARG_LABELS};mpi"
+                             TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${ranks}
+                             ENVIRONMENT "OMP_NUM_THREADS=1")
+    endforeach()
+endfunction()

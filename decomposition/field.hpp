@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Storage behind the views: one value a node of a tile, its halo, and padding for whole SIMD vectors.
+#pragma once
+
+#include "decomposition/tile.hpp"
+#include "kernels/views.hpp"
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+namespace asperity {
+
+/// A stack of planes of T over a tile; zero at first. Movable, not copyable by accident.
+template <class T> class Field {
+public:
+    Field() = default;
+
+    /// halo: frame of nodes around the tile, at least halo_width.
+    Field(const Tile& tile, int planes, int halo = halo_width) : halo_(halo) {
+        constexpr std::ptrdiff_t line = 64 / static_cast<std::ptrdiff_t>(sizeof(T));
+        const auto round_up = [](std::ptrdiff_t n) { return (n + line - 1) / line * line; };
+        const std::ptrdiff_t left = round_up(halo);
+        // Behind the owned nodes: the halo, and what a vector starting at the last owned node and read
+        // at an offset of the halo still touches.
+        view_.row = left + round_up(tile.nx + halo + line);
+        view_.plane = view_.row * (tile.ny + 2 * halo);
+        view_.nx = tile.nx;
+        view_.ny = tile.ny;
+        view_.nz = planes;
+        size_ = static_cast<std::size_t>(view_.plane) * static_cast<std::size_t>(planes) +
+                static_cast<std::size_t>(2 * line);
+        data_.reset(static_cast<T*>(std::aligned_alloc(
+            64, static_cast<std::size_t>(round_up(static_cast<std::ptrdiff_t>(size_))) * sizeof(T))));
+        if (!data_) throw std::bad_alloc();
+        view_.origin = data_.get() + halo * view_.row + left;
+        // Rows are first touched by the threads that will work on them (static schedule over rows).
+        const std::ptrdiff_t rows = (tile.ny + 2 * halo) * static_cast<std::ptrdiff_t>(planes);
+#pragma omp parallel for schedule(static)
+        for (std::ptrdiff_t r = 0; r < rows; ++r)
+            for (std::ptrdiff_t i = 0; i < view_.row; ++i) data_[static_cast<std::size_t>(r * view_.row + i)] = T(0);
+        for (std::size_t i = static_cast<std::size_t>(rows * view_.row); i < size_; ++i) data_[i] = T(0);
+    }
+
+    VolumeView<T> view() { return view_; }
+    VolumeView<const T> view() const { return view_; }
+    PlaneView<T> plane(int z) { return view_[z]; }
+    PlaneView<const T> plane(int z) const { return view()[z]; }
+    int halo() const { return halo_; }
+    bool empty() const { return !data_; }
+    std::size_t bytes() const { return size_ * sizeof(T); }
+    /// Bit-for-bit copy from a field of the same shape.
+    void copy_from(const Field& other) {
+        for (std::size_t i = 0; i < size_; ++i) data_[i] = other.data_[i];
+    }
+
+private:
+    struct Free {
+        void operator()(void* p) const { std::free(p); }
+    };
+    std::unique_ptr<T[], Free> data_;
+    std::size_t size_ = 0;
+    VolumeView<T> view_{};
+    int halo_ = halo_width;
+};
+
+/// Three fields of one shape: a vector field, structure of arrays.
+template <class T> struct VectorField {
+    Field<T> x, y, z;
+
+    VectorField() = default;
+    VectorField(const Tile& tile, int planes, int halo = halo_width)
+        : x(tile, planes, halo), y(tile, planes, halo), z(tile, planes, halo) {}
+
+    VectorVolume<T> view() { return {x.view(), y.view(), z.view()}; }
+    VectorVolume<const T> view() const { return {x.view(), y.view(), z.view()}; }
+    VectorPlane<T> plane(int k) { return {x.plane(k), y.plane(k), z.plane(k)}; }
+    VectorPlane<const T> plane(int k) const { return {x.plane(k), y.plane(k), z.plane(k)}; }
+    bool empty() const { return x.empty(); }
+    std::size_t bytes() const { return x.empty() ? 0 : x.bytes() + y.bytes() + z.bytes(); }
+    void copy_from(const VectorField& other) {
+        x.copy_from(other.x);
+        y.copy_from(other.y);
+        z.copy_from(other.z);
+    }
+};
+
+} // namespace asperity

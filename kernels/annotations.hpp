@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Marks for code that also compiles for an accelerator. Everything in kernels/ that touches data is
+// a free function on trivially copyable views; under nvcc the same text becomes device code.
+#pragma once
+
+#if defined(__CUDACC__)
+#define ASPERITY_HOST_DEVICE __host__ __device__
+#else
+#define ASPERITY_HOST_DEVICE
+#endif
+
+#define ASPERITY_INLINE ASPERITY_HOST_DEVICE inline __attribute__((always_inline))

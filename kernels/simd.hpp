@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// One SIMD register, as a number type.
+//
+// A kernel written on Pack<double> reads like scalar arithmetic and is compiled once for each
+// x86-64 level (variant.hpp). The width is the widest register of that level. fma() is a real fused
+// multiply-add where the level has one and a multiplication and an addition where not; since the
+// compiler itself is told not to contract (-ffp-contract=off), what a node gets depends on the level
+// alone, not on the loop that computed it.
+//
+// The whole file lives in a namespace of its level, so that no function compiled for a newer
+// processor can be picked by the linker for an older one.
+#pragma once
+
+#include "kernels/annotations.hpp"
+#include "kernels/variant.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace asperity::ASPERITY_VARIANT {
+
+#if defined(__AVX512F__)
+inline constexpr int register_bytes = 64;
+#elif defined(__AVX2__)
+inline constexpr int register_bytes = 32;
+#else
+inline constexpr int register_bytes = 16;
+#endif
+
+template <class T> struct Pack {
+    static constexpr int width = register_bytes / static_cast<int>(sizeof(T));
+    typedef T Register __attribute__((vector_size(register_bytes)));
+    using Mask = decltype(Register{} < Register{});
+
+    Register r;
+
+    Pack() = default;
+    ASPERITY_INLINE Pack(Register value) : r(value) {}
+    ASPERITY_INLINE Pack(T value) : r(Register{} + value) {}
+
+    static ASPERITY_INLINE Pack load(const T* from) {
+        Pack p;
+        std::memcpy(&p.r, from, sizeof(Register));
+        return p;
+    }
+    ASPERITY_INLINE void store(T* to) const { std::memcpy(to, &r, sizeof(Register)); }
+    /// Stores the first count lanes (the tail of a row).
+    ASPERITY_INLINE void store_first(T* to, int count) const {
+        if (count >= width) return store(to);
+        T lane[width];
+        std::memcpy(lane, &r, sizeof(Register));
+        for (int i = 0; i < count; ++i) to[i] = lane[i];
+    }
+    ASPERITY_INLINE T operator[](int lane) const { return r[lane]; }
+
+    friend ASPERITY_INLINE Pack operator+(Pack a, Pack b) { return a.r + b.r; }
+    friend ASPERITY_INLINE Pack operator-(Pack a, Pack b) { return a.r - b.r; }
+    friend ASPERITY_INLINE Pack operator*(Pack a, Pack b) { return a.r * b.r; }
+    friend ASPERITY_INLINE Pack operator/(Pack a, Pack b) { return a.r / b.r; }
+    friend ASPERITY_INLINE Pack operator-(Pack a) { return -a.r; }
+    friend ASPERITY_INLINE Mask operator<(Pack a, Pack b) { return a.r < b.r; }
+    friend ASPERITY_INLINE Mask operator>(Pack a, Pack b) { return a.r > b.r; }
+};
+
+/// a where the mask is set, b elsewhere.
+template <class T>
+ASPERITY_INLINE Pack<T> select(typename Pack<T>::Mask mask, Pack<T> a, Pack<T> b) {
+    return mask ? a.r : b.r;
+}
+ASPERITY_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
+
+template <class T> ASPERITY_INLINE Pack<T> min(Pack<T> a, Pack<T> b) { return a.r < b.r ? a.r : b.r; }
+template <class T> ASPERITY_INLINE Pack<T> max(Pack<T> a, Pack<T> b) { return a.r > b.r ? a.r : b.r; }
+
+/// a * b + c, rounded once where the processor level has it.
+template <class T> ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>((typename Pack<T>::Register)_mm512_fmadd_pd((__m512d)a.r, (__m512d)b.r,
+                                                                   (__m512d)c.r));
+    else
+        return Pack<T>((typename Pack<T>::Register)_mm512_fmadd_ps((__m512)a.r, (__m512)b.r,
+                                                                   (__m512)c.r));
+#elif defined(__FMA__)
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>((typename Pack<T>::Register)_mm256_fmadd_pd((__m256d)a.r, (__m256d)b.r,
+                                                                   (__m256d)c.r));
+    else
+        return Pack<T>((typename Pack<T>::Register)_mm256_fmadd_ps((__m256)a.r, (__m256)b.r,
+                                                                   (__m256)c.r));
+#else
+    return a.r * b.r + c.r;
+#endif
+}
+/// The same operation for one lane, for scalar twins of a kernel: same bits as the pack's lane.
+ASPERITY_INLINE double fma(double a, double b, double c) {
+#if defined(__FMA__)
+    return __builtin_fma(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+
+} // namespace asperity::ASPERITY_VARIANT
