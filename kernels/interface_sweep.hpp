@@ -4,14 +4,27 @@
 // Lennard-Jones forces between the block's lowest layer and the rigid substrate: the contract.
 //
 // Three sweeps give the same answer:
-//   reference  every site against every substrate atom in reach by an explicit loop over pairs, scalar,
-//              obvious: the judge of the other two;
+//   reference  every site against every substrate atom in reach by an explicit loop over pairs,
+//              scalar, obvious: the judge of the other two;
 //   lattice    both sides are the same lattice, so the neighbours of a site are known offsets: SIMD
 //              over sites, sums in registers over the offsets in a fixed order;
-//   cell list  any substrate (incommensurate): atoms sorted into square cells, SIMD over atoms of a cell.
+//   cell list  any substrate (incommensurate): atoms sorted into square cells, SIMD over the atoms of
+//              a row of cells.
 //
-// Block site (x, y) of the tile stands at ((x0 + x + 1/2) a + ux, (y0 + y + 1/2) a + uy, z_ref + uz).
+// Block site (x, y) of the tile stands at ((x0+x+1/2) a + ux, (y0+y+1/2) a + uy, z_ref + uz).
 // Units: Å, eV, eV/Å.
+//
+// What is out of reach costs nothing. For each block of eight sites along x the owner tabulates how high
+// the substrate gets in rings of lateral distance around it. From the lowest site of the block follows
+// a gap, from the gap the lateral distance beyond which no pair can interact, and only offsets (cells)
+// nearer than that are visited. What is left out would have added exact zeros.
+//
+// Reproducibility: a site's force is summed in an order that the site alone decides (offset number,
+// or cell and atom order of the whole box), never the tile, block or lane it is in; so its bits are the
+// same for any decomposition and number of threads. Sums over sites are exact sums.
+//
+// Sites displaced sideways by more than offset_margin (a run about to be stopped by its guard) are
+// summed one by one with the reference loop, so no pair is ever missed.
 #pragma once
 
 #include "kernels/exact_sum.hpp"
@@ -22,22 +35,36 @@
 
 namespace asperity {
 
+/// Sites along x whose reach is bounded together: the widest register in double.
+inline constexpr int interface_block = 8;
+/// Rings of lateral distance for which each block knows the substrate's greatest height.
+inline constexpr int interface_rings = 8;
+/// Most offsets along one half axis, (cutoff + margin) / a + 1 at most.
+inline constexpr int max_half_offsets = 64;
+
 /// The block's side of the interface: one tile of its lowest layer.
 struct InterfaceSites {
     VectorPlane<const double> displacement; ///< u, Å
-    VectorPlane<double> force;              ///< out: force on each site, eV/Å (overwritten, owned sites)
+    VectorPlane<double> force;              ///< out: force on each site, eV/Å (overwritten)
     double spacing = 2.6;                   ///< a, Å
     double reference_height = 0.0;          ///< z of an undisplaced site, Å
+    int x0 = 0;                             ///< the tile's first site, counted over the box
+    int y0 = 0;
+    PlaneView<double> nearest_r2{}; ///< out where given and observed: squared distance to the nearest
+                                    ///< atom in reach (no_pair if there is none), Å^2
 };
+
+/// Squared distance reported where no atom is in reach.
+inline constexpr double no_pair = 1e300;
 
 /// What one pass over the sites adds up. Sums are order-independent.
 struct InterfaceSums {
-    ExactSum force_z;           ///< total normal force of the substrate on the sites, eV/Å
-    ExactSum energy;            ///< U_LJ, eV (only if asked for)
-    std::int64_t in_contact = 0;///< sites closer than contact_distance to some atom (only if asked for)
-    std::int64_t pushed = 0;    ///< sites whose net normal force is repulsive (only if asked for)
-    std::int64_t in_reach = 0;  ///< sites of the blocks of sites that were not skipped
-    double closest_r2 = 1e300;  ///< smallest squared pair distance met (only if asked for), Å^2
+    ExactSum force_z;            ///< total normal force of the substrate on the sites, eV/Å
+    ExactSum energy;             ///< U_LJ, eV (only if asked for)
+    std::int64_t in_contact = 0; ///< sites closer than contact_distance to some atom (if asked for)
+    std::int64_t pushed = 0;     ///< sites whose net normal force is repulsive (if asked for)
+    std::int64_t in_reach = 0;   ///< sites of the blocks of sites that were not skipped
+    double closest_r2 = no_pair; ///< smallest squared pair distance met (if asked for), Å^2
 
     void merge(const InterfaceSums& other) {
         force_z.merge(other.force_z);
@@ -48,5 +75,109 @@ struct InterfaceSums {
         closest_r2 = other.closest_r2 < closest_r2 ? other.closest_r2 : closest_r2;
     }
 };
+
+/// The whole substrate as a periodic map of heights: what the reference loop needs.
+struct SubstrateMap {
+    const double* height = nullptr; ///< height[j * sites + i] of the atom at (i b, j b), Å
+    int sites = 0;                  ///< atoms across the box
+    double spacing = 2.6;           ///< b, Å
+};
+
+/// How high the substrate gets around each block of sites, ring by ring.
+struct ReachBounds {
+    const double* highest = nullptr; ///< [(y * blocks + block) * interface_rings + ring], Å
+    int blocks = 0;                  ///< blocks in a row
+    double ring_width = 1.0;         ///< ring r spans lateral distances [r, r + 1) ring_width, Å; ...
+                                     ///< ... from the undisplaced site; the last is open to the margin
+    double offset_margin = 0.0;      ///< largest sideways displacement the tables allow for, Å
+};
+
+/// Four offsets that lie symmetrically around a hollow site: (±cx, ±cy) from site to atom.
+struct OffsetQuad {
+    double cx, cy;         ///< (m - 1/2) a, (n - 1/2) a, Å
+    double lateral;        ///< sqrt(cx^2 + cy^2), Å
+    std::int32_t m, n;     ///< 1, 2, ...
+    std::int32_t sw, se;   ///< index of the atoms at (1-m, 1-n), (m, 1-n) relative to the site's
+    std::int32_t nw, ne;   ///< (1-m, n), (m, n)
+};
+
+/// A substrate of the block's own lattice: atom (x, y) of the tile at ((x0+x) a, (y0+y) a, height).
+struct LatticeSubstrate {
+    PlaneView<const double> height; ///< with a halo that holds every offset and a whole vector, Å
+    const OffsetQuad* quads = nullptr; ///< by growing lateral distance (ties: n, m)
+    int quad_count = 0;
+    ReachBounds reach;
+    SubstrateMap map;
+};
+
+/// Any substrate, sorted into square cells. Cells are counted over the box and beyond it (images); in
+/// a row of cells the atoms follow one another in memory.
+struct CellListSubstrate {
+    const double* x = nullptr; ///< Å; images carry whole box edges
+    const double* y = nullptr;
+    const double* z = nullptr;
+    const std::int32_t* first = nullptr; ///< [row * (columns + 1) + column]: first atom of a cell
+    int column0 = 0;                     ///< first column and row held
+    int row0 = 0;
+    int columns = 0;
+    int rows = 0;
+    double cell = 1.0; ///< edge, Å
+    ReachBounds reach;
+    SubstrateMap map;
+};
+
+/// What one site feels: the sums of the reference loop.
+struct PairSum {
+    double force[3] = {0.0, 0.0, 0.0}; ///< eV/Å
+    double energy = 0.0;               ///< eV
+    double nearest_r2 = no_pair;       ///< Å^2
+};
+
+/// The reference: the sum over every substrate atom (periodic images included) within the cutoff of a
+/// site at (x, y, z), by rows of atoms. Not-a-number where the position is none.
+PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double x, double y, double z);
+
+/// The reference sweep: pair_sum for each site of rows [row_begin, row_end).
+void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
+                     const LennardJones& potential, int row_begin, int row_end, InterfaceSums& sums);
+
+/// Continuum correction for the pairs beyond the cutoff (scene: interface.tail).
+///
+/// A site at height g over the substrate's local mean plane feels, beyond the cutoff, a plane of n atoms
+/// per area; and the shift of the potential inside it is undone. With V0 the unshifted potential
+/// and c = max(r_c, |g|):
+///
+///     U(g) = 8 pi n epsilon [r0^12 / (10 c^10) - r0^6 / (4 c^4)]  +  pi n (r_c^2 - g^2)_+ V0(r_c)
+///
+/// -dU/dg = 2 pi n g V0(c) is the force of the plane's atoms beyond the cutoff: continuous at g = r_c.
+struct TailCorrection {
+    LennardJones potential;
+    double density = 0.0; ///< n, atoms per Å^2
+
+    double energy(double gap) const; ///< eV
+    double force(double gap) const;  ///< eV/Å
+};
+
+/// Adds the tail to forces and sums that a sweep has left; mean_height is the local mean plane below each
+/// site. If observed, energies are added and the sites pushed are counted anew.
+void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
+                PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
+                InterfaceSums& sums);
+
+/// The sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile and
+/// overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
+struct InterfaceKernels {
+    using Lattice = void (*)(const InterfaceSites&, const LatticeSubstrate&, const LennardJones&,
+                             int row_begin, int row_end, InterfaceSums&);
+    using CellList = void (*)(const InterfaceSites&, const CellListSubstrate&, const LennardJones&,
+                              int row_begin, int row_end, InterfaceSums&);
+    Lattice lattice = nullptr;
+    Lattice lattice_observed = nullptr;
+    CellList cell_list = nullptr;
+    CellList cell_list_observed = nullptr;
+};
+
+/// The kernels for the running processor (processor_level()).
+const InterfaceKernels& interface_kernels();
 
 } // namespace asperity

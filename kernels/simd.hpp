@@ -33,10 +33,25 @@ inline constexpr int register_bytes = 32;
 inline constexpr int register_bytes = 16;
 #endif
 
+typedef double DoubleRegister __attribute__((vector_size(register_bytes)));
+typedef float FloatRegister __attribute__((vector_size(register_bytes)));
+typedef std::int64_t DoubleMask __attribute__((vector_size(register_bytes)));
+typedef std::int32_t FloatMask __attribute__((vector_size(register_bytes)));
+
+template <class T> struct RegisterOf;
+template <> struct RegisterOf<double> {
+    using type = DoubleRegister;
+    using mask = DoubleMask;
+};
+template <> struct RegisterOf<float> {
+    using type = FloatRegister;
+    using mask = FloatMask;
+};
+
 template <class T> struct Pack {
     static constexpr int width = register_bytes / static_cast<int>(sizeof(T));
-    typedef T Register __attribute__((vector_size(register_bytes)));
-    using Mask = decltype(Register{} < Register{});
+    using Register = typename RegisterOf<T>::type;
+    using Mask = typename RegisterOf<T>::mask;
 
     Register r;
 

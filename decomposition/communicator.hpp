@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The ranks of a run behind one value type.
+//
+// A run started by mpirun talks MPI; a run started alone uses the serial transport and never
+// initialises MPI at all. Every raw MPI call of the project is in communicator.cpp. All member functions
+// but rank(), size() and abort() are collective: every rank calls them in the same order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// Thrown on the other ranks where the root failed; the root has the reason.
+struct RootFailure : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// One message to and from a neighbour in an exchange. The spans must stay valid until it returns.
+struct Message {
+    int to = 0;
+    int from = 0;
+    int tag = 0;
+    std::span<const double> send;
+    std::span<double> receive;
+};
+
+class Communicator {
+public:
+    /// One rank, no MPI.
+    Communicator();
+
+    int rank() const;
+    int size() const;
+    bool root() const { return rank() == 0; }
+
+    /// Element-wise sum over the ranks, in place. The values must be such that their sum is exact in
+    /// any order (ExactSum bins, counts).
+    void sum(std::span<double> values) const;
+    void sum(std::span<std::int64_t> values) const;
+    void max(std::span<double> values) const;
+    /// Root's bytes to all.
+    void broadcast(std::span<std::byte> bytes) const;
+    void broadcast(std::span<double> values) const { broadcast(std::as_writable_bytes(values)); }
+    /// Every rank's values, one after the other in rank order; counts[r] is rank r's share.
+    void all_gather(std::span<const double> mine, std::span<const int> counts,
+                    std::span<double> all) const;
+    /// As all_gather, on the root only.
+    void gather(std::span<const double> mine, std::span<const int> counts,
+                std::span<double> all) const;
+    /// All messages at once; returns when all have arrived. A message to oneself is a copy.
+    void exchange(std::span<const Message> messages) const;
+    void barrier() const;
+    /// Ends all ranks with this exit code, now.
+    [[noreturn]] void abort(int exit_code) const;
+
+    /// Runs work on the root. If it throws there, every rank throws: the root what it caught, the others
+    /// RootFailure, so that all leave together and the root alone tells why.
+    void on_root(const std::function<void()>& work) const;
+
+    class Transport;
+
+private:
+    friend class ParallelSession;
+    explicit Communicator(std::shared_ptr<const Transport> transport);
+    std::shared_ptr<const Transport> transport_;
+};
+
+/// Starts MPI if the process was launched by mpirun (or srun), and ends it. One in main().
+class ParallelSession {
+public:
+    ParallelSession(int& argc, char**& argv);
+    ~ParallelSession();
+    ParallelSession(const ParallelSession&) = delete;
+    ParallelSession& operator=(const ParallelSession&) = delete;
+
+    const Communicator& world() const { return world_; }
+    /// Name and version of the MPI library, or "none (one process)".
+    static std::string library();
+
+private:
+    bool started_ = false;
+    Communicator world_;
+};
+
+} // namespace asperity

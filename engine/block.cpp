@@ -1,0 +1,343 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/block.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace asperity {
+
+double BlockOptions::sound_speed() const {
+    const double density = atom_mass / (spacing * spacing * spacing);
+    return std::sqrt((lame() + 2.0 * shear_modulus()) / density);
+}
+
+CellElasticity BlockOptions::elasticity(int level) const {
+    const double s = spacing * (1 << level);
+    return {shear_modulus() * s, (lame() - shear_modulus()) * s / 16.0};
+}
+
+double BlockOptions::highest_frequency(double site_stiffness) const {
+    // Dispersion of the bulk stencil: w = 2 inside, so the dynamical matrix follows from the filters of
+    // elastic_cell.hpp at a plane wave (phases p, q, r). Its largest eigenvalue, over a mesh of the
+    // Brillouin zone that holds all symmetry points, is bounded by power iteration at each of them.
+    const CellElasticity e = elasticity(0);
+    double highest = 0.0;
+    constexpr int mesh = 12;
+    for (int i = 0; i <= mesh; ++i)
+        for (int j = 0; j <= i; ++j)
+            for (int k = 0; k <= j; ++k) {
+                const double pi = std::numbers::pi;
+                const std::array<double, 3> phase = {pi * i / mesh, pi * j / mesh, pi * k / mesh};
+                std::array<double, 3> c{}, s{};
+                for (std::size_t n = 0; n < 3; ++n) c[n] = std::cos(phase[n]), s[n] = std::sin(phase[n]);
+                double d[3][3];
+                for (std::size_t a = 0; a < 3; ++a)
+                    for (std::size_t b = 0; b < 3; ++b) {
+                        const std::size_t o = (a + 1) % 3, p = (a + 2) % 3;
+                        if (a == b) {
+                            const double theta = (2 - 2 * c[a]) * (2 + 2 * c[o]) * (2 + 2 * c[p]);
+                            const double springs = 2 * (1 - c[a]) + 2 * (1 - c[a] * c[o]) +
+                                                   2 * (1 - c[a] * c[p]);
+                            d[a][b] = e.kappa * theta + e.k * springs;
+                        } else {
+                            const std::size_t t = 3 - a - b;
+                            d[a][b] = e.kappa * 4 * s[a] * s[b] * (2 + 2 * c[t]) +
+                                      2 * e.k * s[a] * s[b];
+                        }
+                    }
+                std::array<double, 3> x = {1.0, 0.7, 0.4};
+                double value = 0.0;
+                for (int iteration = 0; iteration < 60; ++iteration) {
+                    std::array<double, 3> y{};
+                    double norm = 0.0;
+                    for (std::size_t a = 0; a < 3; ++a) {
+                        for (std::size_t b = 0; b < 3; ++b) y[a] += d[a][b] * x[b];
+                        norm += y[a] * y[a];
+                    }
+                    value = std::sqrt(norm);
+                    if (value == 0.0) break;
+                    for (std::size_t a = 0; a < 3; ++a) x[a] = y[a] / value;
+                }
+                highest = std::max(highest, value);
+            }
+    return std::sqrt((highest + site_stiffness) / atom_mass);
+}
+
+std::vector<LevelPlan> plan_levels(const BlockOptions& options) {
+    std::vector<LevelPlan> plan;
+    int rest = options.thickness, sites = options.sites;
+    for (int level = 0;; ++level) {
+        const int least = options.layers_per_level;
+        // One cell more where the rest would not divide by two.
+        const int cells = least + ((rest - least) & 1);
+        const bool coarsen = options.multiscale && sites % 2 == 0 && (rest - cells) / 2 >= least;
+        plan.push_back({level, sites, coarsen ? cells : rest});
+        if (!coarsen) return plan;
+        rest = (rest - cells) / 2;
+        sites /= 2;
+    }
+}
+
+double Block::Level::mass(int z) const {
+    if (z > 0 || plan.level == 0) return node_mass; // the lowest layer's atoms are full atoms
+    // Half a coarse cell above, and from below the hanging plane's half cells: 4 (m/8)/2 = m/4.
+    return 0.75 * node_mass;
+}
+
+Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid)
+    : options_(options), communicator_(communicator), grid_(grid), halo_(communicator, grid) {
+    const auto plans = plan_levels(options);
+    double depth = 0.0;
+    for (const LevelPlan& plan : plans) {
+        Level level;
+        level.plan = plan;
+        level.tile = grid.tile(plan.level);
+        level.tiled = grid.tiled(plan.level);
+        level.node_mass = options.atom_mass * std::pow(8.0, plan.level);
+        level.depth = depth;
+        level.elasticity = options.elasticity(plan.level);
+        level.lower = make_stencil(level.elasticity, Face::lower);
+        level.inner = make_stencil(level.elasticity, Face::inner);
+        level.upper = make_stencil(level.elasticity, Face::upper);
+        level.u = VectorField<double>(level.tile, plan.cells + 1);
+        level.u_next = VectorField<double>(level.tile, plan.cells + 1);
+        level.v = VectorField<double>(level.tile, plan.cells);
+        level.incoming = VectorField<double>(level.tile, 1);
+        level.upper_force = VectorField<double>(level.tile, 1);
+        depth += plan.cells * static_cast<double>(1 << plan.level);
+        levels_.push_back(std::move(level));
+    }
+}
+
+Block Block::copy_at_rest() const {
+    Block copy(options_, communicator_, grid_);
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        copy.levels_[l].u.copy_from(levels_[l].u);
+        copy.levels_[l].u_next.copy_from(levels_[l].u_next);
+        copy.levels_[l].incoming.copy_from(levels_[l].incoming);
+    }
+    copy.top_ = top_;
+    return copy;
+}
+
+void Block::set_uniform(double z, double w) {
+    for (Level& level : levels_) {
+        const VectorVolume<double> u = level.u.view(), v = level.v.view();
+        const int h = halo_width;
+        for (int k = 0; k <= level.plan.cells; ++k)
+            for (int y = -h; y < level.tile.ny + h; ++y)
+                for (int x = -h; x < level.tile.nx + h; ++x) {
+                    u.x(x, y, k) = u.y(x, y, k) = 0.0;
+                    u.z(x, y, k) = z;
+                    if (k < level.plan.cells && x >= 0 && x < level.tile.nx && y >= 0 &&
+                        y < level.tile.ny) {
+                        v.x(x, y, k) = v.y(x, y, k) = 0.0;
+                        v.z(x, y, k) = w;
+                    }
+                }
+    }
+    set_top(z);
+}
+
+void Block::set_top(double z) {
+    top_ = z;
+    Level& last = levels_.back();
+    const PlaneView<double> plane = last.u.z.plane(last.plan.cells);
+    for (int y = -halo_width; y < plane.ny + halo_width; ++y)
+        std::fill(plane.line(y) - halo_width, plane.line(y) + plane.nx + halo_width, z);
+}
+
+LevelSeam Block::seam(std::size_t fine) const {
+    const Tile& f = levels_[fine].tile;
+    const Tile& c = levels_[fine + 1].tile;
+    return {f.x0, f.y0, c.x0, c.y0};
+}
+
+void Block::interpolate() {
+#pragma omp parallel
+    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+        const auto fine = levels_[l].u.plane(levels_[l].plan.cells);
+        const auto coarse = std::as_const(levels_[l + 1].u).plane(0);
+#pragma omp for schedule(static) nowait
+        for (int y = -halo_width; y < fine.x.ny + halo_width; ++y) {
+            asperity::interpolate(seam(l), coarse.x, fine.x, y, halo_width);
+            asperity::interpolate(seam(l), coarse.y, fine.y, y, halo_width);
+            asperity::interpolate(seam(l), coarse.z, fine.z, y, halo_width);
+        }
+    }
+}
+
+void Block::hand_up() {
+    const ElasticKernels& kernels = elastic_kernels();
+#pragma omp parallel
+    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+        Level& fine = levels_[l];
+        Level& coarse = levels_[l + 1];
+        const auto u = std::as_const(fine.u).view();
+        const auto force = fine.upper_force.plane(0);
+        const int nx = fine.tile.nx, ny = fine.tile.ny;
+        // One node beyond the tile on each side: the coarse nodes inside reach that far.
+#pragma omp for schedule(static)
+        for (int y = -1; y < ny + 1; ++y)
+            kernels.force(u, fine.plan.cells, fine.upper, {-1, nx + 1, y, y + 1}, force);
+        const auto in = coarse.incoming.plane(0);
+        const Tile mine = grid_.footprint(coarse.plan.level, grid_.rank());
+        const int x0 = mine.x0 - coarse.tile.x0, y0 = mine.y0 - coarse.tile.y0;
+#pragma omp for schedule(static) nowait
+        for (int y = y0; y < y0 + mine.ny; ++y) {
+            restrict_forces(seam(l), force.x, in.x, y, x0, mine.nx);
+            restrict_forces(seam(l), force.y, in.y, y, x0, mine.nx);
+            restrict_forces(seam(l), force.z, in.z, y, x0, mine.nx);
+        }
+    }
+    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+        if (!levels_[l].tiled || levels_[l + 1].tiled) continue;
+        const auto in = levels_[l + 1].incoming.plane(0);
+        const std::array planes = {in.x, in.y, in.z};
+        gather_footprints(communicator_, grid_, levels_[l + 1].plan.level, planes);
+    }
+}
+
+KickDrift Block::kick_drift(const Level& level, int z, const StepPlan& plan) const {
+    const double m = level.mass(z);
+    const double depth = level.depth + z * static_cast<double>(1 << level.plan.level);
+    const bool damped = plan.damping > 0.0 && depth >= plan.damping_from * options_.thickness;
+    const double g = damped ? 0.5 * plan.damping * plan.dt : 0.0;
+    KickDrift kd;
+    kd.keep = (1.0 - g) / (1.0 + g);
+    kd.kick = plan.dt / m / (1.0 + g);
+    kd.drag_z = 2.0 * g * plan.medium_velocity / (1.0 + g);
+    kd.dt = plan.dt;
+    kd.half_mass = 0.5 * m;
+    kd.medium_z = plan.medium_velocity;
+    kd.damped = damped;
+    kd.observed = plan.observe;
+    kd.drag = m * plan.damping * plan.dt;
+    return kd;
+}
+
+namespace {
+
+/// Rows are handed to threads in bands; every plane of a level in one loop.
+constexpr int band = 8;
+
+template <class Work> void over_bands(int planes, int ny, const Work& work) {
+    const int bands = (ny + band - 1) / band;
+#pragma omp for schedule(static)
+    for (int task = 0; task < planes * bands; ++task) {
+        const int z = task / bands, y0 = task % bands * band;
+        work(z, y0, std::min(ny, y0 + band));
+    }
+}
+
+} // namespace
+
+void Block::advance(const StepPlan& plan, KickSums& sums) {
+    const ElasticKernels& kernels = elastic_kernels();
+#pragma omp parallel
+    {
+        KickSums mine, uncounted;
+        for (Level& level : levels_) {
+            const auto u = std::as_const(level.u).view();
+            const auto incoming = std::as_const(level.incoming).plane(0);
+            const auto v = level.v.view(), next = level.u_next.view();
+            KickSums& into = counts(level) ? mine : uncounted;
+            over_bands(level.plan.cells, level.tile.ny, [&](int z, int y0, int y1) {
+                kernels.advance(u, z, level.stencil(z), y0, y1, incoming, kick_drift(level, z, plan), v,
+                                next, into);
+            });
+        }
+#pragma omp critical(asperity_block_sums)
+        sums.merge(mine);
+    }
+    for (Level& level : levels_) std::swap(level.u, level.u_next);
+}
+
+void Block::exchange() {
+    std::vector<HaloField> fields;
+    fields.reserve(3 * levels_.size());
+    for (Level& level : levels_) {
+        const auto u = level.u.view();
+        for (const auto& component : {u.x, u.y, u.z})
+            fields.push_back({component, level.plan.cells, level.tiled});
+    }
+    halo_.exchange(fields);
+}
+
+void Block::forces(std::vector<VectorField<double>>& out) const {
+    const ElasticKernels& kernels = elastic_kernels();
+#pragma omp parallel
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        const Level& level = levels_[l];
+        const auto u = level.u.view();
+        const auto f = out[l].view();
+        const auto incoming = level.incoming.plane(0);
+        const int nx = level.tile.nx;
+        over_bands(level.plan.cells, level.tile.ny, [&](int z, int y0, int y1) {
+            kernels.force(u, z, level.stencil(z), {0, nx, y0, y1}, f[z]);
+            if (z > 0) return;
+            for (int y = y0; y < y1; ++y)
+                for (int x = 0; x < nx; ++x) {
+                    f.x(x, y, 0) += incoming.x(x, y);
+                    f.y(x, y, 0) += incoming.y(x, y);
+                    f.z(x, y, 0) += incoming.z(x, y);
+                }
+        });
+    }
+}
+
+void Block::add_top_force(ExactSum& sum) {
+    Level& last = levels_.back();
+    if (!counts(last)) return;
+    const auto force = last.upper_force.plane(0);
+    const auto u = std::as_const(last.u).view();
+    const int nx = last.tile.nx, ny = last.tile.ny;
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < ny; ++y)
+        elastic_kernels().force(u, last.plan.cells, last.upper, {0, nx, y, y + 1}, force);
+    for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x) sum.add(force.z(x, y));
+}
+
+void Block::add_elastic_energy(ExactSum& sum) const {
+    const ElasticKernels& kernels = elastic_kernels();
+#pragma omp parallel
+    {
+        ExactSum mine;
+        for (const Level& level : levels_) {
+            if (!counts(level)) continue;
+            over_bands(level.plan.cells, level.tile.ny, [&](int z, int y0, int y1) {
+                kernels.energy(level.u.view(), z, level.elasticity, y0, y1, mine);
+            });
+        }
+#pragma omp critical(asperity_block_sums)
+        sum.merge(mine);
+    }
+}
+
+void Block::add_lowest_z(ExactSum& sum) const {
+    const auto z = lowest_layer().z;
+#pragma omp parallel
+    {
+        ExactSum mine;
+#pragma omp for schedule(static)
+        for (int y = 0; y < z.ny; ++y)
+            for (int x = 0; x < z.nx; ++x) mine.add(z(x, y));
+#pragma omp critical(asperity_block_sums)
+        sum.merge(mine);
+    }
+}
+
+std::size_t Block::bytes() const {
+    std::size_t total = 0;
+    for (const Level& level : levels_)
+        total += level.u.bytes() + level.u_next.bytes() + level.v.bytes() + level.incoming.bytes() +
+                 level.upper_force.bytes();
+    return total;
+}
+
+} // namespace asperity

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The elastic block: a stack of levels over one cell stencil (model.md section 5).
+//
+// Level l is a regular lattice of cells of edge 2^l a, `cells` layers thick. Its planes are numbered from
+// below: planes 0 .. cells-1 move; plane `cells` is prescribed, for it hangs on the lowest plane of level
+// l+1 (bilinear interpolation) or, on the last level, is the rigid driven top. A block of one level is
+// the plain lattice.
+//
+// Data of a level: u (displacement), v (velocity at the half step), u_next, each three arrays; and
+// `incoming`, the forces handed to its lowest plane from below: by the interface on level 0, by the
+// hanging plane of the level below on the others. A step goes
+//
+//   interpolate()  hanging planes follow          needs u with halos
+//   (interface)    fills incoming of level 0      needs u of the lowest plane
+//   hand_up()      hanging planes' forces         needs u with hanging planes
+//   advance()      forces, kick, drift: u -> u_next, then u and u_next change places
+//   exchange()     halos of u
+//
+// Each node's arithmetic is the same whatever tile or thread does it, so states are the same bits.
+#pragma once
+
+#include "decomposition/communicator.hpp"
+#include "decomposition/field.hpp"
+#include "decomposition/halo_exchange.hpp"
+#include "decomposition/process_grid.hpp"
+#include "kernels/elastic_cell.hpp"
+#include "kernels/level_transfer.hpp"
+
+#include <vector>
+
+namespace asperity {
+
+struct BlockOptions {
+    int sites = 512;          ///< atoms across the box, N
+    double spacing = 2.6;     ///< a, Å
+    double young = 0.0;       ///< eV/Å^3
+    double poisson = 0.42;
+    double atom_mass = 0.0;   ///< eV fs^2/Å^2
+    int thickness = 512;      ///< cells of edge a
+    int layers_per_level = 4;
+    bool multiscale = true;
+
+    double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
+    double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
+    /// E/(1 - nu^2), eV/Å^3
+    double contact_modulus() const { return young / (1.0 - poisson * poisson); }
+    /// Speed of longitudinal waves, Å/fs.
+    double sound_speed() const;
+    CellElasticity elasticity(int level) const;
+    /// Largest angular frequency of the bulk lattice with the interface's stiffness per site (eV/Å^2)
+    /// added to a surface atom, 1/fs.
+    double highest_frequency(double site_stiffness) const;
+};
+
+struct LevelPlan {
+    int level = 0;
+    int sites = 0; ///< nodes across the box
+    int cells = 0; ///< layers
+};
+/// Levels that fill the thickness exactly, each at least layers_per_level cells thick, coarsening
+/// twofold while the box and the remaining thickness allow it.
+std::vector<LevelPlan> plan_levels(const BlockOptions& options);
+
+/// What the integrator is told (drive.hpp); the block turns it into coefficients for each plane.
+struct StepPlan {
+    double dt = 0.0;           ///< fs
+    double damping = 0.0;      ///< Gamma, 1/fs
+    double damping_from = 0.0; ///< fraction of the thickness above which damping acts
+    double medium_velocity = 0.0; ///< of the top plane, Å/fs
+    bool observe = false;      ///< sum the kinetic energy
+};
+
+class Block {
+public:
+    struct Level {
+        LevelPlan plan;
+        Tile tile;
+        bool tiled = false;
+        double node_mass = 0.0;    ///< of a node inside, eV fs^2/Å^2
+        double depth = 0.0;        ///< of its lowest plane, in cells of edge a
+        CellElasticity elasticity;
+        Stencil lower, inner, upper;
+        VectorField<double> u, u_next, v, incoming;
+        VectorField<double> upper_force; ///< on the prescribed plane; one plane
+
+        double edge(double a) const { return a * (1 << plan.level); }
+        /// Mass of a node of plane z, eV fs^2/Å^2.
+        double mass(int z) const;
+        const Stencil& stencil(int z) const {
+            return z == 0 ? lower : z == plan.cells ? upper : inner;
+        }
+    };
+
+    Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid);
+
+    /// A deep copy of the state, without velocities (they are zero).
+    Block copy_at_rest() const;
+
+    const BlockOptions& options() const { return options_; }
+    const ProcessGrid& grid() const { return grid_; }
+    const Communicator& communicator() const { return communicator_; }
+    std::vector<Level>& levels() { return levels_; }
+    const std::vector<Level>& levels() const { return levels_; }
+
+    VectorPlane<const double> lowest_layer() const { return levels_.front().u.view()[0]; }
+    VectorPlane<double> interface_force() { return levels_.front().incoming.plane(0); }
+
+    /// Everything displaced (0, 0, z) and moving with velocity (0, 0, w).
+    void set_uniform(double z, double w);
+    /// The top plane's displacement along z, Å.
+    void set_top(double z);
+    double top() const { return top_; }
+
+    void interpolate();
+    void hand_up();
+    void advance(const StepPlan& plan, KickSums& sums);
+    void exchange();
+    /// Forces on all moving planes (incoming ones included) into out[level].
+    void forces(std::vector<VectorField<double>>& out) const;
+
+    // Global values: collective, the same bits on every rank.
+    /// Share of this rank in the elastic force on the rigid top plane, along z, eV/Å.
+    void add_top_force(ExactSum& sum);
+    void add_elastic_energy(ExactSum& sum) const;
+    /// Sum of u_z over the lowest layer, Å.
+    void add_lowest_z(ExactSum& sum) const;
+    std::size_t bytes() const;
+    std::size_t halo_bytes() const { return halo_.bytes_sent(); }
+
+    /// True if this rank counts a level's nodes in global sums (levels held whole count once).
+    bool counts(const Level& level) const { return level.tiled || communicator_.root(); }
+
+private:
+    BlockOptions options_;
+    Communicator communicator_;
+    ProcessGrid grid_;
+    HaloExchange halo_;
+    std::vector<Level> levels_;
+    double top_ = 0.0;
+
+    LevelSeam seam(std::size_t fine) const;
+    KickDrift kick_drift(const Level& level, int z, const StepPlan& plan) const;
+};
+
+} // namespace asperity

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The elastic block's one stencil (model.md section 5), small strain.
+//
+// The energy is a sum over cubic cells of edge s with eight corners,
+//
+//   U_cell = sum_edges 1/2 (k/4) (e.du)^2 + sum_face-diagonals 1/2 (k/2) (e.du)^2
+//            + 1/2 (lambda - mu) s^3 theta^2,      k = mu s,
+//   theta  = 1/(4s) sum_corners sigma_p . u_p,
+//
+// and each level of the block is a stack of such cells. The force on a node is linear in the
+// displacements of the 27 nodes around it. It separates: with, at every (x, y),
+//
+//   u   the node's own plane,   P = u(z+1) + u(z-1),   M = u(z+1) - u(z-1),
+//
+// and the lateral filters
+//
+//   c  = f(0,0)        ex = f(1,0) + f(-1,0)    rx  = f(1,0) - f(-1,0)       (ey, ry alike)
+//   d  = sum of the four diagonal neighbours    rxy = f(1,1)+f(-1,-1)-f(1,-1)-f(-1,1)
+//   rxd = sum over y = +-1 of f(1,y) - f(-1,y)  (ryd alike)
+//
+// the force is, with kappa = (lambda - mu) s / 16 and w = 2 inside the level,
+//
+//   Fx = [own_c c + own_e ex + own_t ey + own_d d](ux)  + own_xy rxy(uy)
+//      + [out_c c + out_e ex + out_t ey + out_d d](Px)  + out_xy rxy(Py)
+//      + [out_r rx + out_rd rxd](Mz) - tau [out_r0 rx + out_rd rxd](uz)
+//   Fz = [..](uz) + [..](Pz) + [out_r rx + out_rd rxd](Mx + ..y..) + tau [..](ux, uy)
+//
+// On a level's lowest plane there are cells above only: w = 1, tau = +1, P = M = u(z+1); on its upper
+// plane cells below only: w = 1, tau = -1, P = u(z-1), M = -u(z-1). Nothing else distinguishes a
+// surface: springs in it carry what their own cells give them.
+//
+// Cost of the direct form: 81 loads and about 150 operations a node, all on whole SIMD registers.
+#pragma once
+
+#include "kernels/exact_sum.hpp"
+#include "kernels/views.hpp"
+
+namespace asperity {
+
+/// Elastic constants of one level. Units: eV, Å.
+struct CellElasticity {
+    double k = 0.0;     ///< spring constant mu s, eV/Å^2
+    double kappa = 0.0; ///< (lambda - mu) s / 16, eV/Å^2
+};
+
+/// Which cells a plane of nodes belongs to.
+enum class Face { lower, inner, upper };
+
+/// Coefficients of the formulae above for one kind of plane, eV/Å^2.
+struct Stencil {
+    double own_c, own_e, own_t, own_d, own_xy;      // in-plane displacement components, own plane
+    double out_c, out_e, out_t, out_d, out_xy;      // the same, sum of the planes above and below
+    double normal_c, normal_e, normal_d;            // uz -> Fz, own plane
+    double out_normal_c, out_normal_e, out_normal_d; // uz -> Fz, planes above and below
+    double out_r, out_rd;                           // shear coupling with M
+    double tau_r, tau_rd;                           // shear coupling with the own plane (surfaces)
+    double above, below;                            // 1 where there are cells on that side, else 0
+};
+
+Stencil make_stencil(CellElasticity elasticity, Face face);
+
+/// What the integrator does with a force: v <- keep v + kick F, u <- u + dt v (leapfrog, i.e. velocity
+/// Verlet with its two half kicks merged). Damping against a medium that moves with the top plane enters
+/// through keep < 1 and drag_z (drive.hpp).
+struct KickDrift {
+    double keep = 1.0;
+    double kick = 0.0;      ///< dt/m (over 1 + Gamma dt/2), Å/fs per eV/Å
+    double drag_z = 0.0;    ///< added to v_z: Gamma dt V / (1 + Gamma dt/2), Å/fs
+    double dt = 0.0;        ///< fs
+    double half_mass = 0.0; ///< m/2, for the kinetic energy, eV fs^2/Å^2
+    double medium_z = 0.0;  ///< V: velocity of the medium, Å/fs
+    bool damped = false;    ///< sum the dissipated energy
+    bool observed = false;  ///< sum the kinetic energy at the whole step
+    double drag = 0.0;      ///< Gamma m dt, for the dissipated energy, eV fs^2/Å^2
+};
+
+/// What an advancing pass adds up, at the whole step n, v_n = (v_{n-1/2} + v_{n+1/2}) / 2.
+struct KickSums {
+    ExactSum kinetic;    ///< sum of m v_n^2 / 2, eV (observed planes)
+    ExactSum dissipated; ///< sum of m Gamma dt |v_n - V|^2, eV (damped planes)
+    ExactSum dragged;    ///< sum of m Gamma dt (v_n - V)_z, eV fs/Å (damped planes): momentum given to the medium
+
+    void merge(const KickSums& other) {
+        kinetic.merge(other.kinetic);
+        dissipated.merge(other.dissipated);
+        dragged.merge(other.dragged);
+    }
+};
+
+/// A rectangle of nodes [x0, x1) x [y0, y1) of a tile.
+struct Patch {
+    int x0, x1, y0, y1;
+};
+
+/// The functions compiled for one processor level.
+struct ElasticKernels {
+    /// Force on the nodes of plane z in the patch; overwrites out.
+    void (*force)(VectorVolume<const double> u, int z, const Stencil&, Patch, VectorPlane<double> out);
+    /// One step of the nodes of plane z, rows [y0, y1): v is advanced in place, u_next is written.
+    /// incoming: forces from below (interface or hanging plane), or null views.
+    void (*advance)(VectorVolume<const double> u, int z, const Stencil&, int y0, int y1,
+                    VectorPlane<const double> incoming, const KickDrift&, VectorVolume<double> v,
+                    VectorVolume<double> u_next, KickSums&);
+    /// Elastic energy of the cells between planes z and z+1 with lower corners in rows [y0, y1), eV.
+    void (*energy)(VectorVolume<const double> u, int z, CellElasticity, int y0, int y1, ExactSum&);
+};
+
+const ElasticKernels& elastic_kernels();
+
+/// The slow obvious twin: energy and forces cell by cell, spring by spring, straight from the
+/// definition. Adds forces into out (all planes); returns the energy of all cells of the tile whose lower
+/// corner is owned. Forces on nodes at the edge are complete only if the halo of out is folded back.
+double elastic_reference(VectorVolume<const double> u, CellElasticity, VectorVolume<double> out);
+
+} // namespace asperity
