@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Where the time of a run goes: one clock a line of the step, named like the line.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <string_view>
+
+namespace asperity {
+
+enum class Phase {
+    interpolate, ///< hanging planes follow the coarse planes
+    interface,   ///< Lennard-Jones sweep
+    hand_up,     ///< hanging planes' forces to the coarse planes
+    advance,     ///< elastic forces, kick and drift of all levels
+    thermostat,  ///< noise of a scene with a temperature
+    exchange,    ///< halos
+    sums,        ///< global sums of a step
+    observe,     ///< energies, contact, a row of the series
+    relax,       ///< relaxation of the zero-load state
+    checkpoint,
+    output,
+    count
+};
+
+inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names = {
+    "interpolate", "interface", "hand_up", "advance", "thermostat", "exchange",
+    "sums",        "observe",   "relax",   "checkpoint", "output"};
+
+struct PhaseClock {
+    double seconds = 0.0;
+    long long calls = 0;
+};
+
+class Phases {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    const PhaseClock& operator[](Phase p) const { return clocks_[static_cast<std::size_t>(p)]; }
+
+    /// Runs from its construction to its end.
+    class Timer {
+    public:
+        Timer(Phases& phases, Phase phase)
+            : clock_(phases.clocks_[static_cast<std::size_t>(phase)]), start_(Clock::now()) {}
+        ~Timer() {
+            clock_.seconds += std::chrono::duration<double>(Clock::now() - start_).count();
+            ++clock_.calls;
+        }
+        Timer(const Timer&) = delete;
+        Timer& operator=(const Timer&) = delete;
+
+    private:
+        PhaseClock& clock_;
+        Clock::time_point start_;
+    };
+    Timer time(Phase phase) { return Timer(*this, phase); }
+
+private:
+    std::array<PhaseClock, static_cast<std::size_t>(Phase::count)> clocks_{};
+};
+
+} // namespace asperity

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/simulation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace asperity {
+
+Simulation::Simulation(const SimulationOptions& options, const Surface& substrate,
+                       const Communicator& communicator, const ProcessGrid& grid)
+    : options_(options), block_(options.block, communicator, grid),
+      interface_(substrate, grid.tile(0), options.block.spacing, options.interface),
+      drive_(options.drive) {
+    if (options.temperature > 0.0)
+        thermostat_.emplace(options.temperature, options.damping, options.seed);
+}
+
+void Simulation::start(double height) {
+    reference_height_ = height;
+    step_ = 0;
+    block_.set_uniform(0.0, drive_.velocity(0.0));
+}
+
+// A step, and what must be current when:
+//   interpolate   hanging planes of u(n), from coarse planes with current halos
+//   interface     forces of the substrate at u(n)          -> incoming of level 0
+//   hand_up       forces on the hanging planes at u(n)     -> incoming of the levels above
+//   advance       all forces at u(n); v(n-1/2) -> v(n+1/2); u(n) -> u(n+1)
+//   thermostat    noise on v(n+1/2) and u(n+1), if the scene has a temperature
+//   exchange      halos of u(n+1)
+//   sums          what the ranks summed at n, added up; work and dissipation booked
+// The top plane's displacement at n is set at the end of the step before.
+const StepRecord& Simulation::step(bool observe) {
+    { const auto t = phases_.time(Phase::interpolate); block_.interpolate(); }
+    { const auto t = phases_.time(Phase::interface);
+      interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
+                                         reference_height_, observe); }
+    { const auto t = phases_.time(Phase::hand_up);     block_.hand_up(); }
+    { const auto t = phases_.time(Phase::sums);        collect(observe); }
+    { const auto t = phases_.time(Phase::advance);     kick_and_drift(observe); }
+    if (thermostat_) {
+      const auto t = phases_.time(Phase::thermostat);
+      heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_); }
+    { const auto t = phases_.time(Phase::exchange);    block_.exchange(); }
+    { const auto t = phases_.time(Phase::sums);        keep_books(); }
+    ++step_;
+    return record_;
+}
+
+void Simulation::kick_and_drift(bool observe) {
+    const double middle = (static_cast<double>(step_) + 0.5) * options_.dt;
+    const double velocity = drive_.velocity(middle);
+    kick_sums_ = {};
+    block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
+                   kick_sums_);
+    block_.set_top(block_.top() + options_.dt * velocity);
+}
+
+/// Sums over u(n), before it moves on.
+void Simulation::collect(bool observe) {
+    top_force_ = {};
+    lowest_z_ = {};
+    elastic_ = {};
+    block_.add_top_force(top_force_);
+    block_.add_lowest_z(lowest_z_);
+    record_.observed = observe;
+    if (observe) block_.add_elastic_energy(elastic_);
+    record_.step = step_;
+    record_.time = time();
+}
+
+void Simulation::keep_books() {
+    // One reduction a step. Bins of exact sums: the result does not depend on how it is formed.
+    const std::array sums = {&interface_sums_.force_z, &lowest_z_, &top_force_,
+                             &kick_sums_.dissipated, &kick_sums_.dragged, &heat_,
+                             &interface_sums_.energy, &elastic_, &kick_sums_.kinetic};
+    std::array<double, 3 * sums.size() + 1> bins;
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) bins[3 * i + k] = sums[i]->bin[k];
+    bins.back() = static_cast<double>(interface_sums_.in_reach);
+    communicator().sum(bins);
+    std::array<double, sums.size()> value;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        ExactSum sum;
+        for (std::size_t k = 0; k < 3; ++k) sum.bin[k] = bins[3 * i + k];
+        value[i] = sum.value();
+    }
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic] = value;
+
+    const double sites = static_cast<double>(options_.block.sites);
+    const double mean_height = reference_height_ + lowest / (sites * sites);
+    const double velocity = drive_.velocity((static_cast<double>(step_) + 0.5) * options_.dt);
+    const double top = block_.top() - options_.dt * velocity; // at n; the block is at n + 1 already
+    if (booked_) {
+        // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
+        ledger_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
+        double& done = drive_.leg() == Leg::approach ? ledger_.approach : ledger_.pull_off;
+        done += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
+    }
+    booked_ = true;
+    ledger_.drag_work -= velocity * dragged;
+    ledger_.damped += dissipated;
+    ledger_.heat += heat;
+
+    record_.top = top;
+    record_.mean_height = mean_height;
+    record_.force = force;
+    record_.top_force = top_force;
+    record_.in_reach = static_cast<long long>(bins.back());
+    if (!record_.observed) return;
+
+    std::array<std::int64_t, 2> counts = {interface_sums_.in_contact, interface_sums_.pushed};
+    communicator().sum(counts);
+    std::array<double, 1> closest = {-interface_sums_.closest_r2};
+    communicator().max(closest);
+    record_.interface_energy = lj;
+    record_.elastic_energy = elastic;
+    record_.kinetic_energy = kinetic;
+    record_.in_contact = counts[0];
+    record_.pushed = counts[1];
+    record_.closest = std::sqrt(-closest[0]);
+    if (!energy_at_start_) {
+        energy_at_start_ = lj + elastic + kinetic;
+        work_at_start_ = ledger_.work();
+        damped_at_start_ = ledger_.damped;
+    }
+    scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(ledger_.work())});
+}
+
+double Simulation::energy_residual() const {
+    if (!energy_at_start_ || scale_ == 0.0) return 0.0;
+    const double change = record_.interface_energy + record_.elastic_energy +
+                          record_.kinetic_energy - *energy_at_start_;
+    const double work = ledger_.work() - work_at_start_, damped = ledger_.damped - damped_at_start_;
+    return (work - change - damped) / scale_;
+}
+
+} // namespace asperity
