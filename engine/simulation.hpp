@@ -72,9 +72,11 @@ public:
     long long steps() const { return step_; }
     double time() const { return static_cast<double>(step_) * options_.dt; }
     Drive& drive() { return drive_; }
+    Leg leg() const { return drive_.leg(); }
     Block& block() { return block_; }
     const Block& block() const { return block_; }
     Interface& interface() { return interface_; }
+    const Interface& interface() const { return interface_; }
     Phases& phases() { return phases_; }
     const Communicator& communicator() const { return block_.communicator(); }
 

@@ -1,0 +1,387 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/interface.hpp"
+
+#include "kernels/variant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace asperity {
+
+namespace {
+
+constexpr double gpa_per_ev_per_cubic_angstrom = 160.21766;
+constexpr double nothing_there = -1e30;
+
+/// Calls visit(ring, height) for every atom within `reach` sideways of (x, y).
+template <class Visit>
+void for_atoms_around(const SubstrateMap& map, double x, double y, double reach, Visit visit) {
+    const int j_first = static_cast<int>(std::floor((y - reach) / map.spacing));
+    const int j_last = static_cast<int>(std::ceil((y + reach) / map.spacing));
+    const int i_first = static_cast<int>(std::floor((x - reach) / map.spacing));
+    const int i_last = static_cast<int>(std::ceil((x + reach) / map.spacing));
+    for (int j = j_first; j <= j_last; ++j) {
+        const double* row = map.height + static_cast<std::ptrdiff_t>(periodic(j, map.sites)) * map.sites;
+        const double dy = y - j * map.spacing;
+        for (int i = i_first; i <= i_last; ++i) {
+            const double dx = x - i * map.spacing;
+            const double lateral = std::sqrt(dx * dx + dy * dy);
+            if (lateral <= reach) visit(lateral, row[periodic(i, map.sites)]);
+        }
+    }
+}
+
+} // namespace
+
+Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
+                     const InterfaceOptions& options)
+    : options_(options), tile_(tile), spacing_(spacing), margin_(2.0 * spacing),
+      map_height_(substrate.height) {
+    const double cutoff = options.potential.cutoff;
+    if (!(cutoff > 0.0) || !(options.potential.r0 > 0.0) || !(options.potential.epsilon >= 0.0))
+        throw std::invalid_argument(fmt::format(
+            "interface: epsilon = {} eV, r0 = {} Å and cutoff = {} Å must be positive numbers",
+            options.potential.epsilon, options.potential.r0, cutoff));
+    if ((cutoff + margin_) / spacing + 2.0 > max_half_offsets)
+        throw std::invalid_argument(fmt::format(
+            "interface: a cutoff of {} Å reaches over more than {} sites of {} Å; choose a smaller cutoff "
+            "(4 r0 = {} Å keeps 98 % of the work of adhesion) and set interface.tail = true",
+            cutoff, max_half_offsets - 4, spacing, 4.0 * options.potential.r0));
+    if (static_cast<std::size_t>(substrate.sites) * static_cast<std::size_t>(substrate.sites) !=
+        substrate.height.size())
+        throw std::invalid_argument(fmt::format("interface: a substrate of {} x {} atoms has {} heights",
+                                                substrate.sites, substrate.sites,
+                                                substrate.height.size()));
+    map_ = {map_height_.data(), substrate.sites, tile.sites * spacing / substrate.sites};
+    highest_ = *std::max_element(map_height_.begin(), map_height_.end());
+
+    const bool same_lattice = substrate.sites == tile.sites;
+    if (same_lattice) map_.spacing = spacing;
+    method_ = options.method;
+    if (method_ == InterfaceMethod::automatic)
+        method_ = same_lattice ? InterfaceMethod::lattice : InterfaceMethod::cell_list;
+    if (method_ == InterfaceMethod::lattice && !same_lattice)
+        throw std::invalid_argument(fmt::format(
+            "interface: the lattice sweep needs as many atoms ({}) as sites ({}) across the box; "
+            "use the cell list",
+            substrate.sites, tile.sites));
+    if (method_ != InterfaceMethod::reference) build_reach();
+    if (method_ == InterfaceMethod::lattice) build_lattice();
+    if (method_ == InterfaceMethod::cell_list) build_cells();
+    if (options.tail) {
+        tail_ = {options.potential, 1.0 / (map_.spacing * map_.spacing)};
+        mean_height_ = Field<double>(tile, 1);
+        auto mean = mean_height_.plane(0);
+#pragma omp parallel for schedule(static)
+        for (int y = 0; y < tile_.ny; ++y)
+            for (int x = 0; x < tile_.nx; ++x) {
+                double sum = 0.0;
+                int atoms = 0;
+                for_atoms_around(map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_,
+                                 cutoff, [&](double, double h) {
+                                     sum += h;
+                                     ++atoms;
+                                 });
+                mean(x, y) = atoms ? sum / atoms : 0.0;
+            }
+    }
+}
+
+/// For each block of sites and each ring of lateral distance: the greatest height in it.
+void Interface::build_reach() {
+    const double widest = options_.potential.cutoff + margin_;
+    reach_.offset_margin = margin_;
+    reach_.ring_width = widest / interface_rings;
+    reach_.blocks = (tile_.nx + interface_block - 1) / interface_block;
+    reach_highest_.assign(static_cast<std::size_t>(reach_.blocks) *
+                              static_cast<std::size_t>(tile_.ny) * interface_rings,
+                          nothing_there);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x) {
+            double* highest =
+                reach_highest_.data() +
+                (static_cast<std::ptrdiff_t>(y) * reach_.blocks + x / interface_block) *
+                    interface_rings;
+            // Slightly beyond the widest reach, so that rounding leaves no atom out.
+            for_atoms_around(map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_,
+                             widest + 1e-3, [&](double lateral, double h) {
+                                 // An atom on the border of two rings counts in both.
+                                 const double scaled = lateral / reach_.ring_width;
+                                 for (double edge : {scaled - 1e-9, scaled + 1e-9}) {
+                                     const int ring = std::clamp(static_cast<int>(edge), 0,
+                                                                 interface_rings - 1);
+                                     highest[ring] = std::max(highest[ring], h);
+                                 }
+                             });
+        }
+    reach_.highest = reach_highest_.data();
+}
+
+/// The tile's heights with their halo, and the offsets by growing lateral distance.
+void Interface::build_lattice() {
+    const double widest = options_.potential.cutoff + margin_;
+    const int half = static_cast<int>(std::ceil(widest / spacing_ + 0.5));
+    height_ = Field<double>(tile_, 1, half + 1);
+    auto height = height_.plane(0);
+    const int halo = height_.halo();
+    for (int y = -halo; y < tile_.ny + halo; ++y)
+        for (int x = -halo; x < tile_.nx + halo; ++x)
+            height(x, y) =
+                map_height_[static_cast<std::size_t>(periodic(tile_.y0 + y, map_.sites)) *
+                                static_cast<std::size_t>(map_.sites) +
+                            static_cast<std::size_t>(periodic(tile_.x0 + x, map_.sites))];
+    const auto row = static_cast<std::int32_t>(height.row);
+    for (int n = 1; n <= half; ++n)
+        for (int m = 1; m <= half; ++m) {
+            const double cx = (m - 0.5) * spacing_, cy = (n - 0.5) * spacing_;
+            const double lateral = std::sqrt(cx * cx + cy * cy);
+            if (lateral > widest) continue;
+            quads_.push_back({cx, cy, lateral, m, n, (1 - n) * row + 1 - m, (1 - n) * row + m,
+                              n * row + 1 - m, n * row + m});
+        }
+    std::stable_sort(quads_.begin(), quads_.end(), [](const OffsetQuad& a, const OffsetQuad& b) {
+        return a.lateral < b.lateral;
+    });
+    // A sixteenth of a spacing is fine enough a cut and keeps the table in the nearest cache.
+    const double per_length = 16.0 / spacing_;
+    OffsetCut cut{0, 0};
+    for (int k = 0; cut.quads < static_cast<int>(quads_.size()); ++k) {
+        while (cut.quads < static_cast<int>(quads_.size()) &&
+               quads_[static_cast<std::size_t>(cut.quads)].lateral < (k + 1) / per_length + 1e-9) {
+            const OffsetQuad& q = quads_[static_cast<std::size_t>(cut.quads++)];
+            cut.half_offsets = std::max({cut.half_offsets, q.m, q.n});
+        }
+        cuts_.push_back(cut);
+    }
+    lattice_ = {height,     quads_.data(), cuts_.data(), static_cast<int>(cuts_.size()),
+                per_length, reach_,        map_};
+}
+
+/// Atoms sorted into square cells around the tile. Cells are numbered over the whole box and on beyond
+/// it, so that their borders, and the order of atoms, are the same for every tile.
+void Interface::build_cells() {
+    const double box = tile_.sites * spacing_;
+    // Two atoms across: a row of cells follows the circle of the cutoff closely, and an even number of
+    // atoms a cell leaves no lane of the paired division empty.
+    const int across = std::max(1, map_.sites / 2);
+    const double cell = box / across;
+    // An atom on a border, up to rounding, belongs to the cell that begins there.
+    const auto cell_of = [&](int i) {
+        return std::min(across - 1, static_cast<int>(i * map_.spacing / cell + 1e-9));
+    };
+    std::vector<std::vector<int>> members(static_cast<std::size_t>(across)); // along one axis
+    for (int i = 0; i < map_.sites; ++i) members[static_cast<std::size_t>(cell_of(i))].push_back(i);
+
+    const double widest = options_.potential.cutoff + margin_;
+    const auto range = [&](int begin, int count, int& first, int& number) {
+        first = static_cast<int>(std::floor(((begin + 0.5) * spacing_ - widest) / cell)) - 1;
+        const double end = (begin + count - 0.5) * spacing_ + widest;
+        number = static_cast<int>(std::floor(end / cell)) + 2 - first;
+    };
+    range(tile_.x0, tile_.nx, cells_.column0, cells_.columns);
+    range(tile_.y0, tile_.ny, cells_.row0, cells_.rows);
+    cells_.cell = cell;
+
+    const auto box_of = [&](int c) { return (c - periodic(c, across)) / across; };
+    for (int r = cells_.row0; r < cells_.row0 + cells_.rows; ++r) {
+        for (int c = cells_.column0; c < cells_.column0 + cells_.columns; ++c) {
+            first_.push_back(static_cast<std::int32_t>(atom_x_.size()));
+            for (int j : members[static_cast<std::size_t>(periodic(r, across))])
+                for (int i : members[static_cast<std::size_t>(periodic(c, across))]) {
+                    atom_x_.push_back(i * map_.spacing + box_of(c) * box);
+                    atom_y_.push_back(j * map_.spacing + box_of(r) * box);
+                    atom_z_.push_back(map_height_[static_cast<std::size_t>(j) *
+                                                      static_cast<std::size_t>(map_.sites) +
+                                                  static_cast<std::size_t>(i)]);
+                }
+            // Atoms are summed in pairs: an odd one gets a partner far below.
+            if (atom_x_.size() % 2) {
+                atom_x_.push_back((c + 0.5) * cell);
+                atom_y_.push_back((r + 0.5) * cell);
+                atom_z_.push_back(-1e9);
+            }
+        }
+        first_.push_back(static_cast<std::int32_t>(atom_x_.size()));
+    }
+    cells_.x = atom_x_.data();
+    cells_.y = atom_y_.data();
+    cells_.z = atom_z_.data();
+    cells_.first = first_.data();
+    cells_.reach = reach_;
+    cells_.map = map_;
+}
+
+InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
+                               const VectorPlane<double>& force, double reference_height,
+                               bool observe) const {
+    return sweep_sites({displacement, force, spacing_, reference_height, tile_.x0, tile_.y0, {}},
+                       observe);
+}
+
+InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe) const {
+    const InterfaceKernels& kernels = interface_kernels();
+    const LennardJones& potential = options_.potential;
+    InterfaceSums total;
+#pragma omp parallel
+    {
+        InterfaceSums mine;
+#pragma omp for schedule(static) nowait
+        for (int y = 0; y < tile_.ny; ++y) {
+            switch (method_) {
+            case InterfaceMethod::lattice:
+                (observe ? kernels.lattice_observed
+                         : kernels.lattice)(sites, lattice_, potential, y, y + 1, mine);
+                break;
+            case InterfaceMethod::cell_list:
+                (observe ? kernels.cell_list_observed
+                         : kernels.cell_list)(sites, cells_, potential, y, y + 1, mine);
+                break;
+            default: reference_sweep(sites, map_, potential, y, y + 1, mine);
+            }
+            if (options_.tail)
+                tail_sweep(sites, tail_, mean_height_.plane(0), y, y + 1, observe, mine);
+        }
+#pragma omp critical(asperity_interface_sums)
+        total.merge(mine);
+    }
+    return total;
+}
+
+InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
+                              double reference_height) const {
+    VectorField<double> force(tile_, 1);
+    Field<double> nearest(tile_, 1);
+    InterfaceSites sites{displacement, force.plane(0), spacing_, reference_height,
+                         tile_.x0,     tile_.y0,       nearest.plane(0)};
+    sweep_sites(sites, true);
+
+    InterfaceMaps maps;
+    maps.nx = tile_.nx;
+    maps.ny = tile_.ny;
+    const std::size_t count = static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
+    maps.contact.reserve(count);
+    maps.distance.reserve(count);
+    maps.gap.reserve(count);
+    maps.pressure.reserve(count);
+    const double contact = options_.potential.contact_distance();
+    const double to_gpa = gpa_per_ev_per_cubic_angstrom / (spacing_ * spacing_);
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x) {
+            const double r2 = sites.nearest_r2(x, y);
+            maps.contact.push_back(r2 < contact * contact);
+            maps.distance.push_back(r2 < no_pair ? std::sqrt(r2)
+                                                 : std::numeric_limits<double>::infinity());
+            maps.pressure.push_back(sites.force.z(x, y) * to_gpa);
+            // Bilinear between the four atoms around the point below the site.
+            const double px =
+                ((tile_.x0 + x + 0.5) * spacing_ + displacement.x(x, y)) / map_.spacing;
+            const double py =
+                ((tile_.y0 + y + 0.5) * spacing_ + displacement.y(x, y)) / map_.spacing;
+            const double fx = px - std::floor(px), fy = py - std::floor(py);
+            const auto h = [&](int i, int j) {
+                return map_height_[static_cast<std::size_t>(periodic(
+                                       static_cast<int>(std::floor(py)) + j, map_.sites)) *
+                                       static_cast<std::size_t>(map_.sites) +
+                                   static_cast<std::size_t>(periodic(
+                                       static_cast<int>(std::floor(px)) + i, map_.sites))];
+            };
+            const double below = (1.0 - fy) * ((1.0 - fx) * h(0, 0) + fx * h(1, 0)) +
+                                 fy * ((1.0 - fx) * h(0, 1) + fx * h(1, 1));
+            maps.gap.push_back(reference_height + displacement.z(x, y) - below);
+        }
+    return maps;
+}
+
+double Interface::start_height() const {
+    return highest_ + (options_.tail ? 4.0 : 1.0) * options_.potential.cutoff;
+}
+
+std::size_t Interface::bytes() const {
+    const std::size_t doubles = map_height_.size() + reach_highest_.size() + atom_x_.size() +
+                                atom_y_.size() + atom_z_.size();
+    return doubles * sizeof(double) + first_.size() * sizeof(std::int32_t) +
+           quads_.size() * sizeof(OffsetQuad) + (height_.empty() ? 0 : height_.bytes()) +
+           (mean_height_.empty() ? 0 : mean_height_.bytes());
+}
+
+// Flat on flat.
+
+namespace {
+
+/// Registries sampled along an axis: all that occur, or enough that the average is exact to rounding (the
+/// corrugation's harmonics die out exponentially; beyond 24 points they are below 1e-16).
+int registries(int sites, int substrate_sites) {
+    return std::min(sites / std::gcd(sites, substrate_sites), 24);
+}
+
+} // namespace
+
+PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
+                      int substrate_sites, double gap) {
+    const double level = 0.0; // a single atom, repeated
+    const double b = spacing * sites / substrate_sites;
+    const SubstrateMap map{&level, 1, b};
+    const int count = registries(sites, substrate_sites);
+    PairSum mean;
+    for (int j = 0; j < count; ++j)
+        for (int i = 0; i < count; ++i) {
+            const PairSum p = pair_sum(map, options.potential, 0.5 * spacing + i * b / count,
+                                       0.5 * spacing + j * b / count, gap);
+            mean.force[2] += p.force[2] / (count * count);
+            mean.energy += p.energy / (count * count);
+            mean.nearest_r2 = std::min(mean.nearest_r2, p.nearest_r2);
+        }
+    if (options.tail) {
+        const TailCorrection tail{options.potential, 1.0 / (b * b)};
+        mean.force[2] += tail.force(gap);
+        mean.energy += tail.energy(gap);
+    }
+    return mean;
+}
+
+FlatReference flat_reference(const InterfaceOptions& options, double spacing, int sites,
+                             int substrate_sites) {
+    const auto force = [&](double gap) {
+        return flat_pair_sum(options, spacing, sites, substrate_sites, gap).force[2];
+    };
+    const double r0 = options.potential.r0;
+    // The minimum: where the force turns from pushing to pulling, by bisection.
+    double low = 0.4 * r0, high = 1.2 * r0;
+    if (!(force(low) > 0.0 && force(high) < 0.0))
+        throw std::invalid_argument(fmt::format(
+            "interface: flat on flat has no minimum of energy between {:.3f} and {:.3f} Å for "
+            "r0 = {} Å, cutoff = {} Å, spacing = {} Å; choose r0 not far from the spacing and a "
+            "cutoff of at least 1.5 r0",
+            low, high, r0, options.potential.cutoff, spacing));
+    while (high - low > 1e-12 * r0) {
+        const double middle = 0.5 * (low + high);
+        (force(middle) > 0.0 ? low : high) = middle;
+    }
+    FlatReference flat;
+    flat.separation = 0.5 * (low + high);
+    const double area = spacing * spacing;
+    const PairSum there = flat_pair_sum(options, spacing, sites, substrate_sites, flat.separation);
+    flat.work_of_adhesion = -1e3 * there.energy / area;
+    const double h = 1e-4 * r0;
+    flat.stiffness = -(force(flat.separation + h) - force(flat.separation - h)) / (2.0 * h * area);
+    // The largest tension: golden-section search outwards of the minimum.
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    double left = flat.separation, right = flat.separation + 0.5 * r0;
+    while (right - left > 1e-9 * r0) {
+        const double inner = right - golden * (right - left), outer = left + golden * (right - left);
+        (force(inner) < force(outer) ? right : left) = force(inner) < force(outer) ? outer : inner;
+    }
+    flat.tension_separation = 0.5 * (left + right);
+    flat.largest_tension =
+        -force(flat.tension_separation) * gpa_per_ev_per_cubic_angstrom / area;
+    return flat;
+}
+
+} // namespace asperity

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The interface: one tile of the block's lowest layer over the rigid substrate (model.md section 4).
+//
+// Built once per run. It keeps what the sweeps need of the substrate around the tile (heights with a
+// halo as wide as the reach, or the atoms sorted into cells), the table of neighbour offsets, and for each
+// block of sites how high the substrate gets around it. Every rank knows the whole height map, so
+// nothing is communicated here: the sweep is local to the tile, and its sums are exact (ExactSum), to be
+// merged over ranks in any order.
+//
+// Which sweep runs is decided at construction: lattice if the substrate has the block's lattice, cell
+// list otherwise. The tables allow for sideways displacements up to two spacings; sites that go beyond
+// are summed by the reference loop (kernels/interface_sweep.hpp), so no pair is ever missed and no table
+// is ever rebuilt.
+#pragma once
+
+#include "decomposition/field.hpp"
+#include "decomposition/tile.hpp"
+#include "engine/surface.hpp"
+#include "kernels/interface_sweep.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace asperity {
+
+enum class InterfaceMethod { automatic, reference, lattice, cell_list };
+
+struct InterfaceOptions {
+    LennardJones potential;
+    bool tail = false; ///< continuum correction beyond the cutoff
+    InterfaceMethod method = InterfaceMethod::automatic;
+};
+
+/// Flat block on flat substrate: what gamma_eff is divided by.
+struct FlatReference {
+    double work_of_adhesion = 0.0; ///< -U / A at its minimum, meV/Å^2
+    double separation = 0.0;       ///< there, Å
+    double largest_tension = 0.0;  ///< GPa
+    double tension_separation = 0.0; ///< where the tension is largest, Å
+    double stiffness = 0.0;          ///< U'' / A at the minimum, eV/Å^4
+};
+
+/// Maps over the tile's sites, [y * nx + x].
+struct InterfaceMaps {
+    int nx = 0, ny = 0;
+    std::vector<std::uint8_t> contact; ///< 1 where the nearest atom is within contact distance
+    std::vector<double> distance;      ///< to the nearest atom, Å; infinite where none is in reach
+    std::vector<double> gap;      ///< height above the substrate below (bilinear between its atoms), Å
+    std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
+};
+
+class Interface {
+public:
+    /// spacing: a, the block's lattice constant, Å. The surface is copied as far as it is needed.
+    Interface(const Surface& substrate, const Tile& tile, double spacing,
+              const InterfaceOptions& options);
+
+    /// Forces of the substrate on the tile's sites (overwritten) and their sums over the tile. Energy,
+    /// contacts and nearest distances only if observed.
+    InterfaceSums sweep(const VectorPlane<const double>& displacement,
+                        const VectorPlane<double>& force, double reference_height,
+                        bool observe) const;
+
+    /// Per-site maps of the state; makes a sweep of its own.
+    InterfaceMaps maps(const VectorPlane<const double>& displacement,
+                       double reference_height) const;
+
+    /// The reference height from which nothing is in reach of undisplaced sites: highest atom + cutoff. With
+    /// the tail, which ends nowhere, + 4 cutoffs: 1/256 of its energy is left there.
+    double start_height() const;
+
+    InterfaceMethod method() const { return method_; }
+    const InterfaceOptions& options() const { return options_; }
+    std::size_t bytes() const;
+
+private:
+    InterfaceSums sweep_sites(const InterfaceSites& sites, bool observe) const;
+    void build_reach();
+    void build_lattice();
+    void build_cells();
+
+    InterfaceOptions options_;
+    InterfaceMethod method_ = InterfaceMethod::reference;
+    Tile tile_;
+    double spacing_ = 0.0;
+    double margin_ = 0.0; ///< sideways displacement the tables allow for, Å
+    double highest_ = 0.0;
+    std::vector<double> map_height_;
+    SubstrateMap map_;
+    std::vector<double> reach_highest_;
+    ReachBounds reach_;
+    Field<double> height_; ///< lattice: the tile's atoms with a halo
+    std::vector<OffsetQuad> quads_;
+    std::vector<OffsetCut> cuts_;
+    LatticeSubstrate lattice_;
+    std::vector<double> atom_x_, atom_y_, atom_z_; ///< cell list
+    std::vector<std::int32_t> first_;
+    CellListSubstrate cells_;
+    Field<double> mean_height_; ///< tail: of the atoms within the cutoff sideways
+    TailCorrection tail_;
+
+public:
+    // The views point into the object's own arrays.
+    Interface(const Interface&) = delete;
+    Interface& operator=(const Interface&) = delete;
+    Interface(Interface&&) = default; ///< vectors keep their storage when moved
+    Interface& operator=(Interface&&) = default;
+};
+
+/// Energy (eV) and normal force (eV/Å) of one block site at a uniform gap over a flat substrate of spacing
+/// b, averaged over the registries that the two lattices take (one for equal spacings: hollow sites).
+PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
+                      int substrate_sites, double gap);
+
+/// Flat on flat with this potential, cutoff and lattices. Throws std::invalid_argument if they do not bind.
+FlatReference flat_reference(const InterfaceOptions& options, double spacing, int sites,
+                             int substrate_sites);
+
+} // namespace asperity

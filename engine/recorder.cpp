@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/recorder.hpp"
+
+#include "io/build_info.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+const std::vector<io::Column>& columns() {
+    static const std::vector<io::Column> list = {
+        {"step", "", "time step"},
+        {"time", "ps", "simulated time"},
+        {"leg", "", "0 approach, 1 pull-off"},
+        {"top", "Å", "displacement of the top plane"},
+        {"mean_height", "Å", "mean height of the lowest layer above the substrate's mean plane"},
+        {"force", "eV/Å", "total normal force of the substrate on the lowest layer; positive pushes"},
+        {"top_force", "eV/Å", "elastic force on the top plane along z"},
+        {"interface_energy", "eV", "Lennard-Jones energy"},
+        {"elastic_energy", "eV", "elastic energy of the block"},
+        {"kinetic_energy", "eV", "kinetic energy of the block"},
+        {"work", "eV", "work done on the block since the start"},
+        {"damped", "eV", "energy damped since the start"},
+        {"residual", "", "energy balance: (work - change of energy - damped) over the largest term"},
+        {"contact_fraction", "", "sites closer than the inflection of the potential to an atom"},
+        {"pushed_fraction", "", "sites whose net normal force is repulsive"},
+        {"closest", "Å", "smallest distance between a site and an atom; infinite out of reach"},
+    };
+    return list;
+}
+
+/// A tile's map as the whole box's, on the root.
+std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
+                          const std::vector<double>& tile_map) {
+    const Tile tile = grid.tile(0);
+    Field<double> field(tile, 1);
+    for (int y = 0; y < tile.ny; ++y)
+        for (int x = 0; x < tile.nx; ++x)
+            field.plane(0)(x, y) =
+                tile_map[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.nx) +
+                         static_cast<std::size_t>(x)];
+    return gather_plane(ranks, grid, 0, std::as_const(field).plane(0));
+}
+
+} // namespace
+
+Recorder::Recorder(const std::string& path, const Surface& surface, const Communicator& communicator,
+                   bool resume, std::uint64_t rows)
+    : communicator_(communicator), rows_(resume ? rows : 0) {
+    communicator_.on_root([&] {
+        if (resume) {
+            file_ = std::make_unique<io::Hdf5File>(path, io::Hdf5File::Mode::edit);
+            series_ = io::Series::reopen(*file_, "/series", columns(), rows);
+            return;
+        }
+        file_ = std::make_unique<io::Hdf5File>(path, io::Hdf5File::Mode::create);
+        io::write_h5md_head(*file_, io::build_info().version);
+        series_ = io::Series(*file_, "/series", columns());
+        const auto n = static_cast<std::uint64_t>(surface.sites);
+        file_->make_group("/substrate");
+        file_->write<double>("/substrate/height", {n, n}, surface.height);
+        file_->write_attribute("/substrate/height", "unit", "Å");
+        file_->write_attribute("/substrate", "edge", surface.length);
+        std::vector<double> q, realised, target;
+        for (const SpectrumBin& bin : surface.statistics.spectrum) {
+            q.push_back(bin.q);
+            realised.push_back(bin.realised);
+            target.push_back(bin.target);
+        }
+        if (!q.empty()) {
+            file_->write<double>("/substrate/spectrum_q", {q.size()}, q);
+            file_->write<double>("/substrate/spectrum", {q.size()}, realised);
+            file_->write<double>("/substrate/spectrum_target", {q.size()}, target);
+        }
+        file_->flush();
+    });
+}
+
+void Recorder::row(const Simulation& simulation) {
+    const StepRecord& r = simulation.now();
+    const Ledger& ledger = simulation.ledger();
+    const double sites = static_cast<double>(simulation.options().block.sites);
+    ++rows_;
+    communicator_.on_root([&] {
+        series_.append({static_cast<double>(r.step), r.time * 1e-3,
+                        simulation.leg() == Leg::approach ? 0.0 : 1.0, r.top, r.mean_height, r.force,
+                        r.top_force, r.interface_energy, r.elastic_energy, r.kinetic_energy,
+                        ledger.work(), ledger.damped, simulation.energy_residual(),
+                        static_cast<double>(r.in_contact) / (sites * sites),
+                        static_cast<double>(r.pushed) / (sites * sites), r.closest});
+    });
+}
+
+void Recorder::fields(const std::string& state, const Block& block, const Interface& interface,
+                      double reference_height) {
+    const ProcessGrid& grid = block.grid();
+    const auto layer = block.lowest_layer();
+    const InterfaceMaps maps = interface.maps(layer, reference_height);
+    std::vector<double> contact(maps.contact.begin(), maps.contact.end());
+    const auto gap = whole(communicator_, grid, maps.gap);
+    const auto pressure = whole(communicator_, grid, maps.pressure);
+    const auto touching = whole(communicator_, grid, contact);
+    const auto ux = gather_plane(communicator_, grid, 0, layer.x);
+    const auto uy = gather_plane(communicator_, grid, 0, layer.y);
+    const auto uz = gather_plane(communicator_, grid, 0, layer.z);
+    communicator_.on_root([&] {
+        const std::string group = "/fields/" + state;
+        if (file_->exists(group)) return; // taken up from a checkpoint written before this state
+        file_->make_group(group);
+        const auto n = static_cast<std::uint64_t>(block.options().sites);
+        const auto write = [&](const char* name, const char* unit, const std::vector<double>& map) {
+            file_->write<double>(group + "/" + name, {n, n}, map);
+            file_->write_attribute(group + "/" + name, "unit", unit);
+        };
+        write("gap", "Å", gap);
+        write("pressure", "GPa", pressure);
+        write("u_x", "Å", ux);
+        write("u_y", "Å", uy);
+        write("u_z", "Å", uz);
+        file_->write<std::uint8_t>(group + "/contact", {n, n},
+                                   std::vector<std::uint8_t>(touching.begin(), touching.end()));
+        file_->write_attribute(group, "reference_height", reference_height);
+
+        // P(u), normalised to one: 200 bins from the least to the greatest gap.
+        const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
+        constexpr std::size_t bins = 200;
+        const double width = std::max((*greatest - *least) / bins, 1e-12);
+        std::vector<double> density(bins, 0.0), edge(bins + 1);
+        for (std::size_t i = 0; i <= bins; ++i) edge[i] = *least + width * static_cast<double>(i);
+        for (double u : gap) {
+            const auto bin = static_cast<std::size_t>((u - *least) / width);
+            density[std::min(bin, bins - 1)] += 1.0 / (width * static_cast<double>(gap.size()));
+        }
+        file_->write<double>(group + "/gap_edges", {bins + 1}, edge);
+        file_->write<double>(group + "/gap_density", {bins}, density);
+        file_->flush();
+    });
+}
+
+void Recorder::flush() {
+    communicator_.on_root([&] {
+        series_.flush();
+        file_->flush();
+    });
+}
+
+} // namespace asperity

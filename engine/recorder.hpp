@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// run.h5: the series along the path and the maps of states (collective; the root writes).
+#pragma once
+
+#include "engine/findings.hpp"
+#include "engine/simulation.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/series.hpp"
+
+#include <memory>
+#include <string>
+
+namespace asperity {
+
+class Recorder {
+public:
+    /// A new file, or (rows > 0) an old one taken up after its first rows.
+    Recorder(const std::string& path, const Surface& surface, const Communicator& communicator, bool resume,
+             std::uint64_t rows);
+
+    /// One row: the simulation's last step, which must have been observed.
+    void row(const Simulation& simulation);
+    std::uint64_t rows() const { return rows_; }
+    /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
+    void fields(const std::string& state, const Block& block, const Interface& interface,
+                double reference_height);
+    void flush();
+
+private:
+    Communicator communicator_;
+    std::unique_ptr<io::Hdf5File> file_; ///< root only
+    io::Series series_;
+    std::uint64_t rows_ = 0;
+};
+
+} // namespace asperity

@@ -1,0 +1,415 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The life of a run: set up, follow the path, relax the zero-load state, write what was found.
+#include "engine/run.hpp"
+
+#include "engine/checkpoint.hpp"
+#include "engine/recorder.hpp"
+#include "engine/setup.hpp"
+#include "engine/summary.hpp"
+#include "engine/units.hpp"
+#include "io/error.hpp"
+#include "io/progress.hpp"
+#include "io/result.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <limits>
+
+namespace asperity {
+
+namespace {
+
+volatile std::sig_atomic_t asked_to_stop = 0;
+extern "C" void on_stop_signal(int) { asked_to_stop = 1; }
+
+/// Largest relative error of the energy balance that counts as physics.
+constexpr double energy_limit = 0.02;
+/// Observed steps between two states kept in memory for the guard.
+constexpr long long rows_between_snapshots = 10;
+
+class Run {
+public:
+    Run(const Scene& scene, const RunOptions& options, const Communicator& ranks)
+        : scene_(scene), options_(options), ranks_(ranks), setup_(make_setup(scene, ranks.size())),
+          surface_(scene_surface(scene)),
+          grid_(ranks.size(), ranks.rank(), scene.surface.sites, static_cast<int>(setup_.levels.size())),
+          simulation_(setup_.simulation, surface_, ranks, grid_),
+          progress_(options.progress, !ranks.root()) {
+        ranks_.on_root([&] {
+            const auto place = io::choose_result_directory(options.out, scene.name, options.resuming());
+            directory_ = place.directory;
+            if (!place.note.empty()) progress_.say(place.note);
+        });
+        fingerprint_ = fingerprint();
+    }
+
+    int go() {
+        ranks_.on_root([&] { io::make_directory(directory_); });
+        try {
+            if (ranks_.root())
+                print_opening(stdout, scene_, setup_, surface_, grid_, omp_get_max_threads(),
+                              simulation_.block().bytes() + simulation_.interface().bytes(), directory_);
+            follow();
+        } catch (const io::Error& e) {
+            progress_.finish();
+            record_failure(e);
+            throw;
+        }
+        progress_.finish();
+        write_record({});
+        if (ranks_.root()) {
+            const bool dynamic = simulation_.steps() > 0;
+            print_summary(stdout, scene_, setup_, findings_,
+                          dynamic ? simulation_.energy_residual() : std::numeric_limits<double>::quiet_NaN(),
+                          directory_);
+            if (!stopped_.empty())
+                fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);
+        }
+        return stopped_ == "wall_limit" || stopped_ == "signal" ? io::exit_code::stopped
+                                                                : io::exit_code::done;
+    }
+
+private:
+    void follow() {
+        const bool taken_up = take_up();
+        recorder_.emplace(directory_ + "/run.h5", surface_, ranks_, taken_up, rows_at_start_);
+        if (scene_.has(PathPart::zero_load)) {
+            simulation_.start(height_of_strongest_attraction());
+            find_zero_load(simulation_.block());
+        } else {
+            if (!taken_up) simulation_.start(simulation_.interface().start_height());
+            march();
+        }
+        const auto t = simulation_.phases().time(Phase::output);
+        recorder_->flush();
+    }
+
+    /// The loop over time.
+    void march() {
+        std::signal(SIGUSR1, on_stop_signal);
+        std::signal(SIGTERM, on_stop_signal);
+        std::signal(SIGINT, on_stop_signal);
+        last_checkpoint_ = seconds();
+        while (!simulation_.drive().done()) {
+            const bool observe = simulation_.steps() % scene_.output.series == 0;
+            if (observe && time_to_stop()) return;
+            const StepRecord& now = simulation_.step(observe);
+            guard(now);
+            if (observe) record_row();
+            follow_drive(now);
+            if (progress_.due()) progress_.update(progress_state(now));
+            if (scene_.drive.max_steps > 0 && simulation_.steps() >= scene_.drive.max_steps) {
+                stopped_ = "max_steps";
+                return;
+            }
+        }
+    }
+
+    /// What the force of this step means for the path.
+    void follow_drive(const StepRecord& now) {
+        const Leg leg = simulation_.leg();
+        double& attraction = leg == Leg::approach ? findings_.attraction_in : findings_.attraction_out;
+        attraction = std::max(attraction, -now.force);
+        const double strongest = std::max(findings_.attraction_in, findings_.attraction_out);
+        const bool gone = now.top >= 0.0 && std::abs(now.force) <= 1e-6 * strongest;
+        if (!simulation_.drive().observe(now.time, now.force, gone)) return;
+        const double area = scene_.edge() * scene_.edge();
+        if (leg == Leg::approach) {
+            findings_.approach = -units::milli_per_unit * simulation_.ledger().approach / area;
+            progress_.say(fmt::format("contact is made; relaxing a copy of this state under zero load"));
+            Block copy = simulation_.block().copy_at_rest();
+            find_zero_load(copy);
+            if (!simulation_.drive().done()) progress_.say("pull-off begins");
+        } else {
+            findings_.pull_off = -units::milli_per_unit * simulation_.ledger().pull_off / area;
+        }
+    }
+
+    void find_zero_load(Block& block) {
+        const auto t = simulation_.phases().time(Phase::relax);
+        RelaxOptions options;
+        options.tolerance = scene_.drive.tolerance;
+        options.site_stiffness = setup_.flat.stiffness * scene_.surface.spacing * scene_.surface.spacing;
+        options.report = [&](long long iteration, double residual) {
+            if (!progress_.due()) return;
+            progress_.update({fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0,
+                              -1.0});
+        };
+        Phases own; // its lines are not lines of the step
+        const RelaxedState s =
+            relax(block, simulation_.interface(), simulation_.reference_height(), options, own);
+        const double area = scene_.edge() * scene_.edge();
+        const double sites = static_cast<double>(scene_.surface.sites) * scene_.surface.sites;
+        if (!s.converged)
+            throw io::PhysicsError(
+                fmt::format("the zero-load state was not found in {} iterations", s.iterations),
+                fmt::format("the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
+                            s.residual, scene_.drive.tolerance),
+                "look at run.h5 whether the surfaces touch at all; a looser drive.tolerance ends earlier");
+        ZeroLoad z;
+        z.binding_energy = -units::milli_per_unit * (s.interface_energy + s.elastic_energy) / area;
+        z.pairwise = -units::milli_per_unit * s.interface_energy / area;
+        z.elastic = units::milli_per_unit * s.elastic_energy / area;
+        z.contact_fraction = static_cast<double>(s.in_contact) / sites;
+        z.pushed_fraction = static_cast<double>(s.pushed) / sites;
+        z.mean_height = simulation_.reference_height() + s.mean_height;
+        z.residual = s.residual;
+        z.iterations = static_cast<double>(s.iterations);
+        findings_.zero_load = z;
+        if (scene_.writes_field("zero-load"))
+            recorder_->fields("zero-load", block, simulation_.interface(), simulation_.reference_height());
+    }
+
+    /// Where a rigid block feels the strongest attraction on its way down: the descent that starts there ends
+    /// in the state that a slow approach reaches.
+    double height_of_strongest_attraction() {
+        Block& block = simulation_.block();
+        block.set_uniform(0.0, 0.0);
+        double best_height = simulation_.interface().start_height(), strongest = 0.0;
+        constexpr double stride = 0.1;
+        for (double height = best_height;; height -= stride) {
+            const InterfaceSums sums =
+                simulation_.interface().sweep(block.lowest_layer(), block.interface_force(), height, false);
+            std::array<double, 3> bins = {sums.force_z.bin[0], sums.force_z.bin[1], sums.force_z.bin[2]};
+            ranks_.sum(bins);
+            const double force = (bins[2] + bins[1]) + bins[0];
+            if (force < strongest) strongest = force, best_height = height;
+            if (force > 0.0 || height < surface_.statistics.lowest) return best_height;
+        }
+    }
+
+    void guard(const StepRecord& now) {
+        const bool finite = std::isfinite(now.force) && std::isfinite(now.mean_height) &&
+                            std::isfinite(now.top_force);
+        const double residual = now.observed ? simulation_.energy_residual() : 0.0;
+        const bool balanced = std::isfinite(residual) && std::abs(residual) <= energy_limit;
+        if (finite && balanced) return;
+        const std::string where = fastest_site();
+        std::string kept = "no earlier state was kept";
+        if (!snapshot_.empty()) {
+            snapshot_.restore(simulation_);
+            const std::string path = directory_ + "/last-good.h5";
+            write_checkpoint(path, simulation_, run_scalars(), fingerprint_);
+            kept = fmt::format("the last good state, step {}, is in {}", snapshot_.step(), path);
+        }
+        const double limit = setup_.longest_timestep;
+        throw io::PhysicsError(
+            finite ? fmt::format("the energy balance is off by {:.1f} % at step {}", 100.0 * residual, now.step)
+                   : fmt::format("the motion diverged at step {}: the force is {}", now.step, now.force),
+            fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded contact, and less "
+                        "where atoms are pressed into the wall or hit it fast",
+                        where, scene_.drive.timestep, limit),
+            fmt::format("take a smaller drive.timestep (for example {:.2g} fs) or drive.velocity; {}",
+                        std::min(0.5 * scene_.drive.timestep, 0.2 * limit), kept));
+    }
+
+    /// The site of the lowest layer that moves fastest (or not by a number any more).
+    std::string fastest_site() {
+        const auto& level = simulation_.block().levels().front();
+        const auto v = level.v.view()[0];
+        double worst = -1.0;
+        int wx = 0, wy = 0;
+        for (int y = 0; y < v.x.ny; ++y)
+            for (int x = 0; x < v.x.nx; ++x) {
+                double speed = std::sqrt(v.x(x, y) * v.x(x, y) + v.y(x, y) * v.y(x, y) + v.z(x, y) * v.z(x, y));
+                if (!std::isfinite(speed)) speed = std::numeric_limits<double>::max();
+                if (speed > worst) worst = speed, wx = x + level.tile.x0, wy = y + level.tile.y0;
+            }
+        std::array<double, 1> most = {worst};
+        ranks_.max(most);
+        const double sites = level.tile.sites;
+        std::array<double, 1> place = {most[0] == worst ? sites * sites - (wy * sites + wx) : 0.0};
+        ranks_.max(place);
+        const long long index = static_cast<long long>(sites * sites - place[0]);
+        return fmt::format("site ({}, {}) moves at {:.3g} m/s", index % level.tile.sites,
+                           index / level.tile.sites, most[0] / units::metre_per_second);
+    }
+
+    void record_row() {
+        const auto t = simulation_.phases().time(Phase::output);
+        if (recorder_->rows() % rows_between_snapshots == 0) snapshot_.take(simulation_);
+        recorder_->row(simulation_);
+    }
+
+    /// Between two steps: signals, the wall limit and checkpoints; the root decides for all.
+    bool time_to_stop() {
+        constexpr double nothing = 0.0, save = 1.0, wall = 2.0, signal = 3.0; // the greatest wins
+        double decision = nothing;
+        if (ranks_.root()) {
+            const double now = seconds();
+            if (scene_.output.checkpoint > 0.0 && now - last_checkpoint_ >= scene_.output.checkpoint)
+                decision = save;
+            if (options_.wall_limit && now >= *options_.wall_limit) decision = wall;
+        }
+        if (asked_to_stop) decision = signal;
+        std::array<double, 1> agreed = {decision};
+        ranks_.max(agreed);
+        if (agreed[0] == nothing) return false;
+        const auto t = simulation_.phases().time(Phase::checkpoint);
+        recorder_->flush();
+        write_checkpoint(directory_ + "/checkpoint.h5", simulation_, run_scalars(), fingerprint_);
+        last_checkpoint_ = seconds();
+        if (agreed[0] == save) return false;
+        stopped_ = agreed[0] == wall ? "wall_limit" : "signal";
+        progress_.say(fmt::format("stopping: the state at step {} is in {}/checkpoint.h5; go on with --resume auto",
+                                  simulation_.steps(), directory_));
+        return true;
+    }
+
+    RunScalars run_scalars() {
+        RunScalars list = {{"rows", static_cast<double>(recorder_->rows())}};
+        const auto collect = [&](const char* name, double& value) { list.emplace_back(name, value); };
+        findings_.visit(collect);
+        return list;
+    }
+
+    /// Goes on from a checkpoint if asked. True if it did.
+    bool take_up() {
+        if (!options_.resuming()) return false;
+        std::string path = options_.resume;
+        double there = 1.0;
+        if (path == "auto") {
+            path = directory_ + "/checkpoint.h5";
+            if (ranks_.root()) there = std::filesystem::exists(path) ? 1.0 : 0.0;
+            ranks_.broadcast(std::span<double>(&there, 1));
+        }
+        if (there == 0.0) {
+            progress_.say("no checkpoint yet: starting from the beginning");
+            return false;
+        }
+        const RunScalars scalars = read_checkpoint(path, simulation_, fingerprint_);
+        rows_at_start_ = static_cast<std::uint64_t>(scalars.front().second);
+        std::size_t at = 1;
+        const auto restore = [&](const char*, double& value) { value = scalars.at(at++).second; };
+        findings_.visit(restore);
+        progress_.say(fmt::format("going on from step {} of {}", simulation_.steps(), path));
+        return true;
+    }
+
+    /// The physics of the scene, as text: what may not change between a checkpoint and its resumption.
+    std::string fingerprint() const {
+        const io::JsonValue all = scene_json(scene_);
+        io::JsonValue part = io::JsonValue::object();
+        for (const char* section : {"surface", "block", "interface", "drive"})
+            if (const auto* value = all.find(section)) part[section] = *value;
+        part["drive"]["max_steps"] = 0;
+        return part.dump(-1);
+    }
+
+    io::Progress::State progress_state(const StepRecord& now) const {
+        // The way: down from the start to contact, up again as far, and the stretch of a block that is
+        // pulled with a fair part of the largest tension.
+        const double down = simulation_.interface().start_height() - setup_.flat.separation;
+        const auto& b = setup_.simulation.block;
+        const double stretch = scene_.has(PathPart::pull_off)
+                                   ? 0.5 * setup_.flat.largest_tension * units::gigapascal * b.thickness *
+                                         b.spacing / (b.lame() + 2.0 * b.shear_modulus())
+                                   : 0.0;
+        const double total = scene_.has(PathPart::pull_off) ? 2.0 * down + stretch : down;
+        const double done = simulation_.leg() == Leg::approach ? -now.top : 2.0 * down + now.top;
+        return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force), simulation_.steps(),
+                now.time, std::clamp(done / total, 0.0, 0.99)};
+    }
+
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+    void record_failure(const io::Error& e) {
+        io::ResultRecord::Failure failure;
+        failure.exit_code = e.code();
+        failure.reason = e.what();
+        try {
+            write_record(failure);
+        } catch (const std::exception&) { // the first error is the one to report
+        }
+    }
+
+    void write_record(const io::ResultRecord::Failure& failure);
+
+    const Scene& scene_;
+    const RunOptions& options_;
+    Communicator ranks_;
+    Setup setup_;
+    Surface surface_;
+    ProcessGrid grid_;
+    Simulation simulation_;
+    io::Progress progress_;
+    std::optional<Recorder> recorder_;
+    Findings findings_;
+    Snapshot snapshot_;
+    std::string directory_, fingerprint_, stopped_;
+    std::uint64_t rows_at_start_ = 0;
+    double last_checkpoint_ = 0.0;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void Run::write_record(const io::ResultRecord::Failure& failure) {
+    if (!ranks_.root()) return;
+    io::ResultRecord r;
+    r.scene = scene_json(scene_);
+    const auto& s = surface_.statistics;
+    r.surface = {s.rms, s.rms_slope, s.lowest, s.highest};
+    r.delta_gamma = setup_.flat.work_of_adhesion;
+    r.work_of_adhesion.approach = findings_.approach;
+    r.work_of_adhesion.pull_off = findings_.pull_off;
+    if (findings_.zero_load) {
+        const ZeroLoad& z = *findings_.zero_load;
+        r.binding_energy = z.binding_energy;
+        r.work_of_adhesion.pairwise = z.pairwise;
+        r.contact_fraction = z.contact_fraction;
+        r.pushed_fraction = z.pushed_fraction;
+        r.run.iterations = static_cast<long long>(z.iterations);
+        r.extra.emplace_back("zero_load.elastic_energy", z.elastic);
+        r.extra.emplace_back("zero_load.mean_height", z.mean_height);
+        r.extra.emplace_back("zero_load.residual_force", z.residual);
+    }
+    if (findings_.pull_off) r.pull_off_force = findings_.attraction_out;
+    if (scene_.surface.radius) {
+        const auto jkr = [&](double f) {
+            return units::milli_per_unit * f / (1.5 * 3.14159265358979323846 * *scene_.surface.radius);
+        };
+        if (findings_.approach) r.jkr.in = jkr(findings_.attraction_in);
+        if (findings_.pull_off) r.jkr.out = jkr(findings_.attraction_out);
+    }
+    if (simulation_.steps() > 0) {
+        const StepRecord& now = simulation_.now();
+        const Ledger& l = simulation_.ledger();
+        r.energy.residual = simulation_.energy_residual();
+        r.energy.work = l.work();
+        r.energy.kinetic = now.kinetic_energy;
+        r.energy.elastic = now.elastic_energy;
+        r.energy.interface = now.interface_energy;
+        r.energy.damped = l.damped;
+    }
+    r.run.wall_seconds = seconds();
+    r.run.steps = simulation_.steps();
+    r.run.ranks = ranks_.size();
+    r.run.threads = omp_get_max_threads();
+    for (std::size_t p = 0; p < phase_names.size(); ++p) {
+        const PhaseClock& clock = simulation_.phases()[static_cast<Phase>(p)];
+        if (clock.calls > 0) r.run.phases.push_back({std::string(phase_names[p]), clock.seconds, clock.calls});
+    }
+    r.run.stopped = stopped_;
+    r.failure = failure;
+    io::write_result(directory_, r);
+}
+
+} // namespace
+
+int run(const Scene& scene, const RunOptions& options, const Communicator& communicator) {
+    io::Problems problems = scene.problems();
+    not_yet(scene, problems);
+    problems.throw_if_any();
+    return Run(scene, options, communicator).go();
+}
+
+} // namespace asperity

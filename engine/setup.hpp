@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// From a scene, in the units of the scene file, to what the engine computes with (Å, eV, fs).
+//
+// Everything that can be known to be wrong before the first step is found here.
+#pragma once
+
+#include "engine/scene.hpp"
+#include "engine/simulation.hpp"
+#include "engine/surface.hpp"
+
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// The substrate that the scene describes. Throws io::SceneError (options, map contents) or
+/// io::FileError (file).
+Surface scene_surface(const Scene& scene);
+
+/// What the numbers of the scene mean for the engine, before anything is allocated.
+struct Setup {
+    SimulationOptions simulation;
+    FlatReference flat;             ///< flat on flat, same cutoff and lattices
+    double longest_timestep = 0.0;  ///< stability limit 2/omega_max at the bottom of the well, fs
+    std::vector<LevelPlan> levels;
+    std::vector<std::string> notes; ///< worth knowing, not wrong
+};
+/// Throws io::SceneError with all that is wrong, for this number of ranks.
+Setup make_setup(const Scene& scene, int ranks);
+
+} // namespace asperity

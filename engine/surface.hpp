@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The substrate's height map (model.md section 3): flat, self-affine, or measured; curved on request.
+//
+// A self-affine surface is made by Fourier filtering: each integer wavevector draws its amplitude and
+// phase from a counter-based generator keyed by seed and wavevector, so the same seed gives the same
+// bits on every rank, and the same large-scale shape when the grid grows. Every rank makes the whole map:
+// it is one plane, small beside the block.
+//
+// Conventions (Persson): h_rms^2 = 2 pi int q C(q) dq; on the grid C(q) = |h_q|^2 (L / 2 pi)^2 with
+// h(x) = sum_q h_q exp(i q x). q in 1/Å, C in Å^4. q_L = 2 pi / L.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+enum class SurfaceKind { flat, self_affine, file };
+enum class Amplitudes { gaussian, fixed };
+
+struct SurfaceOptions {
+    SurfaceKind kind = SurfaceKind::self_affine;
+    int sites = 512;        ///< atoms across the box
+    double length = 1331.2; ///< edge of the periodic box, Å
+    double rms = 3.0;       ///< Å; for a measured map: 0 keeps its own
+    double hurst = 0.8;
+    double rolloff = 3.0;  ///< q0 / q_L
+    double cutoff = 512.0; ///< q1 / q_L, clipped at the grid's Nyquist wavevector
+    Amplitudes amplitudes = Amplitudes::gaussian;
+    std::uint64_t seed = 1;
+    double radius = 0.0;  ///< of the spherical cap, Å; 0: none
+    bool detrend = false; ///< measured maps: remove the mean plane
+};
+
+/// One bin of the radially averaged spectrum.
+struct SpectrumBin {
+    double q = 0.0;        ///< mean wavevector of the bin's modes, 1/Å
+    double realised = 0.0; ///< C(q), Å^4
+    double target = 0.0;   ///< what the options ask for (0 for flat and measured surfaces), Å^4
+    int modes = 0;
+};
+
+/// Of the roughness, without the cap; least and greatest height with it.
+struct SurfaceStatistics {
+    double rms = 0.0;       ///< Å
+    double rms_slope = 0.0; ///< sqrt(<hx^2 + hy^2>), spectral derivative
+    double lowest = 0.0;    ///< Å
+    double highest = 0.0;   ///< Å
+    std::vector<SpectrumBin> spectrum; ///< bins of width q_L
+};
+
+struct Surface {
+    int sites = 0;
+    double length = 0.0;        ///< Å
+    std::vector<double> height; ///< height[y * sites + x] of the atom at (x, y) length / sites, Å
+    SurfaceStatistics statistics;
+    std::vector<std::string> notes; ///< what was clipped or resampled, in words
+};
+
+/// The flat or self-affine surface that the options describe. Throws std::invalid_argument for options
+/// that describe none.
+Surface make_surface(const SurfaceOptions& options);
+
+/// A measured map heights[y * nx + x] that fills the box: taken as it is if it has sites x sites
+/// values, else resampled band-limited (exactly, for what both grids can hold).
+Surface surface_from_heights(const SurfaceOptions& options, std::vector<double> heights, int nx,
+                             int ny);
+
+/// Persson's C(q) of the options, Å^4 (q in 1/Å), with the spectrum clipped at the grid's Nyquist wavevector.
+double target_spectrum(const SurfaceOptions& options, double q);
+
+/// Atoms across the box for a ratio of block spacing to substrate spacing, at least one.
+int substrate_sites(int block_sites, double lattice_ratio);
+
+} // namespace asperity

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// git_hash.hpp is written at build time (git_hash.cmake), and only this unit sees it, so a commit
+// rebuilds one file.
+#include "io/build_info.hpp"
+
+#include "git_hash.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+namespace asperity::io {
+
+BuildInfo build_info() {
+    unsigned major = 0, minor = 0, release = 0;
+    const bool known = H5get_libversion(&major, &minor, &release) >= 0;
+#if defined(__clang__)
+    const std::string compiler = "clang " __clang_version__;
+#else
+    const std::string compiler = "g++ " __VERSION__;
+#endif
+    return {ASPERITY_VERSION, ASPERITY_GIT_HASH, compiler, ASPERITY_FLAGS,
+            known ? fmt::format("{}.{}.{}", major, minor, release) : "unknown"};
+}
+
+} // namespace asperity::io

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What this program was built from and with: for `asperity info` and for every result.
+#pragma once
+
+#include <string>
+
+namespace asperity::io {
+
+struct BuildInfo {
+    std::string version;  ///< of the project
+    std::string git;      ///< commit, with "-dirty" if the tree had changes; "unknown" outside git
+    std::string compiler; ///< name and version
+    std::string flags;    ///< build type and options
+    std::string hdf5;     ///< version of the library in use
+};
+BuildInfo build_info();
+
+} // namespace asperity::io

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// How Asperity says no.
+//
+// Every error carries the exit code its command ends with and a message of one grammar:
+//
+//     <where>: what is wrong
+//         why: the reason, with the values
+//         fix: what to do about it
+//
+// A scene may be wrong in many places; its error holds them all, so that one reading of the
+// terminal is enough. Only main prints; only main exits.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace asperity::io {
+
+/// What the shell sees. The numbers are a contract.
+namespace exit_code {
+inline constexpr int done = 0;
+inline constexpr int internal = 1;     ///< a mistake of ours
+inline constexpr int scene = 2;        ///< usage or scene
+inline constexpr int physics = 3;      ///< energy, NaN, time step
+inline constexpr int input_output = 4; ///< files
+inline constexpr int stopped = 75;     ///< stopped early, a valid checkpoint is there
+} // namespace exit_code
+
+/// One thing that is wrong: where (may be empty), what, why and what to do (the last two may be
+/// empty).
+struct Problem {
+    std::string where;
+    std::string what;
+    std::string why;
+    std::string fix;
+};
+/// The problem in the grammar above, without a newline at the end.
+std::string format(const Problem& problem);
+
+class Error : public std::runtime_error {
+public:
+    Error(int code, Problem problem);
+    Error(int code, std::vector<Problem> problems);
+
+    int code() const { return code_; }
+    const std::vector<Problem>& problems() const { return problems_; }
+
+private:
+    int code_;
+    std::vector<Problem> problems_;
+};
+
+/// The scene, the command line or an input that the scene names is wrong (exit 2).
+struct SceneError : Error {
+    explicit SceneError(Problem p) : Error(exit_code::scene, std::move(p)) {}
+    explicit SceneError(std::vector<Problem> p) : Error(exit_code::scene, std::move(p)) {}
+};
+/// A guard of the physics stopped the run (exit 3).
+struct PhysicsError : Error {
+    explicit PhysicsError(Problem p) : Error(exit_code::physics, std::move(p)) {}
+    PhysicsError(std::string what, std::string why, std::string fix)
+        : PhysicsError(Problem{"", std::move(what), std::move(why), std::move(fix)}) {}
+};
+/// A file could not be read or written (exit 4).
+struct FileError : Error {
+    explicit FileError(Problem p) : Error(exit_code::input_output, std::move(p)) {}
+    FileError(std::string path, std::string what, std::string why, std::string fix = "")
+        : FileError(Problem{std::move(path), std::move(what), std::move(why), std::move(fix)}) {}
+};
+/// The run ended before its path did, and can be taken up again (exit 75).
+struct StoppedEarly : Error {
+    explicit StoppedEarly(Problem p) : Error(exit_code::stopped, std::move(p)) {}
+};
+
+} // namespace asperity::io

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// HDF5 without its handles: one class owns a file, every return code of the C library is looked at,
+// and a failure says which file, which object, and what the library gave as the cause.
+//
+// Data sets are named by absolute paths ("/fields/zero-load/height"); groups on the way are made as
+// needed. Arrays are row-major, slowest index first. The stored type is the type written:
+// conversions are left to the reader. Collective (parallel) access is not used; one rank writes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace asperity::io {
+
+class Hdf5File {
+public:
+    using Shape = std::vector<std::uint64_t>;
+
+    enum class Mode { create, read, edit };
+    /// create: a new file, an old one is truncated. edit: must exist, or use create.
+    Hdf5File(const std::string& path, Mode mode);
+    ~Hdf5File();
+    Hdf5File(Hdf5File&& other) noexcept;
+    Hdf5File& operator=(Hdf5File&& other) noexcept;
+
+    const std::string& path() const { return path_; }
+    /// Everything to the operating system. Throws FileError.
+    void flush();
+    /// Closes and reports what closing found wrong (the destructor cannot).
+    void close();
+
+    bool exists(const std::string& object) const;
+    /// Makes the group and those above it, if they are not there.
+    void make_group(const std::string& group);
+    /// Names of the members of a group, in alphabetical order.
+    std::vector<std::string> members(const std::string& group) const;
+    bool is_dataset(const std::string& object) const;
+
+    /// Attributes of a group or data set; written over if there.
+    void write_attribute(const std::string& object, const std::string& name,
+                         const std::string& value);
+    void write_attribute(const std::string& object, const std::string& name, const char* value) {
+        write_attribute(object, name, std::string(value));
+    }
+    void write_attribute(const std::string& object, const std::string& name, double value);
+    void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
+    void write_attribute(const std::string& object, const std::string& name,
+                         const std::vector<double>& value);
+    void write_attribute(const std::string& object, const std::string& name,
+                         const std::vector<std::int64_t>& value);
+    void write_text_list_attribute(const std::string& object, const std::string& name,
+                                   const std::vector<std::string>& value);
+    bool has_attribute(const std::string& object, const std::string& name) const;
+    std::string read_text_attribute(const std::string& object, const std::string& name) const;
+    double read_number_attribute(const std::string& object, const std::string& name) const;
+    std::int64_t read_integer_attribute(const std::string& object, const std::string& name) const;
+
+    /// T: double, float, std::int64_t, std::int32_t or std::uint8_t, in all that follows.
+    /// Makes a data set of this shape and writes it; it must not be there yet.
+    template <class T>
+    void write(const std::string& dataset, const Shape& shape, std::span<const T> data);
+    template <class T>
+    void write(const std::string& dataset, const Shape& shape, const std::vector<T>& data) {
+        write<T>(dataset, shape, std::span<const T>(data));
+    }
+    /// Makes a data set to be filled by write_slab.
+    template <class T>
+    void make_dataset(const std::string& dataset, const Shape& shape);
+    /// Writes, reads the block at offset of extent count.
+    template <class T>
+    void write_slab(const std::string& dataset, const Shape& offset, const Shape& count,
+                    std::span<const T> data);
+    template <class T>
+    void read_slab(const std::string& dataset, const Shape& offset, const Shape& count,
+                   std::span<T> data) const;
+    /// The whole data set, converted to T by HDF5.
+    template <class T>
+    std::vector<T> read(const std::string& dataset) const;
+    Shape shape(const std::string& dataset) const;
+
+    /// A data set whose first index grows; row: the shape of one row ({} : a plain series).
+    template <class T>
+    void make_series(const std::string& dataset, const Shape& row = {});
+    /// Appends whole rows.
+    template <class T>
+    void append(const std::string& dataset, std::span<const T> rows);
+    /// Cuts a series to its first rows.
+    void truncate(const std::string& dataset, std::uint64_t rows);
+
+private:
+    [[noreturn]] void fail(const std::string& object, const std::string& what) const;
+
+    std::string path_;
+    std::int64_t id_ = -1;
+};
+
+/// The head of an H5MD 1.1 file: /h5md with version, author and creator.
+void write_h5md_head(Hdf5File& file, const std::string& creator_version);
+/// A box of fixed edges under group ("/particles/trajectory/box"): dimension 3, boundary periodic
+/// in x and y.
+void write_h5md_box(Hdf5File& file, const std::string& group, double edge_x, double edge_y,
+                    double edge_z);
+
+} // namespace asperity::io

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/progress.hpp"
+
+#include "io/table.hpp"
+
+#include <cstdlib>
+#include <utility>
+
+#include <charconv>
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace asperity::io {
+
+namespace {
+
+constexpr double bar_seconds = 0.2;
+/// Lines get rarer as a run gets longer: after 2 s, 10 s, then each 10 % of the time so far.
+double line_seconds(double elapsed) {
+    return elapsed < 10.0 ? 2.0 : elapsed < 100.0 ? 10.0 : 0.1 * elapsed;
+}
+
+std::string amount(double value) {
+    if (value >= 1e6) return fmt::format("{:.2f} M", value / 1e6);
+    if (value >= 1e4) return fmt::format("{:.1f} k", value / 1e3);
+    return fmt::format("{:.{}f}", value, value < 10.0 ? 2 : value < 100.0 ? 1 : 0);
+}
+
+std::string simulated_per_day(double fs_per_day) {
+    if (fs_per_day >= 1e9) return fmt::format("{} µs/day", amount(fs_per_day / 1e9));
+    if (fs_per_day >= 1e6) return fmt::format("{} ns/day", amount(fs_per_day / 1e6));
+    return fmt::format("{} ps/day", amount(fs_per_day / 1e3));
+}
+
+/// Cut to what one line of the terminal shows.
+std::string fitted(const std::string& text, std::FILE* stream) {
+    struct winsize window {};
+    const int columns = ::ioctl(::fileno(stream), TIOCGWINSZ, &window) == 0 && window.ws_col > 10
+                            ? window.ws_col - 1
+                            : 110;
+    if (visible_width(text) <= columns) return text;
+    std::string cut;
+    int width = 0;
+    for (const char c : text) {
+        if ((static_cast<unsigned char>(c) & 0xC0) != 0x80 && ++width > columns) break;
+        cut += c;
+    }
+    return cut;
+}
+
+} // namespace
+
+std::optional<ProgressMode> progress_mode(std::string_view name) {
+    if (name == "auto") return ProgressMode::automatic;
+    if (name == "bar") return ProgressMode::bar;
+    if (name == "lines") return ProgressMode::lines;
+    if (name == "off") return ProgressMode::off;
+    return std::nullopt;
+}
+
+bool under_mpirun() {
+    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
+        if (std::getenv(name)) return true;
+    return false;
+}
+
+Progress::Progress(ProgressMode mode, bool quiet, std::FILE* to)
+    : mode_(mode), to_(to), start_(Clock::now()), last_print_(start_) {
+    const bool terminal = ::isatty(::fileno(to)) != 0 && !under_mpirun();
+    if (quiet)
+        mode_ = ProgressMode::off;
+    else if (mode == ProgressMode::automatic || (mode == ProgressMode::bar && !terminal))
+        mode_ = terminal ? ProgressMode::bar : ProgressMode::lines;
+}
+
+Progress::~Progress() { finish(); }
+
+bool Progress::due() const {
+    if (mode_ == ProgressMode::off) return false;
+    const auto now = Clock::now();
+    const double since = std::chrono::duration<double>(now - last_print_).count();
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    return since >= (mode_ == ProgressMode::bar ? bar_seconds : line_seconds(elapsed));
+}
+
+void Progress::update(const State& state) {
+    if (mode_ == ProgressMode::off) return;
+    const auto now = Clock::now();
+    if (first_steps_ < 0) { // rates count from the first update: setting up is no stepping
+        first_steps_ = state.steps;
+        first_time_ = state.time_fs;
+        first_fraction_ = state.fraction;
+        start_ = now;
+    }
+    if (!due()) return;
+    last_print_ = now;
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const double fraction_done =
+        state.fraction >= 0.0 && first_fraction_ >= 0.0 ? state.fraction - first_fraction_ : -1.0;
+    const std::string line = progress_line(state, seconds, state.steps - first_steps_,
+                                           state.time_fs - first_time_, fraction_done);
+    if (mode_ == ProgressMode::bar) {
+        fmt::print(to_, "\r\033[K{}", fitted(line, to_));
+        bar_drawn_ = true;
+    } else {
+        fmt::print(to_, "{}\n", line);
+    }
+    std::fflush(to_);
+}
+
+void Progress::say(const std::string& sentence) {
+    if (mode_ == ProgressMode::off) return;
+    finish();
+    fmt::print(to_, "{}\n", sentence);
+    std::fflush(to_);
+}
+
+void Progress::finish() {
+    if (!bar_drawn_) return;
+    fmt::print(to_, "\r\033[K");
+    std::fflush(to_);
+    bar_drawn_ = false;
+}
+
+std::string progress_line(const Progress::State& state, double seconds, long long steps_done,
+                          double time_done_fs, double fraction_done) {
+    std::string line;
+    if (state.fraction >= 0.0) line = fmt::format("{:3.0f} %  ", 100.0 * state.fraction);
+    line += state.phase;
+    if (seconds > 0.0 && steps_done > 0) {
+        line += fmt::format(" | step {}, {} steps/s", state.steps,
+                            amount(static_cast<double>(steps_done) / seconds));
+        if (time_done_fs > 0.0) line += ", " + simulated_per_day(time_done_fs / seconds * 86400.0);
+        if (fraction_done > 1e-3)
+            line += fmt::format(" | {} left",
+                                duration_text(seconds * (1.0 - state.fraction) / fraction_done));
+    }
+    return line;
+}
+
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<long long>(seconds + 0.5);
+    if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    if (whole < 86400) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+    return fmt::format("{} d {:02} h", whole / 86400, whole / 3600 % 24);
+}
+
+std::optional<double> parse_duration(std::string_view text) {
+    double total = 0.0, last_unit = 1e30;
+    bool any = false;
+    while (!text.empty()) {
+        double value = 0.0;
+        const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value,
+                                            std::chars_format::fixed);
+        if (parsed.ec != std::errc() || !(value >= 0.0) || value > 1e9) return std::nullopt;
+        text.remove_prefix(static_cast<std::size_t>(parsed.ptr - text.data()));
+        double unit = 1.0;
+        if (text.starts_with("min"))
+            unit = 60.0, text.remove_prefix(3);
+        else if (text.starts_with("d"))
+            unit = 86400.0, text.remove_prefix(1);
+        else if (text.starts_with("h"))
+            unit = 3600.0, text.remove_prefix(1);
+        else if (text.starts_with("m"))
+            unit = 60.0, text.remove_prefix(1);
+        else if (text.starts_with("s"))
+            text.remove_prefix(1);
+        else if (any || !text.empty())
+            return std::nullopt;                    // only a lone number may stand without unit
+        if (unit >= last_unit) return std::nullopt; // days before hours before minutes
+        last_unit = unit;
+        total += value * unit;
+        any = true;
+    }
+    if (!any || total <= 0.0) return std::nullopt;
+    return total;
+}
+
+} // namespace asperity::io

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What a run is doing, how fast, and how long it will still take.
+//
+// "bar" redraws one line, on a terminal; "lines" prints a line now and then, for logs and under
+// mpirun (where ranks see no terminal); "auto" picks. Updates cost a look at the clock; call them
+// every few steps, from one rank.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace asperity::io {
+
+enum class ProgressMode { automatic, bar, lines, off };
+std::optional<ProgressMode> progress_mode(std::string_view name); ///< "auto", "bar", "lines", "off"
+
+/// This process was started by mpirun or its like.
+bool under_mpirun();
+
+class Progress {
+public:
+    /// quiet: never prints (ranks other than 0).
+    Progress(ProgressMode mode, bool quiet = false, std::FILE* to = stderr);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    struct State {
+        std::string phase;      ///< "approach, F = -12.3 eV/Å"
+        long long steps = 0;    ///< done so far, in all
+        double time_fs = 0.0;   ///< simulated so far; 0: no clock in this run
+        double fraction = -1.0; ///< done of the whole path, 0..1; negative: unknown
+    };
+    /// True when enough time has passed that update() would print: build the phase text only then.
+    bool due() const;
+    void update(const State& state);
+    /// A sentence of its own ("pull-off begins"), whatever the mode but off.
+    void say(const std::string& sentence);
+    /// Clears the bar. Called by the destructor too.
+    void finish();
+
+    ProgressMode mode() const { return mode_; } ///< after "auto" was decided
+
+private:
+    using Clock = std::chrono::steady_clock;
+    ProgressMode mode_;
+    std::FILE* to_;
+    Clock::time_point start_;
+    Clock::time_point last_print_;
+    long long first_steps_ = -1;
+    double first_time_ = 0.0;
+    double first_fraction_ = -1.0;
+    bool bar_drawn_ = false;
+};
+
+/// One line as it would be printed: phase, steps/s, simulated time a day, time left.
+std::string progress_line(const Progress::State& state, double seconds, long long steps_done,
+                          double time_done_fs, double fraction_done);
+
+/// "1 h 02 min", "3 min 20 s", "12 s".
+std::string duration_text(double seconds);
+/// Seconds of "23h50m", "90s", "1d", "45m30s", "3600"; empty if it is none.
+std::optional<double> parse_duration(std::string_view text);
+
+} // namespace asperity::io

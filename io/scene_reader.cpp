@@ -1,0 +1,395 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Binding of keys to fields: what a value must be to be stored, and what is said if it is not.
+#include "io/scene_reader.hpp"
+
+#include "io/units.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace asperity::io {
+
+namespace {
+
+using Value = Schema::Value;
+using Key = Schema::Key;
+
+std::string quoted_choices(const std::vector<std::string>& choices) {
+    std::string text;
+    for (const std::string& choice : choices) {
+        if (!text.empty()) text += ", ";
+        text += '"' + choice + (choice.ends_with(':') ? "N\"" : "\"");
+    }
+    return text;
+}
+
+std::string type_of(const Value& value) {
+    if (value.boolean) return "true or false";
+    if (value.integer) return "a whole number";
+    if (value.number) return "a number";
+    if (value.text) return "a string";
+    if (value.list) return "a list of strings";
+    return "of a type no key has";
+}
+
+Problem wrong_type(std::string needed, const Value& value, std::string example) {
+    return {"", "is of the wrong type",
+            fmt::format("{} is needed, this is {}", needed, type_of(value)),
+            example.empty() ? "" : fmt::format("write, for example, {}", example)};
+}
+
+Problem out_of_range(const Range& range, std::string_view unit) {
+    return {"", "is out of range", fmt::format("allowed: {}", range.text(unit)),
+            "give a value in that range"};
+}
+
+Problem no_such_choice(const std::string& word, const std::vector<std::string>& choices) {
+    const std::string near = nearest(word, choices);
+    return {"", "is none of its choices", "choices: " + quoted_choices(choices),
+            near.empty() ? "take one of them" : fmt::format("did you mean \"{}\"?", near)};
+}
+
+/// The number a value means, in the base unit.
+Problem read_number(const Value& value, const std::string& unit, const Range& range, double& into) {
+    double number = 0.0;
+    if (value.text) {
+        const ParsedQuantity parsed = parse_quantity(*value.text, unit);
+        if (!parsed.why.empty())
+            return {"", "cannot be read as a quantity", parsed.why, parsed.fix};
+        number = parsed.value;
+    } else if (value.number) {
+        number = *value.number;
+    } else if (value.integer) {
+        number = static_cast<double>(*value.integer);
+    } else {
+        return wrong_type(unit.empty() ? "a number"
+                                       : fmt::format("a number or a quantity in {}", unit),
+                          value, unit.empty() ? "0.5" : example_of(unit));
+    }
+    if (!std::isfinite(number))
+        return {"", "is not finite", "allowed: " + range.text(unit), "give a finite number"};
+    if (!range.contains(number)) return out_of_range(range, unit);
+    into = number;
+    return {};
+}
+
+Problem read_integer(const Value& value, const Range& range, long long& into) {
+    if (!value.integer) {
+        const std::string example = value.number && std::abs(*value.number) < 1e15
+                                        ? fmt::format("{:.0f}", std::round(*value.number))
+                                        : std::string("512");
+        return wrong_type("a whole number", value, example + " (no quotes, no decimal point)");
+    }
+    if (!range.contains(static_cast<double>(*value.integer))) return out_of_range(range, "");
+    into = *value.integer;
+    return {};
+}
+
+Problem with_word(Problem problem, const std::string& word) {
+    if (!problem.what.empty()) problem.fix += fmt::format("; \"{}\" is allowed too", word);
+    return problem;
+}
+
+Range within_int(Range range) {
+    range.low = std::max(range.low, static_cast<double>(std::numeric_limits<int>::min()));
+    if (range.high > static_cast<double>(std::numeric_limits<int>::max()))
+        range.high = static_cast<double>(std::numeric_limits<int>::max());
+    return range;
+}
+
+/// A member of a list: one of the choices, or a choice ending in ':' with a positive number behind
+/// it.
+bool fits(const std::string& member, const std::vector<std::string>& choices) {
+    for (const std::string& choice : choices) {
+        if (member == choice && !choice.ends_with(':')) return true;
+        if (!choice.ends_with(':') || !member.starts_with(choice)) continue;
+        const std::string count = member.substr(choice.size());
+        if (count.empty() || count.size() > 15 || count[0] == '0') continue;
+        if (std::all_of(count.begin(), count.end(), [](char c) { return c >= '0' && c <= '9'; }))
+            return true;
+    }
+    return choices.empty();
+}
+
+std::string plain(std::string_view word) { // case and the kind of dash do not count
+    std::string result;
+    for (const char c : word)
+        result += c == '-' || c == ' '
+                      ? '_'
+                      : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
+/// Edits (insert, delete, replace, swap neighbours) that lead from a to b.
+int distance(const std::string& a, const std::string& b) {
+    const std::size_t n = b.size() + 1;
+    std::vector<int> table((a.size() + 1) * n);
+    for (std::size_t i = 0; i <= a.size(); ++i)
+        for (std::size_t j = 0; j <= b.size(); ++j) {
+            int& best = table[i * n + j];
+            if (i == 0 || j == 0) {
+                best = static_cast<int>(i + j);
+                continue;
+            }
+            best = std::min({table[(i - 1) * n + j] + 1, table[i * n + j - 1] + 1,
+                             table[(i - 1) * n + j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                best = std::min(best, table[(i - 2) * n + j - 2] + 1);
+        }
+    return table.back();
+}
+
+} // namespace
+
+std::string format(const Position& position) {
+    if (position.line == 0) return position.file;
+    return fmt::format("{}:{}:{}", position.file, position.line, position.column);
+}
+
+std::string Positions::where(const std::string& key) const {
+    const auto at = at_.find(key);
+    return at == at_.end() ? file_ : format(at->second);
+}
+
+void Problems::add(const std::string& key, const std::string& what, std::string why,
+                   std::string fix) {
+    add(Problem{positions_.where(key), key + (what.starts_with(":") ? "" : " ") + what, std::move(why), std::move(fix)});
+}
+
+void Problems::throw_if_any() const {
+    if (!empty()) throw SceneError(list_);
+}
+
+bool Range::contains(double x) const {
+    return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high);
+}
+
+std::string Range::text(std::string_view unit) const {
+    const std::string with_unit = unit.empty() ? "" : " " + std::string(unit);
+    const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
+    if (has_low && has_high) {
+        const char* const left = low_open ? "above " : "";
+        const char* const right = high_open ? "below " : "";
+        return fmt::format("{}{} to {}{}{}", left, low, right, high, with_unit);
+    }
+    if (has_low)
+        return low_open ? fmt::format("above {}{}", low, with_unit)
+                        : fmt::format("{}{} or more", low, with_unit);
+    if (has_high)
+        return high_open ? fmt::format("below {}{}", high, with_unit)
+                         : fmt::format("{}{} or less", high, with_unit);
+    return "any number" + (unit.empty() ? "" : " of" + with_unit);
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+    const std::string wanted = plain(word);
+    std::string best;
+    int best_distance = 1 + static_cast<int>(wanted.size()) / 3; // at most a third may be wrong
+    for (const std::string& candidate : candidates) {
+        const std::string other = plain(candidate);
+        int d = distance(wanted, other);
+        if (wanted.size() >= 3 && (other.starts_with(wanted) || wanted.starts_with(other)))
+            d = std::min(d, 1); // "temp" for "temperature"
+        if (d < best_distance || (d == best_distance && best.empty())) {
+            best = candidate;
+            best_distance = d;
+        }
+    }
+    return best;
+}
+
+Schema& Schema::section(std::string name, std::string doc) {
+    sections_.emplace_back(std::move(name), std::move(doc));
+    return *this;
+}
+
+Key& Schema::boolean(std::string name, bool& field, std::string doc) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = Kind::boolean;
+    key.doc = std::move(doc);
+    key.store = [&field](const Value& value) -> Problem {
+        if (!value.boolean) return wrong_type("true or false", value, "true (no quotes)");
+        field = *value.boolean;
+        return {};
+    };
+    key.load = [&field] { return JsonValue(field); };
+    return add(std::move(key));
+}
+
+Key& Schema::integer(std::string name, int& field, Range range, std::string doc) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = Kind::integer;
+    key.range = range;
+    key.doc = std::move(doc);
+    key.store = [&field, range](const Value& value) {
+        long long number = field;
+        Problem problem = read_integer(value, within_int(range), number);
+        field = static_cast<int>(number);
+        return problem;
+    };
+    key.load = [&field] { return JsonValue(field); };
+    return add(std::move(key));
+}
+
+Key& Schema::integer(std::string name, long long& field, Range range, std::string doc) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = Kind::integer;
+    key.range = range;
+    key.doc = std::move(doc);
+    key.store = [&field, range](const Value& value) { return read_integer(value, range, field); };
+    key.load = [&field] { return JsonValue(field); };
+    return add(std::move(key));
+}
+
+Key& Schema::number(std::string name, double& field, std::string unit, Range range,
+                    std::string doc) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = Kind::number;
+    key.unit = unit;
+    key.range = range;
+    key.doc = std::move(doc);
+    key.store = [&field, unit, range](const Value& value) {
+        return read_number(value, unit, range, field);
+    };
+    key.load = [&field] { return JsonValue(field); };
+    return add(std::move(key));
+}
+
+Key& Schema::number_or(std::string name, std::optional<double>& field, std::string word,
+                       std::string unit, Range range, std::string doc) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = Kind::number;
+    key.unit = unit;
+    key.range = range;
+    key.word = word;
+    key.doc = std::move(doc);
+    key.store = [&field, word, unit, range](const Value& value) -> Problem {
+        if (value.text && *value.text == word) {
+            field.reset();
+            return {};
+        }
+        double number = 0.0;
+        Problem problem = read_number(value, unit, range, number);
+        if (problem.what.empty()) field = number;
+        return with_word(std::move(problem), word);
+    };
+    key.load = [&field, word] { return field ? JsonValue(*field) : JsonValue(word); };
+    return add(std::move(key));
+}
+
+Key& Schema::integer_or(std::string name, std::optional<long long>& field, std::string word,
+                        Range range, std::string doc) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = Kind::integer;
+    key.range = range;
+    key.word = word;
+    key.doc = std::move(doc);
+    key.store = [&field, word, range](const Value& value) -> Problem {
+        if (value.text && *value.text == word) {
+            field.reset();
+            return {};
+        }
+        long long number = 0;
+        Problem problem = read_integer(value, range, number);
+        if (problem.what.empty()) field = number;
+        return with_word(std::move(problem), word);
+    };
+    key.load = [&field, word] { return field ? JsonValue(*field) : JsonValue(word); };
+    return add(std::move(key));
+}
+
+Key& Schema::text(std::string name, std::string& field, std::string doc) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = Kind::text;
+    key.doc = std::move(doc);
+    key.store = [&field](const Value& value) -> Problem {
+        if (!value.text) return wrong_type("a string", value, "\"heights.h5\" (in quotes)");
+        if (value.text->empty())
+            return {"", "is empty", "a string with something in it is needed", ""};
+        field = *value.text;
+        return {};
+    };
+    key.load = [&field] { return JsonValue(field); };
+    return add(std::move(key));
+}
+
+Key& Schema::choice_of(std::string name, std::vector<std::string> words,
+                       std::function<void(std::size_t)> set, std::function<std::size_t()> get,
+                       std::string doc) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = Kind::choice;
+    key.choices = words;
+    key.doc = std::move(doc);
+    key.store = [words, set](const Value& value) -> Problem {
+        if (!value.text)
+            return wrong_type("one of " + quoted_choices(words), value, '"' + words.front() + '"');
+        const auto at = std::find(words.begin(), words.end(), *value.text);
+        if (at == words.end()) return no_such_choice(*value.text, words);
+        set(static_cast<std::size_t>(at - words.begin()));
+        return {};
+    };
+    key.load = [words, get] { return JsonValue(words.at(get())); };
+    return add(std::move(key));
+}
+
+Key& Schema::list(std::string name, std::vector<std::string>& field,
+                  std::vector<std::string> choices, std::string doc) {
+    return list_with(
+        std::move(name), std::move(choices),
+        [&field](const std::vector<std::string>& list) { field = list; },
+        [&field] { return field; }, std::move(doc));
+}
+
+Key& Schema::list_with(std::string name, std::vector<std::string> choices,
+                       std::function<void(const std::vector<std::string>&)> set,
+                       std::function<std::vector<std::string>()> get, std::string doc) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = Kind::list;
+    key.choices = choices;
+    key.doc = std::move(doc);
+    key.store = [set, choices](const Value& value) -> Problem {
+        if (!value.list)
+            return wrong_type("a list of strings", value,
+                              fmt::format("[\"{}\"]", choices.empty() ? "a" : choices.front()));
+        for (const std::string& member : *value.list)
+            if (!fits(member, choices)) {
+                Problem problem = no_such_choice(member, choices);
+                problem.what =
+                    fmt::format("has a member \"{}\" that is none of its choices", member);
+                return problem;
+            }
+        set(*value.list);
+        return {};
+    };
+    key.load = [get] {
+        JsonValue array = JsonValue::array();
+        for (const std::string& member : get())
+            array.push_back(member);
+        return array;
+    };
+    return add(std::move(key));
+}
+
+const Key* Schema::find(std::string_view path) const {
+    for (const Key& key : keys_)
+        if (key.path() == path) return &key;
+    return nullptr;
+}
+
+} // namespace asperity::io

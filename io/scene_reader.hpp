@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A TOML reader driven by a schema; it knows no physics.
+//
+// A Schema is a list of keys, each bound to a field of some plain struct. The field's value at the
+// time of binding is the key's default. Reading goes once through the text and once through the
+// overrides (--set section.key=value), writes what is right into the fields and collects what is
+// wrong; nothing is thrown before everything has been looked at. Where each value came from is kept
+// in Positions, so that checks which need several keys, or the mesh, or the number of ranks, can
+// still point to file:line:column.
+//
+// The same schema writes the struct back as TOML, as JSON and as the reference page in docs/.
+#pragma once
+
+#include "io/error.hpp"
+#include "io/json_value.hpp"
+
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace asperity::io {
+
+/// Where a value came from. line 0: an override or no place at all.
+struct Position {
+    std::string file;
+    int line = 0;
+    int column = 0;
+};
+std::string format(const Position& position);
+
+/// Where every key that was set was set.
+class Positions {
+public:
+    bool is_set(const std::string& key) const { return at_.contains(key); }
+    /// "file:line:column", "--set section.key=value", or the file's name where the key has its
+    /// default.
+    std::string where(const std::string& key) const;
+    void set(const std::string& key, Position position) { at_[key] = std::move(position); }
+    void set_file(std::string file) { file_ = std::move(file); }
+    const std::string& file() const { return file_; }
+
+private:
+    std::string file_;
+    std::map<std::string, Position> at_;
+};
+
+/// Collects what is wrong with a scene; throws it together.
+///     Problems problems(scene.positions);
+///     problems.add("drive.timestep", "... is over the stability limit", "why", "fix");
+///     problems.throw_if_any();
+class Problems {
+public:
+    Problems() = default;
+    explicit Problems(const Positions& positions) : positions_(positions) {}
+
+    /// Points to the key's position; the message begins with the key's name.
+    void add(const std::string& key, const std::string& what, std::string why = "",
+             std::string fix = "");
+    void add(Problem problem) { list_.push_back(std::move(problem)); }
+    bool empty() const { return list_.empty(); }
+    const std::vector<Problem>& list() const { return list_; }
+    /// Throws SceneError with all of them.
+    void throw_if_any() const;
+
+private:
+    Positions positions_;
+    std::vector<Problem> list_;
+};
+
+/// Values a number may take.
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool low_open = false; ///< low itself is not allowed
+    bool high_open = false;
+
+    bool contains(double x) const;
+    /// "> 0", "0 to 1", "4 or more", with the unit.
+    std::string text(std::string_view unit) const;
+};
+inline Range any() { return {}; }
+inline Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
+inline Range at_least(double low) {
+    return {low, std::numeric_limits<double>::infinity(), false, false};
+}
+inline Range above(double low) {
+    return {low, std::numeric_limits<double>::infinity(), true, false};
+}
+inline Range between(double low, double high) { return {low, high, false, false}; }
+
+class Schema {
+public:
+    enum class Kind { boolean, integer, number, text, choice, list };
+
+    /// A value as it stands in a scene, before it is bound.
+    struct Value {
+        std::optional<bool> boolean;
+        std::optional<long long> integer;
+        std::optional<double> number;
+        std::optional<std::string> text;
+        std::optional<std::vector<std::string>> list;
+    };
+
+    struct Key {
+        std::string section;
+        std::string name;
+        Kind kind = Kind::text;
+        std::string unit; ///< base unit of a quantity; empty: a bare number
+        Range range;
+        std::string word;                 ///< the word that stands for "no number", e.g. "none"
+        std::vector<std::string> choices; ///< of a choice, or of a list's members
+        std::string doc;                  ///< one line, for people
+        std::string default_toml;         ///< default, as it would stand in a scene
+        std::function<Problem(const Value&)> store; ///< what is empty: stored; else what is wrong
+        std::function<JsonValue()> load;
+        std::function<bool()>
+            omitted; ///< set: true when writing the key back would change the meaning
+
+        std::string path() const { return section + "." + name; }
+    };
+
+    /// Keys that follow belong to this section.
+    Schema& section(std::string name, std::string doc);
+
+    Key& boolean(std::string name, bool& field, std::string doc);
+    Key& integer(std::string name, int& field, Range range, std::string doc);
+    Key& integer(std::string name, long long& field, Range range, std::string doc);
+    /// A quantity (number in the unit, or string with any unit of that dimension); unit "" : a bare
+    /// number.
+    Key& number(std::string name, double& field, std::string unit, Range range, std::string doc);
+    /// A quantity or a word: radius = "none".
+    Key& number_or(std::string name, std::optional<double>& field, std::string word,
+                   std::string unit, Range range, std::string doc);
+    Key& integer_or(std::string name, std::optional<long long>& field, std::string word,
+                    Range range, std::string doc);
+    Key& text(std::string name, std::string& field, std::string doc);
+    /// An enumeration, by its names.
+    template <class E>
+    Key& choice(std::string name, E& field, std::vector<std::pair<std::string, E>> names,
+                std::string doc) {
+        std::vector<std::string> words;
+        for (const auto& [word, value] : names)
+            words.push_back(word);
+        return choice_of(
+            std::move(name), std::move(words),
+            [&field, names](std::size_t i) { field = names[i].second; },
+            [&field, names] {
+                std::size_t i = 0;
+                while (i < names.size() && names[i].second != field)
+                    ++i;
+                return i;
+            },
+            std::move(doc));
+    }
+    /// A list of strings. A member is right if it equals a choice, or starts with a choice that
+    /// ends in
+    /// ':' and goes on with a positive whole number ("every:1000"). No choices: anything.
+    Key& list(std::string name, std::vector<std::string>& field, std::vector<std::string> choices,
+              std::string doc);
+
+    /// The same with the members of an enumeration.
+    template <class E>
+    Key& list_of(std::string name, std::vector<E>& field,
+                 std::vector<std::pair<std::string, E>> names, std::string doc) {
+        std::vector<std::string> words;
+        for (const auto& [word, value] : names)
+            words.push_back(word);
+        return list_with(
+            std::move(name), std::move(words),
+            [&field, names](const std::vector<std::string>& list) {
+                field.clear();
+                for (const std::string& member : list)
+                    for (const auto& [word, value] : names)
+                        if (word == member) field.push_back(value);
+            },
+            [&field, names] {
+                std::vector<std::string> list;
+                for (const E member : field)
+                    for (const auto& [word, value] : names)
+                        if (value == member) list.push_back(word);
+                return list;
+            },
+            std::move(doc));
+    }
+
+    const std::vector<Key>& keys() const { return keys_; }
+    const Key* find(std::string_view path) const;
+
+    /// Reads text (the contents of file) and overrides ("section.key=value"). Problems are added,
+    /// not thrown.
+    void read(std::string_view text, const std::string& file,
+              const std::vector<std::string>& overrides, Positions& positions,
+              Problems& problems) const;
+
+    /// The fields as a scene; with docs, each key has its line of explanation.
+    std::string toml(bool with_docs) const;
+    JsonValue json() const;
+    /// The reference page.
+    std::string markdown() const;
+
+private:
+    Key& add(Key key);
+    Key& list_with(std::string name, std::vector<std::string> choices,
+                   std::function<void(const std::vector<std::string>&)> set,
+                   std::function<std::vector<std::string>()> get, std::string doc);
+    Key& choice_of(std::string name, std::vector<std::string> words,
+                   std::function<void(std::size_t)> set, std::function<std::size_t()> get,
+                   std::string doc);
+
+    std::vector<Key> keys_;
+    std::vector<std::pair<std::string, std::string>> sections_; ///< name and doc, in order
+};
+
+/// The name among candidates that a misspelt word most likely meant; empty if none is near.
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// Contents of a file; SceneError if it cannot be read.
+std::string read_scene_file(const std::string& file);
+
+} // namespace asperity::io

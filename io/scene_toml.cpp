@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// From TOML text and overrides to the keys of a schema. The one unit that includes toml++.
+#include "io/scene_reader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+namespace asperity::io {
+
+namespace {
+
+Position position_of(const toml::source_region& region, const std::string& file) {
+    return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+Schema::Value value_of(const toml::node& node) {
+    Schema::Value value;
+    if (const auto* boolean = node.as_boolean()) value.boolean = boolean->get();
+    if (const auto* integer = node.as_integer()) value.integer = integer->get();
+    if (const auto* number = node.as_floating_point()) value.number = number->get();
+    if (const auto* text = node.as_string()) value.text = text->get();
+    if (const auto* array = node.as_array()) {
+        std::vector<std::string> list;
+        for (const toml::node& member : *array) {
+            const auto* text = member.as_string();
+            if (!text) return value;
+            list.push_back(text->get());
+        }
+        value.list = std::move(list);
+    }
+    return value;
+}
+
+/// The value as the user wrote it, more or less, for messages; long ones are cut.
+std::string shown(const toml::node& node) {
+    std::ostringstream text;
+    if (node.is_table())
+        text << "{...}";
+    else
+        node.visit([&](const auto& value) {
+            text << toml::toml_formatter{value, toml::format_flags::none};
+        });
+    std::string result = text.str();
+    std::replace(result.begin(), result.end(), '\n', ' ');
+    if (result.size() >= 2 && result.front() == '\'') result.front() = result.back() = '"';
+    if (result.size() > 60) result = result.substr(0, 57) + "...";
+    return result;
+}
+
+/// What the line of a syntax error looks like it was meant to be.
+std::string syntax_advice(std::string_view text, int line_number) {
+    std::istringstream lines{std::string(text)};
+    std::string line;
+    for (int i = 0; i < line_number && std::getline(lines, line); ++i) {
+    }
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos) return "a line is [section], or key = value, or a # comment";
+    std::string value = line.substr(equals + 1);
+    if (const std::size_t hash = value.find('#'); hash != std::string::npos) value.resize(hash);
+    const std::size_t first = value.find_first_not_of(" \t");
+    if (first == std::string::npos) return "there is no value behind the =";
+    value = value.substr(first, value.find_last_not_of(" \t\r") - first + 1);
+    if (value.find_first_of("\"'[{,") == std::string::npos)
+        return fmt::format("words, and numbers with a unit, stand in quotes: {}= \"{}\"",
+                           line.substr(0, equals), value);
+    return "strings stand in quotes, lists in [brackets], a key stands once in its section";
+}
+
+class Reading {
+public:
+    Reading(const Schema& schema, std::string file, Positions& positions)
+        : schema_(schema), file_(std::move(file)), positions_(positions) {
+        for (const Schema::Key& key : schema.keys()) {
+            paths_.push_back(key.path());
+            if (sections_.empty() || sections_.back() != key.section)
+                sections_.push_back(key.section);
+        }
+    }
+
+    void text(std::string_view text) {
+        toml::table root;
+        try {
+            root = toml::parse(text, file_);
+        } catch (const toml::parse_error& error) {
+            const Position at = position_of(error.source(), file_);
+            add(at, "this is no TOML", std::string(error.description()),
+                syntax_advice(text, at.line));
+            return;
+        }
+        for (const auto& [name, node] : root)
+            section(std::string(name.str()), name.source(), node);
+    }
+
+    void override_with(const std::string& assignment) {
+        const Position at{"--set " + assignment, 0, 0};
+        const std::size_t equals = assignment.find('=');
+        std::string path = assignment.substr(0, equals);
+        const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+        path.erase(std::remove_if(path.begin(), path.end(), blank), path.end());
+        if (equals == std::string::npos)
+            return add(at, "there is no =", "an override is section.key=value",
+                       "for example --set surface.rms=1.5");
+        const Schema::Key* key = schema_.find(path);
+        if (!key) return unknown(path, at);
+        std::string written = assignment.substr(equals + 1);
+        // The shell has eaten the quotes: what is no TOML value is a string, and in a list key a
+        // list of them.
+        toml::table root;
+        const toml::node* node = nullptr;
+        try {
+            root = toml::parse("v = " + written);
+            node = root.size() == 1 ? root.get("v") : nullptr;
+        } catch (const toml::parse_error&) {
+        }
+        if (!node || node->is_date() || node->is_time() || node->is_date_time() ||
+            node->is_table()) {
+            root = toml::table{{"v", written}};
+            node = root.get("v");
+        }
+        Schema::Value value = value_of(*node);
+        if (key->kind == Schema::Kind::list && value.text) {
+            value.list.emplace();
+            std::istringstream members(*value.text);
+            for (std::string member; std::getline(members, member, ',');) {
+                member.erase(0, member.find_first_not_of(" \t"));
+                member.erase(member.find_last_not_of(" \t") + 1);
+                value.list->push_back(member);
+            }
+            value.text.reset();
+        }
+        store(*key, value, shown(*node), at);
+    }
+
+    /// Adds what was found, in the order of the text.
+    void finish(Problems& problems) {
+        std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
+            const auto rank = [](const Position& p) { // overrides last
+                return std::tuple(p.line == 0, p.line, p.column);
+            };
+            return rank(a.first) < rank(b.first);
+        });
+        for (auto& [at, problem] : found_)
+            problems.add(std::move(problem));
+    }
+
+private:
+    void add(const Position& at, std::string what, std::string why, std::string fix) {
+        found_.emplace_back(at,
+                            Problem{format(at), std::move(what), std::move(why), std::move(fix)});
+    }
+
+    void section(const std::string& name, const toml::source_region& where,
+                 const toml::node& node) {
+        const Position at = position_of(where, file_);
+        const auto* table = node.as_table();
+        if (!table) {
+            if (node.is_array_of_tables())
+                return add(at, fmt::format("[[{}]] is a list of sections", name),
+                           "every section stands once", fmt::format("write [{}]", name));
+            return unknown(name, at);
+        }
+        if (std::find(sections_.begin(), sections_.end(), name) == sections_.end()) {
+            const std::string near = nearest(name, sections_);
+            return add(at, fmt::format("[{}] is no section of a scene", name),
+                       "sections: " + fmt::format("{}", fmt::join(sections_, ", ")),
+                       near.empty() ? "take one of them" : fmt::format("did you mean [{}]?", near));
+        }
+        for (const auto& [key_name, value] : *table) {
+            const std::string path = name + "." + std::string(key_name.str());
+            const Schema::Key* key = schema_.find(path);
+            if (!key) {
+                unknown(path, position_of(key_name.source(), file_));
+                continue;
+            }
+            store(*key, value_of(value), shown(value), position_of(value.source(), file_));
+        }
+    }
+
+    void store(const Schema::Key& key, const Schema::Value& value, const std::string& text,
+               const Position& at) {
+        positions_.set(key.path(), at);
+        const Problem problem = key.store(value);
+        if (!problem.what.empty())
+            add(at, fmt::format("{} = {} {}", key.path(), text, problem.what), problem.why,
+                problem.fix);
+    }
+
+    void unknown(const std::string& path, const Position& at) {
+        const std::size_t dot = path.find('.');
+        const std::string section = dot == std::string::npos ? "" : path.substr(0, dot);
+        const std::string name = dot == std::string::npos ? path : path.substr(dot + 1);
+        std::vector<std::string> here, everywhere;
+        std::string same_name;
+        for (const Schema::Key& key : schema_.keys()) {
+            if (key.section == section) here.push_back(key.name);
+            everywhere.push_back(key.name);
+            if (key.name == name) same_name = key.path();
+        }
+        std::string meant;
+        if (const std::string near = nearest(name, here); !near.empty())
+            meant = section + "." + near;
+        if (!same_name.empty()) meant = same_name;
+        if (meant.empty()) meant = nearest(path, paths_);
+        if (meant.empty())
+            if (const std::string near = nearest(name, everywhere); !near.empty())
+                for (const Schema::Key& key : schema_.keys())
+                    if (key.name == near) meant = key.path();
+        add(at, path + " is no key of a scene",
+            section.empty() ? "every key stands in a [section]"
+            : here.empty()  ? fmt::format("there is no section [{}]", section)
+                            : fmt::format("[{}] has: {}", section, fmt::join(here, ", ")),
+            meant.empty() ? "`asperity defaults` lists every key"
+                          : fmt::format("did you mean {}?", meant));
+    }
+
+    const Schema& schema_;
+    std::string file_;
+    Positions& positions_;
+    std::vector<std::string> paths_, sections_;
+    std::vector<std::pair<Position, Problem>> found_;
+};
+
+} // namespace
+
+void Schema::read(std::string_view text, const std::string& file,
+                  const std::vector<std::string>& overrides, Positions& positions,
+                  Problems& problems) const {
+    positions.set_file(file);
+    Reading reading(*this, file, positions);
+    reading.text(text);
+    for (const std::string& assignment : overrides)
+        reading.override_with(assignment);
+    reading.finish(problems);
+}
+
+std::string read_scene_file(const std::string& file) {
+    const auto cannot = [&](std::string why, std::string fix) {
+        return SceneError(
+            Problem{file, "the scene cannot be read", std::move(why), std::move(fix)});
+    };
+    std::error_code error;
+    if (!std::filesystem::exists(file, error))
+        throw cannot(
+            "there is no such file",
+            "check the path; the scenes that come with Asperity are in its folder scenes/");
+    if (std::filesystem::is_directory(file, error))
+        throw cannot("it is a directory", "name a .toml file in it");
+    std::ifstream stream(file, std::ios::binary);
+    std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    if (!stream) throw cannot(std::strerror(errno), "check its permissions");
+    return text;
+}
+
+} // namespace asperity::io

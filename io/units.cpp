@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A unit is a chain of terms, "meV/Å^2" or "kg m^-1 s^-2"; a term is a prefix, a symbol and a
+// power. A symbol is looked up whole before it is split into prefix and symbol, so that "min" is a
+// minute and "Pa" no peta-annum.
+#include "io/units.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace asperity::io {
+
+namespace {
+
+struct Symbol {
+    std::string_view name;
+    Unit unit;
+    bool takes_prefix;
+};
+
+constexpr std::array<int, 4> length{1, 0, 0, 0}, mass{0, 1, 0, 0}, duration{0, 0, 1, 0},
+    temperature{0, 0, 0, 1}, energy{2, 1, -2, 0}, force{1, 1, -2, 0}, pressure{-1, 1, -2, 0},
+    rate{0, 0, -1, 0}, number{0, 0, 0, 0};
+
+// CODATA 2018: the electron volt is exact, the atomic mass unit is not.
+constexpr Symbol symbols[] = {
+    {"m", {length, 1.0, 0}, true},
+    {"Å", {length, 1.0, -10}, false},      // U+00C5
+    {"\u212B", {length, 1.0, -10}, false}, // the Ångström sign
+    {"A", {length, 1.0, -10}, false},      // for keyboards; nothing here is electric
+    {"Ang", {length, 1.0, -10}, false},
+    {"angstrom", {length, 1.0, -10}, false},
+    {"Angstrom", {length, 1.0, -10}, false},
+    {"g", {mass, 1.0, -3}, true},
+    {"u", {mass, 1.66053906660, -27}, false},
+    {"amu", {mass, 1.66053906660, -27}, false},
+    {"Da", {mass, 1.66053906660, -27}, false},
+    {"s", {duration, 1.0, 0}, true},
+    {"min", {duration, 6.0, 1}, false},
+    {"h", {duration, 3.6, 3}, false},
+    {"d", {duration, 8.64, 4}, false},
+    {"K", {temperature, 1.0, 0}, true},
+    {"J", {energy, 1.0, 0}, true},
+    {"eV", {energy, 1.602176634, -19}, true},
+    {"N", {force, 1.0, 0}, true},
+    {"Pa", {pressure, 1.0, 0}, true},
+    {"bar", {pressure, 1.0, 5}, true},
+    {"atm", {pressure, 1.01325, 5}, false},
+    {"Hz", {rate, 1.0, 0}, true},
+    {"%", {number, 1.0, -2}, false},
+    {"1", {number, 1.0, 0}, false},
+};
+
+constexpr std::pair<std::string_view, int> prefixes[] = {
+    {"f", -15}, {"p", -12}, {"n", -9}, {"u", -6}, {"\u00B5", -6}, {"\u03BC", -6},
+    {"m", -3},  {"c", -2},  {"k", 3},  {"M", 6},  {"G", 9},       {"T", 12},
+};
+
+std::optional<Unit> find_symbol(std::string_view name) {
+    for (const Symbol& symbol : symbols)
+        if (symbol.name == name) return symbol.unit;
+    for (const auto& [prefix, power] : prefixes) {
+        if (!name.starts_with(prefix)) continue;
+        for (const Symbol& symbol : symbols)
+            if (symbol.takes_prefix && symbol.name == name.substr(prefix.size())) {
+                Unit unit = symbol.unit;
+                unit.power += power;
+                return unit;
+            }
+    }
+    return std::nullopt;
+}
+
+bool skip(std::string_view& text, std::string_view what) {
+    if (!text.starts_with(what)) return false;
+    text.remove_prefix(what.size());
+    return true;
+}
+
+void skip_blanks(std::string_view& text) {
+    while (skip(text, " ") || skip(text, "\t")) {
+    }
+}
+
+constexpr std::string_view superscripts[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+
+/// The power behind a symbol: ^2, ^-1, **2, ², ⁻¹; 1 if there is none.
+std::optional<int> take_power(std::string_view& text) {
+    if (skip(text, "^") || skip(text, "**")) {
+        const int sign = skip(text, "-") ? -1 : 1;
+        if (text.empty() || text[0] < '1' || text[0] > '9') return std::nullopt;
+        const int digit = text[0] - '0';
+        text.remove_prefix(1);
+        return sign * digit;
+    }
+    const bool negative = skip(text, "⁻");
+    for (int digit = 1; digit < 10; ++digit)
+        if (skip(text, superscripts[digit])) return negative ? -digit : digit;
+    if (negative) return std::nullopt;
+    return 1;
+}
+
+std::string_view take_symbol(std::string_view& text) {
+    std::size_t end = 0;
+    while (end < text.size()) {
+        const std::string_view rest = text.substr(end);
+        if (std::string_view(" \t*/^").find(rest[0]) != std::string_view::npos) break;
+        if (rest.starts_with("·") || rest.starts_with("⁻")) break;
+        bool raised = false;
+        for (const std::string_view digit : superscripts)
+            raised = raised || rest.starts_with(digit);
+        if (raised) break;
+        ++end;
+    }
+    const std::string_view symbol = text.substr(0, end);
+    text.remove_prefix(end);
+    return symbol;
+}
+
+double power_of_ten(int n) { // exact up to 10^22
+    double result = 1.0;
+    for (int i = 0; i < std::abs(n); ++i)
+        result *= 10.0;
+    return result;
+}
+
+double scaled(double value, int power) {
+    return power >= 0 ? value * power_of_ten(power) : value / power_of_ten(power);
+}
+
+struct Example {
+    std::string_view base;
+    std::string_view text;
+};
+constexpr Example examples[] = {
+    {"Å", "\"0.3 nm\""},       {"eV", "\"100 meV\""},     {"GPa", "\"77.2 GPa\""},
+    {"MPa", "\"1 kPa\""},      {"m/s", "\"5 m/s\""},      {"fs", "\"0.01 ps\""},
+    {"ps", "\"20 ps\""},       {"1/ps", "\"0.05 1/ps\""}, {"K", "\"300 K\""},
+    {"u", "\"197 u\""},        {"s", "\"10 min\""},       {"meV/Å^2", "\"1.6 J/m^2\""},
+    {"eV/Å", "\"0.1 meV/Å\""},
+};
+
+} // namespace
+
+std::optional<Unit> parse_unit(std::string_view text) {
+    Unit unit;
+    bool divide = false;
+    skip_blanks(text);
+    if (text.empty()) return unit;
+    while (true) {
+        const std::optional<Unit> symbol = find_symbol(take_symbol(text));
+        const std::optional<int> power = take_power(text);
+        if (!symbol || !power) return std::nullopt;
+        const int times = divide ? -*power : *power;
+        for (std::size_t i = 0; i < 4; ++i)
+            unit.dimension[i] += times * symbol->dimension[i];
+        unit.power += times * symbol->power;
+        for (int i = 0; i < std::abs(times); ++i)
+            unit.factor = times > 0 ? unit.factor * symbol->factor : unit.factor / symbol->factor;
+        skip_blanks(text);
+        if (text.empty()) return unit;
+        divide = skip(text, "/");
+        if (!divide && !skip(text, "*")) skip(text, "·");
+        skip_blanks(text);
+    }
+}
+
+std::optional<double> conversion(std::string_view unit, std::string_view base) {
+    const std::optional<Unit> from = parse_unit(unit), to = parse_unit(base);
+    if (!from || !to || from->dimension != to->dimension) return std::nullopt;
+    return scaled(from->factor / to->factor, from->power - to->power);
+}
+
+std::string measure_of(const Unit& unit) {
+    static const std::pair<std::string_view, std::string_view> known[] = {
+        {"", "a bare number"},
+        {"m", "a length"},
+        {"kg", "a mass"},
+        {"s", "a time"},
+        {"K", "a temperature"},
+        {"J", "an energy"},
+        {"N", "a force"},
+        {"Pa", "a pressure"},
+        {"m/s", "a velocity"},
+        {"1/s", "a rate"},
+        {"J/m^2", "an energy per area"},
+    };
+    for (const auto& [text, measure] : known)
+        if (parse_unit(text)->dimension == unit.dimension) return std::string(measure);
+    return "something else";
+}
+
+std::string example_of(std::string_view base) {
+    for (const Example& example : examples)
+        if (example.base == base) return std::string(example.text);
+    return base.empty() ? "0.5" : fmt::format("\"1 {}\"", base);
+}
+
+ParsedQuantity parse_quantity(std::string_view text, std::string_view base) {
+    ParsedQuantity result;
+    const auto wrong = [&](std::string why, std::string fix) {
+        result.why = std::move(why);
+        result.fix = std::move(fix);
+        return result;
+    };
+    const std::string usual =
+        base.empty() ? "give a bare number, for example 0.5"
+                     : fmt::format("give a number in {}, or one with a unit, for example {}", base,
+                                   example_of(base));
+    skip_blanks(text);
+    skip(text, "+");
+    const char* const begin = text.data();
+    const char* const end = begin + text.size();
+    const auto parsed = std::from_chars(begin, end, result.value);
+    if (parsed.ec == std::errc::invalid_argument)
+        return wrong("it does not begin with a number", usual);
+    if (parsed.ec != std::errc()) return wrong("the number is too large or too small", usual);
+    std::string digits(begin, parsed.ptr);
+    if (!std::isfinite(result.value)) return wrong("it is not a finite number", usual);
+
+    std::string_view name(parsed.ptr, static_cast<std::size_t>(end - parsed.ptr));
+    skip_blanks(name);
+    if (name.empty()) return result; // in the base unit
+    if (name[0] == ',')
+        return wrong("a comma is no decimal point",
+                     fmt::format("write \"{}.{}\"", digits, name.substr(1)));
+    const std::optional<Unit> unit = parse_unit(name);
+    if (!unit) return wrong(fmt::format("'{}' is no unit known here", name), usual);
+    const Unit target = parse_unit(base).value_or(Unit{});
+    if (unit->dimension != target.dimension)
+        return wrong(
+            fmt::format("{} is needed, and {} is {}", measure_of(target), name, measure_of(*unit)),
+            usual);
+    const int shift = unit->power - target.power;
+    if (unit->factor == target.factor) { // shift the decimal point, exactly
+        int exponent = shift;
+        if (const std::size_t e = digits.find_first_of("eE"); e != std::string::npos) {
+            exponent += std::atoi(digits.c_str() + e + 1);
+            digits.resize(e);
+        }
+        digits += fmt::format("e{}", exponent);
+        const auto shifted =
+            std::from_chars(digits.data(), digits.data() + digits.size(), result.value);
+        if (shifted.ec != std::errc()) return wrong("the number is too large or too small", usual);
+    } else {
+        result.value = scaled(result.value * (unit->factor / target.factor), shift);
+    }
+    return result;
+}
+
+} // namespace asperity::io
