@@ -27,7 +27,8 @@ void for_atoms_around(const SubstrateMap& map, double x, double y, double reach,
     const int i_first = static_cast<int>(std::floor((x - reach) / map.spacing));
     const int i_last = static_cast<int>(std::ceil((x + reach) / map.spacing));
     for (int j = j_first; j <= j_last; ++j) {
-        const double* row = map.height + static_cast<std::ptrdiff_t>(periodic(j, map.sites)) * map.sites;
+        const double* row =
+            map.height + static_cast<std::ptrdiff_t>(periodic(j, map.sites)) * map.sites;
         const double dy = y - j * map.spacing;
         for (int i = i_first; i <= i_last; ++i) {
             const double dx = x - i * map.spacing;
@@ -50,14 +51,15 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
             options.potential.epsilon, options.potential.r0, cutoff));
     if ((cutoff + margin_) / spacing + 2.0 > max_half_offsets)
         throw std::invalid_argument(fmt::format(
-            "interface: a cutoff of {} Å reaches over more than {} sites of {} Å; choose a smaller cutoff "
+            "interface: a cutoff of {} Å reaches over more than {} sites of {} Å; choose a smaller "
+            "cutoff "
             "(4 r0 = {} Å keeps 98 % of the work of adhesion) and set interface.tail = true",
             cutoff, max_half_offsets - 4, spacing, 4.0 * options.potential.r0));
     if (static_cast<std::size_t>(substrate.sites) * static_cast<std::size_t>(substrate.sites) !=
         substrate.height.size())
-        throw std::invalid_argument(fmt::format("interface: a substrate of {} x {} atoms has {} heights",
-                                                substrate.sites, substrate.sites,
-                                                substrate.height.size()));
+        throw std::invalid_argument(
+            fmt::format("interface: a substrate of {} x {} atoms has {} heights", substrate.sites,
+                        substrate.sites, substrate.height.size()));
     map_ = {map_height_.data(), substrate.sites, tile.sites * spacing / substrate.sites};
     highest_ = *std::max_element(map_height_.begin(), map_height_.end());
 
@@ -83,8 +85,8 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
             for (int x = 0; x < tile_.nx; ++x) {
                 double sum = 0.0;
                 int atoms = 0;
-                for_atoms_around(map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_,
-                                 cutoff, [&](double, double h) {
+                for_atoms_around(map_, (tile_.x0 + x + 0.5) * spacing_,
+                                 (tile_.y0 + y + 0.5) * spacing_, cutoff, [&](double, double h) {
                                      sum += h;
                                      ++atoms;
                                  });
@@ -115,12 +117,13 @@ void Interface::build_reach() {
                                  // An atom on the border of two rings counts in both.
                                  const double scaled = lateral / reach_.ring_width;
                                  for (double edge : {scaled - 1e-9, scaled + 1e-9}) {
-                                     const int ring = std::clamp(static_cast<int>(edge), 0,
-                                                                 interface_rings - 1);
+                                     const int ring =
+                                         std::clamp(static_cast<int>(edge), 0, interface_rings - 1);
                                      highest[ring] = std::max(highest[ring], h);
                                  }
                              });
         }
+    if (!options_.skip) reach_highest_.assign(reach_highest_.size(), -nothing_there);
     reach_.highest = reach_highest_.data();
 }
 
@@ -164,12 +167,12 @@ void Interface::build_lattice() {
                 per_length, reach_,        map_};
 }
 
-/// Atoms sorted into square cells around the tile. Cells are numbered over the whole box and on beyond
-/// it, so that their borders, and the order of atoms, are the same for every tile.
+/// Atoms sorted into square cells around the tile. Cells are numbered over the whole box and on
+/// beyond it, so that their borders, and the order of atoms, are the same for every tile.
 void Interface::build_cells() {
     const double box = tile_.sites * spacing_;
-    // Two atoms across: a row of cells follows the circle of the cutoff closely, and an even number of
-    // atoms a cell leaves no lane of the paired division empty.
+    // Two atoms across: a row of cells follows the circle of the cutoff closely, and an even number
+    // of atoms a cell leaves no lane of the paired division empty.
     const int across = std::max(1, map_.sites / 2);
     const double cell = box / across;
     // An atom on a border, up to rounding, belongs to the cell that begins there.
@@ -177,7 +180,8 @@ void Interface::build_cells() {
         return std::min(across - 1, static_cast<int>(i * map_.spacing / cell + 1e-9));
     };
     std::vector<std::vector<int>> members(static_cast<std::size_t>(across)); // along one axis
-    for (int i = 0; i < map_.sites; ++i) members[static_cast<std::size_t>(cell_of(i))].push_back(i);
+    for (int i = 0; i < map_.sites; ++i)
+        members[static_cast<std::size_t>(cell_of(i))].push_back(i);
 
     const double widest = options_.potential.cutoff + margin_;
     const auto range = [&](int begin, int count, int& first, int& number) {
@@ -236,14 +240,15 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe) 
         for (int y = 0; y < tile_.ny; ++y) {
             switch (method_) {
             case InterfaceMethod::lattice:
-                (observe ? kernels.lattice_observed
-                         : kernels.lattice)(sites, lattice_, potential, y, y + 1, mine);
+                (observe ? kernels.lattice_observed : kernels.lattice)(sites, lattice_, potential,
+                                                                       y, y + 1, mine);
                 break;
             case InterfaceMethod::cell_list:
-                (observe ? kernels.cell_list_observed
-                         : kernels.cell_list)(sites, cells_, potential, y, y + 1, mine);
+                (observe ? kernels.cell_list_observed : kernels.cell_list)(sites, cells_, potential,
+                                                                           y, y + 1, mine);
                 break;
-            default: reference_sweep(sites, map_, potential, y, y + 1, mine);
+            default:
+                reference_sweep(sites, map_, potential, y, y + 1, mine);
             }
             if (options_.tail)
                 tail_sweep(sites, tail_, mean_height_.plane(0), y, y + 1, observe, mine);
@@ -258,14 +263,15 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
                               double reference_height) const {
     VectorField<double> force(tile_, 1);
     Field<double> nearest(tile_, 1);
-    InterfaceSites sites{displacement, force.plane(0), spacing_, reference_height,
+    InterfaceSites sites{displacement, force.plane(0), spacing_,        reference_height,
                          tile_.x0,     tile_.y0,       nearest.plane(0)};
     sweep_sites(sites, true);
 
     InterfaceMaps maps;
     maps.nx = tile_.nx;
     maps.ny = tile_.ny;
-    const std::size_t count = static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
+    const std::size_t count =
+        static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
     maps.contact.reserve(count);
     maps.distance.reserve(count);
     maps.gap.reserve(count);
@@ -286,11 +292,11 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
                 ((tile_.y0 + y + 0.5) * spacing_ + displacement.y(x, y)) / map_.spacing;
             const double fx = px - std::floor(px), fy = py - std::floor(py);
             const auto h = [&](int i, int j) {
-                return map_height_[static_cast<std::size_t>(periodic(
-                                       static_cast<int>(std::floor(py)) + j, map_.sites)) *
+                return map_height_[static_cast<std::size_t>(
+                                       periodic(static_cast<int>(std::floor(py)) + j, map_.sites)) *
                                        static_cast<std::size_t>(map_.sites) +
-                                   static_cast<std::size_t>(periodic(
-                                       static_cast<int>(std::floor(px)) + i, map_.sites))];
+                                   static_cast<std::size_t>(
+                                       periodic(static_cast<int>(std::floor(px)) + i, map_.sites))];
             };
             const double below = (1.0 - fy) * ((1.0 - fx) * h(0, 0) + fx * h(1, 0)) +
                                  fy * ((1.0 - fx) * h(0, 1) + fx * h(1, 1));
@@ -315,8 +321,9 @@ std::size_t Interface::bytes() const {
 
 namespace {
 
-/// Registries sampled along an axis: all that occur, or enough that the average is exact to rounding (the
-/// corrugation's harmonics die out exponentially; beyond 24 points they are below 1e-16).
+/// Registries sampled along an axis: all that occur, or enough that the average is exact to
+/// rounding (the corrugation's harmonics die out exponentially; beyond 24 points they are below
+/// 1e-16).
 int registries(int sites, int substrate_sites) {
     return std::min(sites / std::gcd(sites, substrate_sites), 24);
 }
@@ -375,12 +382,12 @@ FlatReference flat_reference(const InterfaceOptions& options, double spacing, in
     const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
     double left = flat.separation, right = flat.separation + 0.5 * r0;
     while (right - left > 1e-9 * r0) {
-        const double inner = right - golden * (right - left), outer = left + golden * (right - left);
+        const double inner = right - golden * (right - left),
+                     outer = left + golden * (right - left);
         (force(inner) < force(outer) ? right : left) = force(inner) < force(outer) ? outer : inner;
     }
     flat.tension_separation = 0.5 * (left + right);
-    flat.largest_tension =
-        -force(flat.tension_separation) * gpa_per_ev_per_cubic_angstrom / area;
+    flat.largest_tension = -force(flat.tension_separation) * gpa_per_ev_per_cubic_angstrom / area;
     return flat;
 }
 

@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The interface: one tile of the block's lowest layer over the rigid substrate (model.md section 4).
+// The interface: one tile of the block's lowest layer over the rigid substrate (model.md section
+// 4).
 //
-// Built once per run. It keeps what the sweeps need of the substrate around the tile (heights with a
-// halo as wide as the reach, or the atoms sorted into cells), the table of neighbour offsets, and for each
-// block of sites how high the substrate gets around it. Every rank knows the whole height map, so
-// nothing is communicated here: the sweep is local to the tile, and its sums are exact (ExactSum), to be
-// merged over ranks in any order.
+// Built once per run. It keeps what the sweeps need of the substrate around the tile (heights with
+// a halo as wide as the reach, or the atoms sorted into cells), the table of neighbour offsets, and
+// for each block of sites how high the substrate gets around it. Every rank knows the whole height
+// map, so nothing is communicated here: the sweep is local to the tile, and its sums are exact
+// (ExactSum), to be merged over ranks in any order.
 //
-// Which sweep runs is decided at construction: lattice if the substrate has the block's lattice, cell
-// list otherwise. The tables allow for sideways displacements up to two spacings; sites that go beyond
-// are summed by the reference loop (kernels/interface_sweep.hpp), so no pair is ever missed and no table
-// is ever rebuilt.
+// Which sweep runs is decided at construction: lattice if the substrate has the block's lattice,
+// cell list otherwise. The tables allow for sideways displacements up to two spacings; sites that
+// go beyond are summed by the reference loop (kernels/interface_sweep.hpp), so no pair is ever
+// missed and no table is ever rebuilt.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -31,13 +32,14 @@ struct InterfaceOptions {
     LennardJones potential;
     bool tail = false; ///< continuum correction beyond the cutoff
     InterfaceMethod method = InterfaceMethod::automatic;
+    bool skip = true; ///< false: visit all offsets or cells everywhere (same bits; for tests)
 };
 
 /// Flat block on flat substrate: what gamma_eff is divided by.
 struct FlatReference {
-    double work_of_adhesion = 0.0; ///< -U / A at its minimum, meV/Å^2
-    double separation = 0.0;       ///< there, Å
-    double largest_tension = 0.0;  ///< GPa
+    double work_of_adhesion = 0.0;   ///< -U / A at its minimum, meV/Å^2
+    double separation = 0.0;         ///< there, Å
+    double largest_tension = 0.0;    ///< GPa
     double tension_separation = 0.0; ///< where the tension is largest, Å
     double stiffness = 0.0;          ///< U'' / A at the minimum, eV/Å^4
 };
@@ -47,7 +49,7 @@ struct InterfaceMaps {
     int nx = 0, ny = 0;
     std::vector<std::uint8_t> contact; ///< 1 where the nearest atom is within contact distance
     std::vector<double> distance;      ///< to the nearest atom, Å; infinite where none is in reach
-    std::vector<double> gap;      ///< height above the substrate below (bilinear between its atoms), Å
+    std::vector<double> gap; ///< height above the substrate below (bilinear between its atoms), Å
     std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
 };
 
@@ -57,8 +59,8 @@ public:
     Interface(const Surface& substrate, const Tile& tile, double spacing,
               const InterfaceOptions& options);
 
-    /// Forces of the substrate on the tile's sites (overwritten) and their sums over the tile. Energy,
-    /// contacts and nearest distances only if observed.
+    /// Forces of the substrate on the tile's sites (overwritten) and their sums over the tile.
+    /// Energy, contacts and nearest distances only if observed.
     InterfaceSums sweep(const VectorPlane<const double>& displacement,
                         const VectorPlane<double>& force, double reference_height,
                         bool observe) const;
@@ -67,8 +69,8 @@ public:
     InterfaceMaps maps(const VectorPlane<const double>& displacement,
                        double reference_height) const;
 
-    /// The reference height from which nothing is in reach of undisplaced sites: highest atom + cutoff. With
-    /// the tail, which ends nowhere, + 4 cutoffs: 1/256 of its energy is left there.
+    /// The reference height from which nothing is in reach of undisplaced sites: highest atom +
+    /// cutoff. With the tail, which ends nowhere, + 4 cutoffs: 1/256 of its energy is left there.
     double start_height() const;
 
     InterfaceMethod method() const { return method_; }
@@ -109,12 +111,14 @@ public:
     Interface& operator=(Interface&&) = default;
 };
 
-/// Energy (eV) and normal force (eV/Å) of one block site at a uniform gap over a flat substrate of spacing
-/// b, averaged over the registries that the two lattices take (one for equal spacings: hollow sites).
+/// Energy (eV) and normal force (eV/Å) of one block site at a uniform gap over a flat substrate of
+/// spacing b, averaged over the registries that the two lattices take (one for equal spacings:
+/// hollow sites).
 PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
                       int substrate_sites, double gap);
 
-/// Flat on flat with this potential, cutoff and lattices. Throws std::invalid_argument if they do not bind.
+/// Flat on flat with this potential, cutoff and lattices. Throws std::invalid_argument if they do
+/// not bind.
 FlatReference flat_reference(const InterfaceOptions& options, double spacing, int sites,
                              int substrate_sites);
 

@@ -20,6 +20,7 @@
 #include "io/table.hpp"
 #include "kernels/variant.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -299,6 +300,18 @@ int command_line(int argc, char** argv, const Communicator& world) {
     defaults.add_flag("--plain", arguments.plain, "without explanations");
     CLI::App& info = *app.add_subcommand("info", "what this program was built from and runs on");
 
+    // The library would only say that a command is missing.
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands({}))
+        commands.push_back(command->get_name());
+    if (argc > 1 && argv[1][0] != '-' &&
+        std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+        const std::string near = io::nearest(argv[1], commands);
+        throw io::SceneError(io::Problem{
+            "command line", fmt::format("'{}' is no command", argv[1]),
+            fmt::format("commands: {}", fmt::join(commands, ", ")),
+            near.empty() ? "asperity --help" : fmt::format("did you mean `asperity {}`?", near)});
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) { // --help, --version

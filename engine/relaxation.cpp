@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/relaxation.hpp"
 
+#include "decomposition/global_sum.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,20 +12,6 @@
 namespace asperity {
 
 namespace {
-
-/// Order-independent sums of a vector of quantities, added over the ranks together.
-template <std::size_t n> std::array<double, n> global(const Communicator& c, std::array<ExactSum, n> sums) {
-    std::array<double, 3 * n> bins;
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < 3; ++k) bins[3 * i + k] = sums[i].bin[k];
-    c.sum(bins);
-    std::array<double, n> values;
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) sums[i].bin[k] = bins[3 * i + k];
-        values[i] = sums[i].value();
-    }
-    return values;
-}
 
 /// The minimiser's view of the block: positions, fictitious masses, forces, and the free top plane.
 class Descent {
@@ -56,9 +44,9 @@ public:
         }
         const auto t = phases_.time(Phase::advance);
         block_.forces(force_);
-        std::array<ExactSum, 1> top;
-        block_.add_top_force(top[0]);
-        top_force_ = global(block_.communicator(), top)[0] - options_.load;
+        ExactSum top;
+        block_.add_top_force(top);
+        top_force_ = global_sum(block_.communicator(), top) - options_.load;
 
         double largest = 0.0;
         for (std::size_t l = 0; l < force_.size(); ++l) {
@@ -105,7 +93,7 @@ public:
 #pragma omp critical(asperity_relax_sums)
             for (std::size_t i = 0; i < 3; ++i) sums[i].merge(mine[i]);
         }
-        const auto [power, speed2, force2] = global(block_.communicator(), sums);
+        const auto [power, speed2, force2] = global_sums(block_.communicator(), sums);
         return {power + top_force_ * top_speed_, speed2 + top_mass_ * top_speed_ * top_speed_,
                 force2 + top_force_ * top_force_ / top_mass_};
     }
@@ -231,7 +219,7 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
     energies[1] = sums.force_z;
     block.add_elastic_energy(energies[2]);
     block.add_lowest_z(energies[3]);
-    const auto values = global(block.communicator(), energies);
+    const auto values = global_sums(block.communicator(), energies);
     state.interface_energy = values[0];
     state.force = values[1];
     state.elastic_energy = values[2];

@@ -4,6 +4,7 @@
 // The life of a run: set up, follow the path, relax the zero-load state, write what was found.
 #include "engine/run.hpp"
 
+#include "decomposition/global_sum.hpp"
 #include "engine/checkpoint.hpp"
 #include "engine/recorder.hpp"
 #include "engine/setup.hpp"
@@ -123,7 +124,7 @@ private:
         if (!simulation_.drive().observe(now.time, now.force, gone)) return;
         const double area = scene_.edge() * scene_.edge();
         if (leg == Leg::approach) {
-            findings_.approach = -units::milli_per_unit * simulation_.ledger().approach / area;
+            findings_.approach = units::milli_per_unit * simulation_.ledger().approach / area;
             progress_.say(fmt::format("contact is made; relaxing a copy of this state under zero load"));
             Block copy = simulation_.block().copy_at_rest();
             find_zero_load(copy);
@@ -178,9 +179,7 @@ private:
         for (double height = best_height;; height -= stride) {
             const InterfaceSums sums =
                 simulation_.interface().sweep(block.lowest_layer(), block.interface_force(), height, false);
-            std::array<double, 3> bins = {sums.force_z.bin[0], sums.force_z.bin[1], sums.force_z.bin[2]};
-            ranks_.sum(bins);
-            const double force = (bins[2] + bins[1]) + bins[0];
+            const double force = global_sum(ranks_, sums.force_z);
             if (force < strongest) strongest = force, best_height = height;
             if (force > 0.0 || height < surface_.statistics.lowest) return best_height;
         }

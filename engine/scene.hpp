@@ -18,7 +18,7 @@
 
 namespace asperity {
 
-enum class Detrend { none, mean, plane };
+enum class Detrend { none, plane };
 enum class Resample { none, band_limited };
 enum class BlockModel { lattice, multiscale, spectral };
 enum class Strain { linear, finite };
@@ -35,8 +35,7 @@ struct Scene {
         double spacing = 2.6;       ///< a, Å
         double lattice_ratio = 1.0; ///< block spacing over substrate spacing
         double rms = 3.0;           ///< Å
-        bool rms_given =
-            false; ///< the scene itself says so (a map from a file is scaled only then)
+        bool rms_given = false; ///< the scene itself says so: only then is a measured map scaled
         double hurst = 0.8;
         double rolloff = 3.0;  ///< q0 / q_L
         double cutoff = 512.0; ///< q1 / q_L

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/simulation.hpp"
 
+#include "decomposition/global_sum.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -72,22 +74,12 @@ void Simulation::collect(bool observe) {
 }
 
 void Simulation::keep_books() {
-    // One reduction a step. Bins of exact sums: the result does not depend on how it is formed.
-    const std::array sums = {&interface_sums_.force_z, &lowest_z_, &top_force_,
-                             &kick_sums_.dissipated, &kick_sums_.dragged, &heat_,
-                             &interface_sums_.energy, &elastic_, &kick_sums_.kinetic};
-    std::array<double, 3 * sums.size() + 1> bins;
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) bins[3 * i + k] = sums[i]->bin[k];
-    bins.back() = static_cast<double>(interface_sums_.in_reach);
-    communicator().sum(bins);
-    std::array<double, sums.size()> value;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        ExactSum sum;
-        for (std::size_t k = 0; k < 3; ++k) sum.bin[k] = bins[3 * i + k];
-        value[i] = sum.value();
-    }
-    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic] = value;
+    // One reduction a step (and one for the counts of an observed one).
+    const auto sums = global_sums(
+        communicator(), std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                                   kick_sums_.dissipated, kick_sums_.dragged, heat_,
+                                   interface_sums_.energy, elastic_, kick_sums_.kinetic});
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic] = sums;
 
     const double sites = static_cast<double>(options_.block.sites);
     const double mean_height = reference_height_ + lowest / (sites * sites);
@@ -108,7 +100,6 @@ void Simulation::keep_books() {
     record_.mean_height = mean_height;
     record_.force = force;
     record_.top_force = top_force;
-    record_.in_reach = static_cast<long long>(bins.back());
     if (!record_.observed) return;
 
     std::array<std::int64_t, 2> counts = {interface_sums_.in_contact, interface_sums_.pushed};

@@ -36,7 +36,6 @@ struct StepRecord {
     double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
     double force = 0.0;       ///< total normal force of the substrate on the lowest layer, eV/Å
     double top_force = 0.0;   ///< elastic force on the top plane along z, eV/Å
-    long long in_reach = 0;   ///< sites of the regions swept
     // Only where the step was observed:
     bool observed = false;
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
@@ -50,8 +49,8 @@ struct Ledger {
     double drag_work = 0.0;  ///< done on the block by the moving damping medium
     double damped = 0.0;     ///< dissipated against the medium
     double heat = 0.0;       ///< given by the thermostat's noise
-    double approach = 0.0;   ///< int F dz over the approach (negative: attraction does work)
-    double pull_off = 0.0;   ///< int F dz over the pull-off
+    double approach = 0.0;   ///< int F dz of the mean height over the approach
+    double pull_off = 0.0;   ///< the same over the pull-off (negative: attraction is overcome)
     double work() const { return top_work + drag_work + heat; }
 };
 

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The substrate's height map (model.md section 3): flat, self-affine, or measured; curved on request.
+// The substrate's height map (model.md section 3): flat, self-affine, or measured; curved on
+// request.
 //
-// A self-affine surface is made by Fourier filtering: each integer wavevector draws its amplitude and
-// phase from a counter-based generator keyed by seed and wavevector, so the same seed gives the same
-// bits on every rank, and the same large-scale shape when the grid grows. Every rank makes the whole map:
-// it is one plane, small beside the block.
+// A self-affine surface is made by Fourier filtering: each integer wavevector draws its amplitude
+// and phase from a counter-based generator keyed by seed and wavevector, so the same seed gives the
+// same bits on every rank, and the same large-scale shape when the grid grows. Every rank makes the
+// whole map: it is one plane, small beside the block.
 //
 // Conventions (Persson): h_rms^2 = 2 pi int q C(q) dq; on the grid C(q) = |h_q|^2 (L / 2 pi)^2 with
 // h(x) = sum_q h_q exp(i q x). q in 1/Å, C in Å^4. q_L = 2 pi / L.
@@ -45,10 +46,10 @@ struct SpectrumBin {
 
 /// Of the roughness, without the cap; least and greatest height with it.
 struct SurfaceStatistics {
-    double rms = 0.0;       ///< Å
-    double rms_slope = 0.0; ///< sqrt(<hx^2 + hy^2>), spectral derivative
-    double lowest = 0.0;    ///< Å
-    double highest = 0.0;   ///< Å
+    double rms = 0.0;                  ///< Å
+    double rms_slope = 0.0;            ///< sqrt(<hx^2 + hy^2>), spectral derivative
+    double lowest = 0.0;               ///< Å
+    double highest = 0.0;              ///< Å
     std::vector<SpectrumBin> spectrum; ///< bins of width q_L
 };
 
@@ -60,8 +61,8 @@ struct Surface {
     std::vector<std::string> notes; ///< what was clipped or resampled, in words
 };
 
-/// The flat or self-affine surface that the options describe. Throws std::invalid_argument for options
-/// that describe none.
+/// The flat or self-affine surface that the options describe. Throws std::invalid_argument for
+/// options that describe none.
 Surface make_surface(const SurfaceOptions& options);
 
 /// A measured map heights[y * nx + x] that fills the box: taken as it is if it has sites x sites
@@ -69,7 +70,8 @@ Surface make_surface(const SurfaceOptions& options);
 Surface surface_from_heights(const SurfaceOptions& options, std::vector<double> heights, int nx,
                              int ny);
 
-/// Persson's C(q) of the options, Å^4 (q in 1/Å), with the spectrum clipped at the grid's Nyquist wavevector.
+/// Persson's C(q) of the options, Å^4 (q in 1/Å), with the spectrum clipped at the grid's Nyquist
+/// wavevector.
 double target_spectrum(const SurfaceOptions& options, double q);
 
 /// Atoms across the box for a ratio of block spacing to substrate spacing, at least one.

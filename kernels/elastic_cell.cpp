@@ -11,137 +11,155 @@ namespace {
 
 using V = Pack<double>;
 
-/// A scalar field at the nine nodes around a pack of nodes.
-struct Nine {
-    V c, e, w, n, s, ne, nw, se, sw;
+/// One displacement component in a pack of columns: at each of the planes below, at and above the node, the
+/// node's own row and the sum and difference of the rows around it, already combined over z.
+struct Rows {
+    V c, sum, difference; ///< y = 0; y = 1 plus y = -1; y = 1 minus y = -1
 
-    ASPERITY_INLINE static Nine load(const double* p, std::ptrdiff_t row) {
-        return {V::load(p),           V::load(p + 1),       V::load(p - 1),
-                V::load(p + row),     V::load(p - row),     V::load(p + row + 1),
-                V::load(p + row - 1), V::load(p - row + 1), V::load(p - row - 1)};
+    ASPERITY_INLINE static Rows load(const double* p, std::ptrdiff_t row) {
+        const V north = V::load(p + row), south = V::load(p - row);
+        return {V::load(p), north + south, north - south};
     }
-    ASPERITY_INLINE friend Nine operator+(const Nine& a, const Nine& b) {
-        return {a.c + b.c,   a.e + b.e,   a.w + b.w,   a.n + b.n,  a.s + b.s,
-                a.ne + b.ne, a.nw + b.nw, a.se + b.se, a.sw + b.sw};
+    ASPERITY_INLINE friend Rows operator+(const Rows& a, const Rows& b) {
+        return {a.c + b.c, a.sum + b.sum, a.difference + b.difference};
     }
-    ASPERITY_INLINE friend Nine operator-(const Nine& a, const Nine& b) {
-        return {a.c - b.c,   a.e - b.e,   a.w - b.w,   a.n - b.n,  a.s - b.s,
-                a.ne - b.ne, a.nw - b.nw, a.se - b.se, a.sw - b.sw};
+    ASPERITY_INLINE friend Rows operator-(const Rows& a, const Rows& b) {
+        return {a.c - b.c, a.sum - b.sum, a.difference - b.difference};
     }
-    ASPERITY_INLINE V ex() const { return e + w; }
-    ASPERITY_INLINE V ey() const { return n + s; }
-    ASPERITY_INLINE V d() const { return (ne + sw) + (nw + se); }
-    ASPERITY_INLINE V rxy() const { return (ne + sw) - (nw + se); }
-    ASPERITY_INLINE V rx() const { return e - w; }
-    ASPERITY_INLINE V ry() const { return n - s; }
-    ASPERITY_INLINE V rxd() const { return (ne - sw) + (se - nw); }
-    ASPERITY_INLINE V ryd() const { return (ne - sw) - (se - nw); }
 };
 
-/// The own plane, the sum and the difference of its neighbours, of one displacement component.
 struct Column {
-    Nine own, sum, difference;
+    Rows own, P, M;
 };
 
 template <Face face>
 ASPERITY_INLINE Column load_column(const double* p, std::ptrdiff_t row, std::ptrdiff_t plane) {
-    const Nine own = Nine::load(p, row);
+    const Rows own = Rows::load(p, row);
     if constexpr (face == Face::lower) {
-        const Nine up = Nine::load(p + plane, row);
+        const Rows up = Rows::load(p + plane, row);
         return {own, up, up};
     } else if constexpr (face == Face::upper) {
-        const Nine down = Nine::load(p - plane, row);
-        const V zero(0.0);
-        return {own, down, Nine{zero, zero, zero, zero, zero, zero, zero, zero, zero} - down};
+        const Rows down = Rows::load(p - plane, row);
+        return {own, down, {-down.c, -down.sum, -down.difference}};
     } else {
-        const Nine up = Nine::load(p + plane, row);
-        const Nine down = Nine::load(p - plane, row);
+        const Rows up = Rows::load(p + plane, row), down = Rows::load(p - plane, row);
         return {own, up + down, up - down};
     }
+}
+
+/// What the columns at x give to one force component at x, at x - 1 and at x + 1.
+struct Parts {
+    V here, west, east;
+};
+struct ColumnParts {
+    Parts x, y, z;
+};
+
+/// even: the part that x - 1 and x + 1 get alike; odd: the part that x - 1 gets with a plus (it sees the
+/// column at its +x side) and x + 1 with a minus.
+ASPERITY_INLINE Parts parts(V here, V even, V odd) { return {here, even + odd, even - odd}; }
+
+template <Face face>
+ASPERITY_INLINE ColumnParts column_parts(const VectorVolume<const double>& u, std::ptrdiff_t at,
+                                         const Stencil& s) {
+    const auto row = u.x.row, plane = u.x.plane;
+    V cx, ex, ox, cy, ey, oy, cz, ez, oz; // centre, even and odd parts of the three components
+    {
+        const Column a = load_column<face>(u.x.origin + at, row, plane);
+        cx = V(s.own_c) * a.own.c;
+        cx = fma(V(s.own_t), a.own.sum, cx);
+        cx = fma(V(s.out_c), a.P.c, cx);
+        cx = fma(V(s.out_t), a.P.sum, cx);
+        ex = V(s.own_e) * a.own.c;
+        ex = fma(V(s.own_d), a.own.sum, ex);
+        ex = fma(V(s.out_e), a.P.c, ex);
+        ex = fma(V(s.out_d), a.P.sum, ex);
+        oy = V(s.own_xy) * a.own.difference;
+        oy = fma(V(s.out_xy), a.P.difference, oy);
+        oz = V(s.out_r) * a.M.c;
+        oz = fma(V(s.out_rd), a.M.sum, oz);
+        if constexpr (face != Face::inner) {
+            oz = fma(V(s.tau_r), a.own.c, oz);
+            oz = fma(V(s.tau_rd), a.own.sum, oz);
+        }
+    }
+    {
+        const Column a = load_column<face>(u.y.origin + at, row, plane);
+        cy = V(s.own_c) * a.own.c;
+        cy = fma(V(s.own_e), a.own.sum, cy);
+        cy = fma(V(s.out_c), a.P.c, cy);
+        cy = fma(V(s.out_e), a.P.sum, cy);
+        ey = V(s.own_t) * a.own.c;
+        ey = fma(V(s.own_d), a.own.sum, ey);
+        ey = fma(V(s.out_t), a.P.c, ey);
+        ey = fma(V(s.out_d), a.P.sum, ey);
+        ox = V(s.own_xy) * a.own.difference;
+        ox = fma(V(s.out_xy), a.P.difference, ox);
+        cz = V(s.out_r) * a.M.difference;
+        ez = V(s.out_rd) * a.M.difference;
+        if constexpr (face != Face::inner) {
+            cz = fma(V(s.tau_r), a.own.difference, cz);
+            ez = fma(V(s.tau_rd), a.own.difference, ez);
+        }
+    }
+    {
+        const Column a = load_column<face>(u.z.origin + at, row, plane);
+        cz = fma(V(s.normal_c), a.own.c, cz);
+        cz = fma(V(s.normal_e), a.own.sum, cz);
+        cz = fma(V(s.out_normal_c), a.P.c, cz);
+        cz = fma(V(s.out_normal_e), a.P.sum, cz);
+        ez = fma(V(s.normal_e), a.own.c, ez);
+        ez = fma(V(s.normal_d), a.own.sum, ez);
+        ez = fma(V(s.out_normal_e), a.P.c, ez);
+        ez = fma(V(s.out_normal_d), a.P.sum, ez);
+        ox = fma(V(s.out_r), a.M.c, ox);
+        ox = fma(V(s.out_rd), a.M.sum, ox);
+        cy = fma(V(s.out_r), a.M.difference, cy);
+        ey = fma(V(s.out_rd), a.M.difference, ey);
+        if constexpr (face != Face::inner) {
+            ox = fma(V(-s.tau_r), a.own.c, ox);
+            ox = fma(V(-s.tau_rd), a.own.sum, ox);
+            cy = fma(V(-s.tau_r), a.own.difference, cy);
+            ey = fma(V(-s.tau_rd), a.own.difference, ey);
+        }
+    }
+    return {parts(cx, ex, ox), parts(cy, ey, oy), parts(cz, ez, oz)};
 }
 
 struct Force {
     V x, y, z;
 };
 
-template <Face face>
-ASPERITY_INLINE Force stencil_force(const VectorVolume<const double>& u, std::ptrdiff_t at,
-                                    const Stencil& s) {
-    const auto row = u.x.row, plane = u.x.plane;
-    Force f;
-    { // ux: into Fx by its even filters, into Fy and Fz by its odd ones
-        const Column a = load_column<face>(u.x.origin + at, row, plane);
-        f.x = V(s.own_c) * a.own.c;
-        f.x = fma(V(s.own_e), a.own.ex(), f.x);
-        f.x = fma(V(s.own_t), a.own.ey(), f.x);
-        f.x = fma(V(s.own_d), a.own.d(), f.x);
-        f.x = fma(V(s.out_c), a.sum.c, f.x);
-        f.x = fma(V(s.out_e), a.sum.ex(), f.x);
-        f.x = fma(V(s.out_t), a.sum.ey(), f.x);
-        f.x = fma(V(s.out_d), a.sum.d(), f.x);
-        f.y = V(s.own_xy) * a.own.rxy();
-        f.y = fma(V(s.out_xy), a.sum.rxy(), f.y);
-        f.z = V(s.out_r) * a.difference.rx();
-        f.z = fma(V(s.out_rd), a.difference.rxd(), f.z);
-        if constexpr (face != Face::inner) {
-            f.z = fma(V(s.tau_r), a.own.rx(), f.z);
-            f.z = fma(V(s.tau_rd), a.own.rxd(), f.z);
-        }
+/// Calls use(x, force) for the packs that cover [x0, x1) of a row; packs start at multiples of the width, so
+/// lanes outside may come along.
+template <Face face, class Use>
+ASPERITY_INLINE void sweep_row(const VectorVolume<const double>& u, std::ptrdiff_t line, int x0, int x1,
+                               const Stencil& s, const Use& use) {
+    int x = x0 & ~(V::width - 1);
+    // A node at x0 needs the column before it: in this pack, or in the one before.
+    ColumnParts before = column_parts<face>(u, line + (x == x0 ? x - V::width : x), s);
+    ColumnParts here = x == x0 ? column_parts<face>(u, line + x, s) : before;
+    const auto join = [](const Parts& w, const Parts& c, const Parts& e) {
+        return (shift_left(c.west, e.west) + shift_right(w.east, c.east)) + c.here;
+    };
+    for (; x < x1; x += V::width) {
+        const ColumnParts behind = column_parts<face>(u, line + x + V::width, s);
+        use(x, Force{join(before.x, here.x, behind.x), join(before.y, here.y, behind.y),
+                     join(before.z, here.z, behind.z)});
+        before = here;
+        here = behind;
     }
-    { // uy: the same with x and y exchanged
-        const Column a = load_column<face>(u.y.origin + at, row, plane);
-        f.y = fma(V(s.own_c), a.own.c, f.y);
-        f.y = fma(V(s.own_e), a.own.ey(), f.y);
-        f.y = fma(V(s.own_t), a.own.ex(), f.y);
-        f.y = fma(V(s.own_d), a.own.d(), f.y);
-        f.y = fma(V(s.out_c), a.sum.c, f.y);
-        f.y = fma(V(s.out_e), a.sum.ey(), f.y);
-        f.y = fma(V(s.out_t), a.sum.ex(), f.y);
-        f.y = fma(V(s.out_d), a.sum.d(), f.y);
-        f.x = fma(V(s.own_xy), a.own.rxy(), f.x);
-        f.x = fma(V(s.out_xy), a.sum.rxy(), f.x);
-        f.z = fma(V(s.out_r), a.difference.ry(), f.z);
-        f.z = fma(V(s.out_rd), a.difference.ryd(), f.z);
-        if constexpr (face != Face::inner) {
-            f.z = fma(V(s.tau_r), a.own.ry(), f.z);
-            f.z = fma(V(s.tau_rd), a.own.ryd(), f.z);
-        }
-    }
-    {
-        const Column a = load_column<face>(u.z.origin + at, row, plane);
-        f.z = fma(V(s.normal_c), a.own.c, f.z);
-        f.z = fma(V(s.normal_e), a.own.ex() + a.own.ey(), f.z);
-        f.z = fma(V(s.normal_d), a.own.d(), f.z);
-        f.z = fma(V(s.out_normal_c), a.sum.c, f.z);
-        f.z = fma(V(s.out_normal_e), a.sum.ex() + a.sum.ey(), f.z);
-        f.z = fma(V(s.out_normal_d), a.sum.d(), f.z);
-        f.x = fma(V(s.out_r), a.difference.rx(), f.x);
-        f.x = fma(V(s.out_rd), a.difference.rxd(), f.x);
-        f.y = fma(V(s.out_r), a.difference.ry(), f.y);
-        f.y = fma(V(s.out_rd), a.difference.ryd(), f.y);
-        if constexpr (face != Face::inner) {
-            f.x = fma(V(-s.tau_r), a.own.rx(), f.x);
-            f.x = fma(V(-s.tau_rd), a.own.rxd(), f.x);
-            f.y = fma(V(-s.tau_r), a.own.ry(), f.y);
-            f.y = fma(V(-s.tau_rd), a.own.ryd(), f.y);
-        }
-    }
-    return f;
 }
 
 template <Face face>
 void force_patch(const VectorVolume<const double>& u, int z, const Stencil& s, Patch patch,
                  const VectorPlane<double>& out) {
-    for (int y = patch.y0; y < patch.y1; ++y) {
-        const auto line = z * u.x.plane + y * u.x.row;
-        for (int x = patch.x0; x < patch.x1; x += V::width) {
-            const Force f = stencil_force<face>(u, line + x, s);
-            const int count = patch.x1 - x;
-            f.x.store_first(out.x.line(y) + x, count);
-            f.y.store_first(out.y.line(y) + x, count);
-            f.z.store_first(out.z.line(y) + x, count);
-        }
-    }
+    for (int y = patch.y0; y < patch.y1; ++y)
+        sweep_row<face>(u, z * u.x.plane + y * u.x.row, patch.x0, patch.x1, s, [&](int x, const Force& f) {
+            f.x.store_lanes(out.x.line(y) + x, patch.x0 - x, patch.x1 - x);
+            f.y.store_lanes(out.y.line(y) + x, patch.x0 - x, patch.x1 - x);
+            f.z.store_lanes(out.z.line(y) + x, patch.x0 - x, patch.x1 - x);
+        });
 }
 
 /// 0, 1, 2, ... as a pack: to switch off lanes behind the end of a row.
@@ -152,7 +170,7 @@ ASPERITY_INLINE V lane_numbers() {
 }
 
 ASPERITY_INLINE void collect(const BasicExactSum<V>& lanes, ExactSum& into) {
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < ExactSum::bins; ++k)
         for (int i = 0; i < V::width; ++i) into.bin[k] += lanes.bin[k][i];
 }
 
@@ -165,9 +183,8 @@ void advance_rows(const VectorVolume<const double>& u, int z, const Stencil& s, 
     [[maybe_unused]] BasicExactSum<V> kinetic, dissipated, dragged;
     for (int y = y0; y < y1; ++y) {
         const auto line = z * u.x.plane + y * u.x.row;
-        for (int x = 0; x < nx; x += V::width) {
+        sweep_row<face>(u, line, 0, nx, s, [&](int x, Force f) {
             const auto at = line + x;
-            Force f = stencil_force<face>(u, at, s);
             if constexpr (with_incoming) {
                 f.x = f.x + V::load(incoming.x.line(y) + x);
                 f.y = f.y + V::load(incoming.y.line(y) + x);
@@ -210,7 +227,7 @@ void advance_rows(const VectorVolume<const double>& u, int z, const Stencil& s, 
                     dragged.add(select(inside, V(kd.drag) * rz, zero));
                 }
             }
-        }
+        });
     }
     if constexpr (observed) collect(kinetic, sums.kinetic);
     if constexpr (damped) {

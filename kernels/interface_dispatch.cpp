@@ -28,9 +28,12 @@ namespace {
 InterfaceKernels pick() {
 #if ASPERITY_HAS_X86_VARIANTS
     switch (processor_level()) {
-    case ProcessorLevel::v4: return v4::interface_table();
-    case ProcessorLevel::v3: return v3::interface_table();
-    default: return v2::interface_table();
+    case ProcessorLevel::v4:
+        return v4::interface_table();
+    case ProcessorLevel::v3:
+        return v3::interface_table();
+    default:
+        return v2::interface_table();
     }
 #else
     return portable::interface_table();

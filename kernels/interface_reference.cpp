@@ -3,9 +3,9 @@
 //
 // The reference sweep: slow, scalar and plain, the executable specification of model.md section 4.
 //
-// One loop over the rows of substrate atoms within the cutoff of the site, one over the atoms of a row.
-// Atoms are counted beyond the box and folded back for their height alone, so periodic images need no
-// thought and the cutoff may exceed the box. Cost: 4 r_c^2 / b^2 distances per site.
+// One loop over the rows of substrate atoms within the cutoff of the site, one over the atoms of a
+// row. Atoms are counted beyond the box and folded back for their height alone, so periodic images
+// need no thought and the cutoff may exceed the box. Cost: 4 r_c^2 / b^2 distances per site.
 //
 // The tail correction lives here too: it is one formula per site, no sum over pairs.
 #include "kernels/interface_sweep.hpp"
@@ -46,7 +46,8 @@ PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double 
     const long i_last = std::lround(std::ceil((x + reach) / b));
     for (long j = j_first; j <= j_last; ++j) {
         const double dy = y - static_cast<double>(j) * b;
-        const double* row = map.height + static_cast<std::ptrdiff_t>(fold(j, map.sites)) * map.sites;
+        const double* row =
+            map.height + static_cast<std::ptrdiff_t>(fold(j, map.sites)) * map.sites;
         for (long i = i_first; i <= i_last; ++i) {
             const double dx = x - static_cast<double>(i) * b;
             const double dz = z - row[fold(i, map.sites)];
@@ -71,9 +72,9 @@ void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
     const double contact = potential.contact_distance();
     for (int y = row_begin; y < row_end; ++y)
         for (int x = 0; x < u.x.nx; ++x) {
-            const PairSum site = pair_sum(map, potential, (sites.x0 + x + 0.5) * a + u.x(x, y),
-                                          (sites.y0 + y + 0.5) * a + u.y(x, y),
-                                          sites.reference_height + u.z(x, y));
+            const PairSum site =
+                pair_sum(map, potential, (sites.x0 + x + 0.5) * a + u.x(x, y),
+                         (sites.y0 + y + 0.5) * a + u.y(x, y), sites.reference_height + u.z(x, y));
             sites.force.x(x, y) = site.force[0];
             sites.force.y(x, y) = site.force[1];
             sites.force.z(x, y) = site.force[2];

@@ -8,20 +8,21 @@
 //              scalar, obvious: the judge of the other two;
 //   lattice    both sides are the same lattice, so the neighbours of a site are known offsets: SIMD
 //              over sites, sums in registers over the offsets in a fixed order;
-//   cell list  any substrate (incommensurate): atoms sorted into square cells, SIMD over the atoms of
+//   cell list  any substrate (incommensurate): atoms sorted into square cells, SIMD over the atoms
+//   of
 //              a row of cells.
 //
 // Block site (x, y) of the tile stands at ((x0+x+1/2) a + ux, (y0+y+1/2) a + uy, z_ref + uz).
 // Units: Å, eV, eV/Å.
 //
-// What is out of reach costs nothing. For each block of eight sites along x the owner tabulates how high
-// the substrate gets in rings of lateral distance around it. From the lowest site of the block follows
-// a gap, from the gap the lateral distance beyond which no pair can interact, and only offsets (cells)
-// nearer than that are visited. What is left out would have added exact zeros.
+// What is out of reach costs nothing. For each block of eight sites along x the owner tabulates how
+// high the substrate gets in rings of lateral distance around it. From the lowest site of the block
+// follows a gap, from the gap the lateral distance beyond which no pair can interact, and only
+// offsets (cells) nearer than that are visited. What is left out would have added exact zeros.
 //
 // Reproducibility: a site's force is summed in an order that the site alone decides (offset number,
-// or cell and atom order of the whole box), never the tile, block or lane it is in; so its bits are the
-// same for any decomposition and number of threads. Sums over sites are exact sums.
+// or cell and atom order of the whole box), never the tile, block or lane it is in; so its bits are
+// the same for any decomposition and number of threads. Sums over sites are exact sums.
 //
 // Sites displaced sideways by more than offset_margin (a run about to be stopped by its guard) are
 // summed one by one with the reference loop, so no pair is ever missed.
@@ -50,8 +51,8 @@ struct InterfaceSites {
     double reference_height = 0.0;          ///< z of an undisplaced site, Å
     int x0 = 0;                             ///< the tile's first site, counted over the box
     int y0 = 0;
-    PlaneView<double> nearest_r2{}; ///< out where given and observed: squared distance to the nearest
-                                    ///< atom in reach (no_pair if there is none), Å^2
+    PlaneView<double> nearest_r2{}; ///< out where given and observed: squared distance to the
+                                    ///< nearest atom in reach (no_pair if there is none), Å^2
 };
 
 /// Squared distance reported where no atom is in reach.
@@ -87,31 +88,39 @@ struct SubstrateMap {
 struct ReachBounds {
     const double* highest = nullptr; ///< [(y * blocks + block) * interface_rings + ring], Å
     int blocks = 0;                  ///< blocks in a row
-    double ring_width = 1.0;         ///< ring r spans lateral distances [r, r + 1) ring_width, Å; ...
-                                     ///< ... from the undisplaced site; the last is open to the margin
-    double offset_margin = 0.0;      ///< largest sideways displacement the tables allow for, Å
+    /// Ring r holds lateral distances [r, r + 1) ring_width from the undisplaced site, Å.
+    double ring_width = 1.0;
+    double offset_margin = 0.0; ///< largest sideways displacement the tables allow for, Å
 };
 
 /// Four offsets that lie symmetrically around a hollow site: (±cx, ±cy) from site to atom.
 struct OffsetQuad {
-    double cx, cy;         ///< (m - 1/2) a, (n - 1/2) a, Å
-    double lateral;        ///< sqrt(cx^2 + cy^2), Å
-    std::int32_t m, n;     ///< 1, 2, ...
-    std::int32_t sw, se;   ///< index of the atoms at (1-m, 1-n), (m, 1-n) relative to the site's
-    std::int32_t nw, ne;   ///< (1-m, n), (m, n)
+    double cx, cy;       ///< (m - 1/2) a, (n - 1/2) a, Å
+    double lateral;      ///< sqrt(cx^2 + cy^2), Å
+    std::int32_t m, n;   ///< 1, 2, ...
+    std::int32_t sw, se; ///< index of the atoms at (1-m, 1-n), (m, 1-n) relative to the site's
+    std::int32_t nw, ne; ///< (1-m, n), (m, n)
+};
+
+/// How much of the table of offsets a lateral distance calls for.
+struct OffsetCut {
+    std::int32_t quads;        ///< the first so many
+    std::int32_t half_offsets; ///< greatest m or n among them
 };
 
 /// A substrate of the block's own lattice: atom (x, y) of the tile at ((x0+x) a, (y0+y) a, height).
 struct LatticeSubstrate {
     PlaneView<const double> height; ///< with a halo that holds every offset and a whole vector, Å
     const OffsetQuad* quads = nullptr; ///< by growing lateral distance (ties: n, m)
-    int quad_count = 0;
+    const OffsetCut* cuts = nullptr; ///< [k]: what distances below (k+1) / cuts_per_length call for
+    int cut_count = 0;
+    double cuts_per_length = 1.0; ///< 1/Å
     ReachBounds reach;
     SubstrateMap map;
 };
 
-/// Any substrate, sorted into square cells. Cells are counted over the box and beyond it (images); in
-/// a row of cells the atoms follow one another in memory.
+/// Any substrate, sorted into square cells. Cells are counted over the box and beyond it (images);
+/// in a row of cells the atoms follow one another in memory.
 struct CellListSubstrate {
     const double* x = nullptr; ///< Å; images carry whole box edges
     const double* y = nullptr;
@@ -133,23 +142,26 @@ struct PairSum {
     double nearest_r2 = no_pair;       ///< Å^2
 };
 
-/// The reference: the sum over every substrate atom (periodic images included) within the cutoff of a
-/// site at (x, y, z), by rows of atoms. Not-a-number where the position is none.
-PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double x, double y, double z);
+/// The reference: the sum over every substrate atom (periodic images included) within the cutoff of
+/// a site at (x, y, z), by rows of atoms. Not-a-number where the position is none.
+PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double x, double y,
+                 double z);
 
 /// The reference sweep: pair_sum for each site of rows [row_begin, row_end).
 void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
-                     const LennardJones& potential, int row_begin, int row_end, InterfaceSums& sums);
+                     const LennardJones& potential, int row_begin, int row_end,
+                     InterfaceSums& sums);
 
 /// Continuum correction for the pairs beyond the cutoff (scene: interface.tail).
 ///
-/// A site at height g over the substrate's local mean plane feels, beyond the cutoff, a plane of n atoms
-/// per area; and the shift of the potential inside it is undone. With V0 the unshifted potential
-/// and c = max(r_c, |g|):
+/// A site at height g over the substrate's local mean plane feels, beyond the cutoff, a plane of n
+/// atoms per area; and the shift of the potential inside it is undone. With V0 the unshifted
+/// potential and c = max(r_c, |g|):
 ///
 ///     U(g) = 8 pi n epsilon [r0^12 / (10 c^10) - r0^6 / (4 c^4)]  +  pi n (r_c^2 - g^2)_+ V0(r_c)
 ///
-/// -dU/dg = 2 pi n g V0(c) is the force of the plane's atoms beyond the cutoff: continuous at g = r_c.
+/// -dU/dg = 2 pi n g V0(c) is the force of the plane's atoms beyond the cutoff: continuous at g =
+/// r_c.
 struct TailCorrection {
     LennardJones potential;
     double density = 0.0; ///< n, atoms per Å^2
@@ -158,14 +170,14 @@ struct TailCorrection {
     double force(double gap) const;  ///< eV/Å
 };
 
-/// Adds the tail to forces and sums that a sweep has left; mean_height is the local mean plane below each
-/// site. If observed, energies are added and the sites pushed are counted anew.
+/// Adds the tail to forces and sums that a sweep has left; mean_height is the local mean plane
+/// below each site. If observed, energies are added and the sites pushed are counted anew.
 void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
                 PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
                 InterfaceSums& sums);
 
-/// The sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile and
-/// overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
+/// The sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile
+/// and overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
 struct InterfaceKernels {
     using Lattice = void (*)(const InterfaceSites&, const LatticeSubstrate&, const LennardJones&,
                              int row_begin, int row_end, InterfaceSums&);

@@ -10,10 +10,17 @@ void interpolate(LevelSeam seam, PlaneView<const double> coarse, PlaneView<doubl
     const double* low = coarse.line((gy >> 1) - seam.coarse_y0);
     const double* high = coarse.line(((gy + 1) >> 1) - seam.coarse_y0); // the same row on even gy
     double* out = fine.line(y);
-    for (int x = -halo; x < fine.nx + halo; ++x) {
-        const int gx = seam.fine_x0 + x;
-        const int a = (gx >> 1) - seam.coarse_x0, b = ((gx + 1) >> 1) - seam.coarse_x0;
-        out[x] = 0.5 * (0.5 * (low[a] + low[b]) + 0.5 * (high[a] + high[b]));
+    const int first = seam.fine_x0 - halo, last = seam.fine_x0 + fine.nx + halo; // over the whole box
+    const auto mean = [&](int coarse_x) {
+        const int a = coarse_x - seam.coarse_x0;
+        return 0.5 * (low[a] + high[a]);
+    };
+    double left = mean(first >> 1);
+    for (int X = first >> 1; 2 * X < last; ++X) {
+        const double right = mean(X + 1);
+        if (2 * X >= first) out[2 * X - seam.fine_x0] = left;
+        if (2 * X + 1 < last) out[2 * X + 1 - seam.fine_x0] = 0.5 * (left + right);
+        left = right;
     }
 }
 

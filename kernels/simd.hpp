@@ -57,7 +57,7 @@ template <class T> struct Pack {
 
     Pack() = default;
     ASPERITY_INLINE Pack(Register value) : r(value) {}
-    ASPERITY_INLINE Pack(T value) : r(Register{} + value) {}
+    ASPERITY_INLINE Pack(T value) : r(value - Register{}) {} // value - 0 is value, bit for bit
 
     static ASPERITY_INLINE Pack load(const T* from) {
         Pack p;
@@ -65,13 +65,15 @@ template <class T> struct Pack {
         return p;
     }
     ASPERITY_INLINE void store(T* to) const { std::memcpy(to, &r, sizeof(Register)); }
-    /// Stores the first count lanes (the tail of a row).
-    ASPERITY_INLINE void store_first(T* to, int count) const {
-        if (count >= width) return store(to);
+    /// Stores lanes [first, last) (the ends of a row); lane 0 belongs to to[0].
+    ASPERITY_INLINE void store_lanes(T* to, int first, int last) const {
+        if (first <= 0 && last >= width) return store(to);
         T lane[width];
         std::memcpy(lane, &r, sizeof(Register));
-        for (int i = 0; i < count; ++i) to[i] = lane[i];
+        for (int i = first > 0 ? first : 0; i < (last < width ? last : width); ++i) to[i] = lane[i];
     }
+    /// Stores the first count lanes (the tail of a row).
+    ASPERITY_INLINE void store_first(T* to, int count) const { store_lanes(to, 0, count); }
     ASPERITY_INLINE T operator[](int lane) const { return r[lane]; }
 
     friend ASPERITY_INLINE Pack operator+(Pack a, Pack b) { return a.r + b.r; }
@@ -92,6 +94,19 @@ ASPERITY_INLINE double select(bool mask, double a, double b) { return mask ? a :
 
 template <class T> ASPERITY_INLINE Pack<T> min(Pack<T> a, Pack<T> b) { return a.r < b.r ? a.r : b.r; }
 template <class T> ASPERITY_INLINE Pack<T> max(Pack<T> a, Pack<T> b) { return a.r > b.r ? a.r : b.r; }
+
+/// The pack one element further on, given the pack a and the one behind it, b: a1 a2 ... b0.
+template <class T> ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
+    typename Pack<T>::Mask lanes;
+    for (int i = 0; i < Pack<T>::width; ++i) lanes[i] = i + 1;
+    return __builtin_shuffle(a.r, b.r, lanes);
+}
+/// The pack one element back, given the pack a before b: a_last b0 b1 ...
+template <class T> ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
+    typename Pack<T>::Mask lanes;
+    for (int i = 0; i < Pack<T>::width; ++i) lanes[i] = Pack<T>::width - 1 + i;
+    return __builtin_shuffle(a.r, b.r, lanes);
+}
 
 /// a * b + c, rounded once where the processor level has it.
 template <class T> ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {

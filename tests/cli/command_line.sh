@@ -1,0 +1,50 @@
+#!/bin/bash
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+#
+# Commands, options and their mistakes.
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+
+expect 0 --help
+for command in run check surface defaults info; do
+    says "  $command"
+    expect 0 "$command" --help
+    expect 0 --help
+done
+case $out in *" sweep "* | *" plan "*) fail "--help lists commands that are not there yet" ;; esac
+expect 0 --version
+says "asperity 0."
+expect 0 info
+for line in version git compiler flags MPI HDF5 FFTW threads ranks processor; do says "$line"; done
+
+expect 0 defaults
+printf '%s\n' "$out" >defaults.toml
+expect 0 check defaults.toml
+expect 0 defaults --plain
+printf '%s\n' "$out" >plain.toml
+expect 0 check plain.toml
+expect 0 defaults --markdown
+[ "$out" = "$(cat "$source/docs/scene.md")" ] ||
+    fail "docs/scene.md is out of date: ./asperity defaults --markdown > docs/scene.md"
+
+expect 2
+expect 2 chek
+says "did you mean \`asperity check\`?"
+expect 2 run
+says "SCENE is required"
+expect 2 run --no-such-option
+expect 2 run plain.toml plain.toml
+says "more than one scene"
+expect 2 run plain.toml --wall-limit soon
+says "--wall-limit soon: is no length of time"
+expect 2 run plain.toml --progress loud
+says "choices: auto, bar, lines, off"
+expect 2 run plain.toml --resume gone.h5
+says "there is no such file"
+expect 2 check plain.toml --set
+expect 0 check --set surface.sites=64 block.thickness=32 plain.toml
+says "64 x 64 sites"
+says "32 layers"
+only_files ./defaults.toml ./plain.toml
+finish

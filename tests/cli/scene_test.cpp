@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The scene against its contract: names, defaults, contradictions.
+#include "engine/scene.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace asperity {
+namespace {
+
+std::vector<io::Problem> wrong(const std::string& text,
+                               const std::vector<std::string>& overrides = {}) {
+    try {
+        read_scene_text(text, "s.toml", overrides);
+    } catch (const io::SceneError& error) {
+        return error.problems();
+    }
+    return {};
+}
+
+io::Problem only(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    const auto problems = wrong(text, overrides);
+    EXPECT_EQ(problems.size(), 1u) << text;
+    for (std::size_t i = 1; i < problems.size(); ++i)
+        ADD_FAILURE() << format(problems[i]);
+    return problems.empty() ? io::Problem{} : problems.front();
+}
+
+// The contract, key by key.
+TEST(Scene, DefaultsAreThePapers) {
+    const std::map<std::string, std::string> contract = {
+        {"surface.kind", "\"self-affine\""},
+        {"surface.sites", "512"},
+        {"surface.spacing", "2.6"},
+        {"surface.lattice_ratio", "1.0"},
+        {"surface.rms", "3.0"},
+        {"surface.hurst", "0.8"},
+        {"surface.rolloff", "3.0"},
+        {"surface.cutoff", "512.0"},
+        {"surface.amplitudes", "\"gaussian\""},
+        {"surface.seed", "1"},
+        {"surface.radius", "\"none\""},
+        {"surface.file", "\"heights.h5\""},
+        {"surface.file_size", "\"auto\""},
+        {"surface.file_unit", "\"auto\""},
+        {"surface.detrend", "\"none\""},
+        {"surface.resample", "\"none\""},
+        {"block.model", "\"multiscale\""},
+        {"block.young", "77.2"},
+        {"block.poisson", "0.42"},
+        {"block.atom_mass", "197.0"},
+        {"block.thickness", "512"},
+        {"block.layers_per_level", "4"},
+        {"block.strain", "\"linear\""},
+        {"interface.epsilon", "0.1"},
+        {"interface.r0", "3.28"},
+        {"interface.cutoff", "13.12"},
+        {"interface.tail", "false"},
+        {"drive.mode", "\"dynamic\""},
+        {"drive.path", "[\"approach\", \"pull-off\"]"},
+        {"drive.velocity", "5.0"},
+        {"drive.step", "0.25"},
+        {"drive.timestep", "10.0"},
+        {"drive.damping", "0.05"},
+        {"drive.damping_from", "0.0"},
+        {"drive.ramp", "\"auto\""},
+        {"drive.load", "0.0"},
+        {"drive.temperature", "0.0"},
+        {"drive.seed", "1"},
+        {"drive.max_steps", "0"},
+        {"drive.tolerance", "0.0001"},
+        {"theory.delta_gamma", "\"flat\""},
+        {"theory.beta", "0.45"},
+        {"theory.area_factor", "\"gaussian\""},
+        {"theory.spectrum", "\"target\""},
+        {"theory.clip", "true"},
+        {"numerics.precision", "\"double\""},
+        {"numerics.accuracy", "\"none\""},
+        {"output.trajectory", "\"none\""},
+        {"output.fields", "[\"zero-load\"]"},
+        {"output.series", "100"},
+        {"output.checkpoint", "600.0"},
+    };
+    Scene scene;
+    const io::Schema schema = bind(scene);
+    for (const auto& [path, value] : contract) {
+        const io::Schema::Key* key = schema.find(path);
+        ASSERT_NE(key, nullptr) << path;
+        EXPECT_EQ(key->default_toml, value) << path;
+        EXPECT_FALSE(key->doc.empty()) << path;
+    }
+    for (const io::Schema::Key& key : schema.keys())
+        EXPECT_TRUE(contract.contains(key.path())) << key.path();
+    EXPECT_TRUE(wrong("").empty()); // the defaults are a scene
+}
+
+TEST(Scene, QuantitiesInTheUnitsOfTheContract) {
+    const Scene s = read_scene_text(R"(
+[surface]
+rms = "0.3 nm"
+radius = "441 nm"
+sites = 64
+[block]
+young = "77200 MPa"
+[interface]
+epsilon = "100 meV"
+[drive]
+velocity = "0.05 Å/ps"
+timestep = "0.02 ps"
+load = "1 kPa"
+ramp = "20 ps"
+[theory]
+delta_gamma = "0.1 eV/Å^2"
+[numerics]
+accuracy = "1%"
+[output]
+checkpoint = "5 min"
+trajectory = 1000
+)",
+                                    "dir/my.scene.toml");
+    EXPECT_EQ(s.surface.rms, 3.0);
+    EXPECT_TRUE(s.surface.rms_given);
+    EXPECT_EQ(s.surface.radius, 4410.0);
+    EXPECT_EQ(s.block.thickness, 64); // follows N
+    EXPECT_EQ(s.block.young, 77.2);
+    EXPECT_EQ(s.interface.epsilon, 0.1);
+    EXPECT_EQ(s.drive.velocity, 5.0);
+    EXPECT_EQ(s.drive.timestep, 20.0);
+    EXPECT_EQ(s.drive.load, 0.001);
+    EXPECT_EQ(s.drive.ramp, 20.0);
+    EXPECT_EQ(s.theory.delta_gamma, 100.0);
+    EXPECT_EQ(s.numerics.accuracy, 0.01);
+    EXPECT_EQ(s.output.checkpoint, 300.0);
+    EXPECT_EQ(s.output.trajectory, 1000);
+    EXPECT_EQ(s.name, "my.scene");
+}
+
+TEST(Scene, WrittenBackItIsTheSameScene) {
+    const Scene s = read_scene_text("surface.sites = 96\nsurface.radius = \"100 nm\"\n"
+                                    "drive.path = [\"zero-load\"]\nblock.model = \"lattice\"\n",
+                                    "s.toml");
+    const Scene t = read_scene_text(scene_toml(s), "t.toml");
+    EXPECT_EQ(scene_toml(s, false), scene_toml(t, false));
+    EXPECT_EQ(scene_json(s).dump(), scene_json(t).dump());
+    EXPECT_EQ(scene_json(t).find("block.thickness")->integer(), 96);
+    EXPECT_EQ(scene_json(t).find("surface.radius")->number(), 1000.0);
+}
+
+TEST(Scene, Contradictions) {
+    io::Problem p = only("[interface]\ncutoff = 40.0\n[surface]\nsites = 16\n");
+    EXPECT_EQ(p.where, "s.toml:2:10");
+    EXPECT_EQ(p.what, "interface.cutoff = 40 Å is more than half the box");
+    EXPECT_EQ(p.fix, "take a cutoff of 20.8 Å at most, or surface.sites = 31 at least");
+    p = only("[surface]\nsites = 8\nrolloff = 1\n");
+    EXPECT_EQ(p.where, "s.toml:2:9"); // the cutoff has its default, so the box is to blame
+    p = only("", {"surface.sites=8"});
+    EXPECT_EQ(p.where, "--set surface.sites=8");
+    EXPECT_EQ(only("[interface]\ncutoff = 3.0\n").what,
+              "interface.cutoff = 3 Å leaves no attraction");
+    EXPECT_EQ(only("[surface]\nrolloff = 600\n").where, "s.toml:2:11");
+    EXPECT_EQ(only("[surface]\nrolloff = 300\n").what, "surface.rolloff = 300 is beyond Nyquist");
+    EXPECT_EQ(only("[surface]\nradius = \"50 nm\"\n").what,
+              "surface.radius = 500 Å is less than half the diagonal of the box");
+    EXPECT_EQ(only("[drive]\ntemperature = 300\ndamping = 0\n").where, "s.toml:2:15");
+    EXPECT_EQ(only("[output]\nfields = [\"pull-off\"]\n[drive]\npath = [\"approach\"]\n").where,
+              "s.toml:2:10");
+}
+
+TEST(Scene, Paths) {
+    EXPECT_TRUE(wrong("drive.path = [\"approach\"]").empty());
+    EXPECT_TRUE(wrong("drive.path = [\"zero-load\"]").empty());
+    EXPECT_TRUE(wrong("drive.path = [\"zero-load\", \"pull-off\"]").empty());
+    EXPECT_TRUE(
+        wrong("drive.path = [\"approach\", \"pull-off\", \"approach\", \"pull-off\"]").empty());
+    EXPECT_EQ(only("drive.path = []").what, "drive.path is empty");
+    only("drive.path = [\"pull-off\"]");
+    only("drive.path = [\"approach\", \"approach\"]");
+    only("drive.path = [\"approach\", \"zero-load\"]");
+    only("drive.path = [\"approach\", \"pull-off\", \"pull-off\"]");
+    EXPECT_EQ(only("drive.path = [\"aproach\"]").fix, "did you mean \"approach\"?");
+}
+
+TEST(Scene, Ranges) {
+    for (const char* bad : {"surface.sites = 3",
+                            "surface.rms = -1",
+                            "surface.rms = \"-3 nm\"",
+                            "surface.hurst = 1.5",
+                            "surface.rolloff = 0.5",
+                            "surface.spacing = 0",
+                            "surface.radius = 0",
+                            "surface.seed = -1",
+                            "block.young = 0",
+                            "block.poisson = 0.5",
+                            "block.poisson = -1",
+                            "block.thickness = 0",
+                            "block.layers_per_level = 1",
+                            "block.atom_mass = -197",
+                            "interface.epsilon = 0",
+                            "drive.velocity = 0",
+                            "drive.timestep = -1",
+                            "drive.damping = -1",
+                            "drive.damping_from = 1.5",
+                            "drive.temperature = -1",
+                            "drive.max_steps = -1",
+                            "drive.ramp = -1",
+                            "output.series = 0",
+                            "output.checkpoint = -1",
+                            "output.trajectory = 0",
+                            "theory.beta = 0",
+                            "numerics.accuracy = 0",
+                            "theory.delta_gamma = 0"}) {
+        const io::Problem p = only(bad);
+        EXPECT_NE(p.what.find("is out of range"), std::string::npos) << bad;
+        EXPECT_NE(p.why.find("allowed: "), std::string::npos) << bad;
+    }
+}
+
+TEST(Scene, OneComplaintAKey) { // out of range, and therefore not also a contradiction
+    EXPECT_EQ(wrong("[interface]\ncutoff = -1\n").size(), 1u);
+    const auto problems =
+        wrong("[surface]\nrms = -1\nsites = 8\nrolloff = 1\n[drive]\npath = []\nspeed = 3\n");
+    ASSERT_EQ(problems.size(), 4u);
+    EXPECT_EQ(problems[0].where, "s.toml:2:7");
+}
+
+TEST(Scene, NotYet) {
+    const auto refused = [](const std::string& text) {
+        const Scene scene = read_scene_text(text, "s.toml");
+        io::Problems problems = scene.problems();
+        not_yet(scene, problems);
+        for (const io::Problem& p : problems.list()) {
+            EXPECT_NE(p.what.find("is not available yet"), std::string::npos) << p.what;
+            EXPECT_FALSE(p.fix.empty()) << p.what;
+        }
+        return problems.list().size();
+    };
+    EXPECT_EQ(refused(""), 0u);
+    for (const char* later :
+         {"block.model = \"spectral\"", "block.strain = \"finite\"", "drive.mode = \"quasistatic\"",
+          "numerics.precision = \"mixed\"", "numerics.accuracy = \"1%\"", "output.trajectory = 100",
+          "output.fields = [\"every:10\"]", "drive.path = [\"zero-load\", \"pull-off\"]"})
+        EXPECT_EQ(refused(later), 1u) << later;
+}
+
+TEST(Scene, Notes) {
+    const auto said = [](const std::string& text, const std::string& what) {
+        for (const std::string& note : notes(read_scene_text(text, "s.toml")))
+            if (note.find(what) != std::string::npos) return true;
+        return false;
+    };
+    EXPECT_TRUE(said("", "clipped at 256 q_L"));
+    EXPECT_FALSE(said("surface.cutoff = 100", "clipped"));
+    EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.rms = 1", "surface.rms has no effect"));
+    EXPECT_TRUE(said("surface.sites = 500", "halved 2 times"));
+    EXPECT_FALSE(said("", "halved"));
+    EXPECT_TRUE(said("block.thickness = 64", "thinner"));
+}
+
+TEST(Scene, MapsAreFoundBesideTheScene) {
+    namespace fs = std::filesystem;
+    const fs::path folder =
+        fs::temp_directory_path() / ("asperity-scene-" + std::to_string(::getpid()));
+    fs::create_directories(folder / "maps");
+    std::ofstream(folder / "maps/m.txt") << "0\n";
+    std::ofstream(folder / "s.toml") << "surface.kind = \"file\"\nsurface.file = \"maps/m.txt\"\n";
+    Scene s = read_scene((folder / "s.toml").string());
+    EXPECT_EQ(s.surface.file, (folder / "maps/m.txt").string());
+    EXPECT_FALSE(s.surface.rms_given);
+    EXPECT_EQ(scene_json(s).find("surface.rms"),
+              nullptr); // read back, the map stays as high as it is
+    s = read_scene((folder / "s.toml").string(), {"surface.file=maps/m.txt:/x", "surface.rms=2"});
+    EXPECT_EQ(s.surface.file, (folder / "maps/m.txt:/x").string());
+    EXPECT_NE(scene_json(s).find("surface.rms"), nullptr);
+    fs::remove_all(folder);
+
+    io::Problem p = only("surface.kind = \"file\"\nsurface.file = \"none.h5\"\n");
+    EXPECT_EQ(p.where, "s.toml:2:16");
+    EXPECT_EQ(p.what, "surface.file = \"none.h5\": there is no such file");
+    p = only("surface.kind = \"file\"\n");
+    EXPECT_EQ(p.where, "s.toml:1:16");
+    EXPECT_EQ(p.what, "surface.kind = \"file\" needs surface.file");
+}
+
+TEST(Scene, ScenesThatComeWithAsperity) {
+    const std::string scenes = std::string(ASPERITY_SOURCE_DIR) + "/scenes/";
+    const Scene first = read_scene(scenes + "first-contact.toml");
+    EXPECT_EQ(first.surface.sites, 128);
+    EXPECT_EQ(first.surface.rms, 1.5);
+    EXPECT_EQ(first.block.model, BlockModel::multiscale);
+    const Scene flat = read_scene(scenes + "paper/flat-3A.toml");
+    EXPECT_EQ(scene_toml(flat, false), scene_toml(Scene{}, false));
+}
+
+TEST(Scene, ReferencePageIsUpToDate) {
+    std::ifstream page(std::string(ASPERITY_SOURCE_DIR) + "/docs/scene.md");
+    const std::string text((std::istreambuf_iterator<char>(page)), {});
+    EXPECT_EQ(text, scene_markdown()) << "./asperity defaults --markdown > docs/scene.md";
+}
+
+} // namespace
+} // namespace asperity

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Flat on flat: the numbers of model.md section 4.
+#include "engine/interface.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace asperity {
+namespace {
+
+constexpr double a = 2.6;
+constexpr double r0 = 3.28;
+
+// Boxes of a few sites: threads would only wait for each other.
+[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
+
+InterfaceOptions with_cutoff(double cutoff, bool tail = false) {
+    InterfaceOptions o;
+    o.potential.cutoff = cutoff;
+    o.tail = tail;
+    return o;
+}
+
+TEST(FlatOnFlat, WorkOfAdhesionForEachCutoff) {
+    EXPECT_NEAR(flat_reference(with_cutoff(4.0 * r0), a, 512, 512).work_of_adhesion, 98.86, 0.005);
+    EXPECT_NEAR(flat_reference(with_cutoff(3.0 * r0), a, 512, 512).work_of_adhesion, 95.36, 0.005);
+    EXPECT_NEAR(flat_reference(with_cutoff(2.5 * r0), a, 512, 512).work_of_adhesion, 90.15, 0.005);
+    EXPECT_NEAR(flat_reference(with_cutoff(2.0 * r0), a, 512, 512).work_of_adhesion, 77.58, 0.005);
+    // The table's infinity: what a cutoff of 20 r0 leaves out is below 0.003.
+    EXPECT_NEAR(flat_reference(with_cutoff(20.0 * r0), a, 512, 512).work_of_adhesion, 100.53,
+                0.0075);
+}
+
+TEST(FlatOnFlat, TailGivesBackWhatTheCutoffTook) {
+    EXPECT_NEAR(flat_reference(with_cutoff(4.0 * r0, true), a, 512, 512).work_of_adhesion, 100.53,
+                0.03);
+    EXPECT_NEAR(flat_reference(with_cutoff(8.0 * r0, true), a, 512, 512).work_of_adhesion, 100.53,
+                0.01);
+}
+
+TEST(FlatOnFlat, SeparationTensionAndStiffness) {
+    const FlatReference flat = flat_reference(with_cutoff(4.0 * r0), a, 512, 512);
+    EXPECT_NEAR(flat.separation, 3.11, 0.005);
+    EXPECT_NEAR(flat.largest_tension, 9.1, 0.05);
+    EXPECT_NEAR(flat.tension_separation - flat.separation, 0.5, 0.05);
+    EXPECT_NEAR(flat.stiffness, 0.33, 0.005);
+}
+
+/// Energy per area (meV/Å^2) of the flat block, moved sideways as a whole, from the sweep itself.
+double swept_energy(int n, int atoms, double ux, double uy, double z, bool tail = false) {
+    Surface s;
+    s.sites = atoms;
+    s.length = n * a;
+    s.height.assign(static_cast<std::size_t>(atoms * atoms), 0.0);
+    const Tile tile{0, 0, n, n, n};
+    const Interface interface(s, tile, a, with_cutoff(4.0 * r0, tail));
+    VectorField<double> u(tile, 1), f(tile, 1);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            u.x.plane(0)(x, y) = ux;
+            u.y.plane(0)(x, y) = uy;
+        }
+    const VectorField<double>& seen = u;
+    return 1e3 * interface.sweep(seen.plane(0), f.plane(0), z, true).energy.value() /
+           (n * a * n * a);
+}
+
+TEST(FlatOnFlat, OnTopSites) {
+    // The least energy on top of the atoms, by a scan; with the tail, for the number is that of no
+    // cutoff.
+    double least = 0.0, where = 0.0;
+    for (double z = 3.3; z < 3.5; z += 0.002) {
+        const double energy = swept_energy(6, 6, 0.5 * a, -0.5 * a, z, true);
+        if (energy < least) {
+            least = energy;
+            where = z;
+        }
+    }
+    EXPECT_NEAR(where, 3.40, 0.005);
+    EXPECT_NEAR(-least, 80.95, 0.03);
+    EXPECT_NEAR(-swept_energy(6, 6, 0.5 * a, -0.5 * a, where), 79.30, 0.005); // at 4 r0
+}
+
+TEST(FlatOnFlat, SweepsGiveTheReference) {
+    for (int atoms : {12, 19}) // 19 / 12 = 1.583: incommensurate but for the box
+        for (bool tail : {false, true}) {
+            const FlatReference flat = flat_reference(with_cutoff(4.0 * r0, tail), a, 12, atoms);
+            EXPECT_NEAR(-swept_energy(12, atoms, 0.0, 0.0, flat.separation, tail),
+                        flat.work_of_adhesion, 1e-9 * flat.work_of_adhesion);
+        }
+}
+
+TEST(FlatOnFlat, IncommensurateAveragesOverRegistries) {
+    // More registries than are sampled: the average has converged.
+    const InterfaceOptions o = with_cutoff(4.0 * r0);
+    const PairSum coarse = flat_pair_sum(o, a, 23, 37, 3.2);
+    EXPECT_NEAR(coarse.energy, 1e-3 * swept_energy(23, 37, 0.0, 0.0, 3.2) * a * a, 1e-12);
+    // Nearly the same lattice ratio with other registries (the box is another): 37/23 = 1.6087,
+    // 74/46.
+    EXPECT_NEAR(flat_pair_sum(o, a, 46, 74, 3.2).energy, coarse.energy, 1e-13);
+}
+
+TEST(FlatOnFlat, SaysSoWhereNothingBinds) {
+    EXPECT_THROW(flat_reference(with_cutoff(0.5 * r0), a, 16, 16), std::invalid_argument);
+}
+
+} // namespace
+} // namespace asperity

@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The fast sweeps against the reference, forces against energies, and the same bits whatever the
+// decomposition. States are rough and displaced at random, some far beyond what a run allows.
+#include "engine/interface.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace asperity {
+namespace {
+
+constexpr double a = 2.6;
+constexpr double r0 = 3.28;
+
+// Boxes of a few sites: threads would only wait for each other, but where they are what is tested.
+[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
+
+Surface rough(int sites, double length, double amplitude, unsigned seed) {
+    Surface s;
+    s.sites = sites;
+    s.length = length;
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> height(-amplitude, amplitude);
+    for (int i = 0; i < sites * sites; ++i)
+        s.height.push_back(height(random));
+    return s;
+}
+
+/// A whole box of displacements, copied into the fields of a tile.
+struct State {
+    int n;
+    std::vector<double> u[3];
+
+    State(int sites, double sideways, double up, unsigned seed) : n(sites) {
+        std::mt19937_64 random(seed);
+        std::uniform_real_distribution<double> unit(-1.0, 1.0);
+        for (int i = 0; i < n * n; ++i)
+            for (int k = 0; k < 3; ++k)
+                u[k].push_back((k < 2 ? sideways : up) * unit(random));
+    }
+    double& at(int k, int x, int y) { return u[k][static_cast<std::size_t>(y * n + x)]; }
+    VectorField<double> on(const Tile& tile) const {
+        VectorField<double> field(tile, 1);
+        Field<double>* component[3] = {&field.x, &field.y, &field.z};
+        for (int k = 0; k < 3; ++k)
+            for (int y = -halo_width; y < tile.ny + halo_width; ++y)
+                for (int x = -halo_width; x < tile.nx + halo_width; ++x)
+                    component[k]->plane(0)(x, y) = u[k][static_cast<std::size_t>(
+                        periodic(tile.y0 + y, n) * n + periodic(tile.x0 + x, n))];
+        return field;
+    }
+};
+
+struct Outcome {
+    std::vector<double> force[3]; // [y * n + x] of the box
+    InterfaceSums sums;
+};
+
+/// Sweeps the box cut into tiles of at most nx * ny sites.
+Outcome sweep(const Surface& substrate, const State& state, const InterfaceOptions& options,
+              double z, bool observe, int nx = 1 << 20, int ny = 1 << 20) {
+    Outcome out;
+    const int n = state.n;
+    for (auto& f : out.force)
+        f.assign(static_cast<std::size_t>(n * n), 1e99);
+    for (int y0 = 0; y0 < n; y0 += ny)
+        for (int x0 = 0; x0 < n; x0 += nx) {
+            const Tile tile{x0, y0, std::min(nx, n - x0), std::min(ny, n - y0), n};
+            const Interface interface(substrate, tile, a, options);
+            const VectorField<double> u = state.on(tile);
+            VectorField<double> f(tile, 1);
+            out.sums.merge(interface.sweep(u.plane(0), f.plane(0), z, observe));
+            for (int y = 0; y < tile.ny; ++y)
+                for (int x = 0; x < tile.nx; ++x) {
+                    const auto i = static_cast<std::size_t>((y0 + y) * n + x0 + x);
+                    out.force[0][i] = f.x.plane(0)(x, y);
+                    out.force[1][i] = f.y.plane(0)(x, y);
+                    out.force[2][i] = f.z.plane(0)(x, y);
+                }
+        }
+    return out;
+}
+
+void expect_close(const Outcome& judge, const Outcome& other, const std::string& what) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < judge.force[0].size(); ++i) {
+        double size = 1e-2; // eV/Å: the pair forces that cancel in a site's sum are of this size
+        for (int k = 0; k < 3; ++k)
+            size = std::max(size, std::abs(judge.force[k][i]));
+        for (int k = 0; k < 3; ++k)
+            worst = std::max(worst, std::abs(judge.force[k][i] - other.force[k][i]) / size);
+    }
+    EXPECT_LT(worst, 1e-12) << what;
+    EXPECT_EQ(judge.sums.in_contact, other.sums.in_contact) << what;
+    EXPECT_EQ(judge.sums.pushed, other.sums.pushed) << what;
+    if (judge.sums.closest_r2 < no_pair) {
+        EXPECT_NEAR(judge.sums.closest_r2, other.sums.closest_r2,
+                    1e-12 * (1.0 + judge.sums.closest_r2))
+            << what;
+    } else {
+        EXPECT_EQ(other.sums.closest_r2, no_pair) << what;
+    }
+    const double energy = judge.sums.energy.value();
+    EXPECT_NEAR(energy, other.sums.energy.value(), 1e-12 * (10.0 + std::abs(energy))) << what;
+}
+
+bool same_bits(const Outcome& p, const Outcome& q) {
+    for (int k = 0; k < 3; ++k)
+        if (std::memcmp(p.force[k].data(), q.force[k].data(), p.force[k].size() * sizeof(double)))
+            return false;
+    return p.sums.force_z.value() == q.sums.force_z.value() &&
+           p.sums.energy.value() == q.sums.energy.value() &&
+           p.sums.in_contact == q.sums.in_contact && p.sums.pushed == q.sums.pushed &&
+           p.sums.closest_r2 == q.sums.closest_r2;
+}
+
+InterfaceOptions with(InterfaceMethod method, double cutoff = 4.0 * r0) {
+    InterfaceOptions o;
+    o.potential.cutoff = cutoff;
+    o.method = method;
+    return o;
+}
+
+TEST(InterfaceSweep, AgreesWithTheReference) {
+    unsigned seed = 1;
+    for (int n : {1, 8, 16, 17, 30, 33})
+        for (double cutoff : {2.0 * r0, 2.7 * r0, 4.0 * r0})
+            // Sideways up to beyond the tables' margin of two spacings; gaps from overlap to out of
+            // reach.
+            for (double sideways : {0.1, 1.5, 7.0})
+                for (double z : {1.0, 6.0, 14.0}) {
+                    ++seed;
+                    const State state(n, sideways, 1.5, seed);
+                    const std::string what =
+                        "n=" + std::to_string(n) + " cutoff=" + std::to_string(cutoff) +
+                        " u=" + std::to_string(sideways) + " z=" + std::to_string(z);
+                    const Surface same = rough(n, n * a, 2.0, seed);
+                    const Outcome judge =
+                        sweep(same, state, with(InterfaceMethod::reference, cutoff), z, true);
+                    expect_close(
+                        judge, sweep(same, state, with(InterfaceMethod::lattice, cutoff), z, true),
+                        "lattice " + what);
+                    expect_close(
+                        judge,
+                        sweep(same, state, with(InterfaceMethod::cell_list, cutoff), z, true),
+                        "cell list " + what);
+                    const Surface other = rough(substrate_sites(n, 1.618), n * a, 2.0, seed);
+                    expect_close(
+                        sweep(other, state, with(InterfaceMethod::reference, cutoff), z, true),
+                        sweep(other, state, with(InterfaceMethod::automatic, cutoff), z, true),
+                        "incommensurate " + what);
+                }
+}
+
+TEST(InterfaceSweep, ForceOnlyGivesTheBitsOfTheObservedSweep) {
+    const int n = 19;
+    const State state(n, 0.8, 1.0, 3);
+    for (int m : {19, 31}) {
+        const Surface s = rough(m, n * a, 1.0, 4);
+        Outcome quick = sweep(s, state, with(InterfaceMethod::automatic), 4.0, false);
+        const Outcome full = sweep(s, state, with(InterfaceMethod::automatic), 4.0, true);
+        EXPECT_EQ(quick.sums.energy.value(), 0.0);
+        quick.sums.energy = full.sums.energy;
+        quick.sums.in_contact = full.sums.in_contact;
+        quick.sums.pushed = full.sums.pushed;
+        quick.sums.closest_r2 = full.sums.closest_r2;
+        EXPECT_TRUE(same_bits(quick, full)) << m;
+    }
+}
+
+TEST(InterfaceSweep, ForceIsMinusTheGradient) {
+    const int n = 10;
+    for (int m : {10, 16})
+        for (bool tail : {false, true})
+            for (auto method : {InterfaceMethod::automatic, InterfaceMethod::reference,
+                                InterfaceMethod::cell_list}) {
+                const Surface s = rough(m, n * a, 0.5, 5);
+                State state(n, 0.6, 0.6, 6);
+                InterfaceOptions o = with(method);
+                o.tail = tail;
+                const Outcome out = sweep(s, state, o, 3.6, true);
+                const double h = 1e-5;
+                for (auto [x, y] : {std::pair{0, 0}, {9, 4}, {5, 9}, {3, 3}})
+                    for (int k = 0; k < 3; ++k) {
+                        const double kept = state.at(k, x, y);
+                        state.at(k, x, y) = kept + h;
+                        const double up = sweep(s, state, o, 3.6, true).sums.energy.value();
+                        state.at(k, x, y) = kept - h;
+                        const double down = sweep(s, state, o, 3.6, true).sums.energy.value();
+                        state.at(k, x, y) = kept;
+                        const double f = out.force[k][static_cast<std::size_t>(y * n + x)];
+                        EXPECT_NEAR(f, -(up - down) / (2.0 * h), 2e-7 * (1.0 + std::abs(f)))
+                            << m << ' ' << tail << ' ' << x << ' ' << y << ' ' << k;
+                    }
+            }
+}
+
+TEST(InterfaceSweep, TotalForceIsMinusTheGradientOfARigidShift) {
+    // Newton's third law: what pushes the block sideways or up pushes the substrate back.
+    const int n = 12;
+    const Surface s = rough(n, n * a, 0.8, 7);
+    State state(n, 0.3, 0.3, 8);
+    const InterfaceOptions o = with(InterfaceMethod::automatic);
+    const Outcome out = sweep(s, state, o, 4.0, true);
+    for (int k = 0; k < 3; ++k) {
+        double total = 0.0;
+        for (double f : out.force[k])
+            total += f;
+        if (k == 2) {
+            EXPECT_NEAR(total, out.sums.force_z.value(), 1e-10);
+        }
+        const double h = 1e-6;
+        double energy[2];
+        for (int side : {0, 1}) {
+            State moved = state;
+            for (double& u : moved.u[k])
+                u += side ? h : -h;
+            energy[side] = sweep(s, moved, o, 4.0, true).sums.energy.value();
+        }
+        // Up to the small steps of the force at the cutoff.
+        EXPECT_NEAR(total, -(energy[1] - energy[0]) / (2.0 * h), 1e-3) << k;
+    }
+}
+
+TEST(InterfaceSweep, IsTheSameOnAShiftedLattice) {
+    // A displacement by whole spacings over a substrate moved along: the same forces.
+    const int n = 14;
+    const Surface s = rough(n, n * a, 1.0, 9);
+    Surface moved = s;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            moved.height[static_cast<std::size_t>(periodic(y - 1, n) * n + periodic(x + 1, n))] =
+                s.height[static_cast<std::size_t>(y * n + x)];
+    const State state(n, 0.4, 0.5, 10);
+    State shifted = state;
+    for (double& u : shifted.u[0])
+        u += a;
+    for (double& u : shifted.u[1])
+        u -= a;
+    for (auto method : {InterfaceMethod::lattice, InterfaceMethod::cell_list})
+        expect_close(sweep(s, state, with(method), 3.5, true),
+                     sweep(moved, shifted, with(method), 3.5, true), "shifted");
+}
+
+TEST(InterfaceSweep, GivesTheSameBitsOnAnyTilesAndThreads) {
+    for (int n : {33, 40}) {
+        State state(n, 0.9, 2.0, 11);
+        state.at(0, 5, 6) = 8.0; // beyond the margin
+        state.at(1, 32, 1) = -6.0;
+        for (int m : {n, substrate_sites(n, 1.618)})
+            for (bool tail : {false, true}) {
+                const Surface s = rough(m, n * a, 3.0, 12);
+                InterfaceOptions o = with(InterfaceMethod::automatic);
+                o.tail = tail;
+                const Outcome whole = sweep(s, state, o, 9.0, true);
+                for (auto [nx, ny] : {std::pair{17, 40}, {40, 16}, {11, 13}, {8, 8}, {3, 1}})
+                    EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true, nx, ny)))
+                        << n << ' ' << m << ' ' << nx << ' ' << ny;
+                omp_set_num_threads(2);
+                EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true)));
+                EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true, 21, 14)));
+                omp_set_num_threads(1);
+                o.skip = false;
+                EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true))) << "skip";
+            }
+    }
+}
+
+TEST(InterfaceSweep, SkipsWhatIsOutOfReach) {
+    const int n = 32;
+    const State still(n, 0.0, 0.0, 1);
+    Surface s = rough(n, n * a, 1.0, 2);
+    const Tile tile{0, 0, n, n, n};
+    for (int m : {n, 52}) {
+        if (m != n) s = rough(m, n * a, 1.0, 2);
+        const Interface interface(s, tile, a, {});
+        EXPECT_EQ(interface.method(),
+                  m == n ? InterfaceMethod::lattice : InterfaceMethod::cell_list);
+        const double z = interface.start_height();
+        EXPECT_EQ(sweep(s, still, {}, z + 1e-9, true).sums.in_reach, 0);
+        EXPECT_EQ(sweep(s, still, {}, z + 1e-9, true).sums.force_z.value(), 0.0);
+        // One high atom: only blocks around it are looked at.
+        s.height.assign(s.height.size(), -20.0);
+        s.height[static_cast<std::size_t>(m / 2 * m + m / 2)] = 0.0;
+        const Outcome tip = sweep(s, still, {}, 10.0, true);
+        EXPECT_LT(tip.sums.force_z.value(), 0.0);
+        EXPECT_LT(tip.sums.in_reach, n * n / 4);
+    }
+}
+
+TEST(InterfaceSweep, ReportsSitesThatAreNoNumbers) {
+    const int n = 16;
+    State state(n, 0.1, 0.1, 1);
+    state.at(0, 3, 3) = std::nan("");
+    state.at(2, 9, 4) = std::numeric_limits<double>::infinity();
+    for (int m : {16, 26}) {
+        const Outcome out = sweep(rough(m, n * a, 0.5, 1), state, {}, 4.0, false);
+        EXPECT_TRUE(std::isnan(out.force[2][3 * 16 + 3]));
+        EXPECT_TRUE(std::isnan(out.force[2][4 * 16 + 9]));
+        EXPECT_TRUE(std::isfinite(out.force[2][3 * 16 + 4]));
+    }
+}
+
+TEST(InterfaceSweep, WithoutDepthThereIsNoForce) {
+    InterfaceOptions o;
+    o.potential.epsilon = 0.0;
+    const State state(8, 0.1, 0.1, 1);
+    for (int m : {8, 13}) {
+        const Outcome out = sweep(rough(m, 8 * a, 0.5, 1), state, o, 3.0, true);
+        EXPECT_EQ(out.sums.force_z.value(), 0.0);
+        EXPECT_EQ(out.sums.energy.value(), 0.0);
+        EXPECT_GT(out.sums.in_contact, 0);
+    }
+}
+
+TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
+    const int n = 9;
+    Surface s = rough(n, n * a, 0.0, 1);
+    const Tile tile{0, 0, n, n, n};
+    const Interface interface(s, tile, a, {});
+    const State still(n, 0.0, 0.0, 1);
+    const VectorField<double> u = still.on(tile);
+    const InterfaceMaps maps = interface.maps(u.plane(0), 3.2);
+    const double nearest = std::sqrt(3.2 * 3.2 + 2.0 * 1.3 * 1.3);
+    VectorField<double> f(tile, 1);
+    const InterfaceSums sums = interface.sweep(u.plane(0), f.plane(0), 3.2, true);
+    EXPECT_EQ(sums.in_contact, n * n);
+    for (std::size_t i = 0; i < maps.gap.size(); ++i) {
+        EXPECT_EQ(maps.contact[i], 1);
+        EXPECT_NEAR(maps.distance[i], nearest, 1e-12);
+        EXPECT_NEAR(maps.gap[i], 3.2, 1e-12);
+        EXPECT_NEAR(maps.pressure[i], sums.force_z.value() / (n * n) / (a * a) * 160.21766, 1e-9);
+    }
+    const InterfaceMaps far = interface.maps(u.plane(0), 20.0);
+    EXPECT_EQ(far.contact[0], 0);
+    EXPECT_TRUE(std::isinf(far.distance[0]));
+    EXPECT_EQ(far.pressure[0], 0.0);
+}
+
+TEST(InterfaceOptionsCheck, SaysWhatIsWrong) {
+    const Surface s = rough(8, 8 * a, 0.0, 1);
+    const Tile tile{0, 0, 8, 8, 8};
+    InterfaceOptions o;
+    o.potential.cutoff = 300.0;
+    EXPECT_THROW(Interface(s, tile, a, o), std::invalid_argument);
+    o.potential.cutoff = -1.0;
+    EXPECT_THROW(Interface(s, tile, a, o), std::invalid_argument);
+    EXPECT_THROW(Interface(rough(13, 8 * a, 0.0, 1), tile, a, with(InterfaceMethod::lattice)),
+                 std::invalid_argument);
+}
+
+} // namespace
+} // namespace asperity

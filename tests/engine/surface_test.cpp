@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Surfaces: what was asked for is what is there (model.md section 3).
+#include "engine/surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace asperity {
+namespace {
+
+using std::numbers::pi;
+
+SurfaceOptions self_affine(int sites) {
+    SurfaceOptions o;
+    o.sites = sites;
+    o.length = 2.6 * sites;
+    return o;
+}
+
+double rms_of(const std::vector<double>& h) {
+    double sum = 0.0;
+    for (double v : h)
+        sum += v * v;
+    return std::sqrt(sum / static_cast<double>(h.size()));
+}
+
+double mean_of(const std::vector<double>& h) {
+    double sum = 0.0;
+    for (double v : h)
+        sum += v;
+    return sum / static_cast<double>(h.size());
+}
+
+TEST(SelfAffineSurface, HasTheRmsAskedForAndNoMean) {
+    for (int n : {16, 33, 64})
+        for (auto amplitudes : {Amplitudes::gaussian, Amplitudes::fixed}) {
+            SurfaceOptions o = self_affine(n);
+            o.amplitudes = amplitudes;
+            o.rms = 1.7;
+            const Surface s = make_surface(o);
+            ASSERT_EQ(s.height.size(), static_cast<std::size_t>(n * n));
+            EXPECT_NEAR(rms_of(s.height), 1.7, 1e-12) << n;
+            EXPECT_NEAR(mean_of(s.height), 0.0, 1e-12) << n;
+            EXPECT_NEAR(s.statistics.rms, 1.7, 1e-12);
+            EXPECT_LT(s.statistics.lowest, 0.0);
+            EXPECT_GT(s.statistics.highest, 0.0);
+        }
+}
+
+TEST(SelfAffineSurface, FixedAmplitudesFollowTheTarget) {
+    for (int n : {64, 101}) {
+        SurfaceOptions o = self_affine(n);
+        o.amplitudes = Amplitudes::fixed;
+        const Surface s = make_surface(o);
+        // The same factor for every bin inside the spectrum: the sum over the box's waves is not
+        // quite the integral, which the scaling to the rms makes up for.
+        const double first = s.statistics.spectrum[0].realised / s.statistics.spectrum[0].target;
+        EXPECT_NEAR(first, 1.0, 0.12) << n;
+        for (const SpectrumBin& b : s.statistics.spectrum)
+            if (b.target > 0.0) {
+                EXPECT_NEAR(b.realised / b.target, first, 1e-9) << b.q;
+            }
+    }
+}
+
+TEST(SelfAffineSurface, GaussianAmplitudesFollowTheTargetOnAverage) {
+    SurfaceOptions o = self_affine(128);
+    double ratio = 0.0;
+    int bins = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        o.seed = seed;
+        const Surface s = make_surface(o);
+        for (const SpectrumBin& b : s.statistics.spectrum)
+            if (b.modes > 60 && b.target > 0.0) {
+                ratio += b.realised / b.target;
+                ++bins;
+                EXPECT_NEAR(b.realised / b.target, 1.0, 0.8) << b.q;
+            }
+    }
+    EXPECT_NEAR(ratio / bins, 1.0, 0.15);
+}
+
+TEST(SelfAffineSurface, TargetSpectrumIntegratesToTheRms) {
+    for (double hurst : {0.0, 0.5, 0.8})
+        for (double rolloff : {0.5, 1.0, 3.0, 200.0}) {
+            SurfaceOptions o = self_affine(128);
+            o.hurst = hurst;
+            o.rolloff = rolloff;
+            const double unit = 2.0 * pi / o.length;
+            double sum = 0.0;
+            const int steps = 400000;
+            const double from = 1.0, to = 64.0;
+            for (int k = 0; k < steps; ++k) {
+                const double q = (from + (to - from) * (k + 0.5) / steps) * unit;
+                sum += 2.0 * pi * q * target_spectrum(o, q) * (to - from) / steps * unit;
+            }
+            EXPECT_NEAR(sum, 9.0, 1e-3) << hurst << ' ' << rolloff;
+        }
+}
+
+TEST(SelfAffineSurface, SlopeIsThatOfItsWaves) {
+    // One ring of waves only: q = q_L, so slope = q_L rms.
+    SurfaceOptions o = self_affine(32);
+    o.cutoff = 1.0;
+    const Surface s = make_surface(o);
+    EXPECT_NEAR(s.statistics.rms_slope, 2.0 * pi / o.length * o.rms, 1e-12);
+}
+
+TEST(SelfAffineSurface, SameSeedSameBits) {
+    SurfaceOptions o = self_affine(48);
+    const Surface first = make_surface(o), again = make_surface(o);
+    EXPECT_EQ(first.height, again.height);
+    o.seed = 2;
+    EXPECT_NE(make_surface(o).height, first.height);
+    o.seed = 1 + (1ull << 32); // the upper half of the seed counts too
+    EXPECT_NE(make_surface(o).height, first.height);
+}
+
+TEST(SelfAffineSurface, KeepsItsLargeScaleShapeOnAFinerGrid) {
+    SurfaceOptions coarse = self_affine(64), fine = self_affine(128);
+    coarse.cutoff = fine.cutoff = 16.0;
+    fine.length = coarse.length;
+    const Surface c = make_surface(coarse), f = make_surface(fine);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            EXPECT_NEAR(c.height[static_cast<std::size_t>(y * 64 + x)],
+                        f.height[static_cast<std::size_t>(2 * y * 128 + 2 * x)], 1e-10);
+}
+
+TEST(SelfAffineSurface, SaysThatItClips) {
+    SurfaceOptions o = self_affine(64);
+    const Surface s = make_surface(o);
+    ASSERT_EQ(s.notes.size(), 1u);
+    EXPECT_NE(s.notes[0].find("Nyquist"), std::string::npos);
+    EXPECT_NE(s.notes[0].find("32"), std::string::npos);
+    EXPECT_EQ(s.statistics.spectrum.back().modes > 0, true);
+    o.cutoff = 20.0;
+    EXPECT_TRUE(make_surface(o).notes.empty());
+}
+
+TEST(FlatSurface, IsFlat) {
+    SurfaceOptions o = self_affine(8);
+    o.kind = SurfaceKind::flat;
+    for (double h : make_surface(o).height)
+        EXPECT_EQ(h, 0.0);
+    o.kind = SurfaceKind::self_affine;
+    o.rms = 0.0;
+    for (double h : make_surface(o).height)
+        EXPECT_EQ(h, 0.0);
+}
+
+TEST(CurvedSurface, IsTheSphericalCap) {
+    SurfaceOptions o = self_affine(64);
+    o.kind = SurfaceKind::flat;
+    o.radius = 441.0;
+    const Surface s = make_surface(o);
+    EXPECT_EQ(s.height[32 * 64 + 32], 0.0);
+    const double rho2 = (10.0 * 10.0 + 20.0 * 20.0) * 2.6 * 2.6;
+    EXPECT_NEAR(s.height[52 * 64 + 22], -(441.0 - std::sqrt(441.0 * 441.0 - rho2)), 1e-11);
+    EXPECT_EQ(s.statistics.highest, 0.0);
+    EXPECT_EQ(s.statistics.rms, 0.0);
+    // Roughness is added to it and measured without it.
+    o.kind = SurfaceKind::self_affine;
+    const Surface rough = make_surface(o);
+    SurfaceOptions plain = o;
+    plain.radius = 0.0;
+    const Surface without = make_surface(plain);
+    EXPECT_NEAR(rough.statistics.rms, 3.0, 1e-12);
+    EXPECT_NEAR(rough.height[77] - without.height[77], s.height[77], 1e-11);
+    o.radius = 100.0; // does not cover the box
+    EXPECT_THROW(make_surface(o), std::invalid_argument);
+}
+
+std::vector<double> wavy(int nx, int ny) {
+    std::vector<double> h;
+    for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x) {
+            const double px = 2.0 * pi * x / nx, py = 2.0 * pi * y / ny;
+            h.push_back(0.3 + std::cos(2.0 * px - py) + 0.5 * std::sin(3.0 * py) +
+                        0.2 * std::sin(4.0 * px + 3.0 * py + 0.4));
+        }
+    return h;
+}
+
+TEST(MeasuredSurface, IsTakenAsItIsWhereItFits) {
+    SurfaceOptions o = self_affine(16);
+    o.kind = SurfaceKind::file;
+    o.rms = 0.0;
+    const Surface s = surface_from_heights(o, wavy(16, 16), 16, 16);
+    EXPECT_EQ(s.height, wavy(16, 16));
+    EXPECT_TRUE(s.notes.empty());
+}
+
+TEST(MeasuredSurface, ResamplesBandLimitedMapsExactly) {
+    SurfaceOptions o = self_affine(12);
+    o.kind = SurfaceKind::file;
+    o.rms = 0.0;
+    for (auto [from_x, from_y, to] : {std::tuple{12, 12, 30},
+                                      {30, 30, 12},
+                                      {17, 17, 33},
+                                      {33, 33, 14},
+                                      {20, 15, 16},
+                                      {11, 24, 45}}) {
+        o.sites = to;
+        o.length = 2.6 * to;
+        const Surface s = surface_from_heights(o, wavy(from_x, from_y), from_x, from_y);
+        const std::vector<double> exact = wavy(to, to);
+        for (std::size_t i = 0; i < exact.size(); ++i)
+            ASSERT_NEAR(s.height[i], exact[i], 1e-12) << from_x << ' ' << to;
+        EXPECT_EQ(s.notes.size(), 1u);
+    }
+}
+
+TEST(MeasuredSurface, LosesItsPlaneAndIsScaledOnRequest) {
+    const int n = 20;
+    std::vector<double> h = wavy(n, n);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            h[static_cast<std::size_t>(y * n + x)] += 0.7 * x - 0.2 * y + 5.0;
+    SurfaceOptions o = self_affine(n);
+    o.kind = SurfaceKind::file;
+    o.rms = 0.0;
+    o.detrend = true;
+    Surface s = surface_from_heights(o, h, n, n);
+    double slope_x = 0.0;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            slope_x += (x - 9.5) * s.height[static_cast<std::size_t>(y * n + x)];
+    EXPECT_NEAR(slope_x, 0.0, 1e-9);
+    EXPECT_NEAR(mean_of(s.height), 0.0, 1e-12);
+    o.rms = 2.5;
+    s = surface_from_heights(o, h, n, n);
+    EXPECT_NEAR(rms_of(s.height), 2.5, 1e-12);
+}
+
+TEST(BadSurfaces, SayWhatIsWrong) {
+    const auto message = [](const SurfaceOptions& o) -> std::string {
+        try {
+            make_surface(o);
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return "";
+    };
+    SurfaceOptions o = self_affine(16);
+    o.rms = -1.0;
+    EXPECT_NE(message(o).find("rms = -1"), std::string::npos);
+    o = self_affine(16);
+    o.hurst = 1.4;
+    EXPECT_NE(message(o).find("hurst"), std::string::npos);
+    o = self_affine(0);
+    EXPECT_NE(message(o).find("sites"), std::string::npos);
+    o = self_affine(1);
+    EXPECT_NE(message(o).find("no wave"), std::string::npos);
+    o = self_affine(16);
+    o.cutoff = 0.5;
+    EXPECT_NE(message(o).find("cutoff"), std::string::npos);
+
+    o = self_affine(4);
+    o.kind = SurfaceKind::file;
+    std::vector<double> h(16, 1.0);
+    EXPECT_THROW(surface_from_heights(o, h, 4, 4), std::invalid_argument); // flat, scaled to 3 Å
+    EXPECT_THROW(surface_from_heights(o, h, 4, 5), std::invalid_argument);
+    h[6] = std::nan("");
+    try {
+        surface_from_heights(o, h, 4, 4);
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_NE(std::string(error.what()).find("row 2, column 3"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(SubstrateSites, AreWholeAtoms) {
+    EXPECT_EQ(substrate_sites(512, 1.0), 512);
+    EXPECT_EQ(substrate_sites(512, 1.618), 828);
+    EXPECT_EQ(substrate_sites(4, 0.01), 1);
+}
+
+} // namespace
+} // namespace asperity

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/series.hpp"
+
+#include "scratch.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace asperity::io {
+namespace {
+
+template <class T>
+class RoundTrip : public testing::Test {};
+using Types = testing::Types<double, float, std::int64_t, std::int32_t, std::uint8_t>;
+TYPED_TEST_SUITE(RoundTrip, Types);
+
+TYPED_TEST(RoundTrip, Dataset) {
+    using T = TypeParam;
+    const Scratch scratch;
+    std::vector<T> data(24);
+    std::iota(data.begin(), data.end(), T(1));
+    {
+        Hdf5File file(scratch / "a.h5", Hdf5File::Mode::create);
+        file.write<T>("/deep/down/data", {2, 3, 4}, data);
+        file.close();
+    }
+    const Hdf5File file(scratch / "a.h5", Hdf5File::Mode::read);
+    EXPECT_EQ(file.shape("/deep/down/data"), (Hdf5File::Shape{2, 3, 4}));
+    EXPECT_EQ(file.read<T>("/deep/down/data"), data);
+    EXPECT_EQ(file.members("/deep"), std::vector<std::string>{"down"});
+    EXPECT_TRUE(file.is_dataset("/deep/down/data"));
+    EXPECT_FALSE(file.is_dataset("/deep/down"));
+    EXPECT_FALSE(file.exists("/deep/up/data"));
+}
+
+TEST(Hdf5File, Attributes) {
+    const Scratch scratch;
+    Hdf5File file(scratch / "a.h5", Hdf5File::Mode::create);
+    file.make_group("/g");
+    file.write_attribute("/g", "unit", "Å");
+    file.write_attribute("/g", "unit", "meV/Å²"); // written over
+    file.write_attribute("/g", "empty", "");
+    file.write_attribute("/g", "x", 0.1);
+    file.write_attribute("/g", "n", std::int64_t{1} << 60);
+    file.write_attribute("/", "list", std::vector<double>{1.0, 2.0});
+    EXPECT_EQ(file.read_text_attribute("/g", "unit"), "meV/Å²");
+    EXPECT_EQ(file.read_text_attribute("/g", "empty"), "");
+    EXPECT_EQ(file.read_number_attribute("/g", "x"), 0.1);
+    EXPECT_EQ(file.read_integer_attribute("/g", "n"), std::int64_t{1} << 60);
+    EXPECT_TRUE(file.has_attribute("/g", "x"));
+    EXPECT_FALSE(file.has_attribute("/g", "y"));
+    EXPECT_THROW(file.read_text_attribute("/g", "y"), FileError);
+    EXPECT_THROW(file.read_text_attribute("/g", "x"), FileError);
+    EXPECT_THROW(file.read_number_attribute("/", "list"), FileError);
+    EXPECT_THROW(file.write_attribute("/nothing", "x", 1.0), FileError);
+}
+
+TEST(Hdf5File, PlaneByPlane) {
+    const Scratch scratch;
+    Hdf5File file(scratch / "a.h5", Hdf5File::Mode::create);
+    file.make_dataset<double>("/u", {3, 2, 5});
+    for (std::uint64_t z = 0; z < 3; ++z) {
+        std::vector<double> plane(10);
+        std::iota(plane.begin(), plane.end(), 10.0 * static_cast<double>(z));
+        file.write_slab<double>("/u", {z, 0, 0}, {1, 2, 5}, plane);
+    }
+    std::vector<double> all(30);
+    std::iota(all.begin(), all.end(), 0.0);
+    EXPECT_EQ(file.read<double>("/u"), all);
+    std::vector<double> part(4);
+    file.read_slab<double>("/u", {1, 0, 3}, {1, 2, 2}, part);
+    EXPECT_EQ(part, (std::vector<double>{13, 14, 18, 19}));
+    EXPECT_THROW(file.read_slab<double>("/u", {3, 0, 0}, {1, 2, 5}, all), FileError);
+    EXPECT_THROW(file.read_slab<double>("/u", {3, 0, 0}, {1, 2, 2}, part), FileError);
+    EXPECT_THROW(file.write_slab<double>("/u", {0, 0}, {2, 2}, part), FileError);
+    EXPECT_THROW(file.write_slab<double>("/v", {0, 0}, {2, 2}, part), FileError);
+}
+
+TEST(Hdf5File, GrowingRows) {
+    const Scratch scratch;
+    Hdf5File file(scratch / "a.h5", Hdf5File::Mode::create);
+    file.make_series<float>("/s");
+    file.make_series<float>("/frames/f", {2, 2});
+    for (int i = 0; i < 5; ++i) {
+        const float x = static_cast<float>(i);
+        file.append<float>("/s", std::vector<float>{x, x});
+        file.append<float>("/frames/f", std::vector<float>{x, x, x, x});
+    }
+    EXPECT_EQ(file.shape("/s"), Hdf5File::Shape{10});
+    EXPECT_EQ(file.shape("/frames/f"), (Hdf5File::Shape{5, 2, 2}));
+    EXPECT_EQ(file.read<float>("/frames/f").back(), 4.0f);
+    EXPECT_THROW(file.append<float>("/frames/f", std::vector<float>{1, 2, 3}), FileError);
+    file.truncate("/s", 3);
+    EXPECT_EQ(file.read<float>("/s"), (std::vector<float>{0, 0, 1}));
+    EXPECT_THROW(file.truncate("/s", 4), FileError);
+}
+
+TEST(Hdf5File, ErrorsNameFileObjectAndCause) {
+    const Scratch scratch;
+    EXPECT_THROW(Hdf5File(scratch / "none.h5", Hdf5File::Mode::read), FileError);
+    EXPECT_THROW(Hdf5File(scratch.write("text.h5", "no"), Hdf5File::Mode::read), FileError);
+    try {
+        Hdf5File(scratch / "no/such/dir.h5", Hdf5File::Mode::create);
+        FAIL();
+    } catch (const FileError& error) {
+        EXPECT_EQ(error.code(), 4);
+        EXPECT_NE(std::string(error.what()).find("dir.h5: cannot be created\n    why: HDF5:"),
+                  std::string::npos)
+            << error.what();
+    }
+    Hdf5File file(scratch / "a.h5", Hdf5File::Mode::create);
+    file.write<double>("/x", {2}, std::vector<double>{1, 2});
+    EXPECT_THROW(file.write<double>("/x", {2}, std::vector<double>{1, 2}), FileError); // is there
+    EXPECT_THROW(file.write<double>("/y", {3}, std::vector<double>{1, 2}), FileError);
+    EXPECT_THROW(file.write<double>("/x/y", {1}, std::vector<double>{1}), FileError);
+    EXPECT_THROW(file.read<double>("/z"), FileError);
+    EXPECT_THROW(file.members("/z"), FileError);
+    file.close();
+    EXPECT_THROW(file.flush(), FileError);
+    const Hdf5File reading(scratch / "a.h5", Hdf5File::Mode::read);
+    EXPECT_EQ(reading.read<float>("/x"), (std::vector<float>{1, 2})); // converted while reading
+}
+
+TEST(Hdf5File, ReadOnlyFilesStayAsTheyAre) {
+    const Scratch scratch;
+    Hdf5File(scratch / "a.h5", Hdf5File::Mode::create).close();
+    Hdf5File file(scratch / "a.h5", Hdf5File::Mode::read);
+    EXPECT_THROW(file.make_group("/g"), FileError);
+    EXPECT_THROW(file.write<double>("/x", {1}, std::vector<double>{1}), FileError);
+}
+
+TEST(Series, ColumnsWithUnits) {
+    const Scratch scratch;
+    const std::vector<Column> columns = {{"step", "", "time step"}, {"force", "eV/Å", "total"}};
+    {
+        Hdf5File file(scratch / "run.h5", Hdf5File::Mode::create);
+        write_h5md_head(file, "0.1.0");
+        write_h5md_box(file, "/particles/trajectory/box", 10.0, 10.0, 5.0);
+        Series series(file, "/series", columns);
+        for (int i = 0; i < 150; ++i)
+            series.append({1.0 * i, -0.5 * i});
+        EXPECT_EQ(series.rows(), 150u);
+        EXPECT_EQ(file.shape("/series/step"), Hdf5File::Shape{128}); // the rest waits in memory
+        series.flush();
+        EXPECT_THROW(series.append({1.0}), FileError);
+    }
+    Hdf5File file(scratch / "run.h5", Hdf5File::Mode::edit);
+    EXPECT_EQ(file.read<double>("/series/force").at(149), -74.5);
+    EXPECT_EQ(file.read_text_attribute("/series/force", "unit"), "eV/Å");
+    EXPECT_EQ(file.read_text_attribute("/h5md/creator", "version"), "0.1.0");
+    EXPECT_EQ(file.read<double>("/particles/trajectory/box/edges"),
+              (std::vector<double>{10, 10, 5}));
+
+    Series again = Series::reopen(file, "/series", columns, 100);
+    again.append({100.0, 7.0});
+    again.flush();
+    EXPECT_EQ(file.read<double>("/series/force").size(), 101u);
+    EXPECT_EQ(file.read<double>("/series/force").back(), 7.0);
+    EXPECT_THROW(Series::reopen(file, "/series", columns, 500), FileError);
+    EXPECT_THROW(Series::reopen(file, "/series", {{"other", "", ""}}, 1), FileError);
+}
+
+} // namespace
+} // namespace asperity::io

@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The reader on a scene of its own: a teapot. Every kind of mistake with its exact position.
+#include "io/scene_reader.hpp"
+
+#include "scratch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace asperity::io {
+namespace {
+
+enum class Glaze { none, celadon, raku };
+
+struct Teapot {
+    double height = 150.0; // mm
+    int cups = 4;
+    long long serial = 7;
+    bool lid = true;
+    std::string maker = "unknown";
+    Glaze glaze = Glaze::celadon;
+    std::optional<double> crack;
+    std::optional<long long> chips;
+    std::vector<Glaze> coats = {Glaze::raku};
+    std::vector<std::string> marks = {"seal"};
+    double heat = 0.5;
+};
+
+Schema bind(Teapot& t) {
+    Schema schema;
+    schema.section("body", "The pot itself.");
+    schema.number("height", t.height, "m", between(0.0, 200.0), "how tall");
+    schema.integer("cups", t.cups, between(1, 12), "how many it fills");
+    schema.integer("serial", t.serial, any(), "its number");
+    schema.boolean("lid", t.lid, "whether it has one");
+    schema.text("maker", t.maker, "who made it");
+    schema.section("surface", "What is seen.");
+    schema.choice<Glaze>(
+        "glaze", t.glaze,
+        {{"none", Glaze::none}, {"celadon", Glaze::celadon}, {"raku", Glaze::raku}}, "its glaze");
+    schema.number_or("crack", t.crack, "none", "m", positive(), "length of the crack");
+    schema.integer_or("chips", t.chips, "some", at_least(0), "how many");
+    schema.list_of<Glaze>("coats", t.coats, {{"raku", Glaze::raku}, {"celadon", Glaze::celadon}},
+                          "in order");
+    schema.list("marks", t.marks, {"seal", "every:"}, "on the foot");
+    schema.number("heat", t.heat, "", Range{0.0, 1.0, true, true}, "of the kiln");
+    return schema;
+}
+
+struct Read {
+    Teapot pot;
+    Positions positions;
+    std::vector<Problem> problems;
+};
+
+Read read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    Read result;
+    Problems problems;
+    bind(result.pot).read(text, "pot.toml", overrides, result.positions, problems);
+    result.problems = problems.list();
+    return result;
+}
+
+Problem only(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    const Read result = read(text, overrides);
+    EXPECT_EQ(result.problems.size(), 1u) << text;
+    return result.problems.empty() ? Problem{} : result.problems.front();
+}
+
+TEST(SceneReader, ReadsEveryType) {
+    const Read r = read(R"([body]
+height = "20 cm"
+cups = 6
+serial = 12345678901
+lid = false
+maker = "Hamada"
+[surface]
+glaze = "raku"
+crack = "1 mm"
+chips = 3
+coats = ["celadon", "raku"]
+marks = ["seal", "every:20"]
+heat = "60 %"
+)");
+    ASSERT_TRUE(r.problems.empty()) << format(r.problems.front());
+    EXPECT_EQ(r.pot.height, 0.2);
+    EXPECT_EQ(r.pot.cups, 6);
+    EXPECT_EQ(r.pot.serial, 12345678901);
+    EXPECT_FALSE(r.pot.lid);
+    EXPECT_EQ(r.pot.maker, "Hamada");
+    EXPECT_EQ(r.pot.glaze, Glaze::raku);
+    EXPECT_EQ(r.pot.crack, 0.001);
+    EXPECT_EQ(r.pot.chips, 3);
+    EXPECT_EQ(r.pot.coats, (std::vector{Glaze::celadon, Glaze::raku}));
+    EXPECT_EQ(r.pot.marks, (std::vector<std::string>{"seal", "every:20"}));
+    EXPECT_EQ(r.pot.heat, 0.6);
+    EXPECT_TRUE(r.positions.is_set("body.cups"));
+    EXPECT_EQ(r.positions.where("body.cups"), "pot.toml:3:8");
+    EXPECT_EQ(r.positions.where("body.never"), "pot.toml");
+}
+
+TEST(SceneReader, NothingSetMeansDefaults) {
+    const Read r = read("");
+    EXPECT_TRUE(r.problems.empty());
+    EXPECT_EQ(r.pot.cups, 4);
+    EXPECT_FALSE(r.pot.crack.has_value());
+    EXPECT_FALSE(r.positions.is_set("body.cups"));
+}
+
+TEST(SceneReader, WholeNumbersAreNumbersToo) {
+    EXPECT_EQ(read("[body]\nheight = 3\n").pot.height, 3.0);
+    EXPECT_EQ(read("body.height = 3\n").pot.height, 3.0); // dotted keys are TOML too
+    EXPECT_FALSE(read("[surface]\ncrack = \"none\"\n").pot.crack.has_value());
+}
+
+TEST(SceneReader, UnknownKey) {
+    const Problem p = only("[body]\ncups = 3\n  hieght = 3\n");
+    EXPECT_EQ(p.where, "pot.toml:3:3");
+    EXPECT_EQ(p.what, "body.hieght is no key of a scene");
+    EXPECT_EQ(p.fix, "did you mean body.height?");
+}
+
+TEST(SceneReader, KeyOfAnotherSection) {
+    const Problem p = only("[surface]\ncups = 3\n");
+    EXPECT_EQ(p.where, "pot.toml:2:1");
+    EXPECT_EQ(p.fix, "did you mean body.cups?");
+}
+
+TEST(SceneReader, KeyOutsideOfAnySection) {
+    const Problem p = only("cups = 3\n");
+    EXPECT_EQ(p.where, "pot.toml:1:1");
+    EXPECT_EQ(p.why, "every key stands in a [section]");
+    EXPECT_EQ(p.fix, "did you mean body.cups?");
+}
+
+TEST(SceneReader, UnknownSection) {
+    Problem p = only("[body]\ncups = 3\n[surfase]\nheat = 0.1\n");
+    EXPECT_EQ(p.where, "pot.toml:3:2");
+    EXPECT_EQ(p.what, "[surfase] is no section of a scene");
+    EXPECT_EQ(p.fix, "did you mean [surface]?");
+    p = only("[[body]]\ncups = 3\n");
+    EXPECT_EQ(p.what, "[[body]] is a list of sections");
+}
+
+TEST(SceneReader, WrongTypes) {
+    Problem p = only("[body]\ncups = \"many\"\n");
+    EXPECT_EQ(p.where, "pot.toml:2:8");
+    EXPECT_EQ(p.what, "body.cups = \"many\" is of the wrong type");
+    EXPECT_EQ(p.why, "a whole number is needed, this is a string");
+    EXPECT_EQ(only("[body]\ncups = 3.0\n").why, "a whole number is needed, this is a number");
+    EXPECT_EQ(only("[body]\nlid = 1\n").why, "true or false is needed, this is a whole number");
+    EXPECT_EQ(only("[body]\nmaker = true\n").why, "a string is needed, this is true or false");
+    EXPECT_EQ(only("[body]\nheight = true\n").why,
+              "a number or a quantity in m is needed, this is true or false");
+    EXPECT_EQ(only("[surface]\ncoats = \"raku\"\n").why,
+              "a list of strings is needed, this is a string");
+    EXPECT_EQ(only("[surface]\ncoats = [1, 2]\n").why,
+              "a list of strings is needed, this is of a type no key has");
+    EXPECT_EQ(only("[surface]\nglaze = 3\n").why,
+              "one of \"none\", \"celadon\", \"raku\" is needed, this is a whole number");
+    EXPECT_EQ(only("[body]\ncups = 2026-01-01\n").why,
+              "a whole number is needed, this is of a type no key has");
+    EXPECT_EQ(only("[body]\nmaker = \"\"\n").what, "body.maker = \"\" is empty");
+}
+
+TEST(SceneReader, Ranges) {
+    Problem p = only("[body]\ncups = 13\n");
+    EXPECT_EQ(p.where, "pot.toml:2:8");
+    EXPECT_EQ(p.what, "body.cups = 13 is out of range");
+    EXPECT_EQ(p.why, "allowed: 1 to 12");
+    p = only("[body]\nheight = \"-1 m\"\n");
+    EXPECT_EQ(p.why, "allowed: 0 to 200 m");
+    p = only("[surface]\ncrack = 0.0\n");
+    EXPECT_EQ(p.why, "allowed: above 0 m");
+    EXPECT_EQ(p.fix, "give a value in that range; \"none\" is allowed too");
+    EXPECT_EQ(only("[surface]\nheat = 1\n").why, "allowed: above 0 to below 1");
+    EXPECT_EQ(only("[surface]\nheat = nan\n").what, "surface.heat = nan is not finite");
+    EXPECT_EQ(only("[surface]\nchips = -1\n").why, "allowed: 0 or more");
+    EXPECT_EQ(only("[body]\ncups = 99999999999\n").why, "allowed: 1 to 12");
+}
+
+TEST(SceneReader, Units) {
+    Problem p = only("[body]\nheight = \"3 stone\"\n");
+    EXPECT_EQ(p.what, "body.height = \"3 stone\" cannot be read as a quantity");
+    EXPECT_EQ(p.why, "'stone' is no unit known here");
+    EXPECT_EQ(only("[body]\nheight = \"3 K\"\n").why, "a length is needed, and K is a temperature");
+    EXPECT_NE(only("[surface]\ncrack = \"nine\"\n").fix.find("\"none\" is allowed too"),
+              std::string::npos);
+}
+
+TEST(SceneReader, Choices) {
+    Problem p = only("[surface]\nglaze = \"seladon\"\n");
+    EXPECT_EQ(p.where, "pot.toml:2:9");
+    EXPECT_EQ(p.why, "choices: \"none\", \"celadon\", \"raku\"");
+    EXPECT_EQ(p.fix, "did you mean \"celadon\"?");
+    p = only("[surface]\nmarks = [\"seal\", \"evry:3\"]\n");
+    EXPECT_EQ(p.why, "choices: \"seal\", \"every:N\"");
+    for (const char* bad : {"every:", "every:0", "every:-1", "every:x", "every:1.5"})
+        only(std::string("[surface]\nmarks = [\"") + bad + "\"]\n");
+}
+
+TEST(SceneReader, SyntaxErrors) {
+    Problem p = only("[body]\nheight = 20 cm\n");
+    EXPECT_TRUE(p.where.starts_with("pot.toml:2:")) << p.where;
+    EXPECT_EQ(p.what, "this is no TOML");
+    EXPECT_EQ(p.fix, "words, and numbers with a unit, stand in quotes: height = \"20 cm\"");
+    p = only("[body]\ncups = 3\ncups = 4\n");
+    EXPECT_TRUE(p.where.starts_with("pot.toml:3:")) << p.where;
+    p = only("[body]\ncups\n");
+    EXPECT_EQ(p.fix, "a line is [section], or key = value, or a # comment");
+    only("[body\n");
+    only("[body]\nmaker = \"x\n");
+    only("[body]\ncups =\n");
+    only("\xff\xfe");
+}
+
+TEST(SceneReader, AllAtOnceInTheOrderOfTheText) {
+    const Read r = read("[surface]\nheat = 7\nglaze = \"rakku\"\n[body]\ncups = 0\nhandle = 1\n"
+                        "[extras]\nx = 1\n",
+                        {"body.lid=perhaps", "body.height"});
+    ASSERT_EQ(r.problems.size(), 7u);
+    const char* where[] = {"pot.toml:2:8",     "pot.toml:3:9", "pot.toml:5:8",
+                           "pot.toml:6:1",     "pot.toml:7:2", "--set body.lid=perhaps",
+                           "--set body.height"};
+    for (std::size_t i = 0; i < 7; ++i)
+        EXPECT_EQ(r.problems[i].where, where[i]);
+}
+
+TEST(SceneReader, Overrides) {
+    const Read r =
+        read("[body]\ncups = 3\n",
+             {"body.cups=5", "body.height=12 cm", "body.maker=Leach", "surface.coats=celadon,raku",
+              "body.lid=false", "surface.crack=none", "surface.marks=[\"every:3\"]",
+              "surface.glaze=\"none\"", "surface.heat = 0.25"});
+    ASSERT_TRUE(r.problems.empty()) << format(r.problems.front());
+    EXPECT_EQ(r.pot.cups, 5);
+    EXPECT_EQ(r.pot.height, 0.12);
+    EXPECT_EQ(r.pot.maker, "Leach");
+    EXPECT_EQ(r.pot.coats, (std::vector{Glaze::celadon, Glaze::raku}));
+    EXPECT_EQ(r.pot.glaze, Glaze::none);
+    EXPECT_EQ(r.pot.marks, (std::vector<std::string>{"every:3"}));
+    EXPECT_EQ(r.pot.heat, 0.25);
+    EXPECT_EQ(r.positions.where("body.cups"), "--set body.cups=5");
+
+    Problem p = only("", {"cups=3"});
+    EXPECT_EQ(p.where, "--set cups=3");
+    EXPECT_EQ(p.fix, "did you mean body.cups?");
+    p = only("", {"body.cups=0"});
+    EXPECT_EQ(p.where, "--set body.cups=0");
+    EXPECT_EQ(p.why, "allowed: 1 to 12");
+    p = only("", {"body.cups"});
+    EXPECT_EQ(p.why, "an override is section.key=value");
+    only("", {"body.cups="});
+    only("", {"body.cups=1\nmaker=\"x\""});
+}
+
+TEST(SceneReader, ProblemsOfOthersFindTheirPosition) {
+    const Read r = read("[body]\ncups = 3\n", {"body.height=0.1"});
+    Problems problems(r.positions);
+    EXPECT_NO_THROW(problems.throw_if_any());
+    problems.add("body.cups", "= 3 is odd", "pairs are wanted", "take 4");
+    problems.add("body.height", "is low");
+    problems.add("surface.heat", ": cold");
+    try {
+        problems.throw_if_any();
+        FAIL();
+    } catch (const SceneError& error) {
+        EXPECT_EQ(error.code(), 2);
+        EXPECT_STREQ(error.what(), "pot.toml:2:8: body.cups = 3 is odd\n"
+                                   "    why: pairs are wanted\n"
+                                   "    fix: take 4\n"
+                                   "--set body.height=0.1: body.height is low\n"
+                                   "pot.toml: surface.heat: cold");
+    }
+}
+
+TEST(SceneReader, WrittenBackItReadsTheSame) {
+    Teapot pot;
+    pot.height = 0.1 + 0.2;
+    pot.maker = "a \"b\" \\ c\n\u00E9";
+    pot.crack = 1e-7;
+    pot.chips = 5;
+    pot.glaze = Glaze::none;
+    pot.coats = {};
+    pot.marks = {"every:9", "seal"};
+    for (const bool docs : {false, true}) {
+        const std::string text = bind(pot).toml(docs);
+        const Read r = read(text);
+        ASSERT_TRUE(r.problems.empty()) << text << format(r.problems.front());
+        EXPECT_EQ(r.pot.height, pot.height);
+        EXPECT_EQ(r.pot.maker, pot.maker);
+        EXPECT_EQ(r.pot.crack, pot.crack);
+        EXPECT_EQ(r.pot.chips, pot.chips);
+        EXPECT_EQ(r.pot.glaze, pot.glaze);
+        EXPECT_EQ(r.pot.coats, pot.coats);
+        EXPECT_EQ(r.pot.marks, pot.marks);
+    }
+    const JsonValue json = bind(pot).json();
+    EXPECT_EQ(json.find("body.maker")->text(), pot.maker);
+    EXPECT_EQ(json.find("surface.crack")->number(), 1e-7);
+    EXPECT_EQ(json.find("surface.marks")->items().size(), 2u);
+}
+
+TEST(SceneReader, Nearest) {
+    const std::vector<std::string> words = {"temperature", "timestep", "rms", "rolloff",
+                                            "layers_per_level"};
+    EXPECT_EQ(nearest("tempreature", words), "temperature");
+    EXPECT_EQ(nearest("temp", words), "temperature");
+    EXPECT_EQ(nearest("RMS", words), "rms");
+    EXPECT_EQ(nearest("roll-off", words), "rolloff");
+    EXPECT_EQ(nearest("layers-per-level", words), "layers_per_level");
+    EXPECT_EQ(nearest("time_step", words), "timestep");
+    EXPECT_EQ(nearest("banana", words), "");
+}
+
+TEST(SceneReader, FilesThatCannotBeRead) {
+    const Scratch scratch;
+    EXPECT_THROW(read_scene_file(scratch / "none.toml"), SceneError);
+    EXPECT_THROW(read_scene_file(scratch / ""), SceneError);
+    EXPECT_EQ(read_scene_file(scratch.write("a.toml", "x\n")), "x\n");
+    EXPECT_EQ(read_scene_file(scratch.write("empty.toml", "")), "");
+}
+
+} // namespace
+} // namespace asperity::io

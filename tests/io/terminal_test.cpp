@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/error.hpp"
+#include "io/progress.hpp"
+#include "io/table.hpp"
+
+#include "scratch.hpp"
+
+#include <cstdlib>
+
+namespace asperity::io {
+namespace {
+
+TEST(Errors, Grammar) {
+    EXPECT_EQ(format(Problem{"a:1:2", "x is wrong", "because\nof two things", "do this"}),
+              "a:1:2: x is wrong\n    why: because\n         of two things\n    fix: do this");
+    EXPECT_EQ(format(Problem{"", "x is wrong", "", ""}), "x is wrong");
+    EXPECT_EQ(PhysicsError("a", "b", "c").code(), 3);
+    EXPECT_EQ(FileError("p", "a", "b").code(), 4);
+    EXPECT_EQ(StoppedEarly(Problem{}).code(), 75);
+    EXPECT_STREQ(SceneError(std::vector<Problem>{{"a", "b", "", ""}, {"c", "d", "", ""}}).what(),
+                 "a: b\nc: d");
+}
+
+TEST(Table, AlignsWhatIsSeen) {
+    Table table({"", "approach", "γ"});
+    table.row({"work of adhesion", "12.34", "1"});
+    table.rule();
+    table.row({"Å", "7"});
+    EXPECT_EQ(table.text(false), "                    approach  γ\n"
+                                 "  ─────────────────────────────\n"
+                                 "  work of adhesion     12.34  1\n"
+                                 "  ─────────────────────────────\n"
+                                 "  Å                        7\n");
+    EXPECT_NE(table.text(true).find("\033[1m"), std::string::npos);
+    EXPECT_EQ(visible_width("meV/Å²"), 6);
+}
+
+TEST(Table, Cells) {
+    EXPECT_EQ(cell(98.8612), "98.86");
+    EXPECT_EQ(cell(-0.012346), "-0.01235");
+    EXPECT_EQ(cell(0.0), "0.000");
+    EXPECT_EQ(cell(1e-9), "1.000e-09");
+    EXPECT_EQ(cell(123456.0), "123456");
+    EXPECT_EQ(cell(1.0 / 0.0), "-");
+}
+
+TEST(Durations, ReadAndWritten) {
+    EXPECT_EQ(parse_duration("23h50m"), 85800.0);
+    EXPECT_EQ(parse_duration("90s"), 90.0);
+    EXPECT_EQ(parse_duration("90"), 90.0);
+    EXPECT_EQ(parse_duration("1.5h"), 5400.0);
+    EXPECT_EQ(parse_duration("1d2h3min4s"), 93784.0);
+    for (const char* bad : {"", "h", "5x", "-5s", "0s", "5m5h", "5 m", "1h1h", "1h30"})
+        EXPECT_FALSE(parse_duration(bad).has_value()) << bad;
+    EXPECT_EQ(duration_text(3.21), "3.2 s");
+    EXPECT_EQ(duration_text(59.7), "1 min 00 s");
+    EXPECT_EQ(duration_text(3725), "1 h 02 min");
+    EXPECT_EQ(duration_text(200000), "2 d 07 h");
+}
+
+TEST(Progress, SaysPhaseRateAndTimeLeft) {
+    EXPECT_EQ(
+        progress_line({"approach, F = -12.3 eV/Å", 4000, 40000.0, 0.5}, 10.0, 2000, 20000.0, 0.25),
+        " 50 %  approach, F = -12.3 eV/Å | step 4000, 200 steps/s, 173 ns/day | 20 s left");
+    EXPECT_EQ(progress_line({"setting up", 0, 0.0, -1.0}, 0.0, 0, 0.0, -1.0), "setting up");
+}
+
+TEST(Progress, ModesAndFiles) {
+    EXPECT_EQ(progress_mode("auto"), ProgressMode::automatic);
+    EXPECT_FALSE(progress_mode("loud").has_value());
+    std::FILE* file = std::tmpfile();
+    ASSERT_NE(file, nullptr);
+    {
+        Progress progress(ProgressMode::bar, false, file); // a file is no terminal
+        EXPECT_EQ(progress.mode(), ProgressMode::lines);
+        progress.update({"a", 1, 0.0, 0.0}); // too soon to print
+        progress.say("pull-off begins");
+        Progress quiet(ProgressMode::lines, true, file);
+        quiet.say("never");
+        EXPECT_FALSE(quiet.due());
+    }
+    std::rewind(file);
+    char text[200] = {};
+    const std::size_t n = std::fread(text, 1, sizeof text - 1, file);
+    std::fclose(file);
+    EXPECT_EQ(std::string(text, n), "pull-off begins\n");
+}
+
+} // namespace
+} // namespace asperity::io

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "support/cases.hpp"
+
+#include "decomposition/halo_exchange.hpp"
+#include "engine/units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace asperity::test {
+
+BlockOptions paper_block(int sites, int thickness, int layers_per_level) {
+    BlockOptions options;
+    options.sites = sites;
+    options.young = 77.2 * units::gigapascal;
+    options.atom_mass = 197.0 * units::atomic_mass;
+    options.thickness = thickness;
+    options.layers_per_level = std::max(1, layers_per_level);
+    options.multiscale = layers_per_level > 0;
+    return options;
+}
+
+InterfaceOptions paper_interface(double cutoff_in_r0) {
+    InterfaceOptions options;
+    options.potential.cutoff = cutoff_in_r0 * options.potential.r0;
+    return options;
+}
+
+namespace {
+
+Surface surface_of(std::vector<double> heights) {
+    Surface surface;
+    surface.sites = static_cast<int>(std::lround(std::sqrt(static_cast<double>(heights.size()))));
+    surface.length = 2.6 * surface.sites;
+    surface.statistics.lowest = *std::min_element(heights.begin(), heights.end());
+    surface.statistics.highest = *std::max_element(heights.begin(), heights.end());
+    surface.height = std::move(heights);
+    return surface;
+}
+
+} // namespace
+
+Surface flat_surface(int sites) {
+    return surface_of(std::vector<double>(static_cast<std::size_t>(sites) * static_cast<std::size_t>(sites)));
+}
+
+Surface reference_surface(const std::string& name) {
+    const std::string path = std::string(ASPERITY_TEST_DATA) + "/" + name + ".txt";
+    std::ifstream file(path);
+    if (!file) throw std::runtime_error("cannot open " + path);
+    std::vector<double> heights;
+    for (double h; file >> h;) heights.push_back(h);
+    return surface_of(std::move(heights));
+}
+
+ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicator) {
+    return ProcessGrid(communicator.size(), communicator.rank(), options.sites,
+                       static_cast<int>(plan_levels(options).size()));
+}
+
+double height_of_strongest_attraction(Block& block, const Interface& interface, const Surface& surface) {
+    block.set_uniform(0.0, 0.0);
+    double best = interface.start_height(), strongest = 0.0;
+    for (double height = best;; height -= 0.1) {
+        const InterfaceSums sums =
+            interface.sweep(block.lowest_layer(), block.interface_force(), height, false);
+        ExactSum total = sums.force_z;
+        block.communicator().sum(std::span<double>(total.bin));
+        const double force = total.value();
+        if (force < strongest) strongest = force, best = height;
+        if (force > 0.0 || height < surface.statistics.lowest) return best;
+    }
+}
+
+Relaxed relax_from_attraction(const BlockOptions& options, const InterfaceOptions& interface_options,
+                              const Surface& surface, double tolerance, const Communicator& communicator) {
+    const ProcessGrid grid = grid_for(options, communicator);
+    Block block(options, communicator, grid);
+    Interface interface(surface, grid.tile(0), options.spacing, interface_options);
+    const double height = height_of_strongest_attraction(block, interface, surface);
+    RelaxOptions relax_options;
+    relax_options.tolerance = tolerance;
+    Phases phases;
+    Relaxed relaxed;
+    relaxed.state = relax(block, interface, height, relax_options, phases);
+    const double edge = options.sites * options.spacing;
+    relaxed.binding_energy =
+        -1e3 * (relaxed.state.interface_energy + relaxed.state.elastic_energy) / (edge * edge);
+    relaxed.pairwise = -1e3 * relaxed.state.interface_energy / (edge * edge);
+    relaxed.mean_height = height + relaxed.state.mean_height;
+    return relaxed;
+}
+
+std::uint64_t mix(std::uint64_t hash, double value) {
+    return (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u + (hash >> 29);
+}
+
+std::uint64_t fingerprint(const Block& block) {
+    const Communicator& ranks = block.communicator();
+    std::uint64_t hash = mix(1, block.top());
+    for (const Block::Level& level : block.levels())
+        for (const VectorField<double>* field : {&level.u, &level.v})
+            for (const Field<double>* component : {&field->x, &field->y, &field->z})
+                for (int z = 0; z < level.plan.cells; ++z)
+                    for (double value : gather_plane(ranks, block.grid(), level.plan.level, component->plane(z)))
+                        hash = mix(hash, value);
+    std::array<std::int64_t, 1> roots = {ranks.root() ? std::bit_cast<std::int64_t>(hash) : 0};
+    ranks.sum(roots);
+    return std::bit_cast<std::uint64_t>(roots[0]);
+}
+
+} // namespace asperity::test

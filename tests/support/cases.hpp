@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The paper's material and small scenes, in the engine's units, without going through a scene file.
+#pragma once
+
+#include "engine/relaxation.hpp"
+#include "engine/simulation.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace asperity::test {
+
+/// The paper's block (77.2 GPa, 0.42, 197 u, a = 2.6 Å). layers_per_level 0: the plain lattice.
+BlockOptions paper_block(int sites, int thickness, int layers_per_level);
+/// The paper's interface with this cutoff in units of r0.
+InterfaceOptions paper_interface(double cutoff_in_r0 = 4.0);
+
+Surface flat_surface(int sites);
+/// A map of tests/physics/data, at its own size.
+Surface reference_surface(const std::string& name);
+
+ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicator);
+inline ProcessGrid serial_grid(const BlockOptions& options) { return grid_for(options, Communicator()); }
+
+/// The height at which the rigid block feels the strongest attraction, as `asperity run` looks for it.
+double height_of_strongest_attraction(Block& block, const Interface& interface, const Surface& surface);
+
+struct Relaxed {
+    RelaxedState state;
+    double binding_energy = 0.0; ///< meV/Å^2
+    double pairwise = 0.0;       ///< meV/Å^2
+    double mean_height = 0.0;    ///< above the substrate's zero, Å
+};
+/// The zero-load state of this block on this surface. Collective.
+Relaxed relax_from_attraction(const BlockOptions& block, const InterfaceOptions& interface,
+                              const Surface& surface, double tolerance,
+                              const Communicator& communicator = Communicator());
+
+/// 64 bits that differ if any bit of any displacement, velocity or the top differs. Collective; the same on
+/// every rank, and for any number of them.
+std::uint64_t fingerprint(const Block& block);
+std::uint64_t mix(std::uint64_t hash, double value);
+
+} // namespace asperity::test

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Johnson, Kendall and Roberts: an adhesive sphere whose forces act only inside the contact.
+// In Maugis' units, a in (πwR²/K)^{1/3}, F in πwR, δ in (π²w²R/K²)^{1/3}, K = 4E*/3,
+//     F = a³ - √(6a³),    δ = a² - (2/3)√(6a).
+// Forces are positive pressing. Units of AdhesiveSphere: any consistent set.
+#pragma once
+
+namespace asperity::theory {
+
+struct AdhesiveSphere {
+    double radius = 0;           ///< R [length]
+    double contact_modulus = 0;  ///< E* = E/(1-ν²) [stress]
+    double work_of_adhesion = 0; ///< w = Δγ [energy/area]
+
+    [[nodiscard]] double stiffness() const { return 4 * contact_modulus / 3; } ///< K
+    [[nodiscard]] double force_unit() const;                                   ///< πwR
+    [[nodiscard]] double radius_unit() const;                                  ///< (πwR²/K)^{1/3}
+    [[nodiscard]] double approach_unit() const; ///< (π²w²R/K²)^{1/3}
+};
+void check(const AdhesiveSphere& sphere);
+
+struct SphereState {
+    double force = 0;    ///< F [force], negative pulling
+    double radius = 0;   ///< a [length]
+    double approach = 0; ///< δ [length], negative: a neck
+};
+
+namespace jkr {
+
+/// On the equilibrium curve at contact radius a.
+[[nodiscard]] SphereState at_radius(const AdhesiveSphere& sphere, double radius);
+/// The stable state at a load; NoSolution beyond pull-off.
+[[nodiscard]] SphereState at_force(const AdhesiveSphere& sphere, double force);
+/// The stable state at an approach; NoSolution beyond the fixed-grips end.
+[[nodiscard]] SphereState at_approach(const AdhesiveSphere& sphere, double approach);
+
+/// Where a controlled load pulls off: F = -(3/2)πwR.
+[[nodiscard]] SphereState pull_off(const AdhesiveSphere& sphere);
+/// Where controlled grips pull off: F = -(5/6)πwR.
+[[nodiscard]] SphereState fixed_grips_pull_off(const AdhesiveSphere& sphere);
+
+/// γ from a measured pull-off force, γ = |F|/(3πR/2): the paper's Eq. (6) turned round.
+[[nodiscard]] double work_from_pull_off(double pull_off_force, double radius);
+
+} // namespace jkr
+} // namespace asperity::theory
