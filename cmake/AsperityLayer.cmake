@@ -78,7 +78,7 @@ function(asperity_test name)
         target_link_libraries(${name} PRIVATE GTest::gtest GTest::gtest_main)
         add_test(NAME ${name} COMMAND ${name})
         set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
-                             ENVIRONMENT "OMP_NUM_THREADS=2")
+                             ENVIRONMENT "OMP_NUM_THREADS=2;OMP_WAIT_POLICY=passive")
         return()
     endif()
     target_link_libraries(${name} PRIVATE GTest::gtest)
@@ -88,6 +88,6 @@ function(asperity_test name)
                          -n ${ranks} $<TARGET_FILE:${name}>)
         set_tests_properties(${name}_ranks${ranks} PROPERTIES LABELS "${ARG_LABELS};mpi"
                              TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${ranks}
-                             ENVIRONMENT "OMP_NUM_THREADS=1")
+                             ENVIRONMENT "OMP_NUM_THREADS=1;OMP_WAIT_POLICY=passive")
     endforeach()
 endfunction()

@@ -216,8 +216,11 @@ ContactState solve(const AdhesiveContact& c, const SolverOptions& options) {
         }
         const std::size_t n = ends.size();
         const auto limit = [&](double Ends::*what) {
-            if (n < 3) return Shooting::Limit{ends[n - 1].*what, std::abs(ends[n - 1].*what)};
-            return shooting.extrapolate({ends[n - 3].*what, ends[n - 2].*what, ends[n - 1].*what});
+            std::vector<double> values;
+            for (const Ends& e : ends)
+                values.push_back(e.*what);
+            if (n < 3) return Shooting::Limit{values.back(), std::abs(values.back())};
+            return shooting.extrapolate(values);
         };
         const Shooting::Limit gamma = limit(&Ends::gamma), area = limit(&Ends::area);
         s.gamma_eff = c.pressure > 0 ? gamma.value : std::max(gamma.value, ends[n - 1].gamma / 2);

@@ -166,19 +166,23 @@ double Shooting::excess_at_edge(int refinement, double* area) const {
     return value;
 }
 
-Shooting::Limit Shooting::extrapolate(std::array<double, 3> v) const {
+Shooting::Limit Shooting::extrapolate(std::span<const double> values) const {
     // Error terms: spacing^1.5 and spacing² for first passage, spacing² alone for diffusion.
     const auto eliminate = [](double coarse, double fine, double ratio) {
         return fine + (fine - coarse) / (ratio - 1);
     };
-    if (options_.march == March::diffusion) {
-        const double best = eliminate(v[1], v[2], 4);
-        return {best, std::abs(best - eliminate(v[0], v[1], 4))};
-    }
-    const double ratio = std::pow(2, 1.5);
-    const double coarse = eliminate(v[0], v[1], ratio), fine = eliminate(v[1], v[2], ratio);
-    const double best = eliminate(coarse, fine, 4);
-    return {best, std::abs(best - fine)};
+    const double ratio = options_.march == March::diffusion ? 4 : std::pow(2, 1.5);
+    const auto once = [&](std::span<const double> v) {
+        return eliminate(v[v.size() - 2], v[v.size() - 1], ratio);
+    };
+    const auto best = [&](std::span<const double> v) {
+        if (options_.march == March::diffusion) return once(v);
+        return eliminate(once(v.first(v.size() - 1)), once(v), 4);
+    };
+    const double value = best(values);
+    if (values.size() > 3 || options_.march == March::diffusion)
+        return {value, std::abs(value - best(values.first(values.size() - 1)))};
+    return {value, std::abs(value - once(values))};
 }
 
 } // namespace asperity::theory

@@ -11,7 +11,7 @@
 // the search comes down from above.
 #pragma once
 
-#include <array>
+#include <span>
 
 #include "theory/march.hpp"
 #include "theory/persson.hpp"
@@ -41,12 +41,13 @@ public:
     [[nodiscard]] MarchGrid grid_for(double x, int refinement) const;
     [[nodiscard]] MarchPath march(const MarchGrid& grid, double g0, int refinement) const;
 
-    /// The value at spacing zero from values on nested grids; also the best estimate one order
-    /// below.
+    /// The value at spacing zero from values on nested grids, coarse to fine, three at least. The
+    /// error is the distance to what one grid fewer gave, or, with only three, one elimination
+    /// fewer.
     struct Limit {
         double value, error;
     };
-    [[nodiscard]] Limit extrapolate(std::array<double, 3> coarse_to_fine) const;
+    [[nodiscard]] Limit extrapolate(std::span<const double> values) const;
 
 private:
     [[nodiscard]] MarchInput input(double g0) const;

@@ -4,13 +4,15 @@
 // P(σ, ζ) from the absorbed fraction: free diffusion from p, less what has been absorbed, each part
 // of which would have spread freely from the boundary where it was taken out,
 //     P(σ, T) = N(σ - p; T) - ∫ N(σ + b(T'); T - T') dF(T').
-// Within an interval b is its middle value and F linear in T', so that the time integral is closed,
+// On a short piece b is its middle value and F linear in T', so that the time integral is closed,
 //     ∫_{t0}^{t1} N(x; t) dt = [ √(2t/π) e^{-x²/2t} - |x| erfc(|x|/√(2t)) ]_{t0}^{t1},
-// and the square root at T' -> T costs no accuracy.
+// and the square root at T' -> T costs no accuracy. The pieces are quarters of the march's
+// intervals, with a and b between the nodes by monotone cubics.
 #include "theory/persson.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "theory/error.hpp"
@@ -28,6 +30,55 @@ double normal_over_time(double x, double t) {
            std::abs(x) * std::erfc(std::abs(x) / std::sqrt(2 * t));
 }
 
+/// Boundary and area at an instant of the clock.
+struct Instant {
+    double T, b, area;
+};
+
+double clock_of(const ProfilePoint& at) { return at.stress_variance; }
+
+/// Monotone cubic for `value` at a fraction `t` of interval i of the clock; one-sided next to gaps,
+/// where the clock stands still.
+double between(const std::vector<ProfilePoint>& p, std::size_t i, double t,
+               double ProfilePoint::*value) {
+    const auto width = [&](std::size_t k) { return clock_of(p[k]) - clock_of(p[k - 1]); };
+    const auto slope = [&](std::size_t k) { return (p[k].*value - p[k - 1].*value) / width(k); };
+    const double here = slope(i);
+    const auto at_end = [&](std::size_t neighbour) { // harmonic mean, zero at extremes
+        if (neighbour < 1 || neighbour >= p.size() || !(width(neighbour) > 0)) return here;
+        const double there = slope(neighbour);
+        return here * there > 0 ? 2 * here * there / (here + there) : 0.0;
+    };
+    const double h = width(i), m0 = at_end(i - 1), m1 = at_end(i + 1), t2 = t * t, t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * p[i - 1].*value + (3 * t2 - 2 * t3) * p[i].*value +
+           (t3 - 2 * t2 + t) * h * m0 + (t3 - t2) * h * m1;
+}
+
+/// The history up to the wavevector q, where the clock reads T.
+std::vector<Instant> history(const std::vector<ProfilePoint>& p, double T, double q) {
+    constexpr int pieces = 4;
+    std::vector<Instant> result{{clock_of(p[0]), p[0].detachment_stress, p[0].area}};
+    for (std::size_t i = 1; i < p.size() && p[i - 1].q < q; ++i) {
+        const double T0 = clock_of(p[i - 1]), T1 = clock_of(p[i]);
+        if (!(T1 > T0) || !(T0 > 0)) { // a gap, or before anything was absorbed
+            const double share = std::min(1.0, (q - p[i - 1].q) / (p[i].q - p[i - 1].q));
+            const double b0 = p[i - 1].detachment_stress, b1 = p[i].detachment_stress;
+            // b ∝ √q while nothing is absorbed
+            result.push_back(
+                {std::min(T, T1), std::sqrt(b0 * b0 + share * (b1 * b1 - b0 * b0)), p[i].area});
+            continue;
+        }
+        for (int k = 1; k <= pieces; ++k) {
+            const double to = std::min(T, T0 + (T1 - T0) * k / pieces);
+            const double part = (to - T0) / (T1 - T0);
+            result.push_back({to, between(p, i, part, &ProfilePoint::detachment_stress),
+                              between(p, i, part, &ProfilePoint::area)});
+            if (to >= T) break;
+        }
+    }
+    return result;
+}
+
 } // namespace
 
 std::vector<double> stress_distribution(const AdhesiveContact& contact, const ContactState& state,
@@ -39,24 +90,18 @@ std::vector<double> stress_distribution(const AdhesiveContact& contact, const Co
                                    " it is a spike or undefined; choose q inside the spectrum, "
                                    "above ",
                                    contact.spectrum.q_L(), " and up to ", contact.spectrum.q1()));
-    const auto& points = state.profile;
+    const std::vector<Instant> past = history(state.profile, T, q);
+    const double boundary = past.back().b;
     std::vector<double> P;
     P.reserve(stress.size());
     for (double sigma : stress) {
         double value = normal(sigma - contact.pressure, T);
-        double boundary = points.front().detachment_stress;
-        for (std::size_t i = 1; i < points.size(); ++i) {
-            const double T0 = points[i - 1].stress_variance, T1 = points[i].stress_variance;
-            const double b0 = points[i - 1].detachment_stress, b1 = points[i].detachment_stress;
-            if (T0 >= T && points[i - 1].q >= q) break;
-            const double end = std::min(T, T1);
-            const double part = T1 > T0 ? (end - T0) / (T1 - T0) : 1.0;
-            boundary = b0 + (b1 - b0) * part;
-            const double absorbed = points[i - 1].area - points[i].area;
-            if (absorbed == 0 || !(T1 > T0)) continue;
-            const double x = sigma + b0 + (b1 - b0) * part / 2;
-            value -=
-                absorbed / (T1 - T0) * (normal_over_time(x, T - T0) - normal_over_time(x, T - end));
+        for (std::size_t i = 1; i < past.size(); ++i) {
+            const Instant &from = past[i - 1], &to = past[i];
+            if (from.area == to.area || !(to.T > from.T)) continue;
+            const double x = sigma + (from.b + to.b) / 2;
+            value -= (from.area - to.area) / (to.T - from.T) *
+                     (normal_over_time(x, T - from.T) - normal_over_time(x, T - to.T));
         }
         P.push_back(sigma <= -boundary ? 0.0 : std::max(0.0, value));
     }

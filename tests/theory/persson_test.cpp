@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{6.5, 0.00604, 0.24305, -0.49960}, Row{6.9, 0.00012, 0.08329, -0.69032}));
 
 TEST(Persson, AreaFactorOffToEightDigits) {
-    const SolverOptions fine{.tolerance = 2e-6, .max_refinement = 5};
+    const SolverOptions fine{.tolerance = 1e-7, .max_refinement = 6};
     for (const auto& [h, gamma, area] :
          {std::array{3.0, 0.65999582, 0.98908746}, std::array{5.0, 0.12869208, 0.64160117},
           std::array{6.5, 0.00165569, 0.17100173}}) {
@@ -117,9 +117,8 @@ TEST(Persson, CurvesCross) {
 TEST(Persson, EndOfTheBranch) {
     // γ_eff ∝ A^(1/α) with α = 0.24781: compare two states close to the end, area factor off.
     const double h_c = critical_roughness(paper::contact(5, AreaFactor::none)).h_rms;
-    const SolverOptions fine{.tolerance = 2e-6};
-    const ContactState a = solve(paper::contact(h_c * (1 - 2e-3), AreaFactor::none), fine);
-    const ContactState b = solve(paper::contact(h_c * (1 - 5e-4), AreaFactor::none), fine);
+    const ContactState a = solve(paper::contact(h_c * (1 - 1e-3), AreaFactor::none));
+    const ContactState b = solve(paper::contact(h_c * (1 - 2.5e-4), AreaFactor::none));
     const double slope = std::log(a.gamma_ratio / b.gamma_ratio) / std::log(a.area / b.area);
     EXPECT_NEAR(1 / slope, 0.24781, 2e-3);
     // A ∝ (θ_c - θ)^(1/2): four times closer is half the area.
@@ -218,7 +217,7 @@ TEST(Persson, DependsOnThetaAloneWithoutAreaFactor) {
 
 TEST(Persson, MarchesAgreeAtAnyLoad) {
     for (double h : {4.0, 6.5, 9.0})
-        for (double p : {-0.3, 0.0, 0.02, 0.5, 3.0}) {
+        for (double p : {-0.3, 0.02, 3.0}) {
             AdhesiveContact c = paper::contact(h);
             c.pressure = p * gpa;
             const ContactState a = solve(c),
