@@ -26,7 +26,7 @@ add_library(asperity_flags INTERFACE)
 target_compile_options(asperity_flags INTERFACE -ffp-contract=off)
 add_library(asperity_warnings INTERFACE)
 target_compile_options(asperity_warnings INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi -Wno-restrict
     $<$<BOOL:${ASPERITY_WERROR}>:-Werror>)
 
 set(ASPERITY_VARIANTS "")

@@ -111,6 +111,8 @@ Block::Block(const BlockOptions& options, const Communicator& communicator, cons
         depth += plan.cells * static_cast<double>(1 << plan.level);
         levels_.push_back(std::move(level));
     }
+    constexpr std::size_t cache = std::size_t{32} << 20; // a last-level cache of today
+    stream_ = bytes() > cache;
 }
 
 Block Block::copy_at_rest() const {
@@ -171,37 +173,6 @@ void Block::interpolate() {
     }
 }
 
-void Block::hand_up() {
-    const ElasticKernels& kernels = elastic_kernels();
-#pragma omp parallel
-    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
-        Level& fine = levels_[l];
-        Level& coarse = levels_[l + 1];
-        const auto u = std::as_const(fine.u).view();
-        const auto force = fine.upper_force.plane(0);
-        const int nx = fine.tile.nx, ny = fine.tile.ny;
-        // One node beyond the tile on each side: the coarse nodes inside reach that far.
-#pragma omp for schedule(static)
-        for (int y = -1; y < ny + 1; ++y)
-            kernels.force(u, fine.plan.cells, fine.upper, {-1, nx + 1, y, y + 1}, force);
-        const auto in = coarse.incoming.plane(0);
-        const Tile mine = grid_.footprint(coarse.plan.level, grid_.rank());
-        const int x0 = mine.x0 - coarse.tile.x0, y0 = mine.y0 - coarse.tile.y0;
-#pragma omp for schedule(static) nowait
-        for (int y = y0; y < y0 + mine.ny; ++y) {
-            restrict_forces(seam(l), force.x, in.x, y, x0, mine.nx);
-            restrict_forces(seam(l), force.y, in.y, y, x0, mine.nx);
-            restrict_forces(seam(l), force.z, in.z, y, x0, mine.nx);
-        }
-    }
-    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
-        if (!levels_[l].tiled || levels_[l + 1].tiled) continue;
-        const auto in = levels_[l + 1].incoming.plane(0);
-        const std::array planes = {in.x, in.y, in.z};
-        gather_footprints(communicator_, grid_, levels_[l + 1].plan.level, planes);
-    }
-}
-
 KickDrift Block::kick_drift(const Level& level, int z, const StepPlan& plan) const {
     const double m = level.mass(z);
     const double depth = level.depth + z * static_cast<double>(1 << level.plan.level);
@@ -215,6 +186,7 @@ KickDrift Block::kick_drift(const Level& level, int z, const StepPlan& plan) con
     kd.half_mass = 0.5 * m;
     kd.medium_z = plan.medium_velocity;
     kd.damped = damped;
+    kd.stream = stream_;
     kd.observed = plan.observe;
     kd.drag = m * plan.damping * plan.dt;
     return kd;
@@ -222,38 +194,107 @@ KickDrift Block::kick_drift(const Level& level, int z, const StepPlan& plan) con
 
 namespace {
 
-/// Rows are handed to threads in bands, all planes of a band in a row: a plane is still in the cache
-/// when the planes above it need it. Inside a parallel region.
+/// Rows are handed to threads in bands.
 constexpr int band = 8;
 
-template <class Work> void over_bands(int planes, int ny, const Work& work) {
+} // namespace
+
+/// Level by level from below: work(level, z, y0, y1) for all bands of all moving planes; then the force on
+/// the upper plane, which goes to the level above as its incoming force, or is the top plane's. Planes of a
+/// band are done one after the other, while they are in the cache.
+template <class Work> void Block::sweep(const Work& work) {
+    const ElasticKernels& kernels = elastic_kernels();
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        Level& level = levels_[l];
+        const auto u = std::as_const(level.u).view();
+        const auto upper = level.upper_force.plane(0);
+        const int cells = level.plan.cells, nx = level.tile.nx, ny = level.tile.ny;
+#pragma omp parallel
+        {
+            typename Work::Sums mine;
 #pragma omp for schedule(static) nowait
-    for (int y0 = 0; y0 < ny; y0 += band)
-        for (int z = 0; z < planes; ++z) work(z, y0, std::min(ny, y0 + band));
+            for (int y0 = 0; y0 < ny; y0 += band) {
+                const int y1 = std::min(ny, y0 + band);
+                for (int z = 0; z < cells; ++z) work(level, u, z, y0, y1, mine);
+                // One node beyond the tile on each side: the coarse nodes inside reach that far.
+                kernels.force(u, cells, level.upper,
+                              {-1, nx + 1, y0 == 0 ? -1 : y0, y1 == ny ? ny + 1 : y1}, upper);
+            }
+#pragma omp critical(asperity_block_sums)
+            work.merge(level, mine);
+        }
+        if (l + 1 < levels_.size()) hand_up(l);
+    }
 }
+
+void Block::hand_up(std::size_t l) {
+    const auto force = std::as_const(levels_[l].upper_force).plane(0);
+    const Level& coarse = levels_[l + 1];
+    const auto in = levels_[l + 1].incoming.plane(0);
+    const Tile mine = grid_.footprint(coarse.plan.level, grid_.rank());
+    const int x0 = mine.x0 - coarse.tile.x0, y0 = mine.y0 - coarse.tile.y0;
+#pragma omp parallel for schedule(static)
+    for (int y = y0; y < y0 + mine.ny; ++y) {
+        restrict_forces(seam(l), force.x, in.x, y, x0, mine.nx);
+        restrict_forces(seam(l), force.y, in.y, y, x0, mine.nx);
+        restrict_forces(seam(l), force.z, in.z, y, x0, mine.nx);
+    }
+    if (levels_[l].tiled && !coarse.tiled) {
+        const std::array planes = {in.x, in.y, in.z};
+        gather_footprints(communicator_, grid_, coarse.plan.level, planes);
+    }
+}
+
+namespace {
+
+/// Kick and drift.
+template <class Coefficients> struct Advance {
+    using Sums = KickSums;
+    const Block& block;
+    const Coefficients& coefficients; ///< of a plane of a level
+    KickSums& total;
+
+    void operator()(Block::Level& level, const VectorVolume<const double>& u, int z, int y0, int y1,
+                    KickSums& sums) const {
+        elastic_kernels().advance(u, z, level.stencil(z), y0, y1,
+                                  std::as_const(level.incoming).plane(0), coefficients(level, z),
+                                  level.v.view(), level.u_next.view(), sums);
+    }
+    void merge(const Block::Level& level, const KickSums& sums) const {
+        if (block.counts(level)) total.merge(sums);
+    }
+};
+
+/// Forces kept.
+struct Keep {
+    struct Sums {};
+    std::vector<VectorField<double>>& out;
+
+    void operator()(Block::Level& level, const VectorVolume<const double>& u, int z, int y0, int y1,
+                    Sums&) const {
+        const auto f = out[static_cast<std::size_t>(level.plan.level)].plane(z);
+        elastic_kernels().force(u, z, level.stencil(z), {0, level.tile.nx, y0, y1}, f);
+        if (z > 0) return;
+        const auto incoming = std::as_const(level.incoming).plane(0);
+        for (int y = y0; y < y1; ++y)
+            for (int x = 0; x < level.tile.nx; ++x) {
+                f.x(x, y) += incoming.x(x, y);
+                f.y(x, y) += incoming.y(x, y);
+                f.z(x, y) += incoming.z(x, y);
+            }
+    }
+    void merge(const Block::Level&, const Sums&) const {}
+};
 
 } // namespace
 
 void Block::advance(const StepPlan& plan, KickSums& sums) {
-    const ElasticKernels& kernels = elastic_kernels();
-#pragma omp parallel
-    {
-        KickSums mine, uncounted;
-        for (Level& level : levels_) {
-            const auto u = std::as_const(level.u).view();
-            const auto incoming = std::as_const(level.incoming).plane(0);
-            const auto v = level.v.view(), next = level.u_next.view();
-            KickSums& into = counts(level) ? mine : uncounted;
-            over_bands(level.plan.cells, level.tile.ny, [&](int z, int y0, int y1) {
-                kernels.advance(u, z, level.stencil(z), y0, y1, incoming, kick_drift(level, z, plan), v,
-                                next, into);
-            });
-        }
-#pragma omp critical(asperity_block_sums)
-        sums.merge(mine);
-    }
+    const auto coefficients = [&](const Level& level, int z) { return kick_drift(level, z, plan); };
+    sweep(Advance<decltype(coefficients)>{*this, coefficients, sums});
     for (Level& level : levels_) std::swap(level.u, level.u_next);
 }
+
+void Block::forces(std::vector<VectorField<double>>& out) { sweep(Keep{out}); }
 
 void Block::exchange() {
     std::vector<HaloField> fields;
@@ -266,39 +307,10 @@ void Block::exchange() {
     halo_.exchange(fields);
 }
 
-void Block::forces(std::vector<VectorField<double>>& out) const {
-    const ElasticKernels& kernels = elastic_kernels();
-#pragma omp parallel
-    for (std::size_t l = 0; l < levels_.size(); ++l) {
-        const Level& level = levels_[l];
-        const auto u = level.u.view();
-        const auto f = out[l].view();
-        const auto incoming = level.incoming.plane(0);
-        const int nx = level.tile.nx;
-        over_bands(level.plan.cells, level.tile.ny, [&](int z, int y0, int y1) {
-            kernels.force(u, z, level.stencil(z), {0, nx, y0, y1}, f[z]);
-            if (z > 0) return;
-            for (int y = y0; y < y1; ++y)
-                for (int x = 0; x < nx; ++x) {
-                    f.x(x, y, 0) += incoming.x(x, y);
-                    f.y(x, y, 0) += incoming.y(x, y);
-                    f.z(x, y, 0) += incoming.z(x, y);
-                }
-        });
-    }
-}
-
-void Block::add_top_force(ExactSum& sum) {
-    Level& last = levels_.back();
+void Block::add_top_force(ExactSum& sum) const {
+    const Level& last = levels_.back();
     if (!counts(last)) return;
-    const auto force = last.upper_force.plane(0);
-    const auto u = std::as_const(last.u).view();
-    const int nx = last.tile.nx, ny = last.tile.ny;
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < ny; ++y)
-        elastic_kernels().force(u, last.plan.cells, last.upper, {0, nx, y, y + 1}, force);
-    for (int y = 0; y < ny; ++y)
-        for (int x = 0; x < nx; ++x) sum.add(force.z(x, y));
+    elastic_kernels().sum(last.upper_force.plane(0).z, 0, last.tile.ny, sum);
 }
 
 void Block::add_elastic_energy(ExactSum& sum) const {
@@ -308,9 +320,11 @@ void Block::add_elastic_energy(ExactSum& sum) const {
         ExactSum mine;
         for (const Level& level : levels_) {
             if (!counts(level)) continue;
-            over_bands(level.plan.cells, level.tile.ny, [&](int z, int y0, int y1) {
-                kernels.energy(level.u.view(), z, level.elasticity, y0, y1, mine);
-            });
+            const int ny = level.tile.ny;
+#pragma omp for schedule(static) nowait
+            for (int y0 = 0; y0 < ny; y0 += band)
+                for (int z = 0; z < level.plan.cells; ++z)
+                    kernels.energy(level.u.view(), z, level.elasticity, y0, std::min(ny, y0 + band), mine);
         }
 #pragma omp critical(asperity_block_sums)
         sum.merge(mine);
@@ -322,9 +336,9 @@ void Block::add_lowest_z(ExactSum& sum) const {
 #pragma omp parallel
     {
         ExactSum mine;
-#pragma omp for schedule(static)
-        for (int y = 0; y < z.ny; ++y)
-            for (int x = 0; x < z.nx; ++x) mine.add(z(x, y));
+#pragma omp for schedule(static) nowait
+        for (int y0 = 0; y0 < z.ny; y0 += band)
+            elastic_kernels().sum(z, y0, std::min(z.ny, y0 + band), mine);
 #pragma omp critical(asperity_block_sums)
         sum.merge(mine);
     }

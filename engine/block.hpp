@@ -14,8 +14,8 @@
 //
 //   interpolate()  hanging planes follow          needs u with halos
 //   (interface)    fills incoming of level 0      needs u of the lowest plane
-//   hand_up()      hanging planes' forces         needs u with hanging planes
-//   advance()      forces, kick, drift: u -> u_next, then u and u_next change places
+//   advance()      level by level from below: forces, kick and drift u -> u_next; force on the upper
+//                  plane, handed to the level above; at the end u and u_next change places
 //   exchange()     halos of u
 //
 // Each node's arithmetic is the same whatever tile or thread does it, so states are the same bits.
@@ -114,15 +114,15 @@ public:
     double top() const { return top_; }
 
     void interpolate();
-    void hand_up();
     void advance(const StepPlan& plan, KickSums& sums);
     void exchange();
-    /// Forces on all moving planes (incoming ones included) into out[level].
-    void forces(std::vector<VectorField<double>>& out) const;
+    /// In place of advance: forces on all moving planes (incoming ones included) into out[level].
+    void forces(std::vector<VectorField<double>>& out);
 
     // Global values: collective, the same bits on every rank.
-    /// Share of this rank in the elastic force on the rigid top plane, along z, eV/Å.
-    void add_top_force(ExactSum& sum);
+    /// Share of this rank in the elastic force on the rigid top plane, along z, eV/Å, as left by the last
+    /// advance() or forces().
+    void add_top_force(ExactSum& sum) const;
     void add_elastic_energy(ExactSum& sum) const;
     /// Sum of u_z over the lowest layer, Å.
     void add_lowest_z(ExactSum& sum) const;
@@ -139,8 +139,11 @@ private:
     HaloExchange halo_;
     std::vector<Level> levels_;
     double top_ = 0.0;
+    bool stream_ = false; ///< the moving state is too large to stay in the caches
 
     LevelSeam seam(std::size_t fine) const;
+    template <class Work> void sweep(const Work& work);
+    void hand_up(std::size_t fine);
     KickDrift kick_drift(const Level& level, int z, const StepPlan& plan) const;
 };
 

@@ -4,9 +4,9 @@
 // The command line. Everything that prints to the terminal, and every exit, is here or called from
 // here.
 //
-// Under mpirun every rank runs this; rank 0 alone speaks. An error that all ranks meet alike (a
-// scene that is wrong) ends them one by one with the same code; an error inside a run ends them all
-// at once (abort), because the others may be waiting for this one.
+// Under mpirun every rank runs this; rank 0 alone speaks. A scene that is wrong is met by all ranks
+// alike, or by rank 0 for all of them: they agree on the code and end in order. Any other error
+// ends them all at once (abort), because the others may be waiting for this one.
 #include "engine/run.hpp"
 #include "engine/scene.hpp"
 #include "engine/setup.hpp"
@@ -25,6 +25,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -253,6 +254,13 @@ int report(const std::exception& error, const Communicator& world) {
     return code;
 }
 
+/// The root's exit code (or the only one there is), on every rank. Collective.
+int agreed(int code, const Communicator& world) {
+    double greatest = code;
+    world.max(std::span<double>(&greatest, 1));
+    return static_cast<int>(greatest);
+}
+
 /// An error inside a run of several ranks. Those that are not rank 0 give it time to speak first;
 /// if it does not, the error is theirs alone.
 [[noreturn]] void end_together(const std::exception& error, const Communicator& world) {
@@ -337,8 +345,10 @@ int main(int argc, char** argv) {
     const Communicator& world = session.world();
     try {
         return command_line(argc, argv, world);
-    } catch (const io::SceneError& error) { // the same on every rank
-        return report(error, world);
+    } catch (const io::SceneError& error) { // on every rank, or on the root for all of them
+        return agreed(report(error, world), world);
+    } catch (const RootFailure&) { // the root has the reason and the code
+        return agreed(io::exit_code::done, world);
     } catch (const std::exception& error) {
         if (world.size() > 1) end_together(error, world);
         return report(error, world);

@@ -13,12 +13,11 @@ namespace asperity {
 enum class Phase {
     interpolate, ///< hanging planes follow the coarse planes
     interface,   ///< Lennard-Jones sweep
-    hand_up,     ///< hanging planes' forces to the coarse planes
-    advance,     ///< elastic forces, kick and drift of all levels
+    advance,     ///< elastic forces, kick and drift, level by level
     thermostat,  ///< noise of a scene with a temperature
     exchange,    ///< halos
-    sums,        ///< global sums of a step
-    observe,     ///< energies, contact, a row of the series
+    sums,        ///< global sums of a step, and its books
+    observe,     ///< mean height; energies and contact of observed steps
     relax,       ///< relaxation of the zero-load state
     checkpoint,
     output,
@@ -26,7 +25,7 @@ enum class Phase {
 };
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names = {
-    "interpolate", "interface", "hand_up", "advance", "thermostat", "exchange",
+    "interpolate", "interface", "advance", "thermostat", "exchange",
     "sums",        "observe",   "relax",   "checkpoint", "output"};
 
 struct PhaseClock {

@@ -38,10 +38,6 @@ public:
             const auto t = phases_.time(Phase::interface);
             sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, observe);
         }
-        {
-            const auto t = phases_.time(Phase::hand_up);
-            block_.hand_up();
-        }
         const auto t = phases_.time(Phase::advance);
         block_.forces(force_);
         ExactSum top;

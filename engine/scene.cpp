@@ -341,12 +341,6 @@ void not_yet(const Scene& scene, io::Problems& problems) {
 std::vector<std::string> notes(const Scene& scene) {
     std::vector<std::string> list;
     const auto& surface = scene.surface;
-    const int nyquist = surface.sites / 2;
-    if (surface.kind == SurfaceKind::self_affine && surface.cutoff > nyquist)
-        list.push_back(
-            fmt::format("surface.cutoff = {:.6g} q_L is above Nyquist: the spectrum is clipped at "
-                        "{} q_L, the most that {} sites can hold",
-                        surface.cutoff, nyquist, surface.sites));
     if (scene.block.model == BlockModel::multiscale) {
         int sites = surface.sites, halvings = 0;
         while (sites % 2 == 0)

@@ -28,8 +28,8 @@ void Simulation::start(double height) {
 // A step, and what must be current when:
 //   interpolate   hanging planes of u(n), from coarse planes with current halos
 //   interface     forces of the substrate at u(n)          -> incoming of level 0
-//   hand_up       forces on the hanging planes at u(n)     -> incoming of the levels above
-//   advance       all forces at u(n); v(n-1/2) -> v(n+1/2); u(n) -> u(n+1)
+//   observe       energies of u(n), if this step is observed
+//   advance       all forces at u(n), level by level; v(n-1/2) -> v(n+1/2); u(n) -> u(n+1)
 //   thermostat    noise on v(n+1/2) and u(n+1), if the scene has a temperature
 //   exchange      halos of u(n+1)
 //   sums          what the ranks summed at n, added up; work and dissipation booked
@@ -39,8 +39,7 @@ const StepRecord& Simulation::step(bool observe) {
     { const auto t = phases_.time(Phase::interface);
       interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
                                          reference_height_, observe); }
-    { const auto t = phases_.time(Phase::hand_up);     block_.hand_up(); }
-    { const auto t = phases_.time(Phase::sums);        collect(observe); }
+    { const auto t = phases_.time(Phase::observe);     collect(observe); }
     { const auto t = phases_.time(Phase::advance);     kick_and_drift(observe); }
     if (thermostat_) {
       const auto t = phases_.time(Phase::thermostat);
@@ -57,15 +56,15 @@ void Simulation::kick_and_drift(bool observe) {
     kick_sums_ = {};
     block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
                    kick_sums_);
+    top_force_ = {};
+    block_.add_top_force(top_force_);
     block_.set_top(block_.top() + options_.dt * velocity);
 }
 
 /// Sums over u(n), before it moves on.
 void Simulation::collect(bool observe) {
-    top_force_ = {};
     lowest_z_ = {};
     elastic_ = {};
-    block_.add_top_force(top_force_);
     block_.add_lowest_z(lowest_z_);
     record_.observed = observe;
     if (observe) block_.add_elastic_energy(elastic_);
@@ -90,11 +89,15 @@ void Simulation::keep_books() {
         ledger_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
         double& done = drive_.leg() == Leg::approach ? ledger_.approach : ledger_.pull_off;
         done += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
+        // What the medium takes and gives likewise, half of it at each end; noise given after n-1 was
+        // observed is part of n's energy, that of n is not yet.
+        ledger_.damped += 0.5 * (dissipated + pending_.dissipated);
+        ledger_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
+        ledger_.heat += pending_.heat;
     }
+
     booked_ = true;
-    ledger_.drag_work -= velocity * dragged;
-    ledger_.damped += dissipated;
-    ledger_.heat += heat;
+    pending_ = {dissipated, velocity * dragged, heat};
 
     record_.top = top;
     record_.mean_height = mean_height;

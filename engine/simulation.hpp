@@ -106,6 +106,9 @@ private:
     double work_at_start_ = 0.0, damped_at_start_ = 0.0;
     double scale_ = 0.0; ///< largest energy seen, for the residual
     bool booked_ = false;///< a step came before: trapezia can be formed
+    struct Pending {
+        double dissipated = 0.0, drag = 0.0, heat = 0.0;
+    } pending_; ///< of the step before, eV: booked with the next
 
     // Sums of the step under way, this rank's share.
     InterfaceSums interface_sums_;
@@ -140,6 +143,9 @@ template <class Visitor> void Simulation::visit(Visitor& v) {
     v("energy.damped_at_start", damped_at_start_);
     v("energy.scale", scale_);
     v("booked", booked_);
+    v("pending.dissipated", pending_.dissipated);
+    v("pending.drag", pending_.drag);
+    v("pending.heat", pending_.heat);
 }
 
 } // namespace asperity

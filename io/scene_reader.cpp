@@ -160,7 +160,8 @@ std::string Positions::where(const std::string& key) const {
 
 void Problems::add(const std::string& key, const std::string& what, std::string why,
                    std::string fix) {
-    add(Problem{positions_.where(key), key + (what.starts_with(":") ? "" : " ") + what, std::move(why), std::move(fix)});
+    add(Problem{positions_.where(key), key + (what.starts_with(":") ? "" : " ") + what,
+                std::move(why), std::move(fix)});
 }
 
 void Problems::throw_if_any() const {

@@ -207,9 +207,18 @@ void advance_rows(const VectorVolume<const double>& u, int z, const Stencil& s, 
             new_x.store_first(v.x.origin + at, count);
             new_y.store_first(v.y.origin + at, count);
             new_z.store_first(v.z.origin + at, count);
-            fma(dt, new_x, V::load(u.x.origin + at)).store_first(u_next.x.origin + at, count);
-            fma(dt, new_y, V::load(u.y.origin + at)).store_first(u_next.y.origin + at, count);
-            fma(dt, new_z, V::load(u.z.origin + at)).store_first(u_next.z.origin + at, count);
+            const V moved_x = fma(dt, new_x, V::load(u.x.origin + at));
+            const V moved_y = fma(dt, new_y, V::load(u.y.origin + at));
+            const V moved_z = fma(dt, new_z, V::load(u.z.origin + at));
+            if (kd.stream && count >= V::width) {
+                moved_x.stream(u_next.x.origin + at);
+                moved_y.stream(u_next.y.origin + at);
+                moved_z.stream(u_next.z.origin + at);
+            } else {
+                moved_x.store_first(u_next.x.origin + at, count);
+                moved_y.store_first(u_next.y.origin + at, count);
+                moved_z.store_first(u_next.z.origin + at, count);
+            }
             if constexpr (damped || observed) {
                 const V half(0.5);
                 const V mx = half * (old_x + new_x), my = half * (old_y + new_y),
@@ -267,6 +276,16 @@ void advance(VectorVolume<const double> u, int z, const Stencil& s, int y0, int 
         advance_as<Face::inner, false>(u, z, s, y0, y1, incoming, kd, v, u_next, sums);
 }
 
+void sum(PlaneView<const double> plane, int y0, int y1, ExactSum& into) {
+    BasicExactSum<V> lanes;
+    for (int y = y0; y < y1; ++y)
+        for (int x = 0; x < plane.nx; x += V::width) {
+            const auto inside = lane_numbers() < V(static_cast<double>(plane.nx - x));
+            lanes.add(select(inside, V::load(plane.line(y) + x), V(0.0)));
+        }
+    collect(lanes, into);
+}
+
 /// Energy of the cells whose lower corners are a pack of nodes, straight from the definition.
 ASPERITY_INLINE V cell_energy(const VectorVolume<const double>& u, std::ptrdiff_t at,
                               CellElasticity e) {
@@ -316,6 +335,6 @@ void energy(VectorVolume<const double> u, int z, CellElasticity e, int y0, int y
 } // namespace
 
 extern const ElasticKernels elastic_kernels;
-const ElasticKernels elastic_kernels = {force, advance, energy};
+const ElasticKernels elastic_kernels = {force, advance, sum, energy};
 
 } // namespace asperity::ASPERITY_VARIANT

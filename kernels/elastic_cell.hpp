@@ -74,6 +74,7 @@ struct KickDrift {
     double dt = 0.0;        ///< fs
     double half_mass = 0.0; ///< m/2, for the kinetic energy, eV fs^2/Å^2
     double medium_z = 0.0;  ///< V: velocity of the medium, Å/fs
+    bool stream = false;    ///< write u_next past the caches (a level too large for them)
     bool damped = false;    ///< sum the dissipated energy
     bool observed = false;  ///< sum the kinetic energy at the whole step
     double drag = 0.0;      ///< Gamma m dt, for the dissipated energy, eV fs^2/Å^2
@@ -106,6 +107,8 @@ struct ElasticKernels {
     void (*advance)(VectorVolume<const double> u, int z, const Stencil&, int y0, int y1,
                     VectorPlane<const double> incoming, const KickDrift&, VectorVolume<double> v,
                     VectorVolume<double> u_next, KickSums&);
+    /// Sum over the owned nodes of rows [y0, y1) of a plane.
+    void (*sum)(PlaneView<const double> plane, int y0, int y1, ExactSum&);
     /// Elastic energy of the cells between planes z and z+1 with lower corners in rows [y0, y1), eV.
     void (*energy)(VectorVolume<const double> u, int z, CellElasticity, int y0, int y1, ExactSum&);
 };

@@ -36,6 +36,7 @@ void advance(benchmark::State& state) {
     kd.kick = 1e-6;
     kd.dt = 1e-3;
     kd.damped = state.range(1) != 0;
+    kd.stream = state.range(2) != 0;
     kd.keep = kd.damped ? 0.999 : 1.0;
     const Stencil lower = make_stencil(s.elasticity, Face::lower), inner = make_stencil(s.elasticity, Face::inner);
     KickSums sums;
@@ -55,6 +56,6 @@ void advance(benchmark::State& state) {
     // u read, v read and written, u_next written: 12 doubles is the least.
     state.counters["GB/s"] = benchmark::Counter(nodes * 96e-9, benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK(advance)->ArgNames({"sites", "damped"})->ArgsProduct({{32, 64, 128, 512}, {0, 1}});
+BENCHMARK(advance)->ArgNames({"sites", "damped", "stream"})->ArgsProduct({{32, 64, 128, 256, 512}, {0, 1}, {0, 1}});
 
 } // namespace

@@ -95,7 +95,8 @@ MarchPath first_passage(const MarchGrid& grid, const MarchInput& in) {
     StepEnd now = end_of_step(0, 1, grid.energy[0], 1, 0);
     record(now);
     History history;
-    double rate = 0; // absorbed fraction per unit of ln T in the last step: the next guess
+    // Absorbed fraction per unit of ln T in the last step and the one before: the next guess.
+    double rate = 0, rate_before = 0;
 
     for (std::size_t i = 1; i < n; ++i) {
         const double T = grid.T[i], dT = T - grid.T[i - 1];
@@ -128,11 +129,11 @@ MarchPath first_passage(const MarchGrid& grid, const MarchInput& in) {
         if (receding < -3) {
             now = end_of_step(i, before.area, before.energy, share, 0);
             record(now);
-            rate = 0;
+            rate = rate_before = 0;
             continue;
         }
         double low = 0, high = before.area * (1 - 1e-9);
-        double x = std::clamp(rate * log_step, 0.0, 0.5 * before.area);
+        double x = std::clamp((2 * rate - rate_before) * log_step, 0.0, 0.5 * before.area);
         for (int iteration = 0; iteration < 60; ++iteration) {
             double slope = 0;
             const double f = excess(x, now, slope);
@@ -144,14 +145,15 @@ MarchPath first_passage(const MarchGrid& grid, const MarchInput& in) {
             }
             const double moved = std::abs(next - x);
             x = next;
-            if (moved < 1e-13 * before.area || moved < 1e-17) break;
-            if (moved < 1e-7 * before.area && std::abs(f) < 1e-14) break;
+            // Newton squares the error, so the step after one this small would not be seen.
+            if (moved < 1e-7 * before.area) break;
         }
         now = end_of_step(i, before.area, before.energy, share, x);
         record(now);
         history.b.push_back((before.b + now.b) / 2);
         history.T.push_back(grid.T[i - 1] + dT / 2);
         history.dF.push_back(x);
+        rate_before = rate;
         rate = x / log_step;
     }
     return path;

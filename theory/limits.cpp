@@ -61,6 +61,10 @@ CriticalRoughness critical_roughness(const AdhesiveContact& c, const SolverOptio
         throw NoSolution(
             "critical roughness: without adhesion (work_of_adhesion = 0) there is none "
             "to vanish; give a work of adhesion");
+    if (c.beta == 0 && c.pressure == 0)
+        throw NoSolution(
+            "critical roughness: with beta = 0 a sparse contact costs a^3 and gains a, so "
+            "adhesion fades but never ends; give beta > 0");
     CriticalRoughness result;
     const FullContactState unit = full_contact(at_roughness(c, 1));
     // Where adhesion would end if the area were fixed and S one: the natural scale of h.
@@ -91,9 +95,9 @@ CriticalRoughness critical_roughness(const AdhesiveContact& c, const SolverOptio
                 "critical roughness: at p = ", c.pressure,
                 " adhesion does not end between h_rms = ", std::exp(guess - reach), " and ",
                 std::exp(guess + reach), " (area factor ", name(c.area_factor), ", beta ", c.beta,
-                "): either the gain in contact area keeps up with the elastic energy, or a sparse "
-                "contact costs no energy (beta = 0), or the pull is too strong at any roughness; "
-                "try area factor none, beta > 0, or another load"));
+                "): either the gain in contact area keeps up with the elastic energy, or the pull "
+                "is "
+                "too strong at any roughness; try area factor none, or another load"));
         guess = root_between(excess, low, high, 1e-10);
         h[static_cast<std::size_t>(refinement)] = std::exp(guess);
     }

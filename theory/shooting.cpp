@@ -159,9 +159,14 @@ double Shooting::excess_at_edge(int refinement, double* area) const {
     if (lowest_ > 0)                                      // the path starts on the boundary
         return excess_at(std::log(1e-9 * lowest_ / contact_.work_of_adhesion), refinement, area);
     // Zero load: g0 -> 0 with A -> 0; what is left of A² is the error of stopping short.
-    double a = 1, value = 0;
-    for (double x = -10; x > -120 && a > 1e-3; x -= 2)
+    // W must be in its linear part, a² << β. A falls as a power of g0, so one look tells how far
+    // down to go.
+    const double small = std::clamp(0.01 * std::sqrt(contact_.beta), 1e-5, 1e-3);
+    double a = 1, x = -20, value = excess_at(x, refinement, &a);
+    for (int attempt = 0; a > small && x > -160 && attempt < 20; ++attempt) {
+        x = std::max({-160.0, 2 * x, 1.05 * x * std::log(small) / std::log(a)});
         value = excess_at(x, refinement, &a);
+    }
     if (area != nullptr) *area = 0;
     return value;
 }

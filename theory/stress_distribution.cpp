@@ -44,12 +44,23 @@ double between(const std::vector<ProfilePoint>& p, std::size_t i, double t,
     const auto width = [&](std::size_t k) { return clock_of(p[k]) - clock_of(p[k - 1]); };
     const auto slope = [&](std::size_t k) { return (p[k].*value - p[k - 1].*value) / width(k); };
     const double here = slope(i);
-    const auto at_end = [&](std::size_t neighbour) { // harmonic mean, zero at extremes
-        if (neighbour < 1 || neighbour >= p.size() || !(width(neighbour) > 0)) return here;
-        const double there = slope(neighbour);
-        return here * there > 0 ? 2 * here * there / (here + there) : 0.0;
+    const auto moves = [&](std::size_t k) { return k >= 1 && k < p.size() && width(k) > 0; };
+    const auto at_end = [&](std::size_t neighbour, std::size_t opposite) {
+        if (moves(neighbour)) { // weighted harmonic mean, zero at extremes
+            const double there = slope(neighbour);
+            if (!(here * there > 0)) return 0.0;
+            const double w_here = width(i) + 2 * width(neighbour);
+            const double w_there = 2 * width(i) + width(neighbour);
+            return (w_here + w_there) / (w_here / here + w_there / there);
+        }
+        if (!moves(opposite)) return here;
+        // The parabola through this interval and the one behind it, kept monotone.
+        const double lean = width(i) / (width(i) + width(opposite));
+        const double m = here + lean * (here - slope(opposite));
+        return m * here > 0 ? (std::abs(m) < 3 * std::abs(here) ? m : 3 * here) : 0.0;
     };
-    const double h = width(i), m0 = at_end(i - 1), m1 = at_end(i + 1), t2 = t * t, t3 = t2 * t;
+    const double h = width(i), m0 = at_end(i - 1, i + 1), m1 = at_end(i + 1, i - 1), t2 = t * t,
+                 t3 = t2 * t;
     return (2 * t3 - 3 * t2 + 1) * p[i - 1].*value + (3 * t2 - 2 * t3) * p[i].*value +
            (t3 - 2 * t2 + t) * h * m0 + (t3 - t2) * h * m1;
 }

@@ -55,7 +55,7 @@ void ElasticOperator::set(const Vector& u, double top) {
 }
 
 Vector ElasticOperator::force() {
-    block_.hand_up(); // nothing was ever put into the lowest layer's incoming forces
+    // Nothing was ever put into the incoming forces of the lowest layer.
     block_.forces(force_);
     Vector f(size_);
     each([&](std::size_t i, std::size_t l, int c, int z, int y, int x) {

@@ -30,7 +30,7 @@ void judge(AdhesiveContact c, const std::string& what,
     for (double fraction : fractions) {
         c.spectrum = c.spectrum.with_rms_height(fraction * h_c);
         const ContactState a = solve(c);
-        const ContactState b = solve(c, {.march = March::diffusion, .max_refinement = 3});
+        const ContactState b = solve(c, {.march = March::diffusion, .max_refinement = 2});
         EXPECT_EQ(a.status, Status::adhesive) << fraction;
         EXPECT_TRUE(a.converged) << fraction;
         EXPECT_NEAR(a.gamma_ratio, b.gamma_ratio, 1e-4 * std::max(1.0, b.gamma_ratio)) << fraction;

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The drive's decisions, and the books that a simulation keeps.
+#include "support/cases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace asperity;
+
+namespace {
+
+DriveOptions both_ways() {
+    DriveOptions o;
+    o.velocity = 5e-5;
+    o.ramp = 1000.0;
+    return o;
+}
+
+} // namespace
+
+TEST(Drive, ApproachEndsWhereTheForceComesBackToZero) {
+    Drive drive(both_ways());
+    EXPECT_EQ(drive.leg(), Leg::approach);
+    EXPECT_EQ(drive.velocity(0.0), -5e-5);
+    EXPECT_FALSE(drive.observe(0.0, 0.0, false)) << "out of reach is not contact";
+    EXPECT_FALSE(drive.observe(10.0, -1.0, false));
+    EXPECT_FALSE(drive.observe(20.0, -9.0, true)) << "nothing ends an approach but the force";
+    EXPECT_FALSE(drive.observe(30.0, -0.01, false));
+    EXPECT_TRUE(drive.observe(40.0, 0.02, false));
+    EXPECT_EQ(drive.leg(), Leg::pull_off);
+    EXPECT_FALSE(drive.observe(50.0, 3.0, false)) << "a leg ends once";
+}
+
+TEST(Drive, ALoadIsReachedWithOrWithoutAttraction) {
+    auto options = both_ways();
+    options.load_force = 2.0;
+    Drive sticky(options), hard(options);
+    EXPECT_FALSE(sticky.observe(0.0, -1.0, false));
+    EXPECT_FALSE(sticky.observe(1.0, 1.0, false)) << "through zero, but not at the load";
+    EXPECT_TRUE(sticky.observe(2.0, 2.5, false));
+    EXPECT_FALSE(hard.observe(0.0, 1.0, false));
+    EXPECT_TRUE(hard.observe(1.0, 2.5, false));
+}
+
+TEST(Drive, TurnsSmoothly) {
+    Drive drive(both_ways());
+    drive.observe(100.0, -1.0, false);
+    drive.observe(200.0, 1.0, false);
+    EXPECT_NEAR(drive.velocity(200.0), -5e-5, 1e-18);
+    EXPECT_NEAR(drive.velocity(700.0), 0.0, 1e-18) << "half way through the ramp";
+    EXPECT_EQ(drive.velocity(1200.0), 5e-5);
+    EXPECT_EQ(drive.velocity(1e9), 5e-5);
+    // Monotonic, and its steepest change is that of a half cosine, pi/2 times the mean: no sudden kick.
+    double before = drive.velocity(200.0);
+    for (double t = 201.0; t <= 1200.0; t += 1.0) {
+        const double now = drive.velocity(t);
+        EXPECT_GE(now, before);
+        EXPECT_LE(now - before, 1.0001 * 1e-4 / 1000.0 * 1.5707963268);
+        before = now;
+    }
+}
+
+TEST(Drive, PullOffEndsOutOfReach) {
+    Drive drive(both_ways());
+    drive.observe(0.0, -1.0, false);
+    drive.observe(1.0, 1.0, false);
+    EXPECT_FALSE(drive.observe(2.0, -5.0, false));
+    EXPECT_FALSE(drive.observe(3.0, 0.0, false)) << "a zero of the force is not the end";
+    EXPECT_TRUE(drive.observe(4.0, 0.0, true));
+    EXPECT_TRUE(drive.done());
+}
+
+TEST(Drive, LegsThatWereNotAskedForAreLeftOut) {
+    auto options = both_ways();
+    options.pull_off = false;
+    Drive in(options);
+    in.observe(0.0, -1.0, false);
+    EXPECT_TRUE(in.observe(1.0, 0.5, false));
+    EXPECT_TRUE(in.done());
+    options = both_ways();
+    options.approach = false;
+    Drive out(options);
+    EXPECT_EQ(out.leg(), Leg::pull_off);
+    EXPECT_EQ(out.velocity(0.0), 0.0) << "from rest";
+    EXPECT_NEAR(out.velocity(500.0), 2.5e-5, 1e-18);
+    EXPECT_EQ(out.velocity(1000.0), 5e-5);
+}
+
+TEST(Simulation, TheForceAndHeightOfARigidBlockAreThoseOfTheFlatSum) {
+    // First step, nothing displaced yet: N^2 times the force of one site over a flat substrate.
+    SimulationOptions options;
+    options.block = test::paper_block(8, 4, 0);
+    options.interface = test::paper_interface();
+    options.drive.velocity = 0.0;
+    Simulation simulation(options, test::flat_surface(8), Communicator(), test::serial_grid(options.block));
+    for (double gap : {3.0, 3.6, 5.0, 13.0}) {
+        simulation.start(gap);
+        const StepRecord& now = simulation.step(true);
+        const PairSum site = flat_pair_sum(options.interface, 2.6, 8, 8, gap);
+        EXPECT_NEAR(now.force, 64 * site.force[2], 1e-12 * (1.0 + std::abs(now.force)));
+        EXPECT_NEAR(now.interface_energy, 64 * site.energy, 1e-12 * (1.0 + std::abs(now.interface_energy)));
+        EXPECT_EQ(now.mean_height, gap);
+        EXPECT_EQ(now.elastic_energy, 0.0);
+        EXPECT_EQ(now.step, 0);
+    }
+}
+
+TEST(Simulation, NothingHappensOutOfReach) {
+    // The whole block comes down rigidly with the drive: no force, no strain, mean height v t.
+    SimulationOptions options;
+    options.block = test::paper_block(8, 7, 2);
+    options.interface = test::paper_interface();
+    options.damping = 1e-3; // against a medium that moves along: no drag
+    Simulation simulation(options, test::flat_surface(8), Communicator(), test::serial_grid(options.block));
+    simulation.start(20.0);
+    for (int n = 0; n < 1000; ++n) simulation.step(true);
+    const StepRecord& now = simulation.now();
+    EXPECT_EQ(now.force, 0.0);
+    EXPECT_NEAR(now.mean_height, 20.0 - 999 * 10.0 * 5e-5, 1e-12);
+    EXPECT_NEAR(now.elastic_energy, 0.0, 1e-20);
+    EXPECT_NEAR(simulation.ledger().damped, 0.0, 1e-20);
+    EXPECT_EQ(simulation.leg(), Leg::approach);
+}
+
+TEST(Simulation, MomentumIsWhatTheForcesGave) {
+    // The free-standing identity of Newton's law for the whole block over one step: the change of momentum of the
+    // moving nodes is dt times (force of the substrate + force of the top plane).
+    SimulationOptions options;
+    options.block = test::paper_block(8, 11, 2);
+    options.interface = test::paper_interface();
+    Simulation simulation(options, test::reference_surface("n8_b_rms1.0"), Communicator(),
+                          test::serial_grid(options.block));
+    simulation.start(6.0);
+    const auto momentum = [&] {
+        double sum = 0.0;
+        for (const auto& level : simulation.block().levels())
+            for (int z = 0; z < level.plan.cells; ++z)
+                for (int y = 0; y < level.tile.ny; ++y)
+                    for (int x = 0; x < level.tile.nx; ++x) sum += level.mass(z) * level.v.view().z(x, y, z);
+        return sum;
+    };
+    for (int n = 0; n < 200; ++n) simulation.step(false);
+    const double before = momentum();
+    const StepRecord now = simulation.step(false);
+    // top_force is the force on the top plane; the block feels its reverse.
+    const double given = options.dt * (now.force - now.top_force);
+    EXPECT_GT(std::abs(given), 1.0);
+    EXPECT_NEAR(momentum() - before, given, 1e-11 * std::abs(before));
+}
