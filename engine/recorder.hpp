@@ -17,8 +17,8 @@ namespace asperity {
 class Recorder {
 public:
     /// A new file, or (rows > 0) an old one taken up after its first rows.
-    Recorder(const std::string& path, const Surface& surface, const Communicator& communicator, bool resume,
-             std::uint64_t rows);
+    Recorder(const std::string& path, const Surface& surface, const Communicator& communicator,
+             bool resume, std::uint64_t rows);
 
     /// One row: the simulation's last step, which must have been observed.
     void row(const Simulation& simulation);

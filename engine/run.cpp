@@ -40,12 +40,13 @@ class Run {
 public:
     Run(const Scene& scene, const RunOptions& options, const Communicator& ranks)
         : scene_(scene), options_(options), ranks_(ranks), setup_(make_setup(scene, ranks.size())),
-          surface_(scene_surface(scene)),
-          grid_(ranks.size(), ranks.rank(), scene.surface.sites, static_cast<int>(setup_.levels.size())),
+          surface_(scene_surface(scene)), grid_(ranks.size(), ranks.rank(), scene.surface.sites,
+                                                static_cast<int>(setup_.levels.size())),
           simulation_(setup_.simulation, surface_, ranks, grid_),
           progress_(options.progress, !ranks.root()) {
         ranks_.on_root([&] {
-            const auto place = io::choose_result_directory(options.out, scene.name, options.resuming());
+            const auto place =
+                io::choose_result_directory(options.out, scene.name, options.resuming());
             directory_ = place.directory;
             if (!place.note.empty()) progress_.say(place.note);
         });
@@ -57,7 +58,8 @@ public:
         try {
             if (ranks_.root())
                 print_opening(stdout, scene_, setup_, surface_, grid_, omp_get_max_threads(),
-                              simulation_.block().bytes() + simulation_.interface().bytes(), directory_);
+                              simulation_.block().bytes() + simulation_.interface().bytes(),
+                              directory_);
             follow();
         } catch (const io::Error& e) {
             progress_.finish();
@@ -69,7 +71,8 @@ public:
         if (ranks_.root()) {
             const bool dynamic = simulation_.steps() > 0;
             print_summary(stdout, scene_, setup_, findings_,
-                          dynamic ? simulation_.energy_residual() : std::numeric_limits<double>::quiet_NaN(),
+                          dynamic ? simulation_.energy_residual()
+                                  : std::numeric_limits<double>::quiet_NaN(),
                           directory_);
             if (!stopped_.empty())
                 fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);
@@ -117,7 +120,8 @@ private:
     /// What the force of this step means for the path.
     void follow_drive(const StepRecord& now) {
         const Leg leg = simulation_.leg();
-        double& attraction = leg == Leg::approach ? findings_.attraction_in : findings_.attraction_out;
+        double& attraction =
+            leg == Leg::approach ? findings_.attraction_in : findings_.attraction_out;
         attraction = std::max(attraction, -now.force);
         const double strongest = std::max(findings_.attraction_in, findings_.attraction_out);
         const bool gone = now.top >= 0.0 && std::abs(now.force) <= 1e-6 * strongest;
@@ -125,7 +129,8 @@ private:
         const double area = scene_.edge() * scene_.edge();
         if (leg == Leg::approach) {
             findings_.approach = units::milli_per_unit * simulation_.ledger().approach / area;
-            progress_.say(fmt::format("contact is made; relaxing a copy of this state under zero load"));
+            progress_.say(
+                fmt::format("contact is made; relaxing a copy of this state under zero load"));
             Block copy = simulation_.block().copy_at_rest();
             find_zero_load(copy);
             if (!simulation_.drive().done()) progress_.say("pull-off begins");
@@ -138,11 +143,12 @@ private:
         const auto t = simulation_.phases().time(Phase::relax);
         RelaxOptions options;
         options.tolerance = scene_.drive.tolerance;
-        options.site_stiffness = setup_.flat.stiffness * scene_.surface.spacing * scene_.surface.spacing;
+        options.site_stiffness =
+            setup_.flat.stiffness * scene_.surface.spacing * scene_.surface.spacing;
         options.report = [&](long long iteration, double residual) {
             if (!progress_.due()) return;
-            progress_.update({fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0,
-                              -1.0});
+            progress_.update({fmt::format("relaxing, largest force {:.1e} eV/Å", residual),
+                              iteration, 0.0, -1.0});
         };
         Phases own; // its lines are not lines of the step
         const RelaxedState s =
@@ -152,9 +158,11 @@ private:
         if (!s.converged)
             throw io::PhysicsError(
                 fmt::format("the zero-load state was not found in {} iterations", s.iterations),
-                fmt::format("the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
-                            s.residual, scene_.drive.tolerance),
-                "look at run.h5 whether the surfaces touch at all; a looser drive.tolerance ends earlier");
+                fmt::format(
+                    "the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
+                    s.residual, scene_.drive.tolerance),
+                "look at run.h5 whether the surfaces touch at all; a looser drive.tolerance ends "
+                "earlier");
         ZeroLoad z;
         z.binding_energy = -units::milli_per_unit * (s.interface_energy + s.elastic_energy) / area;
         z.pairwise = -units::milli_per_unit * s.interface_energy / area;
@@ -166,19 +174,20 @@ private:
         z.iterations = static_cast<double>(s.iterations);
         findings_.zero_load = z;
         if (scene_.writes_field("zero-load"))
-            recorder_->fields("zero-load", block, simulation_.interface(), simulation_.reference_height());
+            recorder_->fields("zero-load", block, simulation_.interface(),
+                              simulation_.reference_height());
     }
 
-    /// Where a rigid block feels the strongest attraction on its way down: the descent that starts there ends
-    /// in the state that a slow approach reaches.
+    /// Where a rigid block feels the strongest attraction on its way down: the descent that starts
+    /// there ends in the state that a slow approach reaches.
     double height_of_strongest_attraction() {
         Block& block = simulation_.block();
         block.set_uniform(0.0, 0.0);
         double best_height = simulation_.interface().start_height(), strongest = 0.0;
         constexpr double stride = 0.1;
         for (double height = best_height;; height -= stride) {
-            const InterfaceSums sums =
-                simulation_.interface().sweep(block.lowest_layer(), block.interface_force(), height, false);
+            const InterfaceSums sums = simulation_.interface().sweep(
+                block.lowest_layer(), block.interface_force(), height, false);
             const double force = global_sum(ranks_, sums.force_z);
             if (force < strongest) strongest = force, best_height = height;
             if (force > 0.0 || height < surface_.statistics.lowest) return best_height;
@@ -201,13 +210,17 @@ private:
         }
         const double limit = setup_.longest_timestep;
         throw io::PhysicsError(
-            finite ? fmt::format("the energy balance is off by {:.1f} % at step {}", 100.0 * residual, now.step)
-                   : fmt::format("the motion diverged at step {}: the force is {}", now.step, now.force),
-            fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded contact, and less "
+            finite ? fmt::format("the energy balance is off by {:.1f} % at step {}",
+                                 100.0 * residual, now.step)
+                   : fmt::format("the motion diverged at step {}: the force is {}", now.step,
+                                 now.force),
+            fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
+                        "contact, and less "
                         "where atoms are pressed into the wall or hit it fast",
                         where, scene_.drive.timestep, limit),
-            fmt::format("take a smaller drive.timestep (for example {:.2g} fs) or drive.velocity; {}",
-                        std::min(0.5 * scene_.drive.timestep, 0.2 * limit), kept));
+            fmt::format(
+                "take a smaller drive.timestep (for example {:.2g} fs) or drive.velocity; {}",
+                std::min(0.5 * scene_.drive.timestep, 0.2 * limit), kept));
     }
 
     /// The site of the lowest layer that moves fastest (or not by a number any more).
@@ -218,7 +231,8 @@ private:
         int wx = 0, wy = 0;
         for (int y = 0; y < v.x.ny; ++y)
             for (int x = 0; x < v.x.nx; ++x) {
-                double speed = std::sqrt(v.x(x, y) * v.x(x, y) + v.y(x, y) * v.y(x, y) + v.z(x, y) * v.z(x, y));
+                double speed = std::sqrt(v.x(x, y) * v.x(x, y) + v.y(x, y) * v.y(x, y) +
+                                         v.z(x, y) * v.z(x, y));
                 if (!std::isfinite(speed)) speed = std::numeric_limits<double>::max();
                 if (speed > worst) worst = speed, wx = x + level.tile.x0, wy = y + level.tile.y0;
             }
@@ -244,7 +258,8 @@ private:
         double decision = nothing;
         if (ranks_.root()) {
             const double now = seconds();
-            if (scene_.output.checkpoint > 0.0 && now - last_checkpoint_ >= scene_.output.checkpoint)
+            if (scene_.output.checkpoint > 0.0 &&
+                now - last_checkpoint_ >= scene_.output.checkpoint)
                 decision = save;
             if (options_.wall_limit && now >= *options_.wall_limit) decision = wall;
         }
@@ -258,14 +273,17 @@ private:
         last_checkpoint_ = seconds();
         if (agreed[0] == save) return false;
         stopped_ = agreed[0] == wall ? "wall_limit" : "signal";
-        progress_.say(fmt::format("stopping: the state at step {} is in {}/checkpoint.h5; go on with --resume auto",
-                                  simulation_.steps(), directory_));
+        progress_.say(fmt::format(
+            "stopping: the state at step {} is in {}/checkpoint.h5; go on with --resume auto",
+            simulation_.steps(), directory_));
         return true;
     }
 
     RunScalars run_scalars() {
         RunScalars list = {{"rows", static_cast<double>(recorder_->rows())}};
-        const auto collect = [&](const char* name, double& value) { list.emplace_back(name, value); };
+        const auto collect = [&](const char* name, double& value) {
+            list.emplace_back(name, value);
+        };
         findings_.visit(collect);
         return list;
     }
@@ -293,7 +311,8 @@ private:
         return true;
     }
 
-    /// The physics of the scene, as text: what may not change between a checkpoint and its resumption.
+    /// The physics of the scene, as text: what may not change between a checkpoint and its
+    /// resumption.
     std::string fingerprint() const {
         const io::JsonValue all = scene_json(scene_);
         io::JsonValue part = io::JsonValue::object();
@@ -304,18 +323,19 @@ private:
     }
 
     io::Progress::State progress_state(const StepRecord& now) const {
-        // The way: down from the start to contact, up again as far, and the stretch of a block that is
-        // pulled with a fair part of the largest tension.
+        // The way: down from the start to contact, up again as far, and the stretch of a block that
+        // is pulled with a fair part of the largest tension.
         const double down = simulation_.interface().start_height() - setup_.flat.separation;
         const auto& b = setup_.simulation.block;
         const double stretch = scene_.has(PathPart::pull_off)
-                                   ? 0.5 * setup_.flat.largest_tension * units::gigapascal * b.thickness *
-                                         b.spacing / (b.lame() + 2.0 * b.shear_modulus())
+                                   ? 0.5 * setup_.flat.largest_tension * units::gigapascal *
+                                         b.thickness * b.spacing /
+                                         (b.lame() + 2.0 * b.shear_modulus())
                                    : 0.0;
         const double total = scene_.has(PathPart::pull_off) ? 2.0 * down + stretch : down;
         const double done = simulation_.leg() == Leg::approach ? -now.top : 2.0 * down + now.top;
-        return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force), simulation_.steps(),
-                now.time, std::clamp(done / total, 0.0, 0.99)};
+        return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force),
+                simulation_.steps(), now.time, std::clamp(done / total, 0.0, 0.99)};
     }
 
     double seconds() const {
@@ -374,7 +394,8 @@ void Run::write_record(const io::ResultRecord::Failure& failure) {
     if (findings_.pull_off) r.pull_off_force = findings_.attraction_out;
     if (scene_.surface.radius) {
         const auto jkr = [&](double f) {
-            return units::milli_per_unit * f / (1.5 * 3.14159265358979323846 * *scene_.surface.radius);
+            return units::milli_per_unit * f /
+                   (1.5 * 3.14159265358979323846 * *scene_.surface.radius);
         };
         if (findings_.approach) r.jkr.in = jkr(findings_.attraction_in);
         if (findings_.pull_off) r.jkr.out = jkr(findings_.attraction_out);
@@ -395,7 +416,8 @@ void Run::write_record(const io::ResultRecord::Failure& failure) {
     r.run.threads = omp_get_max_threads();
     for (std::size_t p = 0; p < phase_names.size(); ++p) {
         const PhaseClock& clock = simulation_.phases()[static_cast<Phase>(p)];
-        if (clock.calls > 0) r.run.phases.push_back({std::string(phase_names[p]), clock.seconds, clock.calls});
+        if (clock.calls > 0)
+            r.run.phases.push_back({std::string(phase_names[p]), clock.seconds, clock.calls});
     }
     r.run.stopped = stopped_;
     r.failure = failure;
