@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <span>
@@ -34,6 +35,7 @@
 #include <fftw3.h>
 #include <fmt/format.h>
 #include <omp.h>
+#include <unistd.h>
 
 namespace asperity {
 namespace {
@@ -273,6 +275,17 @@ int agreed(int code, const Communicator& world) {
     world.abort(code);
 }
 
+/// Threads of this rank, where nobody chose them: the processors it may use, shared with the ranks beside
+/// it unless the launcher has bound each to processors of its own.
+void choose_threads() {
+    if (std::getenv("OMP_NUM_THREADS")) return;
+    const char* beside = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+    const int ranks = beside ? std::max(1, std::atoi(beside)) : 1;
+    const int mine = omp_get_num_procs();
+    const bool bound = mine < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+    omp_set_num_threads(bound ? mine : std::max(1, mine / ranks));
+}
+
 int command_line(int argc, char** argv, const Communicator& world) {
     CLI::App app("Adhesion between randomly rough elastic solids, from the atoms up", "asperity");
     app.require_subcommand(1);
@@ -343,9 +356,12 @@ int main(int argc, char** argv) {
     using namespace asperity;
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
+    choose_threads();
     try {
         return command_line(argc, argv, world);
     } catch (const io::SceneError& error) { // on every rank, or on the root for all of them
+        return agreed(report(error, world), world);
+    } catch (const io::PhysicsError& error) { // guards judge global numbers: on every rank
         return agreed(report(error, world), world);
     } catch (const RootFailure&) { // the root has the reason and the code
         return agreed(io::exit_code::done, world);
