@@ -9,6 +9,7 @@
 #include "engine/recorder.hpp"
 #include "engine/setup.hpp"
 #include "engine/summary.hpp"
+#include "engine/theory_command.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "io/progress.hpp"
@@ -410,6 +411,7 @@ void Run::write_record(const io::ResultRecord::Failure& failure) {
         r.energy.interface = now.interface_energy;
         r.energy.damped = l.damped;
     }
+    add_theory(scene_, surface_, setup_.flat.work_of_adhesion, r);
     r.run.wall_seconds = seconds();
     r.run.steps = simulation_.steps();
     r.run.ranks = ranks_.size();

@@ -45,9 +45,12 @@ auto with_scene_errors(const F& work) {
 
 theory::AreaFactor area_factor_of(AreaFactor reading) {
     switch (reading) {
-    case AreaFactor::gaussian: return theory::AreaFactor::gaussian;
-    case AreaFactor::small_slope: return theory::AreaFactor::small_slope;
-    case AreaFactor::none: return theory::AreaFactor::none;
+    case AreaFactor::gaussian:
+        return theory::AreaFactor::gaussian;
+    case AreaFactor::small_slope:
+        return theory::AreaFactor::small_slope;
+    case AreaFactor::none:
+        return theory::AreaFactor::none;
     }
     return theory::AreaFactor::gaussian;
 }
@@ -67,11 +70,11 @@ Spectrum target_of(const Scene& scene, TheoryCase& out) {
     const double rolloff = std::clamp(s.rolloff, 1.0, cutoff);
     out.q0 = rolloff * q_L;
     if (!(cutoff > 1.0))
-        throw io::SceneError(
-            io::Problem{scene.positions.where("surface.cutoff"),
-                        fmt::format("surface.cutoff = {:.6g} leaves the theory no roughness", cutoff),
-                        "it needs a band of wavevectors from q_L to q1 > q_L",
-                        "give a larger cutoff, more sites, or kind = \"flat\""});
+        throw io::SceneError(io::Problem{
+            scene.positions.where("surface.cutoff"),
+            fmt::format("surface.cutoff = {:.6g} leaves the theory no roughness", cutoff),
+            "it needs a band of wavevectors from q_L to q1 > q_L",
+            "give a larger cutoff, more sites, or kind = \"flat\""});
     return Spectrum::self_affine(
         {.q_L = q_L, .q0 = rolloff * q_L, .q1 = cutoff * q_L, .hurst = s.hurst, .h_rms = s.rms});
 }
@@ -97,11 +100,11 @@ Spectrum realised_of(const Scene& scene, const Surface& surface, TheoryCase& out
     }
     const double rms = surface.statistics.rms;
     if (C.empty() || !(variance > 0.0))
-        throw io::SceneError(io::Problem{
-            scene.positions.where("theory.spectrum"),
-            "theory.spectrum = \"realised\" finds no roughness in the surface",
-            fmt::format("its rms is {:.4g} Å on {} sites", rms, surface.sites),
-            "give a rough surface of at least 4 sites, or kind = \"flat\""});
+        throw io::SceneError(
+            io::Problem{scene.positions.where("theory.spectrum"),
+                        "theory.spectrum = \"realised\" finds no roughness in the surface",
+                        fmt::format("its rms is {:.4g} Å on {} sites", rms, surface.sites),
+                        "give a rough surface of at least 4 sites, or kind = \"flat\""});
     out.notes.push_back("the spectrum is that of the surface itself (ring averages)");
     if (const double lost = 1.0 - variance / (rms * rms); lost > 1e-3)
         out.notes.push_back(fmt::format("{:.2g} % of the height variance lies beyond Nyquist, in "
@@ -153,8 +156,8 @@ TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional
                 potential.tail ? 0.0 : potential.cutoff};
     with_scene_errors([&] {
         out.contact.spectrum = spectrum_of(scene, surface, out);
-        out.contact.contact_modulus = theory::contact_modulus(
-            scene.block.young * units::gigapascal, scene.block.poisson);
+        out.contact.contact_modulus =
+            theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson);
         out.contact.work_of_adhesion = out.delta_gamma / units::milli_per_unit;
         out.contact.pressure = scene.drive.load * units::megapascal;
         out.contact.beta = scene.theory.beta;
@@ -265,8 +268,8 @@ Beyond look_beyond(const TheoryCase& what, const TheoryNumbers& n) {
             beyond.note = error.what();
         }
     if (n.state.status == theory::Status::no_contact && what.contact.pressure == 0.0) try {
-            beyond.gamma_wall_bound = units::milli_per_unit *
-                                      theory::wall_bound(what.contact, what.wall).gamma_with;
+            beyond.gamma_wall_bound =
+                units::milli_per_unit * theory::wall_bound(what.contact, what.wall).gamma_with;
         } catch (const std::exception& error) {
             beyond.note = error.what();
         }
@@ -275,7 +278,8 @@ Beyond look_beyond(const TheoryCase& what, const TheoryNumbers& n) {
 
 const char* in_words(theory::Status status) {
     switch (status) {
-    case theory::Status::adhesive: return "the surfaces hold together without any load";
+    case theory::Status::adhesive:
+        return "the surfaces hold together without any load";
     case theory::Status::pressed:
         return "the load alone holds the surfaces together: it takes more energy to bend them into "
                "contact than the bonds give back";
@@ -316,10 +320,9 @@ void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumber
     if (n.theta)
         fmt::print("  theta          {:.4f} = E* h² q0 / Δγ{}\n", *n.theta,
                    beyond.critical
-                       ? fmt::format(", {:.4f} at the critical rms",
-                                     *n.theta * std::pow(beyond.critical->h_rms /
-                                                             spectrum.rms_height(),
-                                                         2))
+                       ? fmt::format(
+                             ", {:.4f} at the critical rms",
+                             *n.theta * std::pow(beyond.critical->h_rms / spectrum.rms_height(), 2))
                        : "");
     if (n.jkr_pull_off_force) {
         const double w = what.contact.work_of_adhesion;
@@ -331,9 +334,11 @@ void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumber
                    theory::tabor_number(*what.radius, w, what.contact.contact_modulus,
                                         scene.interface.r0));
     }
-    fmt::print("  status         {}\n                 ({}{})\n", in_words(n.state.status),
-               n.state.reason,
-               n.state.converged ? "" : "; NOT converged to 1e-5, see the errors above");
+    fmt::print("  status         {}\n", in_words(n.state.status));
+    if (n.state.status != theory::Status::adhesive)
+        fmt::print("                 (in eV and Å: {})\n", n.state.reason);
+    if (!n.state.converged)
+        fmt::print("                 NOT converged to 1e-5: see the errors in the table\n");
     for (const std::string& note : what.notes)
         fmt::print("  note: {}\n", note);
     if (!beyond.note.empty()) fmt::print("  note: {}\n", beyond.note);
@@ -346,8 +351,7 @@ int theory_command(const Scene& scene, const std::string& out) {
     const TheoryCase what = theory_case(scene);
     const TheoryNumbers numbers = solve_theory(what);
     const Beyond beyond = look_beyond(what, numbers);
-    const io::ResultPlace place =
-        io::choose_result_directory(out, scene.name + "-theory", false);
+    const io::ResultPlace place = io::choose_result_directory(out, scene.name + "-theory", false);
     io::make_directory(place.directory);
     const std::string profile = (std::filesystem::path(place.directory) / "theory.h5").string();
     write_profile(profile, what, numbers);

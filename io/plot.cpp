@@ -172,7 +172,9 @@ private:
         return all;
     }
 
-    double px(double x) const { return left_ + (x - x_.low) / (x_.high - x_.low) * (right_ - left_); }
+    double px(double x) const {
+        return left_ + (x - x_.low) / (x_.high - x_.low) * (right_ - left_);
+    }
     double py(double y) const {
         // Far outside the frame any place will do; viewers dislike enormous coordinates.
         const double v = bottom_ - (y - y_.low) / (y_.high - y_.low) * (bottom_ - top_);
@@ -190,8 +192,9 @@ private:
     }
     void text(double x, double y, const char* anchor, const std::string& body,
               const std::string& more = "") {
-        out_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
-                            anchor, more, body);
+        out_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" "
+                            "xml:space=\"preserve\"{}>{}</text>\n",
+                            x, y, anchor, more, body);
     }
 
     void axes() {
@@ -240,7 +243,8 @@ private:
             drawing = there;
         }
         if (!path.empty())
-            out_ += fmt::format("<path d=\"{}\" stroke=\"{}\"{}/>\n", path, stroke, dashes(s.style));
+            out_ +=
+                fmt::format("<path d=\"{}\" stroke=\"{}\"{}/>\n", path, stroke, dashes(s.style));
     }
 
     /// How many samples of the curves lie in the box.

@@ -254,8 +254,6 @@ TEST(Scene, Notes) {
             if (note.find(what) != std::string::npos) return true;
         return false;
     };
-    EXPECT_TRUE(said("", "clipped at 256 q_L"));
-    EXPECT_FALSE(said("surface.cutoff = 100", "clipped"));
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.rms = 1", "surface.rms has no effect"));
     EXPECT_TRUE(said("surface.sites = 500", "halved 2 times"));
     EXPECT_FALSE(said("", "halved"));
