@@ -24,6 +24,8 @@
 #include <csignal>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace asperity {
 
@@ -103,41 +105,52 @@ private:
         std::signal(SIGTERM, on_stop_signal);
         std::signal(SIGINT, on_stop_signal);
         last_checkpoint_ = seconds();
-        while (!simulation_.drive().done()) {
-            const bool observe = simulation_.steps() % scene_.output.series == 0;
-            if (observe && time_to_stop()) return;
-            const StepRecord& now = simulation_.step(observe);
+        std::optional<Leg> ended; // the leg that the last step ended
+        while (ended || !simulation_.drive().done()) {
+            const bool last = simulation_.steps() + 1 == scene_.drive.max_steps;
+            const bool due = simulation_.steps() % scene_.output.series == 0;
+            if (due && !ended && time_to_stop()) return;
+            // The step after a leg and the last of all are observed, so that the guard has seen the
+            // energy balance before anything is concluded.
+            const StepRecord& now = simulation_.step(due || ended || last);
             guard(now);
-            if (observe) record_row();
-            follow_drive(now);
+            if (now.observed) record_row();
+            if (ended)
+                conclude(*std::exchange(ended, std::nullopt));
+            else
+                ended = follow_drive(now);
             if (progress_.due()) progress_.update(progress_state(now));
-            if (scene_.drive.max_steps > 0 && simulation_.steps() >= scene_.drive.max_steps) {
+            if (last) {
                 stopped_ = "max_steps";
                 return;
             }
         }
     }
 
-    /// What the force of this step means for the path.
-    void follow_drive(const StepRecord& now) {
+    /// Tells the drive what the step felt. The leg that ended with it, if one did.
+    std::optional<Leg> follow_drive(const StepRecord& now) {
         const Leg leg = simulation_.leg();
         double& attraction =
             leg == Leg::approach ? findings_.attraction_in : findings_.attraction_out;
         attraction = std::max(attraction, -now.force);
         const double strongest = std::max(findings_.attraction_in, findings_.attraction_out);
         const bool gone = now.top >= 0.0 && std::abs(now.force) <= 1e-6 * strongest;
-        if (!simulation_.drive().observe(now.time, now.force, gone)) return;
+        if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
+        return leg;
+    }
+
+    /// What a leg has shown.
+    void conclude(Leg leg) {
         const double area = scene_.edge() * scene_.edge();
-        if (leg == Leg::approach) {
-            findings_.approach = units::milli_per_unit * simulation_.ledger().approach / area;
-            progress_.say(
-                fmt::format("contact is made; relaxing a copy of this state under zero load"));
-            Block copy = simulation_.block().copy_at_rest();
-            find_zero_load(copy);
-            if (!simulation_.drive().done()) progress_.say("pull-off begins");
-        } else {
+        if (leg == Leg::pull_off) {
             findings_.pull_off = -units::milli_per_unit * simulation_.ledger().pull_off / area;
+            return;
         }
+        findings_.approach = units::milli_per_unit * simulation_.ledger().approach / area;
+        progress_.say("contact is made; relaxing a copy of this state under zero load");
+        Block copy = simulation_.block().copy_at_rest();
+        find_zero_load(copy);
+        if (!simulation_.drive().done()) progress_.say("pull-off begins");
     }
 
     void find_zero_load(Block& block) {

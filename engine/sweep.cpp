@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/sweep.hpp"
 
+#include "engine/setup.hpp"
 #include "engine/sweep_output.hpp"
 #include "engine/theory_command.hpp"
 #include "io/error.hpp"
@@ -243,8 +244,20 @@ int sweep_command(const SweepOptions& options) {
     if (!note.empty()) fmt::print("note: {}\n", note);
     if (!place.note.empty()) fmt::print("note: {}\n", place.note);
 
+    // A surface is made anew only where more than its roughness changes.
+    std::optional<Surface> surface;
+    std::string surface_keys;
     for (const Scene& scene : scenes) {
-        const TheoryCase what = theory_case(scene);
+        if (theory_needs_surface(scene)) {
+            io::JsonValue keys = *scene_json(scene).find("surface");
+            if (scene.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
+            if (const std::string text = keys.dump(-1); !surface || text != surface_keys) {
+                surface = scene_surface(scene);
+                surface_keys = text;
+            }
+        }
+        const TheoryCase what =
+            theory_case(scene, theory_needs_surface(scene) ? &*surface : nullptr);
         for (const std::string& said : what.notes)
             if (std::find(table.notes.begin(), table.notes.end(), said) == table.notes.end())
                 table.notes.push_back(said);

@@ -7,8 +7,8 @@
 //
 // --set key=v1,v2,... or key=start:stop:step (stop included) is an axis of the grid; --set with a
 // single value overrides that key at every point. Every point is a scene of its own, read and
-// checked like any other, all of them before the first is computed. The first axis of numbers is
-// the x axis of the plots; the others give one curve a value.
+// checked like any other, all of them before the first is computed. The axis of numbers
+// with the most values is the x axis of the plots; the others give one curve a value.
 //
 // This release computes the theory only (--theory-only), on one rank, points one after the other:
 // about 15 ms each.

@@ -100,14 +100,18 @@ struct Curve {
 };
 
 std::vector<Curve> curves_of(const SweepTable& table, std::size_t axis) {
+    Scene defaults;
+    const io::Schema schema = bind(defaults);
     std::vector<Curve> curves;
     for (const SweepPoint& p : table.points) {
         std::string label;
         for (std::size_t i = 0; i < table.axes.size(); ++i)
             if (i != axis) {
                 const std::string& key = table.axes[i].key;
+                const std::string unit = schema.find(key)->unit;
                 label += fmt::format("{}{} = {}", label.empty() ? "" : ", ",
                                      key.substr(key.find('.') + 1), shown(p.values[i]));
+                if (!unit.empty() && p.values[i].is_number()) label += " " + unit;
             }
         auto at = std::find_if(curves.begin(), curves.end(),
                                [&](const Curve& c) { return c.label == label; });
@@ -137,20 +141,21 @@ constexpr std::size_t most_curves = 7; // as many as there are colours
 io::Plot plot_of(const std::vector<Curve>& curves, const std::vector<Trace>& traces) {
     io::Plot plot;
     const bool several = curves.size() > 1;
-    for (std::size_t t = 0; t < traces.size(); ++t)
+    for (std::size_t t = 0; t < traces.size(); ++t) {
+        const Trace& trace = traces[t];
         for (std::size_t i = 0; i < std::min(curves.size(), most_curves); ++i) {
             io::PlotSeries s;
-            s.label = !several ? traces[t].label
-                      : t == 0 ? curves[i].label
-                      : i == 0 ? traces[t].label
-                               : "";
-            s.style = traces[t].style;
-            s.colour = several ? static_cast<int>(i) : traces[t].colour;
+            s.label = several ? (t == 0 ? curves[i].label : "") : trace.label;
+            s.style = trace.style;
+            s.colour = several ? static_cast<int>(i) : trace.colour;
             s.x = curves[i].x;
             for (const SweepPoint* p : curves[i].points)
-                s.y.push_back(traces[t].value(*p));
+                s.y.push_back(trace.value(*p));
             plot.series.push_back(std::move(s));
         }
+        constexpr int grey = 6; // several curves: colours tell them apart, dashes the quantities
+        if (several && t > 0) plot.series.push_back({trace.label, {}, {}, trace.style, grey});
+    }
     if (traces.size() == 1 && !several) plot.series.front().label.clear();
     return plot;
 }
@@ -194,11 +199,11 @@ std::vector<std::string> write_plots(const std::string& directory, const SweepTa
         double highest = 1.0;
         for (const io::PlotSeries& s : plot.series)
             for (const double y : s.y) {
-                if (s.style == Style::line) lowest = std::min(lowest, y);
+                if (s.style != Style::dashed && std::isfinite(y)) lowest = std::min(lowest, y);
                 if (std::isfinite(y)) highest = std::max(highest, y);
             }
         if (table.axes[*axis].key == "surface.rms") plot.x_low = 0.0;
-        if (lowest == 0.0) plot.y_low = 0.0;
+        plot.y_low = lowest == 0.0 ? 0.0 : 1.05 * lowest;
         if (highest <= 1.02) plot.y_high = 1.02;
         const std::string path = (std::filesystem::path(directory) / file).string();
         io::write_plot(path, plot);

@@ -110,17 +110,21 @@ Spectrum realised_of(const Scene& scene, const Surface& surface, TheoryCase& out
         out.notes.push_back(fmt::format("{:.2g} % of the height variance lies beyond Nyquist, in "
                                         "the corners of the grid, and is not in the theory",
                                         100.0 * lost));
-    return Spectrum::rings(edges, C);
+    const bool scaled = scene.surface.kind == SurfaceKind::self_affine ||
+                        (scene.surface.rms_given && scene.surface.rms > 0.0);
+    const Spectrum spectrum = Spectrum::rings(edges, C);
+    if (!scaled) return spectrum;
+    return spectrum.with_rms_height(scene.surface.rms * std::sqrt(variance) / rms);
 }
 
 Spectrum spectrum_of(const Scene& scene, const Surface* surface, TheoryCase& out) {
     const auto& s = scene.surface;
     const double q_L = 2.0 * std::numbers::pi / scene.edge();
     const bool measured = s.kind == SurfaceKind::file;
-    if (s.kind == SurfaceKind::flat || (!measured && s.rms == 0.0))
+    if (!measured && (s.kind == SurfaceKind::flat || s.rms == 0.0))
         return Spectrum::self_affine(
             {.q_L = q_L, .q0 = q_L, .q1 = 2.0 * q_L, .hurst = 0.8, .h_rms = 0.0});
-    if (!measured && scene.theory.spectrum == TheorySpectrum::target) return target_of(scene, out);
+    if (!theory_needs_surface(scene)) return target_of(scene, out);
     if (measured && scene.theory.spectrum == TheorySpectrum::target)
         out.notes.push_back("a measured map has no target spectrum");
     if (!measured) out.q0 = std::max(1.0, s.rolloff) * q_L;
@@ -129,6 +133,12 @@ Spectrum spectrum_of(const Scene& scene, const Surface* surface, TheoryCase& out
 }
 
 } // namespace
+
+bool theory_needs_surface(const Scene& scene) {
+    const auto& s = scene.surface;
+    return s.kind == SurfaceKind::file || (s.kind == SurfaceKind::self_affine && s.rms > 0.0 &&
+                                           scene.theory.spectrum == TheorySpectrum::realised);
+}
 
 TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional<double> flat) {
     TheoryCase out;
@@ -268,8 +278,8 @@ Beyond look_beyond(const TheoryCase& what, const TheoryNumbers& n) {
             beyond.note = error.what();
         }
     if (n.state.status == theory::Status::no_contact && what.contact.pressure == 0.0) try {
-            beyond.gamma_wall_bound =
-                units::milli_per_unit * theory::wall_bound(what.contact, what.wall).gamma_with;
+            const double gamma = theory::wall_bound(what.contact, what.wall).gamma_with;
+            beyond.gamma_wall_bound = units::milli_per_unit * std::max(0.0, gamma); // apart: 0
         } catch (const std::exception& error) {
             beyond.note = error.what();
         }

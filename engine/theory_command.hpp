@@ -39,7 +39,11 @@ struct TheoryCase {
     std::vector<std::string> notes; ///< what was clipped or left out, in words
 };
 
-/// surface: the scene's, if it has been made already; flat: the flat reference (meV/Å^2), likewise.
+/// The theory of this scene follows the surface itself, not the target spectrum.
+bool theory_needs_surface(const Scene& scene);
+
+/// surface: the scene's, if it has been made already (at whatever rms: its spectrum is scaled to
+/// the scene's); flat: the flat reference (meV/Å^2), likewise.
 /// Throws io::SceneError.
 TheoryCase theory_case(const Scene& scene, const Surface* surface = nullptr,
                        std::optional<double> flat = std::nullopt);

@@ -116,8 +116,11 @@ TEST(TheoryOfAScene, RealisedSpectrumHasTheRmsAndTheFullContactEnergyOfTheMap) {
         }
         const TheoryNumbers n = solve_theory(what);
         EXPECT_NEAR(what.delta_gamma - n.gamma_full_contact, 1e3 * energy, 0.03 * 1e3 * energy);
-        // Made anew it is the same surface.
+        // Made anew it is the same surface, and of another roughness the same shape.
         EXPECT_EQ(solve_theory(theory_case(s)).gamma_eff, n.gamma_eff);
+        s.surface.rms = 0.4;
+        EXPECT_NEAR(theory_case(s, &surface).contact.spectrum.rms_slope(),
+                    theory_case(s).contact.spectrum.rms_slope(), 1e-9);
     }
 }
 
