@@ -201,6 +201,9 @@ namespace {
 /// Rows are handed to threads in bands.
 constexpr int band = 8;
 
+/// Below this many nodes a level's work is done sooner than threads are woken.
+constexpr long long worth_threads = 8192;
+
 } // namespace
 
 /// Level by level from below: work(level, z, y0, y1) for all bands of all moving planes; then the
@@ -214,7 +217,7 @@ void Block::sweep(const Work& work) {
         const auto u = std::as_const(level.u).view();
         const auto upper = level.upper_force.plane(0);
         const int cells = level.plan.cells, nx = level.tile.nx, ny = level.tile.ny;
-#pragma omp parallel
+#pragma omp parallel if (static_cast <long long>(nx) * ny * cells > worth_threads)
         {
             typename Work::Sums mine;
 #pragma omp for schedule(static) nowait
@@ -241,7 +244,8 @@ void Block::hand_up(std::size_t l) {
     const Tile mine =
         levels_[l].tiled ? grid_.footprint(coarse.plan.level, grid_.rank()) : coarse.tile;
     const int x0 = mine.x0 - coarse.tile.x0, y0 = mine.y0 - coarse.tile.y0;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (static_cast <long long>(mine.nx) * mine.ny >         \
+                                              worth_threads)
     for (int y = y0; y < y0 + mine.ny; ++y) {
         restrict_forces(seam(l), force.x, in.x, y, x0, mine.nx);
         restrict_forces(seam(l), force.y, in.y, y, x0, mine.nx);
