@@ -120,7 +120,10 @@ void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const 
                    "surface. Where nothing\n"
                    "  snaps, both equal the state's energy; pull-off minus approach, {:.2f} "
                    "meV/Å², is energy that\n"
-                   "  snapping in and off has turned into vibrations (hysteresis).\n",
+                   "  snapping in and off has turned into vibrations (hysteresis). A thick block is a "
+                   "soft spring and\n"
+                   "  snaps as a whole; a thinner one (block.thickness) follows the interface more "
+                   "closely.\n",
                    *findings.pull_off - *findings.approach);
     if (std::isfinite(residual))
         fmt::print(to,
