@@ -32,7 +32,7 @@ while IFS= read -r line; do
     [ $code -eq "$wanted" ] || fail "exit code $code, not $wanted: $command
 $out"
     count=$((count + 1))
-done < <(cat "$source/README.md" "$source/ARCHITECTURE.md" "$source"/docs/*.md |
+done < <(cat "$source/README.md" "$source/ARCHITECTURE.md" "$source"/docs/*.md "$source"/docs/gallery/*.md |
     grep -E '^    (mpirun .*)?\./asperity ' | sed 's/^    //')
 [ $count -ge 10 ] || fail "only $count commands were found"
 finish
