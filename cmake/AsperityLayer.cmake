@@ -26,7 +26,8 @@ add_library(asperity_flags INTERFACE)
 target_compile_options(asperity_flags INTERFACE -ffp-contract=off)
 add_library(asperity_warnings INTERFACE)
 target_compile_options(asperity_warnings INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi -Wno-restrict
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarms of g++ 12 on string concatenation (GCC bug 105651)
     $<$<BOOL:${ASPERITY_WERROR}>:-Werror>)
 
 set(ASPERITY_VARIANTS "")

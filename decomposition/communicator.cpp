@@ -27,7 +27,8 @@ public:
         std::copy(mine.begin(), mine.end(), all.begin());
     }
     virtual void exchange(std::span<const Message> messages) const {
-        for (const Message& m : messages) std::copy(m.send.begin(), m.send.end(), m.receive.begin());
+        for (const Message& m : messages)
+            std::copy(m.send.begin(), m.send.end(), m.receive.begin());
     }
     virtual void barrier() const {}
     [[noreturn]] virtual void abort(int exit_code) const { std::_Exit(exit_code); }
@@ -61,7 +62,8 @@ public:
     void gather(std::span<const double> mine, std::span<const int> counts, std::span<double> all,
                 bool everywhere) const override {
         std::vector<int> offsets(counts.size(), 0);
-        for (std::size_t r = 1; r < counts.size(); ++r) offsets[r] = offsets[r - 1] + counts[r - 1];
+        for (std::size_t r = 1; r < counts.size(); ++r)
+            offsets[r] = offsets[r - 1] + counts[r - 1];
         if (everywhere)
             MPI_Allgatherv(mine.data(), count(mine.size()), MPI_DOUBLE, all.data(), counts.data(),
                            offsets.data(), MPI_DOUBLE, comm_);

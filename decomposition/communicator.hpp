@@ -4,8 +4,8 @@
 // The ranks of a run behind one value type.
 //
 // A run started by mpirun talks MPI; a run started alone uses the serial transport and never
-// initialises MPI at all. Every raw MPI call of the project is in communicator.cpp. All member functions
-// but rank(), size() and abort() are collective: every rank calls them in the same order.
+// initialises MPI at all. Every raw MPI call of the project is in communicator.cpp. All member
+// functions but rank(), size() and abort() are collective: every rank calls them in the same order.
 #pragma once
 
 #include <cstddef>
@@ -42,8 +42,8 @@ public:
     int size() const;
     bool root() const { return rank() == 0; }
 
-    /// Element-wise sum over the ranks, in place. The values must be such that their sum is exact in
-    /// any order (ExactSum bins, counts).
+    /// Element-wise sum over the ranks, in place. The values must be such that their sum is exact
+    /// in any order (ExactSum bins, counts).
     void sum(std::span<double> values) const;
     void sum(std::span<std::int64_t> values) const;
     void max(std::span<double> values) const;
@@ -62,8 +62,8 @@ public:
     /// Ends all ranks with this exit code, now.
     [[noreturn]] void abort(int exit_code) const;
 
-    /// Runs work on the root. If it throws there, every rank throws: the root what it caught, the others
-    /// RootFailure, so that all leave together and the root alone tells why.
+    /// Runs work on the root. If it throws there, every rank throws: the root what it caught, the
+    /// others RootFailure, so that all leave together and the root alone tells why.
     void on_root(const std::function<void()>& work) const;
 
     class Transport;

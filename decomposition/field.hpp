@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Storage behind the views: one value a node of a tile, its halo, and padding for whole SIMD vectors.
+// Storage behind the views: one value a node of a tile, its halo, and padding for whole SIMD
+// vectors.
 #pragma once
 
 #include "decomposition/tile.hpp"
@@ -15,7 +16,8 @@
 namespace asperity {
 
 /// A stack of planes of T over a tile; zero at first. Movable, not copyable by accident.
-template <class T> class Field {
+template <class T>
+class Field {
 public:
     Field() = default;
 
@@ -24,8 +26,8 @@ public:
         constexpr std::ptrdiff_t line = 64 / static_cast<std::ptrdiff_t>(sizeof(T));
         const auto round_up = [](std::ptrdiff_t n) { return (n + line - 1) / line * line; };
         const std::ptrdiff_t left = round_up(halo);
-        // Behind the owned nodes: the halo, and what a vector starting at the last owned node and read
-        // at an offset of the halo still touches.
+        // Behind the owned nodes: the halo, and what a vector starting at the last owned node and
+        // read at an offset of the halo still touches.
         view_.row = left + round_up(tile.nx + halo + line);
         view_.plane = view_.row * (tile.ny + 2 * halo);
         view_.nx = tile.nx;
@@ -34,15 +36,18 @@ public:
         size_ = static_cast<std::size_t>(view_.plane) * static_cast<std::size_t>(planes) +
                 static_cast<std::size_t>(2 * line);
         data_.reset(static_cast<T*>(std::aligned_alloc(
-            64, static_cast<std::size_t>(round_up(static_cast<std::ptrdiff_t>(size_))) * sizeof(T))));
+            64,
+            static_cast<std::size_t>(round_up(static_cast<std::ptrdiff_t>(size_))) * sizeof(T))));
         if (!data_) throw std::bad_alloc();
         view_.origin = data_.get() + halo * view_.row + left;
         // Rows are first touched by the threads that will work on them (static schedule over rows).
         const std::ptrdiff_t rows = (tile.ny + 2 * halo) * static_cast<std::ptrdiff_t>(planes);
 #pragma omp parallel for schedule(static)
         for (std::ptrdiff_t r = 0; r < rows; ++r)
-            for (std::ptrdiff_t i = 0; i < view_.row; ++i) data_[static_cast<std::size_t>(r * view_.row + i)] = T(0);
-        for (std::size_t i = static_cast<std::size_t>(rows * view_.row); i < size_; ++i) data_[i] = T(0);
+            for (std::ptrdiff_t i = 0; i < view_.row; ++i)
+                data_[static_cast<std::size_t>(r * view_.row + i)] = T(0);
+        for (std::size_t i = static_cast<std::size_t>(rows * view_.row); i < size_; ++i)
+            data_[i] = T(0);
     }
 
     VolumeView<T> view() { return view_; }
@@ -54,7 +59,8 @@ public:
     std::size_t bytes() const { return size_ * sizeof(T); }
     /// Bit-for-bit copy from a field of the same shape.
     void copy_from(const Field& other) {
-        for (std::size_t i = 0; i < size_; ++i) data_[i] = other.data_[i];
+        for (std::size_t i = 0; i < size_; ++i)
+            data_[i] = other.data_[i];
     }
 
 private:
@@ -68,7 +74,8 @@ private:
 };
 
 /// Three fields of one shape: a vector field, structure of arrays.
-template <class T> struct VectorField {
+template <class T>
+struct VectorField {
     Field<T> x, y, z;
 
     VectorField() = default;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Sums over all ranks whose value is the same bits whatever the number of ranks: bins of exact sums are
-// added, which rounds nothing, and rounded once at the end.
+// Sums over all ranks whose value is the same bits whatever the number of ranks: bins of exact sums
+// are added, which rounds nothing, and rounded once at the end.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -18,12 +18,14 @@ std::array<double, n> global_sums(const Communicator& ranks, const std::array<Ex
     constexpr std::size_t bins = ExactSum::bins;
     std::array<double, bins * n> all;
     for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < bins; ++k) all[bins * i + k] = mine[i].bin[k];
+        for (std::size_t k = 0; k < bins; ++k)
+            all[bins * i + k] = mine[i].bin[k];
     ranks.sum(all);
     std::array<double, n> values;
     for (std::size_t i = 0; i < n; ++i) {
         ExactSum sum;
-        for (std::size_t k = 0; k < bins; ++k) sum.bin[k] = all[bins * i + k];
+        for (std::size_t k = 0; k < bins; ++k)
+            sum.bin[k] = all[bins * i + k];
         values[i] = sum.value();
     }
     return values;

@@ -10,14 +10,17 @@ namespace {
 
 constexpr int h = halo_width;
 
-/// Copies columns [from, from + h) of all owned rows to columns [to, to + h), for a level held whole.
+/// Copies columns [from, from + h) of all owned rows to columns [to, to + h), for a level held
+/// whole.
 void wrap_x(const HaloField& f) {
     const int nx = f.view.nx;
     for (int z = 0; z < f.planes; ++z)
         for (int y = 0; y < f.view.ny; ++y) {
             double* line = f.view[z].line(y);
-            for (int i = 1; i <= h; ++i) line[-i] = line[periodic(-i, nx)];
-            for (int i = 0; i < h; ++i) line[nx + i] = line[periodic(nx + i, nx)];
+            for (int i = 1; i <= h; ++i)
+                line[-i] = line[periodic(-i, nx)];
+            for (int i = 0; i < h; ++i)
+                line[nx + i] = line[periodic(nx + i, nx)];
         }
 }
 
@@ -28,14 +31,17 @@ void wrap_y(const HaloField& f) {
         const auto copy = [&](int to, int from) {
             std::copy(p.line(from) - h, p.line(from) + nx + h, p.line(to) - h);
         };
-        for (int i = 1; i <= h; ++i) copy(-i, periodic(-i, ny));
-        for (int i = 0; i < h; ++i) copy(ny + i, periodic(ny + i, ny));
+        for (int i = 1; i <= h; ++i)
+            copy(-i, periodic(-i, ny));
+        for (int i = 0; i < h; ++i)
+            copy(ny + i, periodic(ny + i, ny));
     }
 }
 
 /// Moves a rectangle of every plane of the cut fields to or from a message buffer.
 template <bool pack>
-void transfer(std::span<const HaloField> fields, bool columns, bool high, bool halo, double* buffer) {
+void transfer(std::span<const HaloField> fields, bool columns, bool high, bool halo,
+              double* buffer) {
     for (const HaloField& f : fields) {
         if (!f.tiled) continue;
         const int n = columns ? f.view.nx : f.view.ny;
@@ -142,8 +148,8 @@ void gather_footprints(const Communicator& communicator, const ProcessGrid& grid
     }
 }
 
-std::vector<double> gather_plane(const Communicator& communicator, const ProcessGrid& grid, int level,
-                                 PlaneView<const double> plane) {
+std::vector<double> gather_plane(const Communicator& communicator, const ProcessGrid& grid,
+                                 int level, PlaneView<const double> plane) {
     const int sites = grid.tile(level).sites;
     const auto at = [sites](int x, int y) {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(sites) +
@@ -182,8 +188,8 @@ void scatter_plane(const Communicator& communicator, const ProcessGrid& grid, in
     dense.resize(sites * sites);
     communicator.broadcast(std::span<double>(dense));
     for (int y = 0; y < own.ny; ++y) {
-        const double* from =
-            dense.data() + static_cast<std::size_t>(own.y0 + y) * sites + static_cast<std::size_t>(own.x0);
+        const double* from = dense.data() + static_cast<std::size_t>(own.y0 + y) * sites +
+                             static_cast<std::size_t>(own.x0);
         std::copy(from, from + own.nx, plane.line(y));
     }
 }

@@ -5,8 +5,8 @@
 // wrapping where a rank holds it whole.
 //
 // Two phases, x then y (whose rows include the x halo just received, so corners come along), and in
-// each phase one message to each of the two neighbours that carries all levels. Values are copied, never
-// computed, so a halo node is the exact double of its owner.
+// each phase one message to each of the two neighbours that carries all levels. Values are copied,
+// never computed, so a halo node is the exact double of its owner.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -45,14 +45,14 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// Every rank's footprint of a level's plane, put together on every rank: the forces that fine tiles
-/// hand to a level that all ranks hold. Fields are in global coordinates of the level.
+/// Every rank's footprint of a level's plane, put together on every rank: the forces that fine
+/// tiles hand to a level that all ranks hold. Fields are in global coordinates of the level.
 void gather_footprints(const Communicator& communicator, const ProcessGrid& grid, int level,
                        std::span<const PlaneView<double>> planes);
 
 /// A plane of a level as a dense sites * sites array (row-major) on the root; empty elsewhere.
-std::vector<double> gather_plane(const Communicator& communicator, const ProcessGrid& grid, int level,
-                                 PlaneView<const double> plane);
+std::vector<double> gather_plane(const Communicator& communicator, const ProcessGrid& grid,
+                                 int level, PlaneView<const double> plane);
 /// The inverse: each rank copies its tile out of the root's array.
 void scatter_plane(const Communicator& communicator, const ProcessGrid& grid, int level,
                    std::vector<double>& dense, PlaneView<double> plane);

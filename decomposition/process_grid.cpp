@@ -39,8 +39,8 @@ ProcessGrid::ProcessGrid(int ranks, int rank, int sites, int levels) : rank_(ran
             " sites cannot be cut into " + std::to_string(px_) + " x " + std::to_string(py_) +
             " tiles, because a tile needs at least " + std::to_string(halo_width) +
             " sites each way; use fewer ranks");
-    // The coarser the cut, the more levels are shared out; but an uneven cut costs on the finest level,
-    // where the work is. Take the coarsest cut within 2 % of the best balance.
+    // The coarser the cut, the more levels are shared out; but an uneven cut costs on the finest
+    // level, where the work is. Take the coarsest cut within 2 % of the best balance.
     cut_level_ = 0;
     if (ranks == 1) {
         cut_level_ = levels - 1;
@@ -59,8 +59,8 @@ ProcessGrid::ProcessGrid(int ranks, int rank, int sites, int levels) : rank_(ran
 Tile ProcessGrid::footprint(int level, int rank) const {
     const auto ix = static_cast<std::size_t>(rank % px_), iy = static_cast<std::size_t>(rank / px_);
     const int n = sites_ >> level;
-    // In nodes of this level; above the cut level a boundary may fall between nodes: the node belongs to
-    // the tile that holds its finest node.
+    // In nodes of this level; above the cut level a boundary may fall between nodes: the node
+    // belongs to the tile that holds its finest node.
     const auto at = [&](int cut) {
         const int finest = cut << cut_level_;
         return (finest + (1 << level) - 1) >> level;
@@ -81,9 +81,7 @@ int ProcessGrid::neighbour(int dx, int dy) const {
     return iy * px_ + ix;
 }
 
-double ProcessGrid::imbalance() const {
-    return fullest(sites_ >> cut_level_, px_, py_) - 1.0;
-}
+double ProcessGrid::imbalance() const { return fullest(sites_ >> cut_level_, px_, py_) - 1.0; }
 
 std::string ProcessGrid::describe() const {
     if (ranks() == 1) return "one rank";

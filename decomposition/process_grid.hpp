@@ -3,9 +3,9 @@
 //
 // Who owns what: the box is cut in x and y into px * py tiles, the same cut through all levels.
 //
-// Cuts run along nodes of the cut level c, the coarsest level that is tiled, so that each of its cells
-// is whole on one rank; finer levels inherit the cut (their nodes double). Levels coarser than c are too
-// small to cut and every rank holds them whole, computing the same numbers.
+// Cuts run along nodes of the cut level c, the coarsest level that is tiled, so that each of its
+// cells is whole on one rank; finer levels inherit the cut (their nodes double). Levels coarser
+// than c are too small to cut and every rank holds them whole, computing the same numbers.
 #pragma once
 
 #include "decomposition/tile.hpp"
@@ -17,9 +17,9 @@ namespace asperity {
 
 class ProcessGrid {
 public:
-    /// sites: nodes of the finest level across the box; levels: number of levels of the block, of which
-    /// level l has sites / 2^l nodes across. Throws std::invalid_argument if there are more ranks than
-    /// tiles of at least two nodes.
+    /// sites: nodes of the finest level across the box; levels: number of levels of the block, of
+    /// which level l has sites / 2^l nodes across. Throws std::invalid_argument if there are more
+    /// ranks than tiles of at least two nodes.
     ProcessGrid(int ranks, int rank, int sites, int levels);
 
     int ranks() const { return px_ * py_; }

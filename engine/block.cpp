@@ -21,9 +21,10 @@ CellElasticity BlockOptions::elasticity(int level) const {
 }
 
 double BlockOptions::highest_frequency(double site_stiffness) const {
-    // Dispersion of the bulk stencil: w = 2 inside, so the dynamical matrix follows from the filters of
-    // elastic_cell.hpp at a plane wave (phases p, q, r). Its largest eigenvalue, over a mesh of the
-    // Brillouin zone that holds all symmetry points, is bounded by power iteration at each of them.
+    // Dispersion of the bulk stencil: w = 2 inside, so the dynamical matrix follows from the
+    // filters of elastic_cell.hpp at a plane wave (phases p, q, r). Its largest eigenvalue, over a
+    // mesh of the Brillouin zone that holds all symmetry points, is bounded by power iteration at
+    // each of them.
     const CellElasticity e = elasticity(0);
     double highest = 0.0;
     constexpr int mesh = 12;
@@ -33,20 +34,21 @@ double BlockOptions::highest_frequency(double site_stiffness) const {
                 const double pi = std::numbers::pi;
                 const std::array<double, 3> phase = {pi * i / mesh, pi * j / mesh, pi * k / mesh};
                 std::array<double, 3> c{}, s{};
-                for (std::size_t n = 0; n < 3; ++n) c[n] = std::cos(phase[n]), s[n] = std::sin(phase[n]);
+                for (std::size_t n = 0; n < 3; ++n)
+                    c[n] = std::cos(phase[n]), s[n] = std::sin(phase[n]);
                 double d[3][3];
                 for (std::size_t a = 0; a < 3; ++a)
                     for (std::size_t b = 0; b < 3; ++b) {
                         const std::size_t o = (a + 1) % 3, p = (a + 2) % 3;
                         if (a == b) {
                             const double theta = (2 - 2 * c[a]) * (2 + 2 * c[o]) * (2 + 2 * c[p]);
-                            const double springs = 2 * (1 - c[a]) + 2 * (1 - c[a] * c[o]) +
-                                                   2 * (1 - c[a] * c[p]);
+                            const double springs =
+                                2 * (1 - c[a]) + 2 * (1 - c[a] * c[o]) + 2 * (1 - c[a] * c[p]);
                             d[a][b] = e.kappa * theta + e.k * springs;
                         } else {
                             const std::size_t t = 3 - a - b;
-                            d[a][b] = e.kappa * 4 * s[a] * s[b] * (2 + 2 * c[t]) +
-                                      2 * e.k * s[a] * s[b];
+                            d[a][b] =
+                                e.kappa * 4 * s[a] * s[b] * (2 + 2 * c[t]) + 2 * e.k * s[a] * s[b];
                         }
                     }
                 std::array<double, 3> x = {1.0, 0.7, 0.4};
@@ -55,12 +57,14 @@ double BlockOptions::highest_frequency(double site_stiffness) const {
                     std::array<double, 3> y{};
                     double norm = 0.0;
                     for (std::size_t a = 0; a < 3; ++a) {
-                        for (std::size_t b = 0; b < 3; ++b) y[a] += d[a][b] * x[b];
+                        for (std::size_t b = 0; b < 3; ++b)
+                            y[a] += d[a][b] * x[b];
                         norm += y[a] * y[a];
                     }
                     value = std::sqrt(norm);
                     if (value == 0.0) break;
-                    for (std::size_t a = 0; a < 3; ++a) x[a] = y[a] / value;
+                    for (std::size_t a = 0; a < 3; ++a)
+                        x[a] = y[a] / value;
                 }
                 highest = std::max(highest, value);
             }
@@ -197,25 +201,30 @@ namespace {
 /// Rows are handed to threads in bands.
 constexpr int band = 8;
 
+/// Below this many nodes a level's work is done sooner than threads are woken.
+constexpr long long worth_threads = 8192;
+
 } // namespace
 
-/// Level by level from below: work(level, z, y0, y1) for all bands of all moving planes; then the force on
-/// the upper plane, which goes to the level above as its incoming force, or is the top plane's. Planes of a
-/// band are done one after the other, while they are in the cache.
-template <class Work> void Block::sweep(const Work& work) {
+/// Level by level from below: work(level, z, y0, y1) for all bands of all moving planes; then the
+/// force on the upper plane, which goes to the level above as its incoming force, or is the top
+/// plane's. Planes of a band are done one after the other, while they are in the cache.
+template <class Work>
+void Block::sweep(const Work& work) {
     const ElasticKernels& kernels = elastic_kernels();
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         Level& level = levels_[l];
         const auto u = std::as_const(level.u).view();
         const auto upper = level.upper_force.plane(0);
         const int cells = level.plan.cells, nx = level.tile.nx, ny = level.tile.ny;
-#pragma omp parallel
+#pragma omp parallel if (static_cast <long long>(nx) * ny * cells > worth_threads)
         {
             typename Work::Sums mine;
 #pragma omp for schedule(static) nowait
             for (int y0 = 0; y0 < ny; y0 += band) {
                 const int y1 = std::min(ny, y0 + band);
-                for (int z = 0; z < cells; ++z) work(level, u, z, y0, y1, mine);
+                for (int z = 0; z < cells; ++z)
+                    work(level, u, z, y0, y1, mine);
                 // One node beyond the tile on each side: the coarse nodes inside reach that far.
                 kernels.force(u, cells, level.upper,
                               {-1, nx + 1, y0 == 0 ? -1 : y0, y1 == ny ? ny + 1 : y1}, upper);
@@ -231,9 +240,12 @@ void Block::hand_up(std::size_t l) {
     const auto force = std::as_const(levels_[l].upper_force).plane(0);
     const Level& coarse = levels_[l + 1];
     const auto in = levels_[l + 1].incoming.plane(0);
-    const Tile mine = grid_.footprint(coarse.plan.level, grid_.rank());
+    // A fine level held whole feeds the whole coarse one on every rank alike.
+    const Tile mine =
+        levels_[l].tiled ? grid_.footprint(coarse.plan.level, grid_.rank()) : coarse.tile;
     const int x0 = mine.x0 - coarse.tile.x0, y0 = mine.y0 - coarse.tile.y0;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (static_cast <long long>(mine.nx) * mine.ny >         \
+                                              worth_threads)
     for (int y = y0; y < y0 + mine.ny; ++y) {
         restrict_forces(seam(l), force.x, in.x, y, x0, mine.nx);
         restrict_forces(seam(l), force.y, in.y, y, x0, mine.nx);
@@ -248,7 +260,8 @@ void Block::hand_up(std::size_t l) {
 namespace {
 
 /// Kick and drift.
-template <class Coefficients> struct Advance {
+template <class Coefficients>
+struct Advance {
     using Sums = KickSums;
     const Block& block;
     const Coefficients& coefficients; ///< of a plane of a level
@@ -291,7 +304,8 @@ struct Keep {
 void Block::advance(const StepPlan& plan, KickSums& sums) {
     const auto coefficients = [&](const Level& level, int z) { return kick_drift(level, z, plan); };
     sweep(Advance<decltype(coefficients)>{*this, coefficients, sums});
-    for (Level& level : levels_) std::swap(level.u, level.u_next);
+    for (Level& level : levels_)
+        std::swap(level.u, level.u_next);
 }
 
 void Block::forces(std::vector<VectorField<double>>& out) { sweep(Keep{out}); }
@@ -324,7 +338,8 @@ void Block::add_elastic_energy(ExactSum& sum) const {
 #pragma omp for schedule(static) nowait
             for (int y0 = 0; y0 < ny; y0 += band)
                 for (int z = 0; z < level.plan.cells; ++z)
-                    kernels.energy(level.u.view(), z, level.elasticity, y0, std::min(ny, y0 + band), mine);
+                    kernels.energy(level.u.view(), z, level.elasticity, y0, std::min(ny, y0 + band),
+                                   mine);
         }
 #pragma omp critical(asperity_block_sums)
         sum.merge(mine);

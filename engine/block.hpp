@@ -3,10 +3,10 @@
 //
 // The elastic block: a stack of levels over one cell stencil (model.md section 5).
 //
-// Level l is a regular lattice of cells of edge 2^l a, `cells` layers thick. Its planes are numbered from
-// below: planes 0 .. cells-1 move; plane `cells` is prescribed, for it hangs on the lowest plane of level
-// l+1 (bilinear interpolation) or, on the last level, is the rigid driven top. A block of one level is
-// the plain lattice.
+// Level l is a regular lattice of cells of edge 2^l a, `cells` layers thick. Its planes are
+// numbered from below: planes 0 .. cells-1 move; plane `cells` is prescribed, for it hangs on the
+// lowest plane of level l+1 (bilinear interpolation) or, on the last level, is the rigid driven
+// top. A block of one level is the plain lattice.
 //
 // Data of a level: u (displacement), v (velocity at the half step), u_next, each three arrays; and
 // `incoming`, the forces handed to its lowest plane from below: by the interface on level 0, by the
@@ -14,7 +14,8 @@
 //
 //   interpolate()  hanging planes follow          needs u with halos
 //   (interface)    fills incoming of level 0      needs u of the lowest plane
-//   advance()      level by level from below: forces, kick and drift u -> u_next; force on the upper
+//   advance()      level by level from below: forces, kick and drift u -> u_next; force on the
+//   upper
 //                  plane, handed to the level above; at the end u and u_next change places
 //   exchange()     halos of u
 //
@@ -33,12 +34,12 @@
 namespace asperity {
 
 struct BlockOptions {
-    int sites = 512;          ///< atoms across the box, N
-    double spacing = 2.6;     ///< a, Å
-    double young = 0.0;       ///< eV/Å^3
+    int sites = 512;      ///< atoms across the box, N
+    double spacing = 2.6; ///< a, Å
+    double young = 0.0;   ///< eV/Å^3
     double poisson = 0.42;
-    double atom_mass = 0.0;   ///< eV fs^2/Å^2
-    int thickness = 512;      ///< cells of edge a
+    double atom_mass = 0.0; ///< eV fs^2/Å^2
+    int thickness = 512;    ///< cells of edge a
     int layers_per_level = 4;
     bool multiscale = true;
 
@@ -49,8 +50,8 @@ struct BlockOptions {
     /// Speed of longitudinal waves, Å/fs.
     double sound_speed() const;
     CellElasticity elasticity(int level) const;
-    /// Largest angular frequency of the bulk lattice with the interface's stiffness per site (eV/Å^2)
-    /// added to a surface atom, 1/fs.
+    /// Largest angular frequency of the bulk lattice with the interface's stiffness per site
+    /// (eV/Å^2) added to a surface atom, 1/fs.
     double highest_frequency(double site_stiffness) const;
 };
 
@@ -65,11 +66,11 @@ std::vector<LevelPlan> plan_levels(const BlockOptions& options);
 
 /// What the integrator is told (drive.hpp); the block turns it into coefficients for each plane.
 struct StepPlan {
-    double dt = 0.0;           ///< fs
-    double damping = 0.0;      ///< Gamma, 1/fs
-    double damping_from = 0.0; ///< fraction of the thickness above which damping acts
+    double dt = 0.0;              ///< fs
+    double damping = 0.0;         ///< Gamma, 1/fs
+    double damping_from = 0.0;    ///< fraction of the thickness above which damping acts
     double medium_velocity = 0.0; ///< of the top plane, Å/fs
-    bool observe = false;      ///< sum the kinetic energy
+    bool observe = false;         ///< sum the kinetic energy
 };
 
 class Block {
@@ -78,8 +79,8 @@ public:
         LevelPlan plan;
         Tile tile;
         bool tiled = false;
-        double node_mass = 0.0;    ///< of a node inside, eV fs^2/Å^2
-        double depth = 0.0;        ///< of its lowest plane, in cells of edge a
+        double node_mass = 0.0; ///< of a node inside, eV fs^2/Å^2
+        double depth = 0.0;     ///< of its lowest plane, in cells of edge a
         CellElasticity elasticity;
         Stencil lower, inner, upper;
         VectorField<double> u, u_next, v, incoming;
@@ -120,8 +121,8 @@ public:
     void forces(std::vector<VectorField<double>>& out);
 
     // Global values: collective, the same bits on every rank.
-    /// Share of this rank in the elastic force on the rigid top plane, along z, eV/Å, as left by the last
-    /// advance() or forces().
+    /// Share of this rank in the elastic force on the rigid top plane, along z, eV/Å, as left by
+    /// the last advance() or forces().
     void add_top_force(ExactSum& sum) const;
     void add_elastic_energy(ExactSum& sum) const;
     /// Sum of u_z over the lowest layer, Å.
@@ -142,7 +143,8 @@ private:
     bool stream_ = false; ///< the moving state is too large to stay in the caches
 
     LevelSeam seam(std::size_t fine) const;
-    template <class Work> void sweep(const Work& work);
+    template <class Work>
+    void sweep(const Work& work);
     void hand_up(std::size_t fine);
     KickDrift kick_drift(const Level& level, int z, const StepPlan& plan) const;
 };

@@ -19,10 +19,12 @@ namespace {
 
 constexpr int format_version = 1;
 
-/// Visitors of Simulation::visit: every scalar as a double by name. Integers below 2^53 are kept exactly.
+/// Visitors of Simulation::visit: every scalar as a double by name. Integers below 2^53 are kept
+/// exactly.
 struct Collect {
     std::vector<std::pair<std::string, double>> values;
-    template <class T> void operator()(const char* name, T& value) {
+    template <class T>
+    void operator()(const char* name, T& value) {
         values.emplace_back(name, static_cast<double>(value));
     }
 };
@@ -30,11 +32,12 @@ struct Collect {
 struct Restore {
     const std::vector<std::pair<std::string, double>>& values;
     std::size_t at = 0;
-    template <class T> void operator()(const char* name, T& value) {
+    template <class T>
+    void operator()(const char* name, T& value) {
         if (at >= values.size() || values[at].first != name)
-            throw io::FileError("checkpoint", fmt::format("has no number \"{}\" where it is expected", name),
-                                "it was written by another version of the program",
-                                "run the scene from its start");
+            throw io::FileError(
+                "checkpoint", fmt::format("has no number \"{}\" where it is expected", name),
+                "it was written by another version of the program", "run the scene from its start");
         value = static_cast<T>(values[at++].second);
     }
 };
@@ -42,7 +45,8 @@ struct Restore {
 std::string dataset(int level, const char* what) { return fmt::format("/level{}/{}", level, what); }
 
 /// Calls work(dataset name, field, planes) for the six arrays of each level.
-template <class Work> void each_field(Simulation& simulation, const Work& work) {
+template <class Work>
+void each_field(Simulation& simulation, const Work& work) {
     for (auto& level : simulation.block().levels()) {
         const int n = level.plan.level, planes = level.plan.cells;
         work(n, dataset(n, "u_x"), level.u.x, planes);
@@ -68,16 +72,19 @@ void write_checkpoint(const std::string& path, Simulation& simulation, const Run
         file->write_attribute("/", "scene", fingerprint);
         Collect collect;
         simulation.visit(collect);
-        for (const auto& [name, value] : scalars) collect.values.emplace_back("run." + name, value);
+        for (const auto& [name, value] : scalars)
+            collect.values.emplace_back("run." + name, value);
         std::string names;
         std::vector<double> values;
-        for (const auto& [name, value] : collect.values) names += name + "\n", values.push_back(value);
+        for (const auto& [name, value] : collect.values)
+            names += name + "\n", values.push_back(value);
         file->write_attribute("/", "scalar_names", names);
         file->write<double>("/scalars", {values.size()}, values);
         for (const auto& level : simulation.block().levels())
             file->make_group(fmt::format("/level{}", level.plan.level));
     });
-    each_field(simulation, [&](int level, const std::string& name, Field<double>& field, int planes) {
+    each_field(simulation, [&](int level, const std::string& name, Field<double>& field,
+                               int planes) {
         const auto sites = static_cast<std::uint64_t>(grid.tile(level).sites);
         ranks.on_root([&] {
             file->make_dataset<double>(name, {static_cast<std::uint64_t>(planes), sites, sites});
@@ -85,8 +92,8 @@ void write_checkpoint(const std::string& path, Simulation& simulation, const Run
         for (int z = 0; z < planes; ++z) {
             const auto dense = gather_plane(ranks, grid, level, std::as_const(field).plane(z));
             ranks.on_root([&] {
-                file->write_slab<double>(name, {static_cast<std::uint64_t>(z), 0, 0}, {1, sites, sites},
-                                         std::span<const double>(dense));
+                file->write_slab<double>(name, {static_cast<std::uint64_t>(z), 0, 0},
+                                         {1, sites, sites}, std::span<const double>(dense));
             });
         }
     });
@@ -111,15 +118,18 @@ RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
     ranks.on_root([&] {
         file = std::make_unique<io::Hdf5File>(path, io::Hdf5File::Mode::read);
         if (!file->has_attribute("/", "asperity_checkpoint"))
-            throw io::FileError(path, "is not a checkpoint", "it lacks the attribute asperity_checkpoint",
+            throw io::FileError(path, "is not a checkpoint",
+                                "it lacks the attribute asperity_checkpoint",
                                 "give the checkpoint.h5 of a run's result directory");
         if (file->read_integer_attribute("/", "asperity_checkpoint") != format_version)
-            throw io::FileError(path, "has another checkpoint format", "it was written by another version",
+            throw io::FileError(path, "has another checkpoint format",
+                                "it was written by another version",
                                 "run the scene from its start");
         if (file->read_text_attribute("/", "scene") != fingerprint)
-            throw io::SceneError({path, "belongs to another scene",
-                                  "the physics of this scene differs from the one that wrote the checkpoint",
-                                  "give the scene it was made with, or start without --resume"});
+            throw io::SceneError(
+                {path, "belongs to another scene",
+                 "the physics of this scene differs from the one that wrote the checkpoint",
+                 "give the scene it was made with, or start without --resume"});
         names = file->read_text_attribute("/", "scalar_names");
         values = file->read<double>("/scalars");
         sizes[0] = static_cast<std::int64_t>(names.size());
@@ -141,18 +151,19 @@ RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
     Restore restore{scalars};
     simulation.visit(restore);
 
-    each_field(simulation, [&](int level, const std::string& name, Field<double>& field, int planes) {
-        const auto sites = static_cast<std::uint64_t>(grid.tile(level).sites);
-        for (int z = 0; z < planes; ++z) {
-            std::vector<double> dense;
-            ranks.on_root([&] {
-                dense.resize(sites * sites);
-                file->read_slab<double>(name, {static_cast<std::uint64_t>(z), 0, 0}, {1, sites, sites},
-                                        std::span<double>(dense));
-            });
-            scatter_plane(ranks, grid, level, dense, field.plane(z));
-        }
-    });
+    each_field(simulation,
+               [&](int level, const std::string& name, Field<double>& field, int planes) {
+                   const auto sites = static_cast<std::uint64_t>(grid.tile(level).sites);
+                   for (int z = 0; z < planes; ++z) {
+                       std::vector<double> dense;
+                       ranks.on_root([&] {
+                           dense.resize(sites * sites);
+                           file->read_slab<double>(name, {static_cast<std::uint64_t>(z), 0, 0},
+                                                   {1, sites, sites}, std::span<double>(dense));
+                       });
+                       scatter_plane(ranks, grid, level, dense, field.plane(z));
+                   }
+               });
     simulation.block().exchange();
 
     RunScalars run;
@@ -174,14 +185,16 @@ void Snapshot::take(Simulation& simulation) {
     Collect collect;
     simulation.visit(collect);
     scalars_.clear();
-    for (const auto& [name, value] : collect.values) scalars_.push_back(value);
+    for (const auto& [name, value] : collect.values)
+        scalars_.push_back(value);
     step_ = simulation.steps();
 }
 
 void Snapshot::restore(Simulation& simulation) const {
     Collect names;
     simulation.visit(names);
-    for (std::size_t i = 0; i < scalars_.size(); ++i) names.values[i].second = scalars_[i];
+    for (std::size_t i = 0; i < scalars_.size(); ++i)
+        names.values[i].second = scalars_[i];
     Restore restore{names.values};
     simulation.visit(restore);
     auto& levels = simulation.block().levels();

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Checkpoints: the whole state of a run in one HDF5 file, from which it goes on as if it had never stopped,
-// on any number of ranks, bit for bit.
+// Checkpoints: the whole state of a run in one HDF5 file, from which it goes on as if it had never
+// stopped, on any number of ranks, bit for bit.
 //
-// A file holds each level's displacements and half-step velocities as whole planes (so it does not know how the
-// box was cut) and the scalars of the simulation, drive and run by name. It is written beside its place and
-// renamed, so there is always a whole one.
+// A file holds each level's displacements and half-step velocities as whole planes (so it does not
+// know how the box was cut) and the scalars of the simulation, drive and run by name. It is written
+// beside its place and renamed, so there is always a whole one.
 #pragma once
 
 #include "engine/simulation.hpp"
@@ -24,7 +24,8 @@ using RunScalars = std::vector<std::pair<std::string, double>>;
 void write_checkpoint(const std::string& path, Simulation& simulation, const RunScalars& scalars,
                       const std::string& fingerprint);
 
-/// Collective. Throws io::FileError if the file cannot be read, io::SceneError if it is of another scene.
+/// Collective. Throws io::FileError if the file cannot be read, io::SceneError if it is of another
+/// scene.
 RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
                            const std::string& fingerprint);
 

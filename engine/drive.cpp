@@ -9,9 +9,12 @@ namespace asperity {
 
 std::string_view name(Leg leg) {
     switch (leg) {
-    case Leg::approach: return "approach";
-    case Leg::pull_off: return "pull-off";
-    case Leg::done: break;
+    case Leg::approach:
+        return "approach";
+    case Leg::pull_off:
+        return "pull-off";
+    case Leg::done:
+        break;
     }
     return "done";
 }
@@ -33,7 +36,8 @@ double Drive::velocity(double t) const {
 bool Drive::observe(double t, double force, bool out_of_reach) {
     if (leg_ == Leg::approach) {
         if (force < 0.0) attracted_ = true;
-        // With a load to reach, or a substrate that does not attract, the first contact is the way there.
+        // With a load to reach, or a substrate that does not attract, the first contact is the way
+        // there.
         if (!attracted_ && force <= options_.load_force) return false;
         if (force < options_.load_force || (attracted_ && force < 0.0)) return false;
         leg_ = options_.pull_off ? Leg::pull_off : Leg::done;

@@ -3,10 +3,11 @@
 //
 // What moves the rigid top plane (model.md section 6).
 //
-// It comes down at constant velocity until the total normal force on the lowest layer has gone through
-// attraction and back to the load asked for (zero), then turns round and goes up until the force is gone. The
-// turn is a smooth ramp: a sudden change of velocity by dv would send a plane stress wave rho c dv
-// (0.4 GPa for 2 x 5 m/s) through the block, which the interface would feel as a load.
+// It comes down at constant velocity until the total normal force on the lowest layer has gone
+// through attraction and back to the load asked for (zero), then turns round and goes up until the
+// force is gone. The turn is a smooth ramp: a sudden change of velocity by dv would send a plane
+// stress wave rho c dv (0.4 GPa for 2 x 5 m/s) through the block, which the interface would feel as
+// a load.
 #pragma once
 
 #include <string_view>
@@ -17,9 +18,9 @@ enum class Leg { approach, pull_off, done };
 std::string_view name(Leg leg);
 
 struct DriveOptions {
-    double velocity = 5e-5; ///< Å/fs
-    double ramp = 0.0;      ///< time over which the velocity turns, fs
-    double load_force = 0.0;///< total normal force at which the approach ends, eV/Å
+    double velocity = 5e-5;  ///< Å/fs
+    double ramp = 0.0;       ///< time over which the velocity turns, fs
+    double load_force = 0.0; ///< total normal force at which the approach ends, eV/Å
     bool approach = true;
     bool pull_off = true;
 };
@@ -33,13 +34,14 @@ public:
     /// Velocity of the top plane along z at time t, Å/fs.
     double velocity(double t) const;
 
-    /// Told of the force on the lowest layer at time t (eV/Å, positive: pushed up). True at the step at which
-    /// a leg ends.
-    /// out_of_reach: no pair interacts, and would not if the block were relaxed at the present top.
+    /// Told of the force on the lowest layer at time t (eV/Å, positive: pushed up). True at the
+    /// step at which a leg ends. out_of_reach: no pair interacts, and would not if the block were
+    /// relaxed at the present top.
     bool observe(double t, double force, bool out_of_reach);
 
     /// The state of the machine, for checkpoints.
-    template <class Visitor> void visit(Visitor& v) {
+    template <class Visitor>
+    void visit(Visitor& v) {
         int leg = static_cast<int>(leg_);
         v("drive.leg", leg);
         leg_ = static_cast<Leg>(leg);

@@ -12,25 +12,26 @@ namespace asperity {
 
 /// Of the relaxed state under zero load.
 struct ZeroLoad {
-    double binding_energy = 0.0;   ///< gamma_state = -(U_LJ + U_el) / A0, meV/Å^2
-    double pairwise = 0.0;         ///< -U_LJ / A0: the atom-by-atom work, meV/Å^2
-    double elastic = 0.0;          ///< U_el / A0, meV/Å^2
+    double binding_energy = 0.0; ///< gamma_state = -(U_LJ + U_el) / A0, meV/Å^2
+    double pairwise = 0.0;       ///< -U_LJ / A0: the atom-by-atom work, meV/Å^2
+    double elastic = 0.0;        ///< U_el / A0, meV/Å^2
     double contact_fraction = 0.0;
     double pushed_fraction = 0.0;
-    double mean_height = 0.0;      ///< of the lowest layer above the substrate's zero, Å
-    double residual = 0.0;         ///< largest force left, eV/Å
+    double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
+    double residual = 0.0;    ///< largest force left, eV/Å
     double iterations = 0.0;
 };
 
 struct Findings {
     std::optional<ZeroLoad> zero_load;
-    std::optional<double> approach;  ///< work of adhesion, meV/Å^2
+    std::optional<double> approach; ///< work of adhesion, meV/Å^2
     std::optional<double> pull_off;
-    double attraction_in = 0.0;      ///< largest attraction on the way in, eV/Å
-    double attraction_out = 0.0;     ///< on the way out
+    double attraction_in = 0.0;  ///< largest attraction on the way in, eV/Å
+    double attraction_out = 0.0; ///< on the way out
 
     /// By name, for checkpoints: visitor(name, double&).
-    template <class Visitor> void visit(Visitor& v) {
+    template <class Visitor>
+    void visit(Visitor& v) {
         optional(v, "approach", approach);
         optional(v, "pull_off", pull_off);
         v("attraction_in", attraction_in);

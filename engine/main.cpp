@@ -10,6 +10,8 @@
 #include "engine/run.hpp"
 #include "engine/scene.hpp"
 #include "engine/setup.hpp"
+#include "engine/sweep.hpp"
+#include "engine/theory_command.hpp"
 
 #include "decomposition/communicator.hpp"
 #include "io/build_info.hpp"
@@ -23,6 +25,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <span>
@@ -34,6 +37,7 @@
 #include <fftw3.h>
 #include <fmt/format.h>
 #include <omp.h>
+#include <unistd.h>
 
 namespace asperity {
 namespace {
@@ -48,6 +52,7 @@ struct SceneArguments {
     std::string progress = "auto";
     bool markdown = false;
     bool plain = false;
+    bool theory_only = false;
 };
 
 void add_scene(CLI::App& command, SceneArguments& arguments) {
@@ -67,9 +72,10 @@ bool is_override(const std::string& word) {
            !std::filesystem::exists(word);
 }
 
-/// `--set a=1 b=2 scene.toml` means what it looks like.
-Scene scene_of(const SceneArguments& arguments) {
-    std::vector<std::string> overrides = arguments.overrides, files;
+/// `--set a=1 b=2 scene.toml` means what it looks like: the scene's file; the overrides are added.
+std::string scene_file(const SceneArguments& arguments, std::vector<std::string>& overrides) {
+    std::vector<std::string> files;
+    overrides = arguments.overrides;
     for (const std::string& word : arguments.words)
         (is_override(word) ? overrides : files).push_back(word);
     if (files.size() != 1)
@@ -77,7 +83,13 @@ Scene scene_of(const SceneArguments& arguments) {
             "command line", files.empty() ? "no scene is given" : "more than one scene is given",
             files.empty() ? "the command needs one" : fmt::format("{} and {}", files[0], files[1]),
             "for example: asperity run scenes/first-contact.toml"});
-    return read_scene(files.front(), overrides);
+    return files.front();
+}
+
+Scene scene_of(const SceneArguments& arguments) {
+    std::vector<std::string> overrides;
+    const std::string file = scene_file(arguments, overrides);
+    return read_scene(file, overrides);
 }
 
 RunOptions run_options(const SceneArguments& arguments) {
@@ -202,6 +214,23 @@ int command_surface(const SceneArguments& arguments, const Communicator& world) 
     return io::exit_code::done;
 }
 
+int command_theory(const SceneArguments& arguments, const Communicator& world) {
+    const Scene scene = scene_of(arguments);
+    int code = io::exit_code::done;
+    world.on_root([&] { code = theory_command(scene, arguments.out); });
+    return code;
+}
+
+int command_sweep(const SceneArguments& arguments, const Communicator& world) {
+    SweepOptions options;
+    options.scene = scene_file(arguments, options.assignments);
+    options.theory_only = arguments.theory_only;
+    options.out = arguments.out;
+    int code = io::exit_code::done;
+    world.on_root([&] { code = sweep_command(options); });
+    return code;
+}
+
 int command_defaults(const SceneArguments& arguments, const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
     if (arguments.markdown)
@@ -273,6 +302,17 @@ int agreed(int code, const Communicator& world) {
     world.abort(code);
 }
 
+/// Threads of this rank, where nobody chose them: the processors it may use, shared with the ranks
+/// beside it unless the launcher has bound each to processors of its own.
+void choose_threads() {
+    if (std::getenv("OMP_NUM_THREADS")) return;
+    const char* beside = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+    const int ranks = beside ? std::max(1, std::atoi(beside)) : 1;
+    const int mine = omp_get_num_procs();
+    const bool bound = mine < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+    omp_set_num_threads(bound ? mine : std::max(1, mine / ranks));
+}
+
 int command_line(int argc, char** argv, const Communicator& world) {
     CLI::App app("Adhesion between randomly rough elastic solids, from the atoms up", "asperity");
     app.require_subcommand(1);
@@ -302,6 +342,20 @@ int command_line(int argc, char** argv, const Communicator& world) {
     surface
         .add_option("--out", arguments.out, "result directory (default: results/<scene>-surface)")
         ->type_name("DIR");
+    CLI::App& theory =
+        *app.add_subcommand("theory", "the analytic theory of a scene, without simulating it");
+    add_scene(theory, arguments);
+    theory.add_option("--out", arguments.out, "result directory (default: results/<scene>-theory)")
+        ->type_name("DIR");
+    CLI::App& sweep = *app.add_subcommand(
+        "sweep", "a scene over several values of its keys, one table (theory only, so far)");
+    add_scene(sweep, arguments);
+    sweep.add_flag("--theory-only", arguments.theory_only, "the theory alone, no simulation");
+    sweep.add_option("--out", arguments.out, "result directory (default: results/<scene>-sweep)")
+        ->type_name("DIR");
+    sweep.footer("--set key=v1,v2,... or key=start:stop:step sweeps a key; with several, every "
+                 "combination.\nWithout any, --theory-only sweeps surface.rms past the end of "
+                 "adhesion.");
     CLI::App& defaults =
         *app.add_subcommand("defaults", "every key of a scene with its default, as TOML");
     defaults.add_flag("--markdown", arguments.markdown, "as the reference page docs/scene.md");
@@ -331,6 +385,8 @@ int command_line(int argc, char** argv, const Communicator& world) {
     if (run.parsed()) return command_run(arguments, world);
     if (check.parsed()) return command_check(arguments, world);
     if (surface.parsed()) return command_surface(arguments, world);
+    if (theory.parsed()) return command_theory(arguments, world);
+    if (sweep.parsed()) return command_sweep(arguments, world);
     if (defaults.parsed()) return command_defaults(arguments, world);
     if (info.parsed()) return command_info(world);
     return io::exit_code::internal;
@@ -343,9 +399,12 @@ int main(int argc, char** argv) {
     using namespace asperity;
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
+    choose_threads();
     try {
         return command_line(argc, argv, world);
     } catch (const io::SceneError& error) { // on every rank, or on the root for all of them
+        return agreed(report(error, world), world);
+    } catch (const io::PhysicsError& error) { // guards judge global numbers: on every rank
         return agreed(report(error, world), world);
     } catch (const RootFailure&) { // the root has the reason and the code
         return agreed(io::exit_code::done, world);

@@ -24,9 +24,9 @@ enum class Phase {
     count
 };
 
-inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names = {
-    "interpolate", "interface", "advance", "thermostat", "exchange",
-    "sums",        "observe",   "relax",   "checkpoint", "output"};
+inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names =
+    {"interpolate", "interface", "advance", "thermostat", "exchange",
+     "sums",        "observe",   "relax",   "checkpoint", "output"};
 
 struct PhaseClock {
     double seconds = 0.0;

@@ -19,14 +19,16 @@ const std::vector<io::Column>& columns() {
         {"leg", "", "0 approach, 1 pull-off"},
         {"top", "Å", "displacement of the top plane"},
         {"mean_height", "Å", "mean height of the lowest layer above the substrate's mean plane"},
-        {"force", "eV/Å", "total normal force of the substrate on the lowest layer; positive pushes"},
+        {"force", "eV/Å",
+         "total normal force of the substrate on the lowest layer; positive pushes"},
         {"top_force", "eV/Å", "elastic force on the top plane along z"},
         {"interface_energy", "eV", "Lennard-Jones energy"},
         {"elastic_energy", "eV", "elastic energy of the block"},
         {"kinetic_energy", "eV", "kinetic energy of the block"},
         {"work", "eV", "work done on the block since the start"},
         {"damped", "eV", "energy damped since the start"},
-        {"residual", "", "energy balance: (work - change of energy - damped) over the largest term"},
+        {"residual", "",
+         "energy balance: (work - change of energy - damped) over the largest term"},
         {"contact_fraction", "", "sites closer than the inflection of the potential to an atom"},
         {"pushed_fraction", "", "sites whose net normal force is repulsive"},
         {"closest", "Å", "smallest distance between a site and an atom; infinite out of reach"},
@@ -49,8 +51,8 @@ std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
 
 } // namespace
 
-Recorder::Recorder(const std::string& path, const Surface& surface, const Communicator& communicator,
-                   bool resume, std::uint64_t rows)
+Recorder::Recorder(const std::string& path, const Surface& surface,
+                   const Communicator& communicator, bool resume, std::uint64_t rows)
     : communicator_(communicator), rows_(resume ? rows : 0) {
     communicator_.on_root([&] {
         if (resume) {
@@ -88,18 +90,18 @@ void Recorder::row(const Simulation& simulation) {
     ++rows_;
     communicator_.on_root([&] {
         series_.append({static_cast<double>(r.step), r.time * 1e-3,
-                        simulation.leg() == Leg::approach ? 0.0 : 1.0, r.top, r.mean_height, r.force,
-                        r.top_force, r.interface_energy, r.elastic_energy, r.kinetic_energy,
-                        ledger.work(), ledger.damped, simulation.energy_residual(),
+                        simulation.leg() == Leg::approach ? 0.0 : 1.0, r.top, r.mean_height,
+                        r.force, r.top_force, r.interface_energy, r.elastic_energy,
+                        r.kinetic_energy, ledger.work(), ledger.damped,
+                        simulation.energy_residual(),
                         static_cast<double>(r.in_contact) / (sites * sites),
                         static_cast<double>(r.pushed) / (sites * sites), r.closest});
     });
 }
 
-void Recorder::fields(const std::string& state, const Block& block, const Interface& interface,
+void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
+                      const ProcessGrid& grid, const Interface& interface,
                       double reference_height) {
-    const ProcessGrid& grid = block.grid();
-    const auto layer = block.lowest_layer();
     const InterfaceMaps maps = interface.maps(layer, reference_height);
     std::vector<double> contact(maps.contact.begin(), maps.contact.end());
     const auto gap = whole(communicator_, grid, maps.gap);
@@ -112,7 +114,7 @@ void Recorder::fields(const std::string& state, const Block& block, const Interf
         const std::string group = "/fields/" + state;
         if (file_->exists(group)) return; // taken up from a checkpoint written before this state
         file_->make_group(group);
-        const auto n = static_cast<std::uint64_t>(block.options().sites);
+        const auto n = static_cast<std::uint64_t>(grid.tile(0).sites);
         const auto write = [&](const char* name, const char* unit, const std::vector<double>& map) {
             file_->write<double>(group + "/" + name, {n, n}, map);
             file_->write_attribute(group + "/" + name, "unit", unit);
@@ -131,7 +133,8 @@ void Recorder::fields(const std::string& state, const Block& block, const Interf
         constexpr std::size_t bins = 200;
         const double width = std::max((*greatest - *least) / bins, 1e-12);
         std::vector<double> density(bins, 0.0), edge(bins + 1);
-        for (std::size_t i = 0; i <= bins; ++i) edge[i] = *least + width * static_cast<double>(i);
+        for (std::size_t i = 0; i <= bins; ++i)
+            edge[i] = *least + width * static_cast<double>(i);
         for (double u : gap) {
             const auto bin = static_cast<std::size_t>((u - *least) / width);
             density[std::min(bin, bins - 1)] += 1.0 / (width * static_cast<double>(gap.size()));

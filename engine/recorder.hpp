@@ -17,15 +17,15 @@ namespace asperity {
 class Recorder {
 public:
     /// A new file, or (rows > 0) an old one taken up after its first rows.
-    Recorder(const std::string& path, const Surface& surface, const Communicator& communicator, bool resume,
-             std::uint64_t rows);
+    Recorder(const std::string& path, const Surface& surface, const Communicator& communicator,
+             bool resume, std::uint64_t rows);
 
     /// One row: the simulation's last step, which must have been observed.
     void row(const Simulation& simulation);
     std::uint64_t rows() const { return rows_; }
     /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
-    void fields(const std::string& state, const Block& block, const Interface& interface,
-                double reference_height);
+    void fields(const std::string& state, const VectorPlane<const double>& layer,
+                const ProcessGrid& grid, const Interface& interface, double reference_height);
     void flush();
 
 private:

@@ -16,15 +16,16 @@ namespace {
 /// The minimiser's view of the block: positions, fictitious masses, forces, and the free top plane.
 class Descent {
 public:
-    Descent(Block& block, Interface& interface, double reference_height, const RelaxOptions& options,
-            Phases& phases)
+    Descent(Block& block, Interface& interface, double reference_height,
+            const RelaxOptions& options, Phases& phases)
         : block_(block), interface_(interface), height_(reference_height), options_(options),
           phases_(phases) {
         for (const auto& level : block.levels())
             force_.emplace_back(level.tile, level.plan.cells);
         const auto& last = block.levels().back();
         top_mass_ = 0.5 * mass(last) * static_cast<double>(last.plan.sites) * last.plan.sites;
-        for (auto& level : block.levels()) level.v = VectorField<double>(level.tile, level.plan.cells);
+        for (auto& level : block.levels())
+            level.v = VectorField<double>(level.tile, level.plan.cells);
     }
 
     /// Forces at the present positions; the largest on a node (or, for the top plane, its share
@@ -36,7 +37,8 @@ public:
         }
         {
             const auto t = phases_.time(Phase::interface);
-            sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, observe);
+            sums_ =
+                interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, observe);
         }
         const auto t = phases_.time(Phase::advance);
         block_.forces(force_);
@@ -74,8 +76,8 @@ public:
 #pragma omp parallel
         {
             std::array<ExactSum, 3> mine;
-            each_row([&](double m, const double* const f[3], double* const v[3], double* const*, int nx,
-                         bool counted) {
+            each_row([&](double m, const double* const f[3], double* const v[3], double* const*,
+                         int nx, bool counted) {
                 if (!counted) return;
                 for (int x = 0; x < nx; ++x) {
                     const double fv = f[0][x] * v[0][x] + f[1][x] * v[1][x] + f[2][x] * v[2][x];
@@ -87,7 +89,8 @@ public:
                 }
             });
 #pragma omp critical(asperity_relax_sums)
-            for (std::size_t i = 0; i < 3; ++i) sums[i].merge(mine[i]);
+            for (std::size_t i = 0; i < 3; ++i)
+                sums[i].merge(mine[i]);
         }
         const auto [power, speed2, force2] = global_sums(block_.communicator(), sums);
         return {power + top_force_ * top_speed_, speed2 + top_mass_ * top_speed_ * top_speed_,
@@ -119,9 +122,11 @@ public:
     double largest_speed() const {
         double largest = 0.0;
 #pragma omp parallel reduction(max : largest)
-        each_row([&](double, const double* const*, double* const v[3], double* const*, int nx, bool) {
+        each_row([&](double, const double* const*, double* const v[3], double* const*, int nx,
+                     bool) {
             for (int x = 0; x < nx; ++x)
-                largest = std::max(largest, v[0][x] * v[0][x] + v[1][x] * v[1][x] + v[2][x] * v[2][x]);
+                largest =
+                    std::max(largest, v[0][x] * v[0][x] + v[1][x] * v[1][x] + v[2][x] * v[2][x]);
         });
         std::array<double, 1> all = {std::max(std::sqrt(largest), std::abs(top_speed_))};
         block_.communicator().max(all);
@@ -131,10 +136,14 @@ public:
     const InterfaceSums& interface_sums() const { return sums_; }
 
 private:
-    static double mass(const Block::Level& level) { return static_cast<double>(1 << level.plan.level); }
+    static double mass(const Block::Level& level) {
+        return static_cast<double>(1 << level.plan.level);
+    }
 
-    /// Calls work(mass, f, v, u, nx, counted) for every row of moving nodes; inside a parallel region.
-    template <class Work> void each_row(const Work& work) const {
+    /// Calls work(mass, f, v, u, nx, counted) for every row of moving nodes; inside a parallel
+    /// region.
+    template <class Work>
+    void each_row(const Work& work) const {
         for (std::size_t l = 0; l < force_.size(); ++l) {
             Block::Level& level = block_.levels()[l];
             const auto f = force_[l].view();
@@ -170,8 +179,8 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
 
     Descent descent(block, interface, reference_height, options, phases);
     // Highest frequency for a fictitious mass of one: sqrt of the largest stiffness of a site.
-    const double stiffest =
-        block.options().highest_frequency(options.site_stiffness) * std::sqrt(block.options().atom_mass);
+    const double stiffest = block.options().highest_frequency(options.site_stiffness) *
+                            std::sqrt(block.options().atom_mass);
     const double dt_max = 1.0 / stiffest;
     double dt = 0.5 * dt_max, mixing = mixing0;
     int downhill = 0;
@@ -182,7 +191,8 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
         if (state.residual <= options.tolerance || !std::isfinite(state.residual) ||
             state.iterations >= options.max_iterations)
             break;
-        if (options.report && state.iterations % 50 == 0) options.report(state.iterations, state.residual);
+        if (options.report && state.iterations % 50 == 0)
+            options.report(state.iterations, state.residual);
 
         const auto p = descent.products();
         double keep = 0.0, gain = 0.0;
@@ -200,8 +210,8 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
             mixing = mixing0;
             gain = dt;
         }
-        // The speed after the kick is at most keep |v| + gain |F/m|: where that may exceed max_move, kick
-        // first and scale, so that no site jumps.
+        // The speed after the kick is at most keep |v| + gain |F/m|: where that may exceed
+        // max_move, kick first and scale, so that no site jumps.
         const double bound = keep * descent.largest_speed() + gain * state.residual;
         const double scale = bound * dt > options.max_move ? options.max_move / (bound * dt) : 1.0;
         descent.move(scale * keep, scale * gain, dt);

@@ -3,13 +3,14 @@
 //
 // The relaxed state without inertia: FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006).
 //
-// The top plane is rigid and free to move along z under the external load (zero by default), so the state
-// that is found carries no net force. Masses are fictitious, m ~ 2^l on level l: stiffness grows like 2^l
-// too, so every level has the same highest frequency and a signal crosses a coarse cell as fast as a fine
-// one; the iterations then grow with the number of layers of nodes, not with the thickness.
+// The top plane is rigid and free to move along z under the external load (zero by default), so the
+// state that is found carries no net force. Masses are fictitious, m ~ 2^l on level l: stiffness
+// grows like 2^l too, so every level has the same highest frequency and a signal crosses a coarse
+// cell as fast as a fine one; the iterations then grow with the number of layers of nodes, not with
+// the thickness.
 //
-// No site moves more than max_move in an iteration, and the descent starts from rest: the minimum found is
-// the one downhill, not one behind a barrier.
+// No site moves more than max_move in an iteration, and the descent starts from rest: the minimum
+// found is the one downhill, not one behind a barrier.
 #pragma once
 
 #include "engine/block.hpp"
@@ -21,10 +22,10 @@
 namespace asperity {
 
 struct RelaxOptions {
-    double tolerance = 1e-4;       ///< largest residual force on a node, eV/Å
-    double load = 0.0;             ///< force pressing the top plane down, eV/Å
-    double max_move = 0.05;        ///< Å an iteration
-    double site_stiffness = 2.2;   ///< of the interface, for each site, eV/Å^2: sets the step
+    double tolerance = 1e-4;     ///< largest residual force on a node, eV/Å
+    double load = 0.0;           ///< force pressing the top plane down, eV/Å
+    double max_move = 0.05;      ///< Å an iteration
+    double site_stiffness = 2.2; ///< of the interface, for each site, eV/Å^2: sets the step
     long long max_iterations = 200000;
     /// Called now and then with the iteration and the residual.
     std::function<void(long long, double)> report;

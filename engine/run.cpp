@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The life of a run: set up, follow the path, relax the zero-load state, write what was found.
+// The life of a run in time: set up, follow the path, relax the zero-load state, write what was
+// found. Runs without a path in time are equilibrium_run.cpp.
 #include "engine/run.hpp"
 
-#include "decomposition/global_sum.hpp"
 #include "engine/checkpoint.hpp"
+#include "engine/equilibrium.hpp"
+#include "engine/equilibrium_run.hpp"
 #include "engine/recorder.hpp"
+#include "engine/run_record.hpp"
 #include "engine/setup.hpp"
 #include "engine/summary.hpp"
 #include "engine/units.hpp"
@@ -23,6 +26,8 @@
 #include <csignal>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace asperity {
 
@@ -40,12 +45,13 @@ class Run {
 public:
     Run(const Scene& scene, const RunOptions& options, const Communicator& ranks)
         : scene_(scene), options_(options), ranks_(ranks), setup_(make_setup(scene, ranks.size())),
-          surface_(scene_surface(scene)),
-          grid_(ranks.size(), ranks.rank(), scene.surface.sites, static_cast<int>(setup_.levels.size())),
+          surface_(scene_surface(scene)), grid_(ranks.size(), ranks.rank(), scene.surface.sites,
+                                                static_cast<int>(setup_.levels.size())),
           simulation_(setup_.simulation, surface_, ranks, grid_),
           progress_(options.progress, !ranks.root()) {
         ranks_.on_root([&] {
-            const auto place = io::choose_result_directory(options.out, scene.name, options.resuming());
+            const auto place =
+                io::choose_result_directory(options.out, scene.name, options.resuming());
             directory_ = place.directory;
             if (!place.note.empty()) progress_.say(place.note);
         });
@@ -57,7 +63,8 @@ public:
         try {
             if (ranks_.root())
                 print_opening(stdout, scene_, setup_, surface_, grid_, omp_get_max_threads(),
-                              simulation_.block().bytes() + simulation_.interface().bytes(), directory_);
+                              simulation_.block().bytes() + simulation_.interface().bytes(),
+                              directory_);
             follow();
         } catch (const io::Error& e) {
             progress_.finish();
@@ -67,9 +74,7 @@ public:
         progress_.finish();
         write_record({});
         if (ranks_.root()) {
-            const bool dynamic = simulation_.steps() > 0;
-            print_summary(stdout, scene_, setup_, findings_,
-                          dynamic ? simulation_.energy_residual() : std::numeric_limits<double>::quiet_NaN(),
+            print_summary(stdout, scene_, setup_, findings_, simulation_.energy_residual(),
                           directory_);
             if (!stopped_.empty())
                 fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);
@@ -82,13 +87,8 @@ private:
     void follow() {
         const bool taken_up = take_up();
         recorder_.emplace(directory_ + "/run.h5", surface_, ranks_, taken_up, rows_at_start_);
-        if (scene_.has(PathPart::zero_load)) {
-            simulation_.start(height_of_strongest_attraction());
-            find_zero_load(simulation_.block());
-        } else {
-            if (!taken_up) simulation_.start(simulation_.interface().start_height());
-            march();
-        }
+        if (!taken_up) simulation_.start(simulation_.interface().start_height());
+        march();
         const auto t = simulation_.phases().time(Phase::output);
         recorder_->flush();
     }
@@ -99,90 +99,62 @@ private:
         std::signal(SIGTERM, on_stop_signal);
         std::signal(SIGINT, on_stop_signal);
         last_checkpoint_ = seconds();
-        while (!simulation_.drive().done()) {
-            const bool observe = simulation_.steps() % scene_.output.series == 0;
-            if (observe && time_to_stop()) return;
-            const StepRecord& now = simulation_.step(observe);
+        std::optional<Leg> ended; // the leg that the last step ended
+        while (ended || !simulation_.drive().done()) {
+            const bool last = simulation_.steps() + 1 == scene_.drive.max_steps;
+            const bool due = simulation_.steps() % scene_.output.series == 0;
+            if (due && !ended && time_to_stop()) return;
+            // The step after a leg and the last of all are observed, so that the guard has seen the
+            // energy balance before anything is concluded.
+            const StepRecord& now = simulation_.step(due || ended || last);
             guard(now);
-            if (observe) record_row();
-            follow_drive(now);
+            if (now.observed) record_row();
+            if (ended)
+                conclude(*std::exchange(ended, std::nullopt));
+            else
+                ended = follow_drive(now);
             if (progress_.due()) progress_.update(progress_state(now));
-            if (scene_.drive.max_steps > 0 && simulation_.steps() >= scene_.drive.max_steps) {
+            if (last) {
                 stopped_ = "max_steps";
                 return;
             }
         }
     }
 
-    /// What the force of this step means for the path.
-    void follow_drive(const StepRecord& now) {
+    /// Tells the drive what the step felt. The leg that ended with it, if one did.
+    std::optional<Leg> follow_drive(const StepRecord& now) {
         const Leg leg = simulation_.leg();
-        double& attraction = leg == Leg::approach ? findings_.attraction_in : findings_.attraction_out;
+        double& attraction =
+            leg == Leg::approach ? findings_.attraction_in : findings_.attraction_out;
         attraction = std::max(attraction, -now.force);
         const double strongest = std::max(findings_.attraction_in, findings_.attraction_out);
         const bool gone = now.top >= 0.0 && std::abs(now.force) <= 1e-6 * strongest;
-        if (!simulation_.drive().observe(now.time, now.force, gone)) return;
+        if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
+        return leg;
+    }
+
+    /// What a leg has shown.
+    void conclude(Leg leg) {
         const double area = scene_.edge() * scene_.edge();
-        if (leg == Leg::approach) {
-            findings_.approach = units::milli_per_unit * simulation_.ledger().approach / area;
-            progress_.say(fmt::format("contact is made; relaxing a copy of this state under zero load"));
-            Block copy = simulation_.block().copy_at_rest();
-            find_zero_load(copy);
-            if (!simulation_.drive().done()) progress_.say("pull-off begins");
-        } else {
+        if (leg == Leg::pull_off) {
             findings_.pull_off = -units::milli_per_unit * simulation_.ledger().pull_off / area;
+            return;
         }
+        findings_.approach = units::milli_per_unit * simulation_.ledger().approach / area;
+        progress_.say("contact is made; relaxing a copy of this state under zero load");
+        relax_copy();
+        if (!simulation_.drive().done()) progress_.say("pull-off begins");
     }
 
-    void find_zero_load(Block& block) {
+    void relax_copy() {
         const auto t = simulation_.phases().time(Phase::relax);
-        RelaxOptions options;
-        options.tolerance = scene_.drive.tolerance;
-        options.site_stiffness = setup_.flat.stiffness * scene_.surface.spacing * scene_.surface.spacing;
-        options.report = [&](long long iteration, double residual) {
-            if (!progress_.due()) return;
-            progress_.update({fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0,
-                              -1.0});
-        };
-        Phases own; // its lines are not lines of the step
-        const RelaxedState s =
-            relax(block, simulation_.interface(), simulation_.reference_height(), options, own);
-        const double area = scene_.edge() * scene_.edge();
-        const double sites = static_cast<double>(scene_.surface.sites) * scene_.surface.sites;
-        if (!s.converged)
-            throw io::PhysicsError(
-                fmt::format("the zero-load state was not found in {} iterations", s.iterations),
-                fmt::format("the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
-                            s.residual, scene_.drive.tolerance),
-                "look at run.h5 whether the surfaces touch at all; a looser drive.tolerance ends earlier");
-        ZeroLoad z;
-        z.binding_energy = -units::milli_per_unit * (s.interface_energy + s.elastic_energy) / area;
-        z.pairwise = -units::milli_per_unit * s.interface_energy / area;
-        z.elastic = units::milli_per_unit * s.elastic_energy / area;
-        z.contact_fraction = static_cast<double>(s.in_contact) / sites;
-        z.pushed_fraction = static_cast<double>(s.pushed) / sites;
-        z.mean_height = simulation_.reference_height() + s.mean_height;
-        z.residual = s.residual;
-        z.iterations = static_cast<double>(s.iterations);
-        findings_.zero_load = z;
+        const auto copy = at_rest(simulation_.block().copy_at_rest());
+        findings_.zero_load =
+            find_zero_load(*copy, simulation_.interface(), simulation_.reference_height(), scene_,
+                           setup_, progress_);
         if (scene_.writes_field("zero-load"))
-            recorder_->fields("zero-load", block, simulation_.interface(), simulation_.reference_height());
-    }
-
-    /// Where a rigid block feels the strongest attraction on its way down: the descent that starts there ends
-    /// in the state that a slow approach reaches.
-    double height_of_strongest_attraction() {
-        Block& block = simulation_.block();
-        block.set_uniform(0.0, 0.0);
-        double best_height = simulation_.interface().start_height(), strongest = 0.0;
-        constexpr double stride = 0.1;
-        for (double height = best_height;; height -= stride) {
-            const InterfaceSums sums =
-                simulation_.interface().sweep(block.lowest_layer(), block.interface_force(), height, false);
-            const double force = global_sum(ranks_, sums.force_z);
-            if (force < strongest) strongest = force, best_height = height;
-            if (force > 0.0 || height < surface_.statistics.lowest) return best_height;
-        }
+            recorder_->fields("zero-load", copy->lowest_layer(), grid_, simulation_.interface(),
+                              simulation_.reference_height());
     }
 
     void guard(const StepRecord& now) {
@@ -201,13 +173,17 @@ private:
         }
         const double limit = setup_.longest_timestep;
         throw io::PhysicsError(
-            finite ? fmt::format("the energy balance is off by {:.1f} % at step {}", 100.0 * residual, now.step)
-                   : fmt::format("the motion diverged at step {}: the force is {}", now.step, now.force),
-            fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded contact, and less "
+            finite ? fmt::format("the energy balance is off by {:.1f} % at step {}",
+                                 100.0 * residual, now.step)
+                   : fmt::format("the motion diverged at step {}: the force is {}", now.step,
+                                 now.force),
+            fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
+                        "contact, and less "
                         "where atoms are pressed into the wall or hit it fast",
                         where, scene_.drive.timestep, limit),
-            fmt::format("take a smaller drive.timestep (for example {:.2g} fs) or drive.velocity; {}",
-                        std::min(0.5 * scene_.drive.timestep, 0.2 * limit), kept));
+            fmt::format(
+                "take a smaller drive.timestep (for example {:.2g} fs) or drive.velocity; {}",
+                std::min(0.5 * scene_.drive.timestep, 0.2 * limit), kept));
     }
 
     /// The site of the lowest layer that moves fastest (or not by a number any more).
@@ -218,7 +194,8 @@ private:
         int wx = 0, wy = 0;
         for (int y = 0; y < v.x.ny; ++y)
             for (int x = 0; x < v.x.nx; ++x) {
-                double speed = std::sqrt(v.x(x, y) * v.x(x, y) + v.y(x, y) * v.y(x, y) + v.z(x, y) * v.z(x, y));
+                double speed = std::sqrt(v.x(x, y) * v.x(x, y) + v.y(x, y) * v.y(x, y) +
+                                         v.z(x, y) * v.z(x, y));
                 if (!std::isfinite(speed)) speed = std::numeric_limits<double>::max();
                 if (speed > worst) worst = speed, wx = x + level.tile.x0, wy = y + level.tile.y0;
             }
@@ -244,7 +221,8 @@ private:
         double decision = nothing;
         if (ranks_.root()) {
             const double now = seconds();
-            if (scene_.output.checkpoint > 0.0 && now - last_checkpoint_ >= scene_.output.checkpoint)
+            if (scene_.output.checkpoint > 0.0 &&
+                now - last_checkpoint_ >= scene_.output.checkpoint)
                 decision = save;
             if (options_.wall_limit && now >= *options_.wall_limit) decision = wall;
         }
@@ -258,14 +236,17 @@ private:
         last_checkpoint_ = seconds();
         if (agreed[0] == save) return false;
         stopped_ = agreed[0] == wall ? "wall_limit" : "signal";
-        progress_.say(fmt::format("stopping: the state at step {} is in {}/checkpoint.h5; go on with --resume auto",
-                                  simulation_.steps(), directory_));
+        progress_.say(fmt::format(
+            "stopping: the state at step {} is in {}/checkpoint.h5; go on with --resume auto",
+            simulation_.steps(), directory_));
         return true;
     }
 
     RunScalars run_scalars() {
         RunScalars list = {{"rows", static_cast<double>(recorder_->rows())}};
-        const auto collect = [&](const char* name, double& value) { list.emplace_back(name, value); };
+        const auto collect = [&](const char* name, double& value) {
+            list.emplace_back(name, value);
+        };
         findings_.visit(collect);
         return list;
     }
@@ -293,7 +274,8 @@ private:
         return true;
     }
 
-    /// The physics of the scene, as text: what may not change between a checkpoint and its resumption.
+    /// The physics of the scene, as text: what may not change between a checkpoint and its
+    /// resumption.
     std::string fingerprint() const {
         const io::JsonValue all = scene_json(scene_);
         io::JsonValue part = io::JsonValue::object();
@@ -304,18 +286,19 @@ private:
     }
 
     io::Progress::State progress_state(const StepRecord& now) const {
-        // The way: down from the start to contact, up again as far, and the stretch of a block that is
-        // pulled with a fair part of the largest tension.
+        // The way: down from the start to contact, up again as far, and the stretch of a block that
+        // is pulled with a fair part of the largest tension.
         const double down = simulation_.interface().start_height() - setup_.flat.separation;
         const auto& b = setup_.simulation.block;
         const double stretch = scene_.has(PathPart::pull_off)
-                                   ? 0.5 * setup_.flat.largest_tension * units::gigapascal * b.thickness *
-                                         b.spacing / (b.lame() + 2.0 * b.shear_modulus())
+                                   ? 0.5 * setup_.flat.largest_tension * units::gigapascal *
+                                         b.thickness * b.spacing /
+                                         (b.lame() + 2.0 * b.shear_modulus())
                                    : 0.0;
         const double total = scene_.has(PathPart::pull_off) ? 2.0 * down + stretch : down;
         const double done = simulation_.leg() == Leg::approach ? -now.top : 2.0 * down + now.top;
-        return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force), simulation_.steps(),
-                now.time, std::clamp(done / total, 0.0, 0.99)};
+        return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force),
+                simulation_.steps(), now.time, std::clamp(done / total, 0.0, 0.99)};
     }
 
     double seconds() const {
@@ -353,32 +336,7 @@ private:
 
 void Run::write_record(const io::ResultRecord::Failure& failure) {
     if (!ranks_.root()) return;
-    io::ResultRecord r;
-    r.scene = scene_json(scene_);
-    const auto& s = surface_.statistics;
-    r.surface = {s.rms, s.rms_slope, s.lowest, s.highest};
-    r.delta_gamma = setup_.flat.work_of_adhesion;
-    r.work_of_adhesion.approach = findings_.approach;
-    r.work_of_adhesion.pull_off = findings_.pull_off;
-    if (findings_.zero_load) {
-        const ZeroLoad& z = *findings_.zero_load;
-        r.binding_energy = z.binding_energy;
-        r.work_of_adhesion.pairwise = z.pairwise;
-        r.contact_fraction = z.contact_fraction;
-        r.pushed_fraction = z.pushed_fraction;
-        r.run.iterations = static_cast<long long>(z.iterations);
-        r.extra.emplace_back("zero_load.elastic_energy", z.elastic);
-        r.extra.emplace_back("zero_load.mean_height", z.mean_height);
-        r.extra.emplace_back("zero_load.residual_force", z.residual);
-    }
-    if (findings_.pull_off) r.pull_off_force = findings_.attraction_out;
-    if (scene_.surface.radius) {
-        const auto jkr = [&](double f) {
-            return units::milli_per_unit * f / (1.5 * 3.14159265358979323846 * *scene_.surface.radius);
-        };
-        if (findings_.approach) r.jkr.in = jkr(findings_.attraction_in);
-        if (findings_.pull_off) r.jkr.out = jkr(findings_.attraction_out);
-    }
+    io::ResultRecord r = run_record(scene_, surface_, setup_, findings_, ranks_.size());
     if (simulation_.steps() > 0) {
         const StepRecord& now = simulation_.now();
         const Ledger& l = simulation_.ledger();
@@ -391,12 +349,7 @@ void Run::write_record(const io::ResultRecord::Failure& failure) {
     }
     r.run.wall_seconds = seconds();
     r.run.steps = simulation_.steps();
-    r.run.ranks = ranks_.size();
-    r.run.threads = omp_get_max_threads();
-    for (std::size_t p = 0; p < phase_names.size(); ++p) {
-        const PhaseClock& clock = simulation_.phases()[static_cast<Phase>(p)];
-        if (clock.calls > 0) r.run.phases.push_back({std::string(phase_names[p]), clock.seconds, clock.calls});
-    }
+    add_phases(simulation_.phases(), r);
     r.run.stopped = stopped_;
     r.failure = failure;
     io::write_result(directory_, r);
@@ -408,6 +361,7 @@ int run(const Scene& scene, const RunOptions& options, const Communicator& commu
     io::Problems problems = scene.problems();
     not_yet(scene, problems);
     problems.throw_if_any();
+    if (scene.has(PathPart::zero_load)) return run_equilibrium(scene, options, communicator);
     return Run(scene, options, communicator).go();
 }
 

@@ -30,16 +30,19 @@ Surface scene_surface(const Scene& scene) {
         if (s.kind != SurfaceKind::file) return make_surface(options);
         io::HeightMap map = io::read_height_map(s.file, s.file_unit);
         if (map.sites != options.sites && s.resample == Resample::none)
-            throw std::invalid_argument(fmt::format(
-                "the map in {} has {} x {} values, but the substrate has {} x {} atoms; give a map of that "
-                "size, set surface.sites = {}, or let it be resampled with surface.resample = \"band-limited\"",
-                s.file, map.sites, map.sites, options.sites, options.sites, map.sites));
+            throw std::invalid_argument(
+                fmt::format("the map in {} has {} x {} values, but the substrate has {} x {} "
+                            "atoms; give a map of that "
+                            "size, set surface.sites = {}, or let it be resampled with "
+                            "surface.resample = \"band-limited\"",
+                            s.file, map.sites, map.sites, options.sites, options.sites, map.sites));
         options.rms = s.rms_given ? s.rms : 0.0;
         options.detrend = s.detrend == Detrend::plane;
         return surface_from_heights(options, std::move(map.heights), map.sites, map.sites);
     } catch (const std::invalid_argument& e) {
         io::Problems problems = scene.problems();
-        problems.add(s.kind == SurfaceKind::file ? "surface.file" : "surface.kind", std::string(": ") + e.what());
+        problems.add(s.kind == SurfaceKind::file ? "surface.file" : "surface.kind",
+                     std::string(": ") + e.what());
         problems.throw_if_any();
         throw;
     }
@@ -60,6 +63,11 @@ Setup make_setup(const Scene& scene, int ranks) {
     block.layers_per_level = scene.block.layers_per_level;
     block.multiscale = scene.block.model == BlockModel::multiscale;
     setup.levels = plan_levels(block);
+    if (scene.block.model == BlockModel::spectral && ranks > 1)
+        problems.add("block.model", fmt::format("= \"spectral\" on {} ranks", ranks),
+                     "its Fourier transforms are those of one rank, shared by threads",
+                     "start one rank (OMP_NUM_THREADS sets its threads), or take block.model = "
+                     "\"multiscale\"");
 
     InterfaceOptions& interface = setup.simulation.interface;
     interface.potential = {scene.interface.epsilon, scene.interface.r0, scene.interface.cutoff};
@@ -89,20 +97,24 @@ Setup make_setup(const Scene& scene, int ranks) {
     setup.longest_timestep = 2.0 / block.highest_frequency(site_stiffness);
     const bool moves = drive.approach || drive.pull_off;
     if (moves && scene.drive.timestep >= setup.longest_timestep)
-        problems.add("drive.timestep",
-                     fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",
-                                 scene.drive.timestep, setup.longest_timestep),
-                     fmt::format("the block's fastest vibration has a period of {:.4g} fs, and velocity Verlet "
-                                 "diverges for steps longer than 1/pi of it",
-                                 3.14159265 * setup.longest_timestep),
-                     fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a fraction of a percent",
-                                 0.314159 * setup.longest_timestep));
+        problems.add(
+            "drive.timestep",
+            fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",
+                        scene.drive.timestep, setup.longest_timestep),
+            fmt::format(
+                "the block's fastest vibration has a period of {:.4g} fs, and velocity Verlet "
+                "diverges for steps longer than 1/pi of it",
+                3.14159265 * setup.longest_timestep),
+            fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a "
+                        "fraction of a percent",
+                        0.314159 * setup.longest_timestep));
     try {
         const ProcessGrid grid(ranks, 0, block.sites, static_cast<int>(setup.levels.size()));
         if (grid.imbalance() > 0.1)
-            setup.notes.push_back(fmt::format("{} ranks share {} sites unevenly: the largest tile has {:.0f} % "
-                                              "more than the mean",
-                                              ranks, block.sites, 100.0 * grid.imbalance()));
+            setup.notes.push_back(
+                fmt::format("{} ranks share {} sites unevenly: the largest tile has {:.0f} % "
+                            "more than the mean",
+                            ranks, block.sites, 100.0 * grid.imbalance()));
     } catch (const std::invalid_argument& e) {
         problems.add("surface.sites", std::string(": ") + e.what());
     }

@@ -22,8 +22,8 @@ Surface scene_surface(const Scene& scene);
 /// What the numbers of the scene mean for the engine, before anything is allocated.
 struct Setup {
     SimulationOptions simulation;
-    FlatReference flat;             ///< flat on flat, same cutoff and lattices
-    double longest_timestep = 0.0;  ///< stability limit 2/omega_max at the bottom of the well, fs
+    FlatReference flat;            ///< flat on flat, same cutoff and lattices
+    double longest_timestep = 0.0; ///< stability limit 2/omega_max at the bottom of the well, fs
     std::vector<LevelPlan> levels;
     std::vector<std::string> notes; ///< worth knowing, not wrong
 };

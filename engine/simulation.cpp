@@ -35,17 +35,35 @@ void Simulation::start(double height) {
 //   sums          what the ranks summed at n, added up; work and dissipation booked
 // The top plane's displacement at n is set at the end of the step before.
 const StepRecord& Simulation::step(bool observe) {
-    { const auto t = phases_.time(Phase::interpolate); block_.interpolate(); }
-    { const auto t = phases_.time(Phase::interface);
-      interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
-                                         reference_height_, observe); }
-    { const auto t = phases_.time(Phase::observe);     collect(observe); }
-    { const auto t = phases_.time(Phase::advance);     kick_and_drift(observe); }
+    {
+        const auto t = phases_.time(Phase::interpolate);
+        block_.interpolate();
+    }
+    {
+        const auto t = phases_.time(Phase::interface);
+        interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
+                                           reference_height_, observe);
+    }
+    {
+        const auto t = phases_.time(Phase::observe);
+        collect(observe);
+    }
+    {
+        const auto t = phases_.time(Phase::advance);
+        kick_and_drift(observe);
+    }
     if (thermostat_) {
-      const auto t = phases_.time(Phase::thermostat);
-      heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_); }
-    { const auto t = phases_.time(Phase::exchange);    block_.exchange(); }
-    { const auto t = phases_.time(Phase::sums);        keep_books(); }
+        const auto t = phases_.time(Phase::thermostat);
+        heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_);
+    }
+    {
+        const auto t = phases_.time(Phase::exchange);
+        block_.exchange();
+    }
+    {
+        const auto t = phases_.time(Phase::sums);
+        keep_books();
+    }
     ++step_;
     return record_;
 }
@@ -74,10 +92,10 @@ void Simulation::collect(bool observe) {
 
 void Simulation::keep_books() {
     // One reduction a step (and one for the counts of an observed one).
-    const auto sums = global_sums(
-        communicator(), std::array{interface_sums_.force_z, lowest_z_, top_force_,
-                                   kick_sums_.dissipated, kick_sums_.dragged, heat_,
-                                   interface_sums_.energy, elastic_, kick_sums_.kinetic});
+    const auto sums = global_sums(communicator(),
+                                  std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                                             kick_sums_.dissipated, kick_sums_.dragged, heat_,
+                                             interface_sums_.energy, elastic_, kick_sums_.kinetic});
     const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic] = sums;
 
     const double sites = static_cast<double>(options_.block.sites);
@@ -89,8 +107,8 @@ void Simulation::keep_books() {
         ledger_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
         double& done = drive_.leg() == Leg::approach ? ledger_.approach : ledger_.pull_off;
         done += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
-        // What the medium takes and gives likewise, half of it at each end; noise given after n-1 was
-        // observed is part of n's energy, that of n is not yet.
+        // What the medium takes and gives likewise, half of it at each end; noise given after n-1
+        // was observed is part of n's energy, that of n is not yet.
         ledger_.damped += 0.5 * (dissipated + pending_.dissipated);
         ledger_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
         ledger_.heat += pending_.heat;

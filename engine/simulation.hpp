@@ -3,8 +3,8 @@
 //
 // The simulation: a block, an interface, a drive, and the loop over time.
 //
-// Velocity Verlet in its leapfrog form: positions at whole steps n, velocities at half steps. At the
-// start of step n the state is u(n), v(n-1/2), halos of u current.
+// Velocity Verlet in its leapfrog form: positions at whole steps n, velocities at half steps. At
+// the start of step n the state is u(n), v(n-1/2), halos of u current.
 #pragma once
 
 #include "engine/block.hpp"
@@ -45,12 +45,12 @@ struct StepRecord {
 
 /// Work and dissipation since the start, eV.
 struct Ledger {
-    double top_work = 0.0;   ///< done on the block by the top plane
-    double drag_work = 0.0;  ///< done on the block by the moving damping medium
-    double damped = 0.0;     ///< dissipated against the medium
-    double heat = 0.0;       ///< given by the thermostat's noise
-    double approach = 0.0;   ///< int F dz of the mean height over the approach
-    double pull_off = 0.0;   ///< the same over the pull-off (negative: attraction is overcome)
+    double top_work = 0.0;  ///< done on the block by the top plane
+    double drag_work = 0.0; ///< done on the block by the moving damping medium
+    double damped = 0.0;    ///< dissipated against the medium
+    double heat = 0.0;      ///< given by the thermostat's noise
+    double approach = 0.0;  ///< int F dz of the mean height over the approach
+    double pull_off = 0.0;  ///< the same over the pull-off (negative: attraction is overcome)
     double work() const { return top_work + drag_work + heat; }
 };
 
@@ -84,7 +84,8 @@ public:
     double energy_residual() const;
 
     /// Everything but the fields, for checkpoints.
-    template <class Visitor> void visit(Visitor& v);
+    template <class Visitor>
+    void visit(Visitor& v);
 
 private:
     void kick_and_drift(bool observe);
@@ -104,8 +105,8 @@ private:
     Ledger ledger_;
     std::optional<double> energy_at_start_; ///< set by the first observed step
     double work_at_start_ = 0.0, damped_at_start_ = 0.0;
-    double scale_ = 0.0; ///< largest energy seen, for the residual
-    bool booked_ = false;///< a step came before: trapezia can be formed
+    double scale_ = 0.0;  ///< largest energy seen, for the residual
+    bool booked_ = false; ///< a step came before: trapezia can be formed
     struct Pending {
         double dissipated = 0.0, drag = 0.0, heat = 0.0;
     } pending_; ///< of the step before, eV: booked with the next
@@ -116,7 +117,8 @@ private:
     ExactSum top_force_, lowest_z_, elastic_, heat_;
 };
 
-template <class Visitor> void Simulation::visit(Visitor& v) {
+template <class Visitor>
+void Simulation::visit(Visitor& v) {
     v("step", step_);
     v("reference_height", reference_height_);
     double top = block_.top();

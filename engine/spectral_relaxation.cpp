@@ -14,6 +14,8 @@ namespace asperity {
 
 namespace {
 
+constexpr std::size_t remembered_pairs = 4;
+
 /// Length of the longest vector of a field.
 double largest(const VectorField<double>& field) {
     const VectorPlane<const double> f = field.plane(0);
@@ -190,7 +192,7 @@ public:
         : block_(block), interface_(interface), height_(reference_height), options_(options),
           phases_(phases), stiffness_(0.5 * options.site_stiffness), sites_(block.options().sites),
           g_(sites_), g_old_(sites_), d_(sites_), at_sites_(block.new_field()),
-          curvature_(sites_, 4), newton_(block) {}
+          curvature_(sites_, remembered_pairs), newton_(block) {}
 
     void evaluate(bool observe) {
         {
@@ -321,6 +323,15 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     state.in_contact = sums.in_contact;
     state.pushed = sums.pushed;
     return state;
+}
+
+std::size_t spectral_relaxation_bytes(int sites) {
+    // Vectors of the sites: in double, the gradients, the direction (at the sites too) and a
+    // displaced layer with its force; in single, the pairs, Newton's five and its map of six, and
+    // its sites.
+    const std::size_t vector =
+        3 * static_cast<std::size_t>(sites) * static_cast<std::size_t>(sites);
+    return vector * (6 * sizeof(double) + (2 * remembered_pairs + 8) * sizeof(float));
 }
 
 } // namespace asperity

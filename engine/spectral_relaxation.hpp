@@ -32,5 +32,7 @@ namespace asperity {
 /// usual.
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const RelaxOptions& options, Phases& phases);
+/// What it takes beside the block, bytes.
+std::size_t spectral_relaxation_bytes(int sites);
 
 } // namespace asperity

@@ -22,8 +22,8 @@ std::array<double, 3> normals(std::uint64_t seed, long long step, int level, int
         {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
          static_cast<std::uint32_t>(z) | static_cast<std::uint32_t>(level) << 24,
          static_cast<std::uint32_t>(u)}};
-    const Generator::key_type key = {
-        {static_cast<std::uint32_t>(seed ^ (u >> 32) * 0x9E3779B9u), static_cast<std::uint32_t>(seed >> 32)}};
+    const Generator::key_type key = {{static_cast<std::uint32_t>(seed ^ (u >> 32) * 0x9E3779B9u),
+                                      static_cast<std::uint32_t>(seed >> 32)}};
     const auto bits = Generator()(counter, key);
     const auto uniform = [](std::uint32_t b) { return (static_cast<double>(b) + 0.5) * 0x1p-32; };
     const double r1 = std::sqrt(-2.0 * std::log(uniform(bits[0])));
@@ -47,11 +47,13 @@ ExactSum Thermostat::kick(Block& block, double dt, double damping_from, long lon
 #pragma omp for schedule(static)
             for (int row = 0; row < level.plan.cells * level.tile.ny; ++row) {
                 const int z = row / level.tile.ny, y = row % level.tile.ny;
-                if (level.depth + z * static_cast<double>(1 << level.plan.level) < damping_from * thickness)
+                if (level.depth + z * static_cast<double>(1 << level.plan.level) <
+                    damping_from * thickness)
                     continue;
                 const double m = level.mass(z);
-                const double sigma = std::sqrt(2.0 * damping_ * units::boltzmann * temperature_ * dt / m) /
-                                     (1.0 + 0.5 * damping_ * dt);
+                const double sigma =
+                    std::sqrt(2.0 * damping_ * units::boltzmann * temperature_ * dt / m) /
+                    (1.0 + 0.5 * damping_ * dt);
                 for (int x = 0; x < level.tile.nx; ++x) {
                     const auto xi = normals(seed_, step, level.plan.level, level.tile.x0 + x,
                                             level.tile.y0 + y, z);
@@ -62,8 +64,8 @@ ExactSum Thermostat::kick(Block& block, double dt, double damping_from, long lon
                         place(x, y, z) += dt * add;
                         return add * (before + 0.5 * add);
                     };
-                    const double given = push(v.x, u.x, xi[0]) + push(v.y, u.y, xi[1]) +
-                                         push(v.z, u.z, xi[2]);
+                    const double given =
+                        push(v.x, u.x, xi[0]) + push(v.y, u.y, xi[1]) + push(v.z, u.z, xi[2]);
                     if (counted) mine.add(m * given);
                 }
             }

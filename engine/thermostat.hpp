@@ -3,11 +3,11 @@
 //
 // Langevin noise for scenes with a temperature.
 //
-// The damping that the scene asks for gets its fluctuating partner: after the kick each damped node's
-// velocity receives sigma xi with sigma^2 = 2 Gamma k_B T dt / m / (1 + Gamma dt/2)^2 (Bruenger, Brooks and
-// Karplus 1984), so configurations are sampled at T with an error of order dt^2. xi is drawn from a
-// counter-based generator keyed by seed, step and node: the same bits on any number of ranks and threads.
-// A scene at T = 0 has no thermostat object at all.
+// The damping that the scene asks for gets its fluctuating partner: after the kick each damped
+// node's velocity receives sigma xi with sigma^2 = 2 Gamma k_B T dt / m / (1 + Gamma dt/2)^2
+// (Bruenger, Brooks and Karplus 1984), so configurations are sampled at T with an error of order
+// dt^2. xi is drawn from a counter-based generator keyed by seed, step and node: the same bits on
+// any number of ranks and threads. A scene at T = 0 has no thermostat object at all.
 #pragma once
 
 #include "engine/block.hpp"

@@ -10,8 +10,8 @@ namespace asperity {
 constexpr int corner_sign(int corner, int axis) { return (corner >> axis & 1) ? 1 : -1; }
 
 struct Spring {
-    int from, to;       ///< corners
-    int dx, dy, dz;     ///< direction from -> to in cell edges
+    int from, to;   ///< corners
+    int dx, dy, dz; ///< direction from -> to in cell edges
     bool diagonal;
 };
 

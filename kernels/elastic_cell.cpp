@@ -11,8 +11,9 @@ namespace {
 
 using V = Pack<double>;
 
-/// One displacement component in a pack of columns: at each of the planes below, at and above the node, the
-/// node's own row and the sum and difference of the rows around it, already combined over z.
+/// One displacement component in a pack of columns: at each of the planes below, at and above the
+/// node, the node's own row and the sum and difference of the rows around it, already combined over
+/// z.
 struct Rows {
     V c, sum, difference; ///< y = 0; y = 1 plus y = -1; y = 1 minus y = -1
 
@@ -55,8 +56,8 @@ struct ColumnParts {
     Parts x, y, z;
 };
 
-/// even: the part that x - 1 and x + 1 get alike; odd: the part that x - 1 gets with a plus (it sees the
-/// column at its +x side) and x + 1 with a minus.
+/// even: the part that x - 1 and x + 1 get alike; odd: the part that x - 1 gets with a plus (it
+/// sees the column at its +x side) and x + 1 with a minus.
 ASPERITY_INLINE Parts parts(V here, V even, V odd) { return {here, even + odd, even - odd}; }
 
 template <Face face>
@@ -130,11 +131,11 @@ struct Force {
     V x, y, z;
 };
 
-/// Calls use(x, force) for the packs that cover [x0, x1) of a row; packs start at multiples of the width, so
-/// lanes outside may come along.
+/// Calls use(x, force) for the packs that cover [x0, x1) of a row; packs start at multiples of the
+/// width, so lanes outside may come along.
 template <Face face, class Use>
-ASPERITY_INLINE void sweep_row(const VectorVolume<const double>& u, std::ptrdiff_t line, int x0, int x1,
-                               const Stencil& s, const Use& use) {
+ASPERITY_INLINE void sweep_row(const VectorVolume<const double>& u, std::ptrdiff_t line, int x0,
+                               int x1, const Stencil& s, const Use& use) {
     int x = x0 & ~(V::width - 1);
     // A node at x0 needs the column before it: in this pack, or in the one before.
     ColumnParts before = column_parts<face>(u, line + (x == x0 ? x - V::width : x), s);
@@ -155,29 +156,33 @@ template <Face face>
 void force_patch(const VectorVolume<const double>& u, int z, const Stencil& s, Patch patch,
                  const VectorPlane<double>& out) {
     for (int y = patch.y0; y < patch.y1; ++y)
-        sweep_row<face>(u, z * u.x.plane + y * u.x.row, patch.x0, patch.x1, s, [&](int x, const Force& f) {
-            f.x.store_lanes(out.x.line(y) + x, patch.x0 - x, patch.x1 - x);
-            f.y.store_lanes(out.y.line(y) + x, patch.x0 - x, patch.x1 - x);
-            f.z.store_lanes(out.z.line(y) + x, patch.x0 - x, patch.x1 - x);
-        });
+        sweep_row<face>(u, z * u.x.plane + y * u.x.row, patch.x0, patch.x1, s,
+                        [&](int x, const Force& f) {
+                            f.x.store_lanes(out.x.line(y) + x, patch.x0 - x, patch.x1 - x);
+                            f.y.store_lanes(out.y.line(y) + x, patch.x0 - x, patch.x1 - x);
+                            f.z.store_lanes(out.z.line(y) + x, patch.x0 - x, patch.x1 - x);
+                        });
 }
 
 /// 0, 1, 2, ... as a pack: to switch off lanes behind the end of a row.
 ASPERITY_INLINE V lane_numbers() {
     double lane[V::width];
-    for (int i = 0; i < V::width; ++i) lane[i] = i;
+    for (int i = 0; i < V::width; ++i)
+        lane[i] = i;
     return V::load(lane);
 }
 
 ASPERITY_INLINE void collect(const BasicExactSum<V>& lanes, ExactSum& into) {
     for (int k = 0; k < ExactSum::bins; ++k)
-        for (int i = 0; i < V::width; ++i) into.bin[k] += lanes.bin[k][i];
+        for (int i = 0; i < V::width; ++i)
+            into.bin[k] += lanes.bin[k][i];
 }
 
 template <Face face, bool with_incoming, bool damped, bool observed>
 void advance_rows(const VectorVolume<const double>& u, int z, const Stencil& s, int y0, int y1,
                   const VectorPlane<const double>& incoming, const KickDrift& kd,
-                  const VectorVolume<double>& v, const VectorVolume<double>& u_next, KickSums& sums) {
+                  const VectorVolume<double>& v, const VectorVolume<double>& u_next,
+                  KickSums& sums) {
     const int nx = u.x.nx;
     const V keep(kd.keep), kick(kd.kick), dt(kd.dt), drag(kd.drag_z);
     [[maybe_unused]] BasicExactSum<V> kinetic, dissipated, dragged;
@@ -257,13 +262,17 @@ void advance_as(const VectorVolume<const double>& u, int z, const Stencil& s, in
                 const VectorPlane<const double>& incoming, const KickDrift& kd,
                 const VectorVolume<double>& v, const VectorVolume<double>& u_next, KickSums& sums) {
     if (kd.damped && kd.observed)
-        advance_rows<face, with_incoming, true, true>(u, z, s, y0, y1, incoming, kd, v, u_next, sums);
+        advance_rows<face, with_incoming, true, true>(u, z, s, y0, y1, incoming, kd, v, u_next,
+                                                      sums);
     else if (kd.damped)
-        advance_rows<face, with_incoming, true, false>(u, z, s, y0, y1, incoming, kd, v, u_next, sums);
+        advance_rows<face, with_incoming, true, false>(u, z, s, y0, y1, incoming, kd, v, u_next,
+                                                       sums);
     else if (kd.observed)
-        advance_rows<face, with_incoming, false, true>(u, z, s, y0, y1, incoming, kd, v, u_next, sums);
+        advance_rows<face, with_incoming, false, true>(u, z, s, y0, y1, incoming, kd, v, u_next,
+                                                       sums);
     else
-        advance_rows<face, with_incoming, false, false>(u, z, s, y0, y1, incoming, kd, v, u_next, sums);
+        advance_rows<face, with_incoming, false, false>(u, z, s, y0, y1, incoming, kd, v, u_next,
+                                                        sums);
 }
 
 void advance(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,

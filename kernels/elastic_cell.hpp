@@ -27,14 +27,15 @@
 //      + [out_r rx + out_rd rxd](Mz) - tau [out_r0 rx + out_rd rxd](uz)
 //   Fz = [..](uz) + [..](Pz) + [out_r rx + out_rd rxd](Mx + ..y..) + tau [..](ux, uy)
 //
-// On a level's lowest plane there are cells above only: w = 1, tau = +1, P = M = u(z+1); on its upper
-// plane cells below only: w = 1, tau = -1, P = u(z-1), M = -u(z-1). Nothing else distinguishes a
-// surface: springs in it carry what their own cells give them.
+// On a level's lowest plane there are cells above only: w = 1, tau = +1, P = M = u(z+1); on its
+// upper plane cells below only: w = 1, tau = -1, P = u(z-1), M = -u(z-1). Nothing else
+// distinguishes a surface: springs in it carry what their own cells give them.
 //
-// Everything that happens across x comes last: of the column of 3 x 3 nodes at x (over y and z) each force
-// component needs a part for x itself, one for x - 1 and one for x + 1. So a pack of columns is read with 27
-// aligned loads, turned into nine such parts (72 operations), and the two outer ones are moved over by a lane.
-// A row keeps the packs before and behind in registers; no value is loaded twice for its x neighbours.
+// Everything that happens across x comes last: of the column of 3 x 3 nodes at x (over y and z)
+// each force component needs a part for x itself, one for x - 1 and one for x + 1. So a pack of
+// columns is read with 27 aligned loads, turned into nine such parts (72 operations), and the two
+// outer ones are moved over by a lane. A row keeps the packs before and behind in registers; no
+// value is loaded twice for its x neighbours.
 #pragma once
 
 #include "kernels/exact_sum.hpp"
@@ -53,20 +54,20 @@ enum class Face { lower, inner, upper };
 
 /// Coefficients of the formulae above for one kind of plane, eV/Å^2.
 struct Stencil {
-    double own_c, own_e, own_t, own_d, own_xy;      // in-plane displacement components, own plane
-    double out_c, out_e, out_t, out_d, out_xy;      // the same, sum of the planes above and below
-    double normal_c, normal_e, normal_d;            // uz -> Fz, own plane
+    double own_c, own_e, own_t, own_d, own_xy;       // in-plane displacement components, own plane
+    double out_c, out_e, out_t, out_d, out_xy;       // the same, sum of the planes above and below
+    double normal_c, normal_e, normal_d;             // uz -> Fz, own plane
     double out_normal_c, out_normal_e, out_normal_d; // uz -> Fz, planes above and below
-    double out_r, out_rd;                           // shear coupling with M
-    double tau_r, tau_rd;                           // shear coupling with the own plane (surfaces)
-    double above, below;                            // 1 where there are cells on that side, else 0
+    double out_r, out_rd;                            // shear coupling with M
+    double tau_r, tau_rd;                            // shear coupling with the own plane (surfaces)
+    double above, below;                             // 1 where there are cells on that side, else 0
 };
 
 Stencil make_stencil(CellElasticity elasticity, Face face);
 
-/// What the integrator does with a force: v <- keep v + kick F, u <- u + dt v (leapfrog, i.e. velocity
-/// Verlet with its two half kicks merged). Damping against a medium that moves with the top plane enters
-/// through keep < 1 and drag_z (drive.hpp).
+/// What the integrator does with a force: v <- keep v + kick F, u <- u + dt v (leapfrog, i.e.
+/// velocity Verlet with its two half kicks merged). Damping against a medium that moves with the
+/// top plane enters through keep < 1 and drag_z (drive.hpp).
 struct KickDrift {
     double keep = 1.0;
     double kick = 0.0;      ///< dt/m (over 1 + Gamma dt/2), Å/fs per eV/Å
@@ -84,7 +85,8 @@ struct KickDrift {
 struct KickSums {
     ExactSum kinetic;    ///< sum of m v_n^2 / 2, eV (observed planes)
     ExactSum dissipated; ///< sum of m Gamma dt |v_n - V|^2, eV (damped planes)
-    ExactSum dragged;    ///< sum of m Gamma dt (v_n - V)_z, eV fs/Å (damped planes): momentum given to the medium
+    ExactSum dragged; ///< sum of m Gamma dt (v_n - V)_z, eV fs/Å (damped planes): momentum given to
+                      ///< the medium
 
     void merge(const KickSums& other) {
         kinetic.merge(other.kinetic);
@@ -101,7 +103,8 @@ struct Patch {
 /// The functions compiled for one processor level.
 struct ElasticKernels {
     /// Force on the nodes of plane z in the patch; overwrites out.
-    void (*force)(VectorVolume<const double> u, int z, const Stencil&, Patch, VectorPlane<double> out);
+    void (*force)(VectorVolume<const double> u, int z, const Stencil&, Patch,
+                  VectorPlane<double> out);
     /// One step of the nodes of plane z, rows [y0, y1): v is advanced in place, u_next is written.
     /// incoming: forces from below (interface or hanging plane), or null views.
     void (*advance)(VectorVolume<const double> u, int z, const Stencil&, int y0, int y1,
@@ -109,15 +112,17 @@ struct ElasticKernels {
                     VectorVolume<double> u_next, KickSums&);
     /// Sum over the owned nodes of rows [y0, y1) of a plane.
     void (*sum)(PlaneView<const double> plane, int y0, int y1, ExactSum&);
-    /// Elastic energy of the cells between planes z and z+1 with lower corners in rows [y0, y1), eV.
+    /// Elastic energy of the cells between planes z and z+1 with lower corners in rows [y0, y1),
+    /// eV.
     void (*energy)(VectorVolume<const double> u, int z, CellElasticity, int y0, int y1, ExactSum&);
 };
 
 const ElasticKernels& elastic_kernels();
 
 /// The slow obvious twin: energy and forces cell by cell, spring by spring, straight from the
-/// definition. Adds forces into out (all planes); returns the energy of all cells of the tile whose lower
-/// corner is owned. Forces on nodes at the edge are complete only if the halo of out is folded back.
+/// definition. Adds forces into out (all planes); returns the energy of all cells of the tile whose
+/// lower corner is owned. Forces on nodes at the edge are complete only if the halo of out is
+/// folded back.
 double elastic_reference(VectorVolume<const double> u, CellElasticity, VectorVolume<double> out);
 
 } // namespace asperity

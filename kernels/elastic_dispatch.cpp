@@ -17,9 +17,12 @@ extern const ElasticKernels elastic_kernels;
 }
 const ElasticKernels& elastic_kernels() {
     switch (processor_level()) {
-    case ProcessorLevel::v4: return v4::elastic_kernels;
-    case ProcessorLevel::v3: return v3::elastic_kernels;
-    default: return v2::elastic_kernels;
+    case ProcessorLevel::v4:
+        return v4::elastic_kernels;
+    case ProcessorLevel::v3:
+        return v3::elastic_kernels;
+    default:
+        return v2::elastic_kernels;
     }
 }
 #else

@@ -6,8 +6,8 @@
 //     V(r) = 4 epsilon [(r0/r)^12 - (r0/r)^6] - V(r_c)   for r < r_c,   0 beyond.
 //
 // The force is the plain derivative, so energy is continuous at the cutoff and the force has the
-// small step V'(r_c). Near r = 0 the squared distance is held at r2_floor: a start with overlapping atoms
-// gives a huge finite force instead of infinity, and the guard of the time step catches it.
+// small step V'(r_c). Near r = 0 the squared distance is held at r2_floor: a start with overlapping
+// atoms gives a huge finite force instead of infinity, and the guard of the time step catches it.
 #pragma once
 
 #include "kernels/annotations.hpp"

@@ -10,7 +10,8 @@ void interpolate(LevelSeam seam, PlaneView<const double> coarse, PlaneView<doubl
     const double* low = coarse.line((gy >> 1) - seam.coarse_y0);
     const double* high = coarse.line(((gy + 1) >> 1) - seam.coarse_y0); // the same row on even gy
     double* out = fine.line(y);
-    const int first = seam.fine_x0 - halo, last = seam.fine_x0 + fine.nx + halo; // over the whole box
+    const int first = seam.fine_x0 - halo,
+              last = seam.fine_x0 + fine.nx + halo; // over the whole box
     const auto mean = [&](int coarse_x) {
         const int a = coarse_x - seam.coarse_x0;
         return 0.5 * (low[a] + high[a]);

@@ -3,13 +3,14 @@
 //
 // Between two levels of the block: bilinear interpolation and its transpose.
 //
-// Node X of the coarse level lies on node 2X of the fine one (both counted over the whole box). The fine
-// level's upper plane follows the coarse level's lowest plane,
+// Node X of the coarse level lies on node 2X of the fine one (both counted over the whole box). The
+// fine level's upper plane follows the coarse level's lowest plane,
 //
 //   u_fine(x) = sum_X P(x, X) u_coarse(X),
 //
-// and hands its forces back by F_coarse(X) = sum_x P(x, X) F_fine(x). The same P both ways is what makes
-// the forces the gradient of one energy. Sums are formed in an order fixed by the global position.
+// and hands its forces back by F_coarse(X) = sum_x P(x, X) F_fine(x). The same P both ways is what
+// makes the forces the gradient of one energy. Sums are formed in an order fixed by the global
+// position.
 #pragma once
 
 #include "kernels/views.hpp"
@@ -18,8 +19,9 @@ namespace asperity {
 
 /// Where two tiles of neighbouring levels lie, in nodes of their levels over the whole box.
 struct LevelSeam {
-    int fine_x0 = 0, fine_y0 = 0;     ///< first node owned of the fine tile
-    int coarse_x0 = 0, coarse_y0 = 0; ///< first node owned of the coarse tile (0 where it is held whole)
+    int fine_x0 = 0, fine_y0 = 0; ///< first node owned of the fine tile
+    int coarse_x0 = 0,
+        coarse_y0 = 0; ///< first node owned of the coarse tile (0 where it is held whole)
 };
 
 /// Fine nodes of row y, columns [-halo, nx + halo), from coarse nodes (halo included).

@@ -6,8 +6,8 @@
 // A kernel written on Pack<double> reads like scalar arithmetic and is compiled once for each
 // x86-64 level (variant.hpp). The width is the widest register of that level. fma() is a real fused
 // multiply-add where the level has one and a multiplication and an addition where not; since the
-// compiler itself is told not to contract (-ffp-contract=off), what a node gets depends on the level
-// alone, not on the loop that computed it.
+// compiler itself is told not to contract (-ffp-contract=off), what a node gets depends on the
+// level alone, not on the loop that computed it.
 //
 // The whole file lives in a namespace of its level, so that no function compiled for a newer
 // processor can be picked by the linker for an older one.
@@ -38,17 +38,21 @@ typedef float FloatRegister __attribute__((vector_size(register_bytes)));
 typedef std::int64_t DoubleMask __attribute__((vector_size(register_bytes)));
 typedef std::int32_t FloatMask __attribute__((vector_size(register_bytes)));
 
-template <class T> struct RegisterOf;
-template <> struct RegisterOf<double> {
+template <class T>
+struct RegisterOf;
+template <>
+struct RegisterOf<double> {
     using type = DoubleRegister;
     using mask = DoubleMask;
 };
-template <> struct RegisterOf<float> {
+template <>
+struct RegisterOf<float> {
     using type = FloatRegister;
     using mask = FloatMask;
 };
 
-template <class T> struct Pack {
+template <class T>
+struct Pack {
     static constexpr int width = register_bytes / static_cast<int>(sizeof(T));
     using Register = typename RegisterOf<T>::type;
     using Mask = typename RegisterOf<T>::mask;
@@ -80,7 +84,8 @@ template <class T> struct Pack {
         if (first <= 0 && last >= width) return store(to);
         T lane[width];
         std::memcpy(lane, &r, sizeof(Register));
-        for (int i = first > 0 ? first : 0; i < (last < width ? last : width); ++i) to[i] = lane[i];
+        for (int i = first > 0 ? first : 0; i < (last < width ? last : width); ++i)
+            to[i] = lane[i];
     }
     /// Stores the first count lanes (the tail of a row).
     ASPERITY_INLINE void store_first(T* to, int count) const { store_lanes(to, 0, count); }
@@ -102,38 +107,49 @@ ASPERITY_INLINE Pack<T> select(typename Pack<T>::Mask mask, Pack<T> a, Pack<T> b
 }
 ASPERITY_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
 
-template <class T> ASPERITY_INLINE Pack<T> min(Pack<T> a, Pack<T> b) { return a.r < b.r ? a.r : b.r; }
-template <class T> ASPERITY_INLINE Pack<T> max(Pack<T> a, Pack<T> b) { return a.r > b.r ? a.r : b.r; }
+template <class T>
+ASPERITY_INLINE Pack<T> min(Pack<T> a, Pack<T> b) {
+    return a.r < b.r ? a.r : b.r;
+}
+template <class T>
+ASPERITY_INLINE Pack<T> max(Pack<T> a, Pack<T> b) {
+    return a.r > b.r ? a.r : b.r;
+}
 
 /// The pack one element further on, given the pack a and the one behind it, b: a1 a2 ... b0.
-template <class T> ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
+template <class T>
+ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
     typename Pack<T>::Mask lanes;
-    for (int i = 0; i < Pack<T>::width; ++i) lanes[i] = i + 1;
+    for (int i = 0; i < Pack<T>::width; ++i)
+        lanes[i] = i + 1;
     return __builtin_shuffle(a.r, b.r, lanes);
 }
 /// The pack one element back, given the pack a before b: a_last b0 b1 ...
-template <class T> ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
+template <class T>
+ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
     typename Pack<T>::Mask lanes;
-    for (int i = 0; i < Pack<T>::width; ++i) lanes[i] = Pack<T>::width - 1 + i;
+    for (int i = 0; i < Pack<T>::width; ++i)
+        lanes[i] = Pack<T>::width - 1 + i;
     return __builtin_shuffle(a.r, b.r, lanes);
 }
 
 /// a * b + c, rounded once where the processor level has it.
-template <class T> ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {
+template <class T>
+ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {
 #if defined(__AVX512F__)
     if constexpr (sizeof(T) == 8)
-        return Pack<T>((typename Pack<T>::Register)_mm512_fmadd_pd((__m512d)a.r, (__m512d)b.r,
-                                                                   (__m512d)c.r));
+        return Pack<T>(
+            (typename Pack<T>::Register)_mm512_fmadd_pd((__m512d)a.r, (__m512d)b.r, (__m512d)c.r));
     else
-        return Pack<T>((typename Pack<T>::Register)_mm512_fmadd_ps((__m512)a.r, (__m512)b.r,
-                                                                   (__m512)c.r));
+        return Pack<T>(
+            (typename Pack<T>::Register)_mm512_fmadd_ps((__m512)a.r, (__m512)b.r, (__m512)c.r));
 #elif defined(__FMA__)
     if constexpr (sizeof(T) == 8)
-        return Pack<T>((typename Pack<T>::Register)_mm256_fmadd_pd((__m256d)a.r, (__m256d)b.r,
-                                                                   (__m256d)c.r));
+        return Pack<T>(
+            (typename Pack<T>::Register)_mm256_fmadd_pd((__m256d)a.r, (__m256d)b.r, (__m256d)c.r));
     else
-        return Pack<T>((typename Pack<T>::Register)_mm256_fmadd_ps((__m256)a.r, (__m256)b.r,
-                                                                   (__m256)c.r));
+        return Pack<T>(
+            (typename Pack<T>::Register)_mm256_fmadd_ps((__m256)a.r, (__m256)b.r, (__m256)c.r));
 #else
     return a.r * b.r + c.r;
 #endif

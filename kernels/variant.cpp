@@ -39,10 +39,14 @@ ProcessorLevel processor_level() {
 
 const char* name(ProcessorLevel level) {
     switch (level) {
-    case ProcessorLevel::v2: return "v2";
-    case ProcessorLevel::v3: return "v3";
-    case ProcessorLevel::v4: return "v4";
-    case ProcessorLevel::portable: break;
+    case ProcessorLevel::v2:
+        return "v2";
+    case ProcessorLevel::v3:
+        return "v3";
+    case ProcessorLevel::v4:
+        return "v4";
+    case ProcessorLevel::portable:
+        break;
     }
     return "portable";
 }

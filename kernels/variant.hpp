@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // One binary for several processors: each kernel source is compiled once for every x86-64 level
-// (v2: SSE4, v3: AVX2 and FMA, v4: AVX-512) inside a namespace of that level's name, and exports one
-// table of function pointers. processor_level() picks the highest level that the running processor
-// has; ASPERITY_KERNELS=v2|v3|v4 in the environment asks for a lower one.
+// (v2: SSE4, v3: AVX2 and FMA, v4: AVX-512) inside a namespace of that level's name, and exports
+// one table of function pointers. processor_level() picks the highest level that the running
+// processor has; ASPERITY_KERNELS=v2|v3|v4 in the environment asks for a lower one.
 #pragma once
 
 #if !defined(ASPERITY_VARIANT)

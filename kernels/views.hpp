@@ -5,8 +5,9 @@
 //
 // A plane is a tile of nx * ny nodes with a frame of halo nodes around it; a volume is a stack of
 // planes. x runs fastest. Indices are tile coordinates: (0, 0) is the first node owned, negative
-// indices and indices >= nx are halo. A row begins on a 64-byte boundary at x = 0 and has room behind
-// it for a whole SIMD vector that starts at any owned x, so loops over x need no scalar remainder.
+// indices and indices >= nx are halo. A row begins on a 64-byte boundary at x = 0 and has room
+// behind it for a whole SIMD vector that starts at any owned x, so loops over x need no scalar
+// remainder.
 #pragma once
 
 #include "kernels/annotations.hpp"
@@ -19,24 +20,26 @@ namespace asperity {
 /// (which its coarse neighbour inside needs) reaches one site further.
 inline constexpr int halo_width = 2;
 
-template <class T> struct PlaneView {
-    T* origin = nullptr;      ///< node (0, 0)
-    std::ptrdiff_t row = 0;   ///< distance between rows, in elements
-    int nx = 0;               ///< nodes owned along x
-    int ny = 0;               ///< nodes owned along y
+template <class T>
+struct PlaneView {
+    T* origin = nullptr;    ///< node (0, 0)
+    std::ptrdiff_t row = 0; ///< distance between rows, in elements
+    int nx = 0;             ///< nodes owned along x
+    int ny = 0;             ///< nodes owned along y
 
     ASPERITY_HOST_DEVICE T& operator()(int x, int y) const { return origin[y * row + x]; }
     ASPERITY_HOST_DEVICE T* line(int y) const { return origin + y * row; }
     ASPERITY_HOST_DEVICE operator PlaneView<const T>() const { return {origin, row, nx, ny}; }
 };
 
-template <class T> struct VolumeView {
-    T* origin = nullptr;       ///< node (0, 0, 0)
-    std::ptrdiff_t row = 0;    ///< distance between rows, in elements
-    std::ptrdiff_t plane = 0;  ///< distance between planes, in elements
+template <class T>
+struct VolumeView {
+    T* origin = nullptr;      ///< node (0, 0, 0)
+    std::ptrdiff_t row = 0;   ///< distance between rows, in elements
+    std::ptrdiff_t plane = 0; ///< distance between planes, in elements
     int nx = 0;
     int ny = 0;
-    int nz = 0;                ///< planes
+    int nz = 0; ///< planes
 
     ASPERITY_HOST_DEVICE T& operator()(int x, int y, int z) const {
         return origin[z * plane + y * row + x];
@@ -50,13 +53,12 @@ template <class T> struct VolumeView {
 };
 
 /// The three Cartesian components of a vector field, structure of arrays.
-template <class View> struct Vector3 {
+template <class View>
+struct Vector3 {
     View x, y, z;
 
     template <class Other>
-    ASPERITY_HOST_DEVICE operator Vector3<Other>() const
-        requires(!__is_same(Other, View))
-    {
+    ASPERITY_HOST_DEVICE operator Vector3<Other>() const requires(!__is_same(Other, View)) {
         return {x, y, z};
     }
     ASPERITY_HOST_DEVICE auto operator[](int plane) const { // of a volume: the plane's components
@@ -64,7 +66,9 @@ template <class View> struct Vector3 {
     }
 };
 
-template <class T> using VectorPlane = Vector3<PlaneView<T>>;
-template <class T> using VectorVolume = Vector3<VolumeView<T>>;
+template <class T>
+using VectorPlane = Vector3<PlaneView<T>>;
+template <class T>
+using VectorVolume = Vector3<VolumeView<T>>;
 
 } // namespace asperity

@@ -38,24 +38,27 @@ void advance(benchmark::State& state) {
     kd.damped = state.range(1) != 0;
     kd.stream = state.range(2) != 0;
     kd.keep = kd.damped ? 0.999 : 1.0;
-    const Stencil lower = make_stencil(s.elasticity, Face::lower), inner = make_stencil(s.elasticity, Face::inner);
+    const Stencil lower = make_stencil(s.elasticity, Face::lower),
+                  inner = make_stencil(s.elasticity, Face::inner);
     KickSums sums;
     for (auto _ : state) {
         for (int y = 0; y < n; y += band)
             for (int z = 0; z < layers; ++z)
                 elastic_kernels().advance(std::as_const(s.u).view(), z, z == 0 ? lower : inner, y,
-                                          y + band, std::as_const(s.incoming).plane(0), kd, s.v.view(),
-                                          s.next.view(), sums);
+                                          y + band, std::as_const(s.incoming).plane(0), kd,
+                                          s.v.view(), s.next.view(), sums);
         std::swap(s.u, s.next);
         benchmark::ClobberMemory();
     }
     const double nodes = static_cast<double>(n) * n * layers;
-    state.counters["ns/node"] =
-        benchmark::Counter(nodes * 1e-9, benchmark::Counter::kIsIterationInvariantRate |
-                                             benchmark::Counter::kInvert);
+    state.counters["ns/node"] = benchmark::Counter(
+        nodes * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     // u read, v read and written, u_next written: 12 doubles is the least.
-    state.counters["GB/s"] = benchmark::Counter(nodes * 96e-9, benchmark::Counter::kIsIterationInvariantRate);
+    state.counters["GB/s"] =
+        benchmark::Counter(nodes * 96e-9, benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK(advance)->ArgNames({"sites", "damped", "stream"})->ArgsProduct({{32, 64, 128, 256, 512}, {0, 1}, {0, 1}});
+BENCHMARK(advance)
+    ->ArgNames({"sites", "damped", "stream"})
+    ->ArgsProduct({{32, 64, 128, 256, 512}, {0, 1}, {0, 1}});
 
 } // namespace

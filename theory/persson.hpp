@@ -42,7 +42,7 @@ struct AdhesiveContact {
 /// Which solution of Eq. (2).
 enum class March {
     first_passage, ///< Volterra equation, production
-    diffusion,     ///< finite volumes, the independent check (some twenty times slower)
+    diffusion,     ///< finite volumes, the independent check (about ten times slower)
 };
 
 struct SolverOptions {

@@ -19,7 +19,8 @@ class Cuts : public testing::TestWithParam<std::tuple<int, int>> {};
 TEST_P(Cuts, EveryNodeHasOneOwnerAndCoarseCellsAreWhole) {
     const auto [ranks, sites] = GetParam();
     int levels = 1;
-    while ((sites >> levels) << levels == sites && sites >> levels >= 2) ++levels;
+    while ((sites >> levels) << levels == sites && sites >> levels >= 2)
+        ++levels;
     const ProcessGrid first(ranks, 0, sites, levels);
     ASSERT_EQ(first.ranks(), ranks);
     for (int level = 0; level < levels; ++level) {
@@ -42,10 +43,12 @@ TEST_P(Cuts, EveryNodeHasOneOwnerAndCoarseCellsAreWhole) {
             }
             const Tile own = grid.footprint(level, r); // of a level held whole too
             for (int y = own.y0; y < own.y0 + own.ny; ++y)
-                for (int x = own.x0; x < own.x0 + own.nx; ++x) ++owners.at(static_cast<std::size_t>(y * n + x));
+                for (int x = own.x0; x < own.x0 + own.nx; ++x)
+                    ++owners.at(static_cast<std::size_t>(y * n + x));
             EXPECT_EQ(grid.tile(level, r).x0, mine.x0);
         }
-        for (int count : owners) ASSERT_EQ(count, 1);
+        for (int count : owners)
+            ASSERT_EQ(count, 1);
     }
     // Neighbourhood is mutual.
     for (int r = 0; r < ranks; ++r) {
@@ -58,7 +61,8 @@ TEST_P(Cuts, EveryNodeHasOneOwnerAndCoarseCellsAreWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Boxes, Cuts,
-                         testing::Combine(testing::Values(1, 2, 3, 4, 6, 8), testing::Values(16, 24, 32, 100, 512)));
+                         testing::Combine(testing::Values(1, 2, 3, 4, 6, 8),
+                                          testing::Values(16, 24, 32, 100, 512)));
 
 TEST(ProcessGrid, KnownCuts) {
     // 2 x 2 tiles down to the level whose tiles still hold two nodes.
@@ -67,7 +71,8 @@ TEST(ProcessGrid, KnownCuts) {
     EXPECT_EQ(four.tile(0).x0, 16);
     EXPECT_EQ(four.tile(3).nx, 2);
     EXPECT_EQ(four.tile(4).nx, 2) << "level 4 has 2 x 2 nodes: held whole";
-    // Three ranks share 32 rows as 10 + 11 + 11, coarser cuts would be less even; level 1 is held whole.
+    // Three ranks share 32 rows as 10 + 11 + 11, coarser cuts would be less even; level 1 is held
+    // whole.
     const ProcessGrid three(3, 1, 32, 3);
     EXPECT_EQ(three.cut_level(), 0);
     EXPECT_EQ(three.tile(0).y0, 10);

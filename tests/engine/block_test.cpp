@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Laws of the block as a whole, hanging planes included: one energy, of which the forces are the gradient;
-// uniform strains exact; nothing gained or lost between levels.
+// Laws of the block as a whole, hanging planes included: one energy, of which the forces are the
+// gradient; uniform strains exact; nothing gained or lost between levels.
 //
-// Tolerances: a force is a sum of some hundred terms k u with k below 6 eV/Å^2 times 2^level, so rounding leaves
-// about 1e-15 times the largest k u; what depends on sums over all nodes gets sqrt(nodes) more.
+// Tolerances: a force is a sum of some hundred terms k u with k below 6 eV/Å^2 times 2^level, so
+// rounding leaves about 1e-15 times the largest k u; what depends on sums over all nodes gets
+// sqrt(nodes) more.
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
 
@@ -26,7 +27,8 @@ struct Shape {
     int sites, thickness, layers; ///< layers a level; 0: lattice
 };
 /// One level; two; levels of unequal height; six levels down to 2 x 2 nodes; an odd coarse level.
-const std::vector<Shape> shapes = {{8, 5, 0}, {8, 7, 2}, {16, 23, 3}, {32, 62, 2}, {12, 27, 3}, {24, 40, 4}};
+const std::vector<Shape> shapes = {{8, 5, 0},   {8, 7, 2},   {16, 23, 3},
+                                   {32, 62, 2}, {12, 27, 3}, {24, 40, 4}};
 
 void PrintTo(const Shape& s, std::ostream* out) {
     *out << s.sites << " sites, " << s.thickness << " layers, " << s.layers << " a level";
@@ -34,7 +36,8 @@ void PrintTo(const Shape& s, std::ostream* out) {
 
 class BlockLaws : public testing::TestWithParam<Shape> {
 protected:
-    BlockOptions options = test::paper_block(GetParam().sites, GetParam().thickness, GetParam().layers);
+    BlockOptions options =
+        test::paper_block(GetParam().sites, GetParam().thickness, GetParam().layers);
 };
 
 double length(const Vector& v) { return std::sqrt(test::dot(v, v)); }
@@ -66,19 +69,22 @@ TEST(PlanLevels, FillTheThicknessExactly) {
 
 TEST(PlanLevels, TheSizesOfTheReference) {
     std::vector<int> cells;
-    for (const auto& p : plan_levels(test::paper_block(64, 124, 4))) cells.push_back(p.cells);
+    for (const auto& p : plan_levels(test::paper_block(64, 124, 4)))
+        cells.push_back(p.cells);
     EXPECT_EQ(cells, (std::vector<int>{4, 4, 4, 4, 4}));
     cells.clear();
-    for (const auto& p : plan_levels(test::paper_block(512, 512, 4))) cells.push_back(p.cells);
+    for (const auto& p : plan_levels(test::paper_block(512, 512, 4)))
+        cells.push_back(p.cells);
     EXPECT_EQ(cells, (std::vector<int>{4, 4, 5, 4, 4, 4, 4})); // 4 + 8 + 20 + 32 + 64 + 128 + 256
 }
 
 TEST_P(BlockLaws, PatchTest) {
-    // Every uniform displacement gradient, the nine one by one (so all strains and all rotations): no force
-    // inside or where levels meet, and a^2 sigma e_z on each node of the free surface.
+    // Every uniform displacement gradient, the nine one by one (so all strains and all rotations):
+    // no force inside or where levels meet, and a^2 sigma e_z on each node of the free surface.
     Block block(options, Communicator(), test::serial_grid(options));
     std::vector<VectorField<double>> force;
-    for (const auto& level : block.levels()) force.emplace_back(level.tile, level.plan.cells);
+    for (const auto& level : block.levels())
+        force.emplace_back(level.tile, level.plan.cells);
     const double a = options.spacing, mu = options.shear_modulus(), lame = options.lame();
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
@@ -93,14 +99,17 @@ TEST_P(BlockLaws, PatchTest) {
                 for (int z = 0; z < level.plan.cells + (last ? 1 : 0); ++z)
                     for (int y = -halo_width; y < level.tile.ny + halo_width; ++y)
                         for (int x = -halo_width; x < level.tile.nx + halo_width; ++x) {
-                            const double at[3] = {a * scale * x, a * scale * y, a * (level.depth + scale * z)};
+                            const double at[3] = {a * scale * x, a * scale * y,
+                                                  a * (level.depth + scale * z)};
                             double u[3] = {0.3, -0.2, 0.1};
                             for (int p = 0; p < 3; ++p)
-                                for (int q = 0; q < 3; ++q) u[p] += gradient[p][q] * at[q];
+                                for (int q = 0; q < 3; ++q)
+                                    u[p] += gradient[p][q] * at[q];
                             level.u.x.view()(x, y, z) = u[0];
                             level.u.y.view()(x, y, z) = u[1];
                             level.u.z.view()(x, y, z) = u[2];
-                            for (double c : u) largest = std::max(largest, 6.0 * scale * std::abs(c));
+                            for (double c : u)
+                                largest = std::max(largest, 6.0 * scale * std::abs(c));
                         }
             }
             block.interpolate();
@@ -116,9 +125,12 @@ TEST_P(BlockLaws, PatchTest) {
                         for (int x = 0; x < block.levels()[l].tile.nx; ++x) {
                             const double on = l == 0 && z == 0 ? a * a : 0.0;
                             const auto f = std::as_const(force[l]).view();
-                            ASSERT_NEAR(f.x(x, y, z), on * sigma[0], rounding) << i << j << " level " << l << " z " << z;
-                            ASSERT_NEAR(f.y(x, y, z), on * sigma[1], rounding) << i << j << " level " << l << " z " << z;
-                            ASSERT_NEAR(f.z(x, y, z), on * sigma[2], rounding) << i << j << " level " << l << " z " << z;
+                            ASSERT_NEAR(f.x(x, y, z), on * sigma[0], rounding)
+                                << i << j << " level " << l << " z " << z;
+                            ASSERT_NEAR(f.y(x, y, z), on * sigma[1], rounding)
+                                << i << j << " level " << l << " z " << z;
+                            ASSERT_NEAR(f.z(x, y, z), on * sigma[2], rounding)
+                                << i << j << " level " << l << " z " << z;
                         }
         }
 }
@@ -128,7 +140,8 @@ TEST_P(BlockLaws, UniformModeHasTheStiffnessOfAColumn) {
     ElasticOperator k(options);
     const double height = options.thickness * options.spacing;
     const Vector u = k.tabulate([&](const Block::Level& level, int c, int z, int, int) {
-        return c == 2 ? 1.0 - (level.depth + z * double(1 << level.plan.level)) / options.thickness : 0.0;
+        return c == 2 ? 1.0 - (level.depth + z * double(1 << level.plan.level)) / options.thickness
+                      : 0.0;
     });
     k.set(u);
     const Vector f = k.force();
@@ -156,7 +169,8 @@ TEST_P(BlockLaws, ForceIsMinusTheGradientOfTheEnergy) {
         const double expected = -(test::dot(f, along) + k.top_force()[2] * top_along);
         const auto energy_at = [&](double s) {
             Vector moved = u;
-            for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += s * along[i];
+            for (std::size_t i = 0; i < moved.size(); ++i)
+                moved[i] += s * along[i];
             k.set(moved, top + s * top_along);
             return k.energy();
         };
@@ -193,17 +207,20 @@ TEST_P(BlockLaws, InternalForcesSumToZero) {
         const Vector one = k.tabulate([&](const Block::Level&, int component, int, int, int) {
             return component == c ? 1.0 : 0.0;
         });
-        EXPECT_NEAR(test::dot(f, one) + total[static_cast<std::size_t>(c)], 0.0, 1e-14 * length(f) * length(one));
+        EXPECT_NEAR(test::dot(f, one) + total[static_cast<std::size_t>(c)], 0.0,
+                    1e-14 * length(f) * length(one));
     }
 }
 
 TEST_P(BlockLaws, MassIsThatOfTheAtoms) {
-    // Thickness planes of full atoms move, the lowest a whole one instead of half: with half a cell's mass
-    // on the top plane that makes (thickness + 1/2) N^2 atoms, however the levels are cut.
+    // Thickness planes of full atoms move, the lowest a whole one instead of half: with half a
+    // cell's mass on the top plane that makes (thickness + 1/2) N^2 atoms, however the levels are
+    // cut.
     const Block block(options, Communicator(), test::serial_grid(options));
     double mass = 0.0;
     for (const auto& level : block.levels())
-        for (int z = 0; z < level.plan.cells; ++z) mass += level.mass(z) * level.plan.sites * level.plan.sites;
+        for (int z = 0; z < level.plan.cells; ++z)
+            mass += level.mass(z) * level.plan.sites * level.plan.sites;
     const auto& last = block.levels().back();
     mass += 0.5 * last.node_mass * last.plan.sites * last.plan.sites;
     const double atoms = (options.thickness + 0.5) * options.sites * options.sites;
@@ -211,20 +228,25 @@ TEST_P(BlockLaws, MassIsThatOfTheAtoms) {
 }
 
 TEST_P(BlockLaws, NoModeIsFasterThanTheBulk) {
-    // The step's stability limit is taken from the bulk lattice; seams and surface must not exceed it.
+    // The step's stability limit is taken from the bulk lattice; seams and surface must not exceed
+    // it.
     ElasticOperator k(options);
-    const Vector mass = k.tabulate([](const Block::Level& level, int, int z, int, int) { return level.mass(z); });
+    const Vector mass =
+        k.tabulate([](const Block::Level& level, int, int z, int, int) { return level.mass(z); });
     Vector u = test::random_vector(k.size(), 8);
     double w2 = 0.0;
     for (int iteration = 0; iteration < 300; ++iteration) {
         k.set(u);
         const Vector f = k.force();
         double uu = 0.0;
-        for (std::size_t i = 0; i < u.size(); ++i) uu += u[i] * mass[i] * u[i];
+        for (std::size_t i = 0; i < u.size(); ++i)
+            uu += u[i] * mass[i] * u[i];
         w2 = -test::dot(u, f) / uu; // Rayleigh quotient: never above the largest
-        for (std::size_t i = 0; i < u.size(); ++i) u[i] = -f[i] / mass[i];
+        for (std::size_t i = 0; i < u.size(); ++i)
+            u[i] = -f[i] / mass[i];
         const double norm = length(u);
-        for (double& x : u) x /= norm;
+        for (double& x : u)
+            x /= norm;
     }
     EXPECT_LE(std::sqrt(w2), options.highest_frequency(0.0) * (1.0 + 1e-12));
     EXPECT_GE(std::sqrt(w2), 0.8 * options.highest_frequency(0.0)) << "the bound should be near";
@@ -234,11 +256,12 @@ TEST_P(BlockLaws, NoModeIsFasterThanTheBulk) {
 INSTANTIATE_TEST_SUITE_P(Shapes, BlockLaws, testing::ValuesIn(shapes));
 
 TEST(BlockFrequency, HighestOfTheBulk) {
-    // 0.02503096 / fs at (pi/a)(1,0,0): the largest eigenvalue of the independent code's dynamical matrix over the
-    // Brillouin zone. Its 24-point mesh and ours both hold that point.
+    // 0.02503096 / fs at (pi/a)(1,0,0): the largest eigenvalue of the independent code's dynamical
+    // matrix over the Brillouin zone. Its 24-point mesh and ours both hold that point.
     EXPECT_NEAR(test::paper_block(512, 512, 4).highest_frequency(0.0), 0.02503095958873518, 1e-7);
     const BlockOptions o = test::paper_block(8, 8, 0);
-    EXPECT_NEAR(std::pow(o.highest_frequency(2.2), 2) - std::pow(o.highest_frequency(0.0), 2), 2.2 / o.atom_mass, 1e-12);
+    EXPECT_NEAR(std::pow(o.highest_frequency(2.2), 2) - std::pow(o.highest_frequency(0.0), 2),
+                2.2 / o.atom_mass, 1e-12);
 }
 
 TEST(BlockModuli, OfThePaper) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The relaxation's own promises: balance of every node, the load carried, nothing decided by where it starts
-// in a basin, an honest answer when it may not go on.
+// The relaxation's own promises: balance of every node, the load carried, nothing decided by where
+// it starts in a basin, an honest answer when it may not go on.
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct Contact {
     ProcessGrid grid = test::serial_grid(options);
     Surface surface = test::reference_surface("n8_b_rms1.0");
     Block block{options, Communicator(), grid};
-    Interface interface{surface, grid.tile(0), options.spacing, test::paper_interface()};
+    Interface interface { surface, grid.tile(0), options.spacing, test::paper_interface() };
     double height = test::height_of_strongest_attraction(block, interface, surface);
     Phases phases;
 
@@ -45,8 +45,8 @@ TEST(Relaxation, CarriesTheLoadItIsGiven) {
 }
 
 TEST(Relaxation, ReleasesTheWorkOfTheLoad) {
-    // d(U + F z_top)/dF = z_top (Castigliano), by symmetric differences; the error is h^2 times a compliance's
-    // change, measured 2.6e-4 at h = 0.5, so near 3e-6 at 0.05.
+    // d(U + F z_top)/dF = z_top (Castigliano), by symmetric differences; the error is h^2 times a
+    // compliance's change, measured 2.6e-4 at h = 0.5, so near 3e-6 at 0.05.
     const auto enthalpy = [](double load) {
         Contact c;
         const auto s = c.relax_with(1e-8, load);
@@ -67,7 +67,8 @@ TEST(Relaxation, FromAnywhereInTheBasinToTheSameState) {
     const auto second = b.relax_with(1e-8);
     ASSERT_TRUE(first.converged && second.converged);
     // Energies are stationary: the residual enters squared.
-    EXPECT_NEAR(first.interface_energy + first.elastic_energy, second.interface_energy + second.elastic_energy, 1e-10);
+    EXPECT_NEAR(first.interface_energy + first.elastic_energy,
+                second.interface_energy + second.elastic_energy, 1e-10);
     EXPECT_NEAR(a.height + first.mean_height, b.height + second.mean_height, 1e-6);
 }
 

@@ -53,7 +53,8 @@ TEST(Drive, TurnsSmoothly) {
     EXPECT_NEAR(drive.velocity(700.0), 0.0, 1e-18) << "half way through the ramp";
     EXPECT_EQ(drive.velocity(1200.0), 5e-5);
     EXPECT_EQ(drive.velocity(1e9), 5e-5);
-    // Monotonic, and its steepest change is that of a half cosine, pi/2 times the mean: no sudden kick.
+    // Monotonic, and its steepest change is that of a half cosine, pi/2 times the mean: no sudden
+    // kick.
     double before = drive.velocity(200.0);
     for (double t = 201.0; t <= 1200.0; t += 1.0) {
         const double now = drive.velocity(t);
@@ -95,13 +96,15 @@ TEST(Simulation, TheForceAndHeightOfARigidBlockAreThoseOfTheFlatSum) {
     options.block = test::paper_block(8, 4, 0);
     options.interface = test::paper_interface();
     options.drive.velocity = 0.0;
-    Simulation simulation(options, test::flat_surface(8), Communicator(), test::serial_grid(options.block));
+    Simulation simulation(options, test::flat_surface(8), Communicator(),
+                          test::serial_grid(options.block));
     for (double gap : {3.0, 3.6, 5.0, 13.0}) {
         simulation.start(gap);
         const StepRecord& now = simulation.step(true);
         const PairSum site = flat_pair_sum(options.interface, 2.6, 8, 8, gap);
         EXPECT_NEAR(now.force, 64 * site.force[2], 1e-12 * (1.0 + std::abs(now.force)));
-        EXPECT_NEAR(now.interface_energy, 64 * site.energy, 1e-12 * (1.0 + std::abs(now.interface_energy)));
+        EXPECT_NEAR(now.interface_energy, 64 * site.energy,
+                    1e-12 * (1.0 + std::abs(now.interface_energy)));
         EXPECT_EQ(now.mean_height, gap);
         EXPECT_EQ(now.elastic_energy, 0.0);
         EXPECT_EQ(now.step, 0);
@@ -114,9 +117,11 @@ TEST(Simulation, NothingHappensOutOfReach) {
     options.block = test::paper_block(8, 7, 2);
     options.interface = test::paper_interface();
     options.damping = 1e-3; // against a medium that moves along: no drag
-    Simulation simulation(options, test::flat_surface(8), Communicator(), test::serial_grid(options.block));
+    Simulation simulation(options, test::flat_surface(8), Communicator(),
+                          test::serial_grid(options.block));
     simulation.start(20.0);
-    for (int n = 0; n < 1000; ++n) simulation.step(true);
+    for (int n = 0; n < 1000; ++n)
+        simulation.step(true);
     const StepRecord& now = simulation.now();
     EXPECT_EQ(now.force, 0.0);
     EXPECT_NEAR(now.mean_height, 20.0 - 999 * 10.0 * 5e-5, 1e-12);
@@ -126,8 +131,8 @@ TEST(Simulation, NothingHappensOutOfReach) {
 }
 
 TEST(Simulation, MomentumIsWhatTheForcesGave) {
-    // The free-standing identity of Newton's law for the whole block over one step: the change of momentum of the
-    // moving nodes is dt times (force of the substrate + force of the top plane).
+    // The free-standing identity of Newton's law for the whole block over one step: the change of
+    // momentum of the moving nodes is dt times (force of the substrate + force of the top plane).
     SimulationOptions options;
     options.block = test::paper_block(8, 11, 2);
     options.interface = test::paper_interface();
@@ -139,10 +144,12 @@ TEST(Simulation, MomentumIsWhatTheForcesGave) {
         for (const auto& level : simulation.block().levels())
             for (int z = 0; z < level.plan.cells; ++z)
                 for (int y = 0; y < level.tile.ny; ++y)
-                    for (int x = 0; x < level.tile.nx; ++x) sum += level.mass(z) * level.v.view().z(x, y, z);
+                    for (int x = 0; x < level.tile.nx; ++x)
+                        sum += level.mass(z) * level.v.view().z(x, y, z);
         return sum;
     };
-    for (int n = 0; n < 200; ++n) simulation.step(false);
+    for (int n = 0; n < 200; ++n)
+        simulation.step(false);
     const double before = momentum();
     const StepRecord now = simulation.step(false);
     // top_force is the force on the top plane; the block feels its reverse.

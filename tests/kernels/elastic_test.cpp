@@ -29,7 +29,8 @@ struct Stack {
         for (auto* f : {&u.x, &u.y, &u.z})
             for (int z = 0; z <= cells; ++z)
                 for (int y = 0; y < m; ++y)
-                    for (int x = 0; x < n; ++x) f->view()(x, y, z) = uniform(random);
+                    for (int x = 0; x < n; ++x)
+                        f->view()(x, y, z) = uniform(random);
         wrap();
     }
     void wrap() {
@@ -86,9 +87,12 @@ TEST_P(ElasticStencil, EqualsTheCellsSpringBySpring) {
         for (int z = 0; z <= layers; ++z)
             for (int y = 0; y < m; ++y)
                 for (int x = 0; x < n; ++x) {
-                    ASSERT_NEAR(stack.force.view().x(x, y, z), expected.view().x(x, y, z), 2e-14 * 20);
-                    ASSERT_NEAR(stack.force.view().y(x, y, z), expected.view().y(x, y, z), 2e-14 * 20);
-                    ASSERT_NEAR(stack.force.view().z(x, y, z), expected.view().z(x, y, z), 2e-14 * 20);
+                    ASSERT_NEAR(stack.force.view().x(x, y, z), expected.view().x(x, y, z),
+                                2e-14 * 20);
+                    ASSERT_NEAR(stack.force.view().y(x, y, z), expected.view().y(x, y, z),
+                                2e-14 * 20);
+                    ASSERT_NEAR(stack.force.view().z(x, y, z), expected.view().z(x, y, z),
+                                2e-14 * 20);
                 }
     }
 }
@@ -102,8 +106,8 @@ TEST(ElasticStencil, ForceIsMinusTheGradientOfTheEnergy) {
     stack.stencil();
     const double step = 1e-4; // the energy is quadratic: central differences are exact to rounding
     for (const auto& [x, y, z] : {std::tuple{0, 0, 0}, {5, 2, 1}, {3, 5, 3}, {2, 2, 2}})
-        for (auto component : {&VectorField<double>::x, &VectorField<double>::y,
-                               &VectorField<double>::z}) {
+        for (auto component :
+             {&VectorField<double>::x, &VectorField<double>::y, &VectorField<double>::z}) {
             double& u = (stack.u.*component).view()(x, y, z);
             const double at = u;
             u = at + step;
@@ -130,7 +134,8 @@ TEST(ElasticStencil, RigidTranslationsAndInfinitesimalRotationsAreFree) {
             }
     stack.stencil();
     EXPECT_NEAR(stack.energy(), 0.0, 1e-25);
-    for (int z = 0; z <= 2; ++z) EXPECT_NEAR(stack.force.view().z(3, 3, z), 0.0, 1e-14);
+    for (int z = 0; z <= 2; ++z)
+        EXPECT_NEAR(stack.force.view().z(3, 3, z), 0.0, 1e-14);
 }
 
 TEST(ElasticStencil, LongWavesAreIsotropicWithTheModuliAskedFor) {

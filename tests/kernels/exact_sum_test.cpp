@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Sums that do not know the order of their terms: on which "the same bits on any number of ranks" rests.
+// Sums that do not know the order of their terms: on which "the same bits on any number of ranks"
+// rests.
 #include "kernels/exact_sum.hpp"
 
 #include <gtest/gtest.h>
@@ -22,13 +23,15 @@ std::vector<double> many_terms(std::size_t count, unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> mantissa(-1.0, 1.0), exponent(-40.0, 24.0);
     std::vector<double> terms(count);
-    for (double& t : terms) t = mantissa(random) * std::exp2(exponent(random));
+    for (double& t : terms)
+        t = mantissa(random) * std::exp2(exponent(random));
     return terms;
 }
 
 double sum_of(const std::vector<double>& terms) {
     ExactSum sum;
-    for (double t : terms) sum.add(t);
+    for (double t : terms)
+        sum.add(t);
     return sum.value();
 }
 
@@ -43,14 +46,16 @@ TEST(ExactSum, EveryOrderAndEveryGroupingGivesTheSameBits) {
         std::shuffle(terms.begin(), terms.end(), random);
         EXPECT_EQ(std::bit_cast<std::uint64_t>(sum_of(terms)), expected);
         double plain = 0.0;
-        for (double t : terms) plain += t;
+        for (double t : terms)
+            plain += t;
         plain_least = std::min(plain_least, plain), plain_most = std::max(plain_most, plain);
         // As ranks and threads would have it: parts of uneven length, merged.
         ExactSum whole;
         for (std::size_t at = 0; at < terms.size();) {
             const std::size_t end = std::min(terms.size(), at + 1 + random() % 5000);
             ExactSum part;
-            for (; at < end; ++at) part.add(terms[at]);
+            for (; at < end; ++at)
+                part.add(terms[at]);
             whole.merge(part);
         }
         EXPECT_EQ(std::bit_cast<std::uint64_t>(whole.value()), expected);
@@ -62,7 +67,8 @@ TEST(ExactSum, IsTheSumUpToTheStatedQuantum) {
     // Against a sum in 128-bit integers of 2^-80: the terms' own bits, no rounding.
     for (unsigned seed : {3u, 4u, 5u}) {
         auto terms = many_terms(5000, seed);
-        for (double& t : terms) t = std::ldexp(std::round(std::ldexp(t, 80 - 12)), 12 - 80);
+        for (double& t : terms)
+            t = std::ldexp(std::round(std::ldexp(t, 80 - 12)), 12 - 80);
         __extension__ typedef __int128 Wide;
         Wide exact = 0;
         for (double t : terms) {
@@ -75,25 +81,30 @@ TEST(ExactSum, IsTheSumUpToTheStatedQuantum) {
         const long double expected = std::ldexp(static_cast<long double>(exact), -80);
         // Left out: 2^-51 a term; and the last rounding to a double.
         const double allowed = 5000 * 0x1p-51 + std::abs(static_cast<double>(expected)) * 0x1p-52;
-        EXPECT_NEAR(static_cast<double>(static_cast<long double>(sum_of(terms)) - expected), 0.0, allowed);
+        EXPECT_NEAR(static_cast<double>(static_cast<long double>(sum_of(terms)) - expected), 0.0,
+                    allowed);
     }
 }
 
 TEST(ExactSum, TermsAndTheirNegativesCancelToZero) {
     const auto terms = many_terms(1000, 6);
     ExactSum sum;
-    for (double t : terms) sum.add(t);
-    for (double t : terms) sum.add(-t);
+    for (double t : terms)
+        sum.add(t);
+    for (double t : terms)
+        sum.add(-t);
     EXPECT_EQ(sum.value(), 0.0);
 }
 
 TEST(ExactSum, HoldsTheRangeItPromises) {
     // The largest terms, with a small one that must not be lost beneath them.
     ExactSum sum;
-    for (int i = 0; i < 3; ++i) sum.add(0x1p29 - 0.75);
+    for (int i = 0; i < 3; ++i)
+        sum.add(0x1p29 - 0.75);
     sum.add(0x1p-50);
     EXPECT_EQ(sum.value(), 3 * (0x1p29 - 0.75));
-    for (int i = 0; i < 3; ++i) sum.add(-(0x1p29 - 0.75));
+    for (int i = 0; i < 3; ++i)
+        sum.add(-(0x1p29 - 0.75));
     EXPECT_EQ(sum.value(), 0x1p-50);
     // The most terms, 2^26 of them, by merging: each with 53 bits, of which the bins keep all.
     ExactSum doubled;

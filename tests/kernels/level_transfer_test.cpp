@@ -19,10 +19,12 @@ constexpr int coarse_sites = 9, fine_sites = 2 * coarse_sites;
 
 Tile whole(int sites) { return {0, 0, sites, sites, sites}; }
 
-template <class Value> void fill(Field<double>& field, const Tile& tile, const Value& value) {
+template <class Value>
+void fill(Field<double>& field, const Tile& tile, const Value& value) {
     const auto p = field.plane(0);
     for (int y = -halo_width; y < tile.ny + halo_width; ++y)
-        for (int x = -halo_width; x < tile.nx + halo_width; ++x) p(x, y) = value(tile.x0 + x, tile.y0 + y);
+        for (int x = -halo_width; x < tile.nx + halo_width; ++x)
+            p(x, y) = value(tile.x0 + x, tile.y0 + y);
 }
 
 /// A periodic random field over a box, by global position.
@@ -31,7 +33,8 @@ public:
     RandomBox(int sites, unsigned seed) : sites_(sites) {
         std::mt19937_64 random(seed);
         std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-        for (int i = 0; i < sites * sites; ++i) value_.push_back(uniform(random));
+        for (int i = 0; i < sites * sites; ++i)
+            value_.push_back(uniform(random));
     }
     double operator()(int x, int y) const {
         return value_[static_cast<std::size_t>(periodic(y, sites_) * sites_ + periodic(x, sites_))];
@@ -42,8 +45,10 @@ private:
     std::vector<double> value_;
 };
 
-void interpolate_all(LevelSeam seam, const Field<double>& coarse, Field<double>& fine, int ny, int halo) {
-    for (int y = -halo; y < ny + halo; ++y) interpolate(seam, coarse.plane(0), fine.plane(0), y, halo);
+void interpolate_all(LevelSeam seam, const Field<double>& coarse, Field<double>& fine, int ny,
+                     int halo) {
+    for (int y = -halo; y < ny + halo; ++y)
+        interpolate(seam, coarse.plane(0), fine.plane(0), y, halo);
 }
 
 } // namespace
@@ -54,7 +59,8 @@ TEST(LevelTransfer, InterpolationIsAPartitionOfUnity) {
     fill(coarse, c, [](int, int) { return 1.0; });
     interpolate_all({0, 0, 0, 0}, coarse, fine, f.ny, halo_width);
     for (int y = -halo_width; y < f.ny + halo_width; ++y)
-        for (int x = -halo_width; x < f.nx + halo_width; ++x) ASSERT_EQ(fine.plane(0)(x, y), 1.0);
+        for (int x = -halo_width; x < f.nx + halo_width; ++x)
+            ASSERT_EQ(fine.plane(0)(x, y), 1.0);
 }
 
 TEST(LevelTransfer, LinearFieldsAreExactAndBilinearOnesToo) {
@@ -77,10 +83,13 @@ TEST(LevelTransfer, ForcesGoBackByTheTranspose) {
     interpolate_all({0, 0, 0, 0}, coarse, fine, f.ny, halo_width);
     double left = 0.0, right = 0.0, given = 0.0, received = 0.0;
     for (int y = 0; y < f.ny; ++y)
-        for (int x = 0; x < f.nx; ++x) left += fine.plane(0)(x, y) * force(x, y), given += force(x, y);
+        for (int x = 0; x < f.nx; ++x)
+            left += fine.plane(0)(x, y) * force(x, y), given += force(x, y);
     for (int y = 0; y < c.ny; ++y) {
-        restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0), handed.plane(0), y, 0, c.nx);
-        for (int x = 0; x < c.nx; ++x) right += u(x, y) * handed.plane(0)(x, y), received += handed.plane(0)(x, y);
+        restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0), handed.plane(0), y, 0,
+                        c.nx);
+        for (int x = 0; x < c.nx; ++x)
+            right += u(x, y) * handed.plane(0)(x, y), received += handed.plane(0)(x, y);
     }
     // 324 terms of order one: rounding below 1e-13.
     EXPECT_NEAR(left, right, 1e-13);
@@ -98,22 +107,27 @@ TEST_P(LevelTransferTiles, GiveTheBitsOfTheWholeBox) {
     fill(fine_force, f, force);
     interpolate_all({0, 0, 0, 0}, coarse, fine, f.ny, halo_width);
     for (int y = 0; y < c.ny; ++y)
-        restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0), handed.plane(0), y, 0, c.nx);
+        restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0), handed.plane(0), y, 0,
+                        c.nx);
 
     // A fine tile anywhere; the coarse level held whole, or cut where the offset is even.
     const Tile mine{x0, y0, 7, 5, fine_sites};
     Field<double> piece(mine, 1);
     interpolate_all({x0, y0, 0, 0}, coarse, piece, mine.ny, 0);
     for (int y = 0; y < mine.ny; ++y)
-        for (int x = 0; x < mine.nx; ++x) ASSERT_EQ(piece.plane(0)(x, y), fine.plane(0)(x0 + x, y0 + y));
+        for (int x = 0; x < mine.nx; ++x)
+            ASSERT_EQ(piece.plane(0)(x, y), fine.plane(0)(x0 + x, y0 + y));
 
     Field<double> own_force(mine, 1), into(c, 1);
     fill(own_force, mine, force);
-    const int cx0 = (x0 + 1) / 2, cx1 = (x0 + mine.nx + 1) / 2, cy0 = (y0 + 1) / 2, cy1 = (y0 + mine.ny + 1) / 2;
+    const int cx0 = (x0 + 1) / 2, cx1 = (x0 + mine.nx + 1) / 2, cy0 = (y0 + 1) / 2,
+              cy1 = (y0 + mine.ny + 1) / 2;
     for (int y = cy0; y < cy1; ++y)
-        restrict_forces({x0, y0, 0, 0}, std::as_const(own_force).plane(0), into.plane(0), y, cx0, cx1 - cx0);
+        restrict_forces({x0, y0, 0, 0}, std::as_const(own_force).plane(0), into.plane(0), y, cx0,
+                        cx1 - cx0);
     for (int y = cy0; y < cy1; ++y)
-        for (int x = cx0; x < cx1; ++x) ASSERT_EQ(into.plane(0)(x, y), handed.plane(0)(x, y));
+        for (int x = cx0; x < cx1; ++x)
+            ASSERT_EQ(into.plane(0)(x, y), handed.plane(0)(x, y));
 
     if (x0 % 2 || y0 % 2) return;
     const Tile cut{x0 / 2, y0 / 2, 4, 3, coarse_sites};
@@ -123,9 +137,10 @@ TEST_P(LevelTransferTiles, GiveTheBitsOfTheWholeBox) {
     interpolate_all({x0, y0, cut.x0, cut.y0}, coarse_piece, again, mine.ny, halo_width);
     for (int y = -halo_width; y < mine.ny + halo_width; ++y)
         for (int x = -halo_width; x < mine.nx + halo_width; ++x)
-            ASSERT_EQ(again.plane(0)(x, y), fine.plane(0)(periodic(x0 + x, fine_sites), periodic(y0 + y, fine_sites)));
+            ASSERT_EQ(again.plane(0)(x, y),
+                      fine.plane(0)(periodic(x0 + x, fine_sites), periodic(y0 + y, fine_sites)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Offsets, LevelTransferTiles,
-                         testing::Values(std::pair{0, 0}, std::pair{3, 8}, std::pair{4, 11}, std::pair{5, 7},
-                                         std::pair{10, 12}, std::pair{11, 13}));
+                         testing::Values(std::pair{0, 0}, std::pair{3, 8}, std::pair{4, 11},
+                                         std::pair{5, 7}, std::pair{10, 12}, std::pair{11, 13}));

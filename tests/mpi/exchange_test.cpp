@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Collectives, halos and planes on 1 to 4 ranks. Values are functions of the global position, so every rank
-// knows what every other must have sent; copies are compared bit for bit.
+// Collectives, halos and planes on 1 to 4 ranks. Values are functions of the global position, so
+// every rank knows what every other must have sent; copies are compared bit for bit.
 #include "decomposition/field.hpp"
 #include "decomposition/halo_exchange.hpp"
 #include "support/parallel_main.hpp"
@@ -67,10 +67,12 @@ TEST_P(Boxes, HalosAreExactCopiesOfTheirOwners) {
         for (int z = 0; z < s.planes[i]; ++z)
             for (int y = -halo_width; y < t.ny + halo_width; ++y)
                 for (int x = -halo_width; x < t.nx + halo_width; ++x)
-                    wrong += v(x, y, z) != mark(static_cast<int>(i), s.levels[i], periodic(t.x0 + x, t.sites),
+                    wrong += v(x, y, z) != mark(static_cast<int>(i), s.levels[i],
+                                                periodic(t.x0 + x, t.sites),
                                                 periodic(t.y0 + y, t.sites), z);
         EXPECT_EQ(wrong, 0) << "field " << i << " of level " << s.levels[i];
-        EXPECT_EQ(v(0, 0, s.planes[i]), 0.0) << "the plane behind the exchanged ones must be left alone";
+        EXPECT_EQ(v(0, 0, s.planes[i]), 0.0)
+            << "the plane behind the exchanged ones must be left alone";
     }
 }
 
@@ -81,21 +83,25 @@ TEST_P(Boxes, PlanesAreGatheredAndScattered) {
         const Tile t = s.grid.tile(level);
         const auto p = s.fields[i].plane(1);
         for (int y = 0; y < t.ny; ++y)
-            for (int x = 0; x < t.nx; ++x) p(x, y) = mark(0, level, t.x0 + x, t.y0 + y, 1);
+            for (int x = 0; x < t.nx; ++x)
+                p(x, y) = mark(0, level, t.x0 + x, t.y0 + y, 1);
         auto dense = gather_plane(world(), s.grid, level, std::as_const(s.fields[i]).plane(1));
         const auto sites = static_cast<std::size_t>(t.sites);
         ASSERT_EQ(dense.size(), world().root() ? sites * sites : 0u);
         int wrong = 0;
         for (std::size_t k = 0; k < dense.size(); ++k)
-            wrong += dense[k] != mark(0, level, static_cast<int>(k % sites), static_cast<int>(k / sites), 1);
+            wrong += dense[k] !=
+                     mark(0, level, static_cast<int>(k % sites), static_cast<int>(k / sites), 1);
         EXPECT_EQ(wrong, 0);
 
-        for (double& d : dense) d += 1.0;
+        for (double& d : dense)
+            d += 1.0;
         const auto back = s.fields[i].plane(0);
         scatter_plane(world(), s.grid, level, dense, back);
         wrong = 0;
         for (int y = 0; y < t.ny; ++y)
-            for (int x = 0; x < t.nx; ++x) wrong += back(x, y) != p(x, y) + 1.0;
+            for (int x = 0; x < t.nx; ++x)
+                wrong += back(x, y) != p(x, y) + 1.0;
         EXPECT_EQ(wrong, 0);
     }
 }
@@ -110,20 +116,22 @@ TEST_P(Boxes, FootprintsBecomeOneWholePlaneOnEveryRank) {
         const Tile own = grid.footprint(level, grid.rank());
         for (int y = own.y0; y < own.y0 + own.ny; ++y)
             for (int x = own.x0; x < own.x0 + own.nx; ++x)
-                a.plane(0)(x, y) = mark(1, level, x, y, 0), b.plane(0)(x, y) = mark(2, level, x, y, 0);
+                a.plane(0)(x, y) = mark(1, level, x, y, 0),
+                              b.plane(0)(x, y) = mark(2, level, x, y, 0);
         const std::array planes = {a.plane(0), b.plane(0)};
         gather_footprints(world(), grid, level, planes);
         int wrong = 0;
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x)
-                wrong += a.plane(0)(x, y) != mark(1, level, x, y, 0) || b.plane(0)(x, y) != mark(2, level, x, y, 0);
+                wrong += a.plane(0)(x, y) != mark(1, level, x, y, 0) ||
+                         b.plane(0)(x, y) != mark(2, level, x, y, 0);
         EXPECT_EQ(wrong, 0) << "level " << level;
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Boxes,
-                         testing::Values(std::pair{16, 4}, std::pair{24, 4}, std::pair{32, 5}, std::pair{18, 2},
-                                         std::pair{9, 1}));
+                         testing::Values(std::pair{16, 4}, std::pair{24, 4}, std::pair{32, 5},
+                                         std::pair{18, 2}, std::pair{9, 1}));
 
 TEST(Communicator, SumsMaximaAndBroadcasts) {
     const int p = world().size(), r = world().rank();
@@ -167,7 +175,8 @@ TEST(Communicator, ExchangesRoundTheRingAndWithItself) {
     const std::vector<double> up = {1.0 * r, 2.0}, down = {100.0 + r};
     std::vector<double> from_below(2), from_above(1);
     const int above = (r + 1) % p, below = (r + p - 1) % p;
-    const std::array messages = {Message{above, below, 0, up, from_below}, Message{below, above, 1, down, from_above}};
+    const std::array messages = {Message{above, below, 0, up, from_below},
+                                 Message{below, above, 1, down, from_above}};
     world().exchange(messages);
     EXPECT_EQ(from_below, (std::vector<double>{1.0 * below, 2.0}));
     EXPECT_EQ(from_above, (std::vector<double>{100.0 + above}));

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The motion: what velocity Verlet promises (an energy error that falls as dt^2, no drift, time
-// reversal), the books of a damped and driven run, a temperature that is the one asked for, and a slow approach
-// that ends in the static state.
+// reversal), the books of a damped and driven run, a temperature that is the one asked for, and a
+// slow approach that ends in the static state.
 #include "engine/units.hpp"
 #include "support/cases.hpp"
 
@@ -19,7 +19,8 @@ using namespace asperity;
 
 namespace {
 
-/// A small rough contact with its top held, released from a strained state: nothing driven, nothing damped.
+/// A small rough contact with its top held, released from a strained state: nothing driven, nothing
+/// damped.
 SimulationOptions free_options(double dt, int layers = 2) {
     SimulationOptions options;
     options.block = test::paper_block(8, 7, layers);
@@ -31,8 +32,10 @@ SimulationOptions free_options(double dt, int layers = 2) {
 
 class FreeContact {
 public:
-    FreeContact(const SimulationOptions& options, const char* map = "n8_b_rms1.0", double height = 4.5)
-        : simulation(options, test::reference_surface(map), Communicator(), test::serial_grid(options.block)) {
+    FreeContact(const SimulationOptions& options, const char* map = "n8_b_rms1.0",
+                double height = 4.5)
+        : simulation(options, test::reference_surface(map), Communicator(),
+                     test::serial_grid(options.block)) {
         simulation.start(height);
     }
     /// Energy at the whole step, eV.
@@ -55,18 +58,22 @@ double energy_ripple(double dt, double duration) {
 }
 
 struct Mean {
-    double value = 0.0, error = 0.0; ///< standard error of the mean from blocks longer than the memory
+    double value = 0.0,
+           error = 0.0; ///< standard error of the mean from blocks longer than the memory
 };
 Mean block_average(const std::vector<double>& series, std::size_t blocks) {
     const std::size_t length = series.size() / blocks;
     std::vector<double> means(blocks);
     for (std::size_t b = 0; b < blocks; ++b) {
-        for (std::size_t i = 0; i < length; ++i) means[b] += series[b * length + i];
+        for (std::size_t i = 0; i < length; ++i)
+            means[b] += series[b * length + i];
         means[b] /= static_cast<double>(length);
     }
     Mean mean;
-    for (double m : means) mean.value += m / static_cast<double>(blocks);
-    for (double m : means) mean.error += (m - mean.value) * (m - mean.value);
+    for (double m : means)
+        mean.value += m / static_cast<double>(blocks);
+    for (double m : means)
+        mean.error += (m - mean.value) * (m - mean.value);
     mean.error = std::sqrt(mean.error / static_cast<double>(blocks * (blocks - 1)));
     return mean;
 }
@@ -74,12 +81,13 @@ Mean block_average(const std::vector<double>& series, std::size_t blocks) {
 } // namespace
 
 TEST(Verlet, EnergyErrorFallsAsTheSquareOfTheStep) {
-    // 4 ps of a block that is released pressed into the wall, where the pair's own frequency is several times the
-    // bulk's. The next term of the ripple falls as dt^2 too: a ratio off by x at one pair is off by x/4 at the next.
+    // 4 ps of a block that is released pressed into the wall, where the pair's own frequency is
+    // several times the bulk's. The next term of the ripple falls as dt^2 too: a ratio off by x at
+    // one pair is off by x/4 at the next.
     const double coarse = energy_ripple(8.0, 4000.0), middle = energy_ripple(4.0, 4000.0),
                  fine = energy_ripple(2.0, 4000.0);
-    std::printf("energy ripple at 8, 4, 2 fs: %.4e %.4e %.4e eV, ratios %.3f %.3f\n", coarse, middle, fine,
-                coarse / middle, middle / fine);
+    std::printf("energy ripple at 8, 4, 2 fs: %.4e %.4e %.4e eV, ratios %.3f %.3f\n", coarse,
+                middle, fine, coarse / middle, middle / fine);
     EXPECT_NEAR(coarse / middle, 4.0, 0.15);
     EXPECT_NEAR(middle / fine, 4.0, 0.05);
 }
@@ -97,19 +105,20 @@ TEST(Verlet, EnergyDoesNotDriftOverAHundredThousandSteps) {
         mean[static_cast<std::size_t>(n / (steps / parts))] += energy * parts / steps;
     }
     const auto [low, high] = std::minmax_element(mean.begin(), mean.end());
-    std::printf("1e5 steps of 10 fs: ripple %.3e eV, means of tenths within %.3e eV, kinetic up to %.3f eV\n",
+    std::printf("1e5 steps of 10 fs: ripple %.3e eV, means of tenths within %.3e eV, kinetic up to "
+                "%.3f eV\n",
                 most - least, *high - *low, largest_kinetic);
     EXPECT_GT(largest_kinetic, 0.1) << "nothing moved";
-    // The means of all tenths of the run lie together, far closer than the ripple of Verlet itself, and than
-    // 1e-3 of the energy that moves. (Pairs that cross the cutoff, where the force has a step of 4.5e-5 eV/Å, leave
-    // a random walk some 1e-5 eV wide.)
+    // The means of all tenths of the run lie together, far closer than the ripple of Verlet itself,
+    // and than 1e-3 of the energy that moves. (Pairs that cross the cutoff, where the force has a
+    // step of 4.5e-5 eV/Å, leave a random walk some 1e-5 eV wide.)
     EXPECT_LT(*high - *low, 0.02 * (most - least));
     EXPECT_LT(*high - *low, 1e-3 * largest_kinetic);
 }
 
 TEST(Verlet, ReversedVelocitiesRetraceThePath) {
-    // Leapfrog is its own mirror image: with v(n+1/2) reversed and the drift undone, the same steps lead back.
-    // What remains is rounding, grown by the contact's instability over 200 steps.
+    // Leapfrog is its own mirror image: with v(n+1/2) reversed and the drift undone, the same steps
+    // lead back. What remains is rounding, grown by the contact's instability over 200 steps.
     const SimulationOptions options = free_options(10.0);
     FreeContact contact(options);
     Block& block = contact.simulation.block();
@@ -120,19 +129,25 @@ TEST(Verlet, ReversedVelocitiesRetraceThePath) {
             for (const auto* f : {&level.u.x, &level.u.y, &level.u.z})
                 for (int z = 0; z < level.plan.cells; ++z)
                     for (int y = 0; y < level.tile.ny; ++y)
-                        for (int x = 0; x < level.tile.nx; ++x) all.push_back(f->view()(x, y, z));
+                        for (int x = 0; x < level.tile.nx; ++x)
+                            all.push_back(f->view()(x, y, z));
         return all;
     };
-    for (int n = 0; n < 50; ++n) contact.step();
+    for (int n = 0; n < 50; ++n)
+        contact.step();
     first = positions();
     constexpr int there = 200;
-    for (int n = 0; n < there; ++n) contact.step();
+    for (int n = 0; n < there; ++n)
+        contact.step();
     double moved = 0.0;
     const auto far = positions();
-    for (std::size_t i = 0; i < far.size(); ++i) moved = std::max(moved, std::abs(far[i] - first[i]));
+    for (std::size_t i = 0; i < far.size(); ++i)
+        moved = std::max(moved, std::abs(far[i] - first[i]));
     // u(n+1), v(n+1/2)  ->  u(n), -v(n+1/2): the mirrored state before the step back.
     for (auto& level : block.levels())
-        for (const auto& [u, v] : {std::pair{&level.u.x, &level.v.x}, {&level.u.y, &level.v.y}, {&level.u.z, &level.v.z}})
+        for (const auto& [u, v] : {std::pair{&level.u.x, &level.v.x},
+                                   {&level.u.y, &level.v.y},
+                                   {&level.u.z, &level.v.z}})
             for (int z = 0; z < level.plan.cells; ++z)
                 for (int y = 0; y < level.tile.ny; ++y)
                     for (int x = 0; x < level.tile.nx; ++x) {
@@ -141,17 +156,20 @@ TEST(Verlet, ReversedVelocitiesRetraceThePath) {
                         speed = -speed;
                     }
     block.exchange();
-    for (int n = 0; n < there - 1; ++n) contact.step();
+    for (int n = 0; n < there - 1; ++n)
+        contact.step();
     const auto back = positions();
     double off = 0.0;
-    for (std::size_t i = 0; i < back.size(); ++i) off = std::max(off, std::abs(back[i] - first[i]));
+    for (std::size_t i = 0; i < back.size(); ++i)
+        off = std::max(off, std::abs(back[i] - first[i]));
     std::printf("retraced 200 steps over %.2f A to within %.1e A\n", moved, off);
     EXPECT_GT(moved, 0.3);
     EXPECT_LT(off, 1e-9);
 }
 
 TEST(Books, ADrivenDampedRunBalances) {
-    // Work of the top plane and of the moving medium = change of energy + dissipation, up to the trapezia's dt^2.
+    // Work of the top plane and of the moving medium = change of energy + dissipation, up to the
+    // trapezia's dt^2.
     const auto residual = [](double dt) {
         SimulationOptions options = free_options(dt);
         options.drive.velocity = 5e-4; // 50 m/s
@@ -169,39 +187,52 @@ TEST(Books, ADrivenDampedRunBalances) {
         return worst;
     };
     const double coarse = residual(10.0), fine = residual(5.0);
-    std::printf("worst energy residual, driven and damped: %.2e at 10 fs, %.2e at 5 fs\n", coarse, fine);
+    std::printf("worst energy residual, driven and damped: %.2e at 10 fs, %.2e at 5 fs\n", coarse,
+                fine);
     EXPECT_LT(coarse, 5e-3);
     EXPECT_NEAR(coarse / fine, 4.0, 0.8);
 }
 
 TEST(Books, DampingAloneTakesWhatTheDissipationSays) {
-    SimulationOptions options = free_options(5.0);
-    options.damping = 1e-3;
-    FreeContact contact(options);
-    const double before = contact.step();
-    double after = before;
-    for (int n = 0; n < 3000; ++n) after = contact.step();
-    const Ledger& l = contact.simulation.ledger();
-    EXPECT_EQ(l.top_work, 0.0) << "the top is held";
-    EXPECT_EQ(l.drag_work, 0.0);
-    EXPECT_GT(before - after, 1.0);
-    EXPECT_NEAR(l.damped, before - after, 2e-3 * (before - after));
+    // The energy lost over 15 ps, all but a few percent of it damped away; Verlet's own ripple, of
+    // order dt^2, is what the first energy is known to.
+    const auto error = [](double dt) {
+        SimulationOptions options = free_options(dt);
+        options.damping = 1e-3;
+        FreeContact contact(options);
+        const double before = contact.step();
+        double after = before;
+        while (contact.simulation.time() < 15000.0)
+            after = contact.step();
+        const Ledger& l = contact.simulation.ledger();
+        EXPECT_EQ(l.top_work, 0.0) << "the top is held";
+        EXPECT_EQ(l.drag_work, 0.0);
+        EXPECT_GT(before - after, 1.0);
+        return l.damped / (before - after) - 1.0;
+    };
+    const double coarse = error(4.0), fine = error(2.0);
+    std::printf("damped over lost energy, minus one: %.2e at 4 fs, %.2e at 2 fs\n", coarse, fine);
+    EXPECT_LT(std::abs(fine), 1e-3);
+    EXPECT_NEAR(coarse / fine, 4.0, 0.4);
 }
 
 TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
-    // A free surface, 300 K. kT/2 for each velocity component and each spring mode. Known corrections, all below
-    // the tolerance's floor of 0.7 %: the record's velocity leaves out half of the present noise (Gamma dt/2 =
-    // 0.5 %), and Verlet samples a mode w at T/(1 - (w dt/2)^2), at most 0.4 % for 5 fs.
+    // A free surface, 300 K. kT/2 for each velocity component and each spring mode. Known
+    // corrections, all below the tolerance's floor of 0.7 %: the record's velocity leaves out half
+    // of the present noise (Gamma dt/2 = 0.5 %), and Verlet samples a mode w at T/(1 - (w dt/2)^2),
+    // at most 0.4 % for 5 fs.
     SimulationOptions options = free_options(5.0);
     options.damping = 2e-3; // 1/fs: memory of 0.5 ps
     options.temperature = 300.0;
-    Simulation simulation(options, test::flat_surface(8), Communicator(), test::serial_grid(options.block));
+    Simulation simulation(options, test::flat_surface(8), Communicator(),
+                          test::serial_grid(options.block));
     simulation.start(30.0);
     const double kt = units::boltzmann * options.temperature;
     double freedoms = 0.0;
     const auto& levels = simulation.block().levels();
     ASSERT_EQ(levels.size(), 2u);
-    for (const auto& level : levels) freedoms += 3.0 * level.plan.cells * level.plan.sites * level.plan.sites;
+    for (const auto& level : levels)
+        freedoms += 3.0 * level.plan.cells * level.plan.sites * level.plan.sites;
     std::vector<double> kinetic, elastic;
     std::vector<std::vector<double>> by_level(levels.size());
     constexpr int steps = 40000, warm_up = 2000; // 200 ps, 400 memories
@@ -217,8 +248,9 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
             for (int z = 0; z < levels[l].plan.cells; ++z)
                 for (int y = 0; y < levels[l].tile.ny; ++y)
                     for (int x = 0; x < levels[l].tile.nx; ++x, count += 3.0)
-                        sum += levels[l].mass(z) * (v.x(x, y, z) * v.x(x, y, z) + v.y(x, y, z) * v.y(x, y, z) +
-                                                    v.z(x, y, z) * v.z(x, y, z));
+                        sum += levels[l].mass(z) *
+                               (v.x(x, y, z) * v.x(x, y, z) + v.y(x, y, z) * v.y(x, y, z) +
+                                v.z(x, y, z) * v.z(x, y, z));
             by_level[l].push_back(sum / (kt * count));
         }
     }
@@ -231,8 +263,10 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
     check("elastic energy", block_average(elastic, 40));
     check("level 0", block_average(by_level[0], 40));
     check("level 1", block_average(by_level[1], 40));
-    // What the noise gives and the damping takes, over the change of energy: the books of a warm run.
-    EXPECT_NEAR(simulation.ledger().heat, simulation.ledger().damped, 0.02 * simulation.ledger().damped);
+    // What the noise gives and the damping takes, over the change of energy: the books of a warm
+    // run.
+    EXPECT_NEAR(simulation.ledger().heat, simulation.ledger().damped,
+                0.02 * simulation.ledger().damped);
     EXPECT_LT(std::abs(simulation.energy_residual()), 0.02);
 }
 
@@ -241,22 +275,24 @@ TEST(Temperature, OnlyTheDampedDepthIsDriven) {
     options.damping = 2e-3;
     options.damping_from = 0.5;
     options.temperature = 300.0;
-    Simulation simulation(options, test::flat_surface(8), Communicator(), test::serial_grid(options.block));
+    Simulation simulation(options, test::flat_surface(8), Communicator(),
+                          test::serial_grid(options.block));
     simulation.start(30.0);
     simulation.step(false);
     for (const auto& level : simulation.block().levels())
         for (int z = 0; z < level.plan.cells; ++z) {
             const bool deep = level.depth + z * (1 << level.plan.level) >= 3.5;
-            EXPECT_EQ(level.v.view().x(0, 0, z) != 0.0, deep) << "level " << level.plan.level << " plane " << z;
+            EXPECT_EQ(level.v.view().x(0, 0, z) != 0.0, deep)
+                << "level " << level.plan.level << " plane " << z;
         }
 }
 
 namespace {
 
 struct Approach {
-    double binding = 0.0;  ///< relaxed from where the approach ends, meV/Å^2
-    double there = 0.0;    ///< -(U_LJ + U_el)/A at that moment
-    double work = 0.0;     ///< int F dz / A
+    double binding = 0.0; ///< relaxed from where the approach ends, meV/Å^2
+    double there = 0.0;   ///< -(U_LJ + U_el)/A at that moment
+    double work = 0.0;    ///< int F dz / A
 };
 
 Approach approach_slowly(const SimulationOptions& options, const Surface& surface) {
@@ -278,7 +314,8 @@ Approach approach_slowly(const SimulationOptions& options, const Surface& surfac
     RelaxOptions relax_options;
     relax_options.tolerance = 1e-6;
     Phases phases;
-    const RelaxedState state = relax(copy, s.interface(), s.reference_height(), relax_options, phases);
+    const RelaxedState state =
+        relax(copy, s.interface(), s.reference_height(), relax_options, phases);
     EXPECT_TRUE(state.converged);
     result.binding = -1e3 * (state.interface_energy + state.elastic_energy) / area;
     return result;
@@ -287,8 +324,9 @@ Approach approach_slowly(const SimulationOptions& options, const Surface& surfac
 } // namespace
 
 TEST(Approach, FlatOnFlatEndsInTheStaticMinimumAndDoesItsWork) {
-    // A thin block does not jump: the approach is reversible, so its work, the energy where it ends and the static
-    // minimum are one number. 10 m/s, damped; the lag of a moving block and the last step cost some 1e-3.
+    // A thin block does not jump: the approach is reversible, so its work, the energy where it ends
+    // and the static minimum are one number. 10 m/s, damped; the lag of a moving block and the last
+    // step cost some 1e-3.
     SimulationOptions options;
     options.block = test::paper_block(8, 4, 0);
     options.interface = test::paper_interface();
@@ -296,15 +334,16 @@ TEST(Approach, FlatOnFlatEndsInTheStaticMinimumAndDoesItsWork) {
     options.drive.pull_off = false;
     options.damping = 2e-3;
     const Approach a = approach_slowly(options, test::flat_surface(8));
-    std::printf("flat approach: relaxed %.6f, at the end %.4f, work %.4f meV/A^2\n", a.binding, a.there, a.work);
+    std::printf("flat approach: relaxed %.6f, at the end %.4f, work %.4f meV/A^2\n", a.binding,
+                a.there, a.work);
     EXPECT_NEAR(a.binding, 98.86330213, 2e-6);
     EXPECT_NEAR(a.there, 98.8633, 0.05);
     EXPECT_NEAR(a.work, 98.8633, 0.1);
 }
 
 TEST(Approach, RoughContactRelaxesToTheStaticState) {
-    // The path of the dynamics and the descent from the strongest attraction lead into the same basin; the reference
-    // for the lattice of 8 layers is 90.7207652.
+    // The path of the dynamics and the descent from the strongest attraction lead into the same
+    // basin; the reference for the lattice of 8 layers is 90.7207652.
     SimulationOptions options;
     options.block = test::paper_block(8, 8, 0);
     options.interface = test::paper_interface();
@@ -312,7 +351,8 @@ TEST(Approach, RoughContactRelaxesToTheStaticState) {
     options.drive.pull_off = false;
     options.damping = 2e-3;
     const Approach a = approach_slowly(options, test::reference_surface("n8_a_rms0.4"));
-    std::printf("rough approach: relaxed %.6f, at the end %.4f, work %.4f meV/A^2\n", a.binding, a.there, a.work);
+    std::printf("rough approach: relaxed %.6f, at the end %.4f, work %.4f meV/A^2\n", a.binding,
+                a.there, a.work);
     EXPECT_NEAR(a.binding, 90.720765166, 1e-5);
     EXPECT_LT(a.there, a.binding + 1e-6) << "a moving state cannot lie below the minimum";
     EXPECT_NEAR(a.there, a.binding, 0.1);

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The relaxed state under zero load against numbers from elsewhere: flat on flat for each cutoff
-// (model.md section 4), and rough maps relaxed by an independent program (tests/physics/data/README.md).
+// (model.md section 4), and rough maps relaxed by an independent program
+// (tests/physics/data/README.md).
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>
@@ -29,22 +30,30 @@ struct Case {
     double cutoff;
     double binding, pairwise, mean_height, elastic; ///< meV/Å^2, meV/Å^2, Å, eV
     int contact, pushed;                            ///< sites
-    /// Relative (Å for the height). Binding is stationary: residual forces of 1e-6 eV/Å enter squared, and what is
-    /// left is 1 GPa = 1/160.21766 there and 1/160.21766208 here, 1.3e-8 of the elastic energy, which is 0.05 to
-    /// 0.7 of the binding. The others feel the residual itself. At 2.5 r0 the force's step at the cutoff
-    /// (1.2e-3 eV/Å) leaves twin states: 1e-8 and 1e-5 where they were seen.
+    /// Relative (Å for the height). Binding is stationary: residual forces of 1e-6 eV/Å enter
+    /// squared, and what is left is 1 GPa = 1/160.21766 there and 1/160.21766208 here, 1.3e-8 of
+    /// the elastic energy, which is 0.05 to 0.7 of the binding. The others feel the residual
+    /// itself. At 2.5 r0 the force's step at the cutoff (1.2e-3 eV/Å) leaves twin states: 1e-8 and
+    /// 1e-5 where they were seen.
     double binding_tolerance = 2e-8, first_order = 2e-5;
 };
 constexpr Case cases[] = {
     {"n8_a_rms0.4", 8, 8, 4.0, 90.720765166, 94.536799579, 3.1689135122, 1.6509691284, 64, 33},
     {"n8_b_rms1.0", 8, 6, 4.0, 53.287038883, 74.798578058, 3.5015820661, 9.3067523023, 58, 24},
-    {"n8_c_rms1.0_rc2.5", 8, 8, 2.5, 48.808228633, 66.084626116, 3.5609709770, 7.4744606068, 59, 23, 2e-7, 1e-4},
-    {"c1_N16_T16_rms0.5", 16, 16, 4.0, 88.372233166, 93.523071171, 3.1877012835, 8.9138342175, 255, 120},
-    {"c2_N16_T8_rms1.5", 16, 8, 4.0, 42.996885869, 57.331688216, 4.1879305271, 24.807235549, 173, 89},
-    {"c3_N32_T32_rms1.5", 32, 32, 4.0, 46.032643602, 63.843325343, 3.9306596641, 123.28981358, 742, 361},
-    {"c4_N32_T16_rms3", 32, 16, 4.0, 9.7751757096, 16.935910817, 7.6480865892, 49.568326990, 209, 112},
-    {"c5_N24_T24_rms1", 24, 24, 4.0, 72.455116529, 86.130292338, 3.3259294110, 53.247852560, 543, 264},
-    {"c3_N32_T32_rms1.5", 32, 32, 2.5, 38.241783093, 55.477269670, 3.9562864596, 119.30817460, 732, 358, 2e-7, 1e-4},
+    {"n8_c_rms1.0_rc2.5", 8, 8, 2.5, 48.808228633, 66.084626116, 3.5609709770, 7.4744606068, 59, 23,
+     2e-7, 1e-4},
+    {"c1_N16_T16_rms0.5", 16, 16, 4.0, 88.372233166, 93.523071171, 3.1877012835, 8.9138342175, 255,
+     120},
+    {"c2_N16_T8_rms1.5", 16, 8, 4.0, 42.996885869, 57.331688216, 4.1879305271, 24.807235549, 173,
+     89},
+    {"c3_N32_T32_rms1.5", 32, 32, 4.0, 46.032643602, 63.843325343, 3.9306596641, 123.28981358, 742,
+     361},
+    {"c4_N32_T16_rms3", 32, 16, 4.0, 9.7751757096, 16.935910817, 7.6480865892, 49.568326990, 209,
+     112},
+    {"c5_N24_T24_rms1", 24, 24, 4.0, 72.455116529, 86.130292338, 3.3259294110, 53.247852560, 543,
+     264},
+    {"c3_N32_T32_rms1.5", 32, 32, 2.5, 38.241783093, 55.477269670, 3.9562864596, 119.30817460, 732,
+     358, 2e-7, 1e-4},
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.map << " cut at " << c.cutoff << " r0"; }
@@ -57,8 +66,8 @@ TEST(ZeroLoad, FlatOnFlatBindsAsTheTableSays) {
     for (const Flat& flat : flats) {
         const InterfaceOptions interface = test::paper_interface(flat.cutoff);
         for (int layers : {0, 2}) {
-            const auto relaxed =
-                test::relax_from_attraction(test::paper_block(8, 6, layers), interface, test::flat_surface(8), 1e-7);
+            const auto relaxed = test::relax_from_attraction(
+                test::paper_block(8, 6, layers), interface, test::flat_surface(8), 1e-7);
             ASSERT_TRUE(relaxed.state.converged);
             EXPECT_NEAR(relaxed.binding_energy, flat.binding, 2e-7) << flat.cutoff;
             EXPECT_NEAR(relaxed.mean_height, flat.separation, 1e-6);
@@ -73,11 +82,12 @@ TEST(ZeroLoad, FlatOnFlatBindsAsTheTableSays) {
 }
 
 TEST(ZeroLoad, TheTailMakesUpForTheCutoff) {
-    // Infinite range: 100.530767. The continuum beyond 4 r0 gives all but the corrugation of what was cut off.
+    // Infinite range: 100.530767. The continuum beyond 4 r0 gives all but the corrugation of what
+    // was cut off.
     InterfaceOptions interface = test::paper_interface(4.0);
     interface.tail = true;
-    const auto relaxed =
-        test::relax_from_attraction(test::paper_block(8, 4, 0), interface, test::flat_surface(8), 1e-7);
+    const auto relaxed = test::relax_from_attraction(test::paper_block(8, 4, 0), interface,
+                                                     test::flat_surface(8), 1e-7);
     EXPECT_NEAR(relaxed.binding_energy, 100.530767, 0.05);
     std::printf("flat, 4 r0 with tail: %.4f\n", relaxed.binding_energy);
 }
@@ -85,11 +95,14 @@ TEST(ZeroLoad, TheTailMakesUpForTheCutoff) {
 TEST_P(ReferenceCase, Lattice) {
     const Case& c = GetParam();
     const auto r = test::relax_from_attraction(test::paper_block(c.sites, c.thickness, 0),
-                                               test::paper_interface(c.cutoff), test::reference_surface(c.map), 1e-6);
+                                               test::paper_interface(c.cutoff),
+                                               test::reference_surface(c.map), 1e-6);
     ASSERT_TRUE(r.state.converged);
-    std::printf("%s lattice: %.8f meV/A^2 (%+.1e), pairwise %+.1e, contact %lld, pushed %lld, %lld iterations\n", c.map,
-                r.binding_energy, r.binding_energy / c.binding - 1.0, r.pairwise / c.pairwise - 1.0,
-                r.state.in_contact, r.state.pushed, r.state.iterations);
+    std::printf("%s lattice: %.8f meV/A^2 (%+.1e), pairwise %+.1e, contact %lld, pushed %lld, %lld "
+                "iterations\n",
+                c.map, r.binding_energy, r.binding_energy / c.binding - 1.0,
+                r.pairwise / c.pairwise - 1.0, r.state.in_contact, r.state.pushed,
+                r.state.iterations);
     EXPECT_NEAR(r.binding_energy, c.binding, c.binding_tolerance * c.binding);
     EXPECT_NEAR(r.pairwise, c.pairwise, c.first_order * c.pairwise);
     EXPECT_NEAR(r.state.elastic_energy, c.elastic, 2.0 * c.first_order * c.elastic);
@@ -101,18 +114,18 @@ TEST_P(ReferenceCase, Lattice) {
 }
 
 TEST_P(ReferenceCase, Multiscale) {
-    // The block is stiffer by at most 1.7 % (4 layers a level) or 0.4 % (8) for the worst wave, of which the
-    // elastic energy, a part of the whole, sees some. It may only bind less.
+    // The block is stiffer by at most 1.7 % (4 layers a level) or 0.4 % (8) for the worst wave, of
+    // which the elastic energy, a part of the whole, sees some. It may only bind less.
     const Case& c = GetParam();
     for (int layers : {4, 8}) {
         if (c.thickness < 3 * layers) continue; // one level: the lattice
-        const auto r =
-            test::relax_from_attraction(test::paper_block(c.sites, c.thickness, layers),
-                                        test::paper_interface(c.cutoff), test::reference_surface(c.map), 1e-5);
+        const auto r = test::relax_from_attraction(test::paper_block(c.sites, c.thickness, layers),
+                                                   test::paper_interface(c.cutoff),
+                                                   test::reference_surface(c.map), 1e-5);
         ASSERT_TRUE(r.state.converged);
         const double off = r.binding_energy / c.binding - 1.0;
-        std::printf("%s, %d layers a level: %.6f meV/A^2 (%+.4f %%), contact %+lld sites\n", c.map, layers,
-                    r.binding_energy, 100.0 * off, r.state.in_contact - c.contact);
+        std::printf("%s, %d layers a level: %.6f meV/A^2 (%+.4f %%), contact %+lld sites\n", c.map,
+                    layers, r.binding_energy, 100.0 * off, r.state.in_contact - c.contact);
         EXPECT_LT(std::abs(off), layers == 4 ? 5e-3 : 5e-4);
         EXPECT_LT(off, 1e-7) << "constraints cannot lower the energy";
         EXPECT_NEAR(static_cast<double>(r.state.in_contact), c.contact, 0.02 * c.contact);

@@ -47,7 +47,8 @@ Surface surface_of(std::vector<double> heights) {
 } // namespace
 
 Surface flat_surface(int sites) {
-    return surface_of(std::vector<double>(static_cast<std::size_t>(sites) * static_cast<std::size_t>(sites)));
+    return surface_of(
+        std::vector<double>(static_cast<std::size_t>(sites) * static_cast<std::size_t>(sites)));
 }
 
 Surface reference_surface(const std::string& name) {
@@ -55,7 +56,8 @@ Surface reference_surface(const std::string& name) {
     std::ifstream file(path);
     if (!file) throw std::runtime_error("cannot open " + path);
     std::vector<double> heights;
-    for (double h; file >> h;) heights.push_back(h);
+    for (double h; file >> h;)
+        heights.push_back(h);
     return surface_of(std::move(heights));
 }
 
@@ -64,7 +66,8 @@ ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicat
                        static_cast<int>(plan_levels(options).size()));
 }
 
-double height_of_strongest_attraction(Block& block, const Interface& interface, const Surface& surface) {
+double height_of_strongest_attraction(Block& block, const Interface& interface,
+                                      const Surface& surface) {
     block.set_uniform(0.0, 0.0);
     double best = interface.start_height(), strongest = 0.0;
     for (double height = best;; height -= 0.1) {
@@ -78,8 +81,9 @@ double height_of_strongest_attraction(Block& block, const Interface& interface, 
     }
 }
 
-Relaxed relax_from_attraction(const BlockOptions& options, const InterfaceOptions& interface_options,
-                              const Surface& surface, double tolerance, const Communicator& communicator) {
+Relaxed relax_from_attraction(const BlockOptions& options,
+                              const InterfaceOptions& interface_options, const Surface& surface,
+                              double tolerance, const Communicator& communicator) {
     const ProcessGrid grid = grid_for(options, communicator);
     Block block(options, communicator, grid);
     Interface interface(surface, grid.tile(0), options.spacing, interface_options);
@@ -133,7 +137,8 @@ std::uint64_t fingerprint(const Block& block) {
         for (const VectorField<double>* field : {&level.u, &level.v})
             for (const Field<double>* component : {&field->x, &field->y, &field->z})
                 for (int z = 0; z < level.plan.cells; ++z)
-                    for (double value : gather_plane(ranks, block.grid(), level.plan.level, component->plane(z)))
+                    for (double value :
+                         gather_plane(ranks, block.grid(), level.plan.level, component->plane(z)))
                         hash = mix(hash, value);
     std::array<std::int64_t, 1> roots = {ranks.root() ? std::bit_cast<std::int64_t>(hash) : 0};
     ranks.sum(roots);

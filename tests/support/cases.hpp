@@ -22,10 +22,14 @@ Surface flat_surface(int sites);
 Surface reference_surface(const std::string& name);
 
 ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicator);
-inline ProcessGrid serial_grid(const BlockOptions& options) { return grid_for(options, Communicator()); }
+inline ProcessGrid serial_grid(const BlockOptions& options) {
+    return grid_for(options, Communicator());
+}
 
-/// The height at which the rigid block feels the strongest attraction, as `asperity run` looks for it.
-double height_of_strongest_attraction(Block& block, const Interface& interface, const Surface& surface);
+/// The height at which the rigid block feels the strongest attraction, as `asperity run` looks for
+/// it.
+double height_of_strongest_attraction(Block& block, const Interface& interface,
+                                      const Surface& surface);
 
 struct Relaxed {
     RelaxedState state;
@@ -42,8 +46,8 @@ Relaxed relax_from_attraction(const BlockOptions& block, const InterfaceOptions&
 Relaxed relax_spectral(const BlockOptions& block, const InterfaceOptions& interface,
                        const Surface& surface, double tolerance);
 
-/// 64 bits that differ if any bit of any displacement, velocity or the top differs. Collective; the same on
-/// every rank, and for any number of them.
+/// 64 bits that differ if any bit of any displacement, velocity or the top differs. Collective; the
+/// same on every rank, and for any number of them.
 std::uint64_t fingerprint(const Block& block);
 std::uint64_t mix(std::uint64_t hash, double value);
 

@@ -11,25 +11,29 @@ namespace asperity::test {
 
 double dot(const Vector& a, const Vector& b) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
     return sum;
 }
 
 Vector random_vector(std::size_t size, unsigned seed) {
     std::mt19937_64 random(seed);
     Vector v(size);
-    for (double& x : v) x = static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
+    for (double& x : v)
+        x = static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
     return v;
 }
 
-template <class Visit> void ElasticOperator::each(const Visit& visit) const {
+template <class Visit>
+void ElasticOperator::each(const Visit& visit) const {
     std::size_t i = 0;
     for (std::size_t l = 0; l < block_.levels().size(); ++l) {
         const auto& level = block_.levels()[l];
         for (int c = 0; c < 3; ++c)
             for (int z = 0; z < level.plan.cells; ++z)
                 for (int y = 0; y < level.tile.ny; ++y)
-                    for (int x = 0; x < level.tile.nx; ++x) visit(i++, l, c, z, y, x);
+                    for (int x = 0; x < level.tile.nx; ++x)
+                        visit(i++, l, c, z, y, x);
     }
 }
 
@@ -94,11 +98,13 @@ Vector ElasticOperator::tabulate(
     return v;
 }
 
-StaticResponse press(ElasticOperator& k, const std::function<double(int, int)>& w, double tolerance) {
+StaticResponse press(ElasticOperator& k, const std::function<double(int, int)>& w,
+                     double tolerance) {
     const auto held = [](const Block::Level& level, int c, int z) {
         return level.plan.level == 0 && c == 2 && z == 0;
     };
-    // 1/2^l on free nodes (stiffness grows like 2^l), 0 on held ones: preconditioner and projector at once.
+    // 1/2^l on free nodes (stiffness grows like 2^l), 0 on held ones: preconditioner and projector
+    // at once.
     const Vector free = k.tabulate([&](const Block::Level& level, int c, int z, int, int) {
         return held(level, c, z) ? 0.0 : 1.0 / (1 << level.plan.level);
     });
@@ -123,23 +129,27 @@ StaticResponse press(ElasticOperator& k, const std::function<double(int, int)>& 
         response.residual = 0.0;
         for (std::size_t i = 0; i < r.size(); ++i) {
             z[i] = free[i] * r[i];
-            if (free[i] != 0.0) response.residual = std::max(response.residual, std::abs(r[i]) / reaction);
+            if (free[i] != 0.0)
+                response.residual = std::max(response.residual, std::abs(r[i]) / reaction);
         }
         if (response.residual < tolerance || response.iterations > 5000) break;
         const double now = dot(r, z);
-        for (std::size_t i = 0; i < p.size(); ++i) p[i] = z[i] + (response.iterations ? now / old : 0.0) * p[i];
+        for (std::size_t i = 0; i < p.size(); ++i)
+            p[i] = z[i] + (response.iterations ? now / old : 0.0) * p[i];
         old = now;
         k.set(p);
         const Vector f = k.force();
         const double step = -now / dot(p, f);
-        for (std::size_t i = 0; i < u.size(); ++i) u[i] += step * p[i], r[i] += step * f[i];
+        for (std::size_t i = 0; i < u.size(); ++i)
+            u[i] += step * p[i], r[i] += step * f[i];
     }
     k.set(u);
     const Vector f = k.force();
     double squares = 0.0;
     const int sites = k.block().options().sites;
     for (int y = 0; y < sites; ++y)
-        for (int x = 0; x < sites; ++x) squares += w(x, y) * w(x, y);
+        for (int x = 0; x < sites; ++x)
+            squares += w(x, y) * w(x, y);
     response.stiffness = -dot(u, f) / squares / (a * a);
     return response;
 }

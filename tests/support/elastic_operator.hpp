@@ -3,9 +3,10 @@
 //
 // A block on one rank as a linear operator on a flat vector.
 //
-// The vector holds the moving nodes, in the order level, component, plane, row, column. force() is what the
-// run itself does (interpolate, hand up, force) with nothing acting from below, so K = -dF/du of the whole
-// stack, hanging planes eliminated. Laws of K (symmetry, gradient, modes, static response) then read as algebra.
+// The vector holds the moving nodes, in the order level, component, plane, row, column. force() is
+// what the run itself does (interpolate, hand up, force) with nothing acting from below, so K =
+// -dF/du of the whole stack, hanging planes eliminated. Laws of K (symmetry, gradient, modes,
+// static response) then read as algebra.
 #pragma once
 
 #include "engine/block.hpp"
@@ -37,14 +38,16 @@ public:
     /// Elastic force on the top plane, three components; after force().
     std::array<double, 3> top_force();
     /// One number for each degree of freedom: value(level, component, z, y, x).
-    Vector tabulate(const std::function<double(const Block::Level&, int, int, int, int)>& value) const;
+    Vector
+    tabulate(const std::function<double(const Block::Level&, int, int, int, int)>& value) const;
 
 private:
     Block block_;
     std::size_t size_ = 0;
     std::vector<VectorField<double>> force_;
 
-    template <class Visit> void each(const Visit& visit) const;
+    template <class Visit>
+    void each(const Visit& visit) const;
 };
 
 struct StaticResponse {
@@ -52,8 +55,9 @@ struct StaticResponse {
     double residual = 0.0;  ///< largest force left on a free node over the largest reaction
     int iterations = 0;
 };
-/// The lowest layer's normal displacement held at w(x, y), free sideways (frictionless), top clamped: all other
-/// nodes relaxed by conjugate gradients.
-StaticResponse press(ElasticOperator& k, const std::function<double(int, int)>& w, double tolerance = 1e-7);
+/// The lowest layer's normal displacement held at w(x, y), free sideways (frictionless), top
+/// clamped: all other nodes relaxed by conjugate gradients.
+StaticResponse press(ElasticOperator& k, const std::function<double(int, int)>& w,
+                     double tolerance = 1e-7);
 
 } // namespace asperity::test

@@ -17,8 +17,8 @@ const Communicator* the_world = nullptr;
 class Quiet : public testing::EmptyTestEventListener {
     void OnTestPartResult(const testing::TestPartResult& result) override {
         if (result.failed())
-            std::fprintf(stderr, "rank %d: %s:%d: %s\n", world().rank(), result.file_name(), result.line_number(),
-                         result.summary());
+            std::fprintf(stderr, "rank %d: %s:%d: %s\n", world().rank(), result.file_name(),
+                         result.line_number(), result.summary());
     }
 };
 

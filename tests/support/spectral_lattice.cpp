@@ -23,7 +23,8 @@ Matrix inverse(const Matrix& m) {
         m[0][0] * cofactor(0, 0) + m[0][1] * cofactor(0, 1) + m[0][2] * cofactor(0, 2);
     Matrix result;
     for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) result[j][i] = cofactor(i, j) / determinant;
+        for (std::size_t j = 0; j < 3; ++j)
+            result[j][i] = cofactor(i, j) / determinant;
     return result;
 }
 
@@ -31,23 +32,28 @@ Matrix times(const Matrix& a, const Matrix& b) {
     Matrix c{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
-            for (std::size_t k = 0; k < 3; ++k) c[i][j] += a[i][k] * b[k][j];
+            for (std::size_t k = 0; k < 3; ++k)
+                c[i][j] += a[i][k] * b[k][j];
     return c;
 }
 
 } // namespace
 
-double surface_stiffness_ratio(double qx, double qy, int thickness, double spacing, double lame, double shear) {
+double surface_stiffness_ratio(double qx, double qy, int thickness, double spacing, double lame,
+                               double shear) {
     // K of one cell: springs of k/4 along edges, k/2 along face diagonals, and the mean dilatation.
     static constexpr std::size_t n = 24;
     std::array<std::array<double, n>, n> cell{};
-    const auto corner = [](std::size_t p, std::size_t c) { return static_cast<double>(p >> c & 1u); };
+    const auto corner = [](std::size_t p, std::size_t c) {
+        return static_cast<double>(p >> c & 1u);
+    };
     const double k = shear * spacing;
     for (std::size_t p = 0; p < 8; ++p)
         for (std::size_t q = p + 1; q < 8; ++q) {
             std::array<double, 3> d{};
             double square = 0.0;
-            for (std::size_t c = 0; c < 3; ++c) d[c] = corner(q, c) - corner(p, c), square += d[c] * d[c];
+            for (std::size_t c = 0; c < 3; ++c)
+                d[c] = corner(q, c) - corner(p, c), square += d[c] * d[c];
             if (square > 2.5) continue;
             const double constant = square < 1.5 ? k / 4 : k / 2;
             for (std::size_t a = 0; a < 3; ++a)
@@ -78,15 +84,18 @@ double surface_stiffness_ratio(double qx, double qy, int thickness, double spaci
         }
     Matrix adjoint;
     for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) adjoint[i][j] = std::conj(across[j][i]);
+        for (std::size_t j = 0; j < 3; ++j)
+            adjoint[i][j] = std::conj(across[j][i]);
     Matrix s = low;
     for (int layer = 1; layer < thickness; ++layer) {
         Matrix middle = high;
         for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j) middle[i][j] += s[i][j];
+            for (std::size_t j = 0; j < 3; ++j)
+                middle[i][j] += s[i][j];
         const Matrix gone = times(times(across, inverse(middle)), adjoint);
         for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j) s[i][j] = low[i][j] - gone[i][j];
+            for (std::size_t j = 0; j < 3; ++j)
+                s[i][j] = low[i][j] - gone[i][j];
     }
     const double stiffness = 1.0 / inverse(s)[2][2].real() / (spacing * spacing);
     const double poisson = lame / (2.0 * (lame + shear));

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The lattice block's static response at one wavevector, straight from the definition of the cell energy:
-// the 24 x 24 matrix of one cell, folded to two planes, and the planes eliminated one by one from the
-// clamped top. Shares nothing with the kernels or the block: it is their judge.
+// The lattice block's static response at one wavevector, straight from the definition of the cell
+// energy: the 24 x 24 matrix of one cell, folded to two planes, and the planes eliminated one by
+// one from the clamped top. Shares nothing with the kernels or the block: it is their judge.
 #pragma once
 
 namespace asperity::test {
 
 /// Frictionless normal stiffness of the surface, 1 / (S^-1)_zz per a^2, in units of E* q / 2.
 /// q in 1/Å; lame = lambda, shear = mu in eV/Å^3; thickness in cells.
-double surface_stiffness_ratio(double qx, double qy, int thickness, double spacing, double lame, double shear);
+double surface_stiffness_ratio(double qx, double qy, int thickness, double spacing, double lame,
+                               double shear);
 
 } // namespace asperity::test

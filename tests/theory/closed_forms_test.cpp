@@ -46,7 +46,7 @@ TEST(HalfSpace, Layer) {
         const double uniaxial = 3 * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
         EXPECT_NEAR(layer_stiffness(1e-4, 2, 3, nu) / (uniaxial / 2), 1, 1e-5) << nu;
     }
-    // An incompressible one has to flow: the stiffness is 4E/9 · 3/(q²H³) ·... = E/(q²H³) here.
+    // An incompressible one has to flow: Reynolds' lubrication gives 3μ/(q²H³).
     EXPECT_NEAR(layer_stiffness(1e-3, 1, 1, 0.5) * 1e-6, 1, 1e-5);
     EXPECT_THROW((void)layer_stiffness_ratio(1, 0.6), InvalidInput);
     EXPECT_THROW((void)layer_stiffness_ratio(0, 0.3), InvalidInput);
@@ -82,7 +82,7 @@ TEST(Jkr, RoutesAgree) {
         const SphereState c = jkr::at_radius(paper_sphere, a.radius);
         EXPECT_NEAR(c.approach, a.approach, 1e-9 * std::abs(a.approach));
     }
-    // Griffith: K_I of the edge carries w. F_Hertz(a) - F = √(6πwK a³)... = √(8πwE*a³).
+    // Griffith: K_I of the edge carries w. F_Hertz(a) - F = √(8πwE*a³).
     const double a = 300;
     const double hertz_force = 4 * paper_sphere.contact_modulus * a * a * a / (3 * 4410.0);
     const double missing = hertz_force - jkr::at_radius(paper_sphere, a).force;

@@ -87,6 +87,18 @@ TEST(Persson, CriticalRoughness) {
                 0.5e-4);
 }
 
+TEST(Persson, CriticalRoughnessUnderLoad) {
+    for (double p : {-0.5, 0.5}) {
+        AdhesiveContact c = paper::contact(5);
+        c.pressure = p * gpa;
+        const double h_c = critical_roughness(c).h_rms;
+        c.spectrum = c.spectrum.with_rms_height(0.999 * h_c);
+        EXPECT_EQ(solve(c).status, Status::adhesive) << p;
+        c.spectrum = c.spectrum.with_rms_height(1.001 * h_c);
+        EXPECT_EQ(solve(c).status, p < 0 ? Status::no_contact : Status::pressed) << p;
+    }
+}
+
 TEST(Persson, WithoutRollOff) {
     AdhesiveContact c = paper::contact(9);
     c.spectrum = Spectrum::self_affine({paper::q_L, paper::q_L, 512 * paper::q_L, 0.8, 9});

@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/plot.hpp"
+
+#include "io/result.hpp"
+#include "io/table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace asperity::io {
+
+namespace {
+
+/// Okabe and Ito, without the yellow that vanishes on white.
+constexpr std::array<const char*, 7> palette = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                "#E69F00", "#56B4E9", "#4D4D4D"};
+constexpr double font = 13.0;        // pixels
+constexpr double letter = 0.56;      // mean width of one, in font sizes
+constexpr double legend_line = 20.0; // pixels
+constexpr double sample = 30.0;      // length of the line shown in the legend
+
+std::string escape(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+/// "h_{rms} (Å)" with its subscripts.
+std::string marked_up(const std::string& text) {
+    std::string out;
+    std::size_t at = 0;
+    bool lowered = false; // the baseline is still that of a subscript
+    const auto body = [&](const std::string& part) {
+        if (part.empty()) return;
+        out += lowered ? "<tspan dy=\"-4\">" + escape(part) + "</tspan>" : escape(part);
+        lowered = false;
+    };
+    for (;;) {
+        const std::size_t open = text.find("_{", at);
+        const std::size_t close = open == std::string::npos ? open : text.find('}', open);
+        if (close == std::string::npos) {
+            body(text.substr(at));
+            return out;
+        }
+        body(text.substr(at, open - at));
+        out += fmt::format("<tspan dy=\"{}\" font-size=\"{}\">{}</tspan>", lowered ? 0 : 4,
+                           font - 3, escape(text.substr(open + 2, close - open - 2)));
+        lowered = true;
+        at = close + 1;
+    }
+}
+
+/// Without the marks, for titles and widths.
+std::string plain(std::string text) {
+    for (std::size_t open; (open = text.find("_{")) != std::string::npos;) {
+        const std::size_t close = text.find('}', open);
+        if (close == std::string::npos) break;
+        text.erase(close, 1);
+        text.replace(open, 2, "_");
+    }
+    return text;
+}
+
+double round_step(double span, int count) {
+    const double rough = span / std::max(1, count);
+    const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+    for (const double m : {1.0, 2.0, 5.0})
+        if (rough <= m * decade * (1.0 + 1e-9)) return m * decade;
+    return 10.0 * decade;
+}
+
+struct Limits {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+    void take(double v) {
+        if (!std::isfinite(v)) return;
+        low = std::min(low, v);
+        high = std::max(high, v);
+    }
+};
+
+/// One axis: its limits on round numbers unless they are given, and its ticks.
+struct Axis {
+    double low = 0.0, high = 1.0, step = 1.0;
+    std::vector<double> ticks;
+
+    Axis(Limits data, std::optional<double> given_low, std::optional<double> given_high,
+         int count) {
+        if (!(data.low <= data.high)) data = {0.0, 1.0};
+        low = given_low.value_or(data.low);
+        high = given_high.value_or(data.high);
+        if (!(high > low)) { // a single value: some room around it
+            const double room = low == 0.0 ? 1.0 : 0.1 * std::abs(low);
+            if (!given_low) low -= room;
+            high = std::max(high, low) + room;
+        }
+        step = round_step(high - low, count);
+        if (!given_low) low = step * std::floor(low / step + 1e-9);
+        if (!given_high) high = step * std::ceil(high / step - 1e-9);
+        ticks = nice_ticks(low, high, count);
+        if (ticks.size() > 1) step = ticks[1] - ticks[0];
+    }
+};
+
+class Drawing {
+public:
+    explicit Drawing(const Plot& plot)
+        : plot_(plot), x_(limits(&PlotSeries::x), plot.x_low, plot.x_high, 8),
+          y_(limits(&PlotSeries::y), plot.y_low, plot.y_high, 6) {
+        int widest = 0;
+        for (const double t : y_.ticks)
+            widest = std::max(widest, visible_width(tick_label(t, y_.step)));
+        left_ = 44.0 + letter * font * widest;
+        right_ = plot.width - 22.0;
+        top_ = plot.title.empty() ? 20.0 : 44.0;
+        bottom_ = plot.height - 58.0;
+    }
+
+    std::string svg() {
+        out_ = fmt::format(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+            "viewBox=\"0 0 {0} {1}\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" "
+            "font-size=\"{2}\" fill=\"#222222\">\n"
+            "<title>{3}</title>\n"
+            "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
+            plot_.width, plot_.height, font,
+            escape(plain(plot_.title.empty() ? plot_.y_label : plot_.title)));
+        axes();
+        out_ += fmt::format("<clipPath id=\"frame\"><rect x=\"{:.1f}\" y=\"{:.1f}\" "
+                            "width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n",
+                            left_ - 1, top_ - 1, right_ - left_ + 2, bottom_ - top_ + 2);
+        out_ += "<g clip-path=\"url(#frame)\" fill=\"none\" stroke-width=\"2\" "
+                "stroke-linejoin=\"round\">\n";
+        for (std::size_t i = 0; i < plot_.series.size(); ++i)
+            series(plot_.series[i], colour(i));
+        out_ += "</g>\n";
+        legend();
+        return out_ + "</svg>\n";
+    }
+
+private:
+    Limits limits(std::vector<double> PlotSeries::*member) const {
+        Limits all;
+        for (const PlotSeries& s : plot_.series) {
+            if (s.x.size() != s.y.size())
+                throw std::invalid_argument(
+                    fmt::format("plot: series \"{}\" has {} x and {} y values; give as many of "
+                                "the one as of the other",
+                                s.label, s.x.size(), s.y.size()));
+            for (const double v : s.*member)
+                all.take(v);
+        }
+        return all;
+    }
+
+    double px(double x) const {
+        return left_ + (x - x_.low) / (x_.high - x_.low) * (right_ - left_);
+    }
+    double py(double y) const {
+        // Far outside the frame any place will do; viewers dislike enormous coordinates.
+        const double v = bottom_ - (y - y_.low) / (y_.high - y_.low) * (bottom_ - top_);
+        return std::clamp(v, -10.0 * plot_.height, 11.0 * plot_.height);
+    }
+    const char* colour(std::size_t i) const {
+        const int own = plot_.series[i].colour;
+        return palette[(own < 0 ? i : static_cast<std::size_t>(own)) % palette.size()];
+    }
+
+    void line(double x1, double y1, double x2, double y2, const char* stroke) {
+        out_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
+                            "stroke=\"{}\"/>\n",
+                            x1, y1, x2, y2, stroke);
+    }
+    void text(double x, double y, const char* anchor, const std::string& body,
+              const std::string& more = "") {
+        out_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" "
+                            "xml:space=\"preserve\"{}>{}</text>\n",
+                            x, y, anchor, more, body);
+    }
+
+    void axes() {
+        for (const double t : y_.ticks)
+            line(left_, py(t), right_, py(t), t == 0.0 ? "#b0b0b0" : "#e6e6e6");
+        for (const double t : x_.ticks)
+            line(px(t), bottom_, px(t), bottom_ + 5.0, "#444444");
+        for (const double t : y_.ticks)
+            line(left_ - 5.0, py(t), left_, py(t), "#444444");
+        line(left_, bottom_, right_, bottom_, "#444444");
+        line(left_, top_, left_, bottom_, "#444444");
+        for (const double t : x_.ticks)
+            text(px(t), bottom_ + 20.0, "middle", tick_label(t, x_.step));
+        for (const double t : y_.ticks)
+            text(left_ - 9.0, py(t) + 4.5, "end", tick_label(t, y_.step));
+        const double middle = 0.5 * (top_ + bottom_);
+        text(0.5 * (left_ + right_), plot_.height - 16.0, "middle", marked_up(plot_.x_label));
+        text(18.0, middle, "middle", marked_up(plot_.y_label),
+             fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", middle));
+        if (!plot_.title.empty())
+            text(left_, 24.0, "start", marked_up(plot_.title), " font-weight=\"bold\"");
+    }
+
+    static std::string dashes(PlotSeries::Style style) {
+        if (style == PlotSeries::Style::dashed) return " stroke-dasharray=\"8 5\"";
+        if (style == PlotSeries::Style::dotted)
+            return " stroke-dasharray=\"1 5\" stroke-linecap=\"round\"";
+        return "";
+    }
+
+    void series(const PlotSeries& s, const char* stroke) {
+        if (s.style == PlotSeries::Style::points) {
+            for (std::size_t i = 0; i < s.x.size(); ++i)
+                if (std::isfinite(s.x[i]) && std::isfinite(s.y[i]))
+                    out_ += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"{}\" "
+                                        "stroke=\"#ffffff\" stroke-width=\"1\"/>\n",
+                                        px(s.x[i]), py(s.y[i]), stroke);
+            return;
+        }
+        std::string path;
+        bool drawing = false;
+        for (std::size_t i = 0; i < s.x.size(); ++i) {
+            const bool there = std::isfinite(s.x[i]) && std::isfinite(s.y[i]);
+            if (there)
+                path += fmt::format("{}{:.2f} {:.2f}", drawing ? "L" : "M", px(s.x[i]), py(s.y[i]));
+            drawing = there;
+        }
+        if (!path.empty())
+            out_ +=
+                fmt::format("<path d=\"{}\" stroke=\"{}\"{}/>\n", path, stroke, dashes(s.style));
+    }
+
+    /// How many samples of the curves lie in the box.
+    int hidden(double x, double y, double w, double h) const {
+        int count = 0;
+        for (const PlotSeries& s : plot_.series)
+            for (std::size_t i = 0; i < s.x.size(); ++i) {
+                if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+                const double u = px(s.x[i]), v = py(s.y[i]);
+                count += u > x && u < x + w && v > y && v < y + h ? 1 : 0;
+            }
+        return count;
+    }
+
+    void legend() {
+        int lines = 0, widest = 0;
+        for (const PlotSeries& s : plot_.series)
+            if (!s.label.empty()) {
+                ++lines;
+                widest = std::max(widest, visible_width(plain(s.label)));
+            }
+        if (lines == 0) return;
+        const double w = sample + 24.0 + letter * font * widest, h = legend_line * lines + 8.0;
+        double x = 0.0, y = 0.0;
+        int least = std::numeric_limits<int>::max();
+        for (const double v : {top_ + 6.0, bottom_ - h - 6.0})
+            for (const double u : {right_ - w - 6.0, left_ + 8.0})
+                if (const int n = hidden(u, v, w, h); n < least) {
+                    least = n;
+                    x = u;
+                    y = v;
+                }
+        out_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+                            "fill=\"#ffffff\" fill-opacity=\"0.85\" stroke=\"#d0d0d0\"/>\n",
+                            x, y, w, h);
+        double at = y + 4.0 + 0.5 * legend_line;
+        for (std::size_t i = 0; i < plot_.series.size(); ++i) {
+            const PlotSeries& s = plot_.series[i];
+            if (s.label.empty()) continue;
+            if (s.style == PlotSeries::Style::points)
+                out_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\"/>\n",
+                                    x + 8.0 + 0.5 * sample, at, colour(i));
+            else
+                out_ += fmt::format("<path d=\"M{:.1f} {:.1f}h{}\" stroke=\"{}\" "
+                                    "stroke-width=\"2\"{}/>\n",
+                                    x + 8.0, at, sample, colour(i), dashes(s.style));
+            text(x + sample + 16.0, at + 4.5, "start", marked_up(s.label));
+            at += legend_line;
+        }
+    }
+
+    const Plot& plot_;
+    Axis x_, y_;
+    double left_ = 0.0, right_ = 0.0, top_ = 0.0, bottom_ = 0.0;
+    std::string out_;
+};
+
+} // namespace
+
+std::vector<double> nice_ticks(double low, double high, int count) {
+    std::vector<double> ticks;
+    if (!(high > low) || !std::isfinite(high - low)) return ticks;
+    const double step = round_step(high - low, count);
+    const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
+    for (double k = first; k <= last; ++k)
+        ticks.push_back(k == 0.0 ? 0.0 : k * step);
+    return ticks;
+}
+
+std::string tick_label(double value, double step) {
+    if (value == 0.0) return "0";
+    const double size = std::max(std::abs(value), std::abs(step));
+    if (size >= 1e6 || size < 1e-4) return fmt::format("{:.4g}", value);
+    const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+    const std::string number = fmt::format("{:.{}f}", value, digits);
+    return number.front() == '-' ? "−" + number.substr(1) : number;
+}
+
+std::string plot_svg(const Plot& plot) { return Drawing(plot).svg(); }
+
+void write_plot(const std::string& path, const Plot& plot) { write_whole(path, plot_svg(plot)); }
+
+} // namespace asperity::io

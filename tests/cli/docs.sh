@@ -1,0 +1,38 @@
+#!/bin/bash
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+#
+# Every command of the README and the docs runs. Runs are made small and short by overrides put behind the
+# command's own; a comment "# exit N" behind a command says with which code it is meant to end.
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+small="--set surface.sites=32 block.thickness=32 --progress off"
+"$asperity" surface "$source/scenes/first-contact.toml" --out map >/dev/null || fail "no surface"
+cp map/heights.h5 heights.h5 # "your own surface"
+
+count=0
+while IFS= read -r line; do
+    wanted=0
+    [[ $line =~ "# exit "([0-9]+) ]] && wanted=${BASH_REMATCH[1]}
+    command=${line%%#*}
+    case $command in
+    *"./asperity test"* | *"./asperity bench"*) continue ;; # would call this test
+    *" run "*) command="$command $small"
+        # What is meant to fail has to get there; the others stop after a few steps.
+        [ "$wanted" = 0 ] && command="$command --set drive.max_steps=30" ;;
+    esac
+    command=${command//.\/asperity/\"$asperity\"}
+    command=${command//scenes\//$source/scenes/}
+    command=${command//docs\/scene.md/scene.md}
+    command=${command//mpirun /mpirun --oversubscribe }
+    out=$(eval "timeout 120 $command" 2>&1 </dev/null)
+    code=$?
+    [ $code -eq "$wanted" ] || fail "exit code $code, not $wanted: $command
+$out"
+    count=$((count + 1))
+done < <(cat "$source/README.md" "$source/ARCHITECTURE.md" "$source"/docs/*.md "$source"/docs/gallery/*.md |
+    grep -E '^    (mpirun .*)?\./asperity ' | sed 's/^    //')
+[ $count -ge 10 ] || fail "only $count commands were found"
+finish

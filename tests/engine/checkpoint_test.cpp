@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A run that was interrupted goes on as if it had not been: the same bits, whatever number of ranks
+// wrote the checkpoint and whatever number reads it. Judge: the uninterrupted run on one rank.
+#include "engine/checkpoint.hpp"
+#include "io/error.hpp"
+#include "support/cases.hpp"
+#include "support/parallel_main.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <span>
+
+using namespace asperity;
+
+namespace {
+
+const Communicator& world() { return test::world(); }
+
+constexpr double start_height = 7.5; ///< Å: in the attraction; contact at step 139
+
+SimulationOptions options() {
+    SimulationOptions o;
+    o.block = test::paper_block(32, 32, 3);
+    o.interface = test::paper_interface();
+    o.drive.velocity = 2e-3;
+    o.drive.ramp = 800.0;
+    o.damping = 1e-3;
+    o.temperature = 300.0; // the noise must go on where it was
+    o.seed = 11;
+    return o;
+}
+
+Simulation make(const Communicator& ranks) {
+    return Simulation(options(), test::reference_surface("c3_N32_T32_rms1.5"), ranks,
+                      test::grid_for(options().block, ranks));
+}
+
+void advance(Simulation& s, int steps) {
+    for (int n = 0; n < steps; ++n) {
+        const StepRecord& now = s.step(s.steps() % 10 == 0);
+        s.drive().observe(now.time, now.force, false);
+    }
+}
+
+/// All that must not depend on the interruption, as one number.
+std::uint64_t trace(Simulation& s) {
+    std::uint64_t hash = test::fingerprint(s.block());
+    s.step(true);
+    const StepRecord& now = s.now();
+    const Ledger& l = s.ledger();
+    for (double value : {now.time, now.top, now.mean_height, now.force, now.top_force,
+                         now.interface_energy, now.elastic_energy, now.kinetic_energy, l.top_work,
+                         l.drag_work, l.damped, l.heat, l.approach, l.pull_off, s.energy_residual(),
+                         static_cast<double>(s.leg()), s.drive().velocity(s.time())})
+        hash = test::mix(hash, value);
+    return hash;
+}
+
+constexpr int first_leg = 170, second_leg = 80; // cut while the drive turns round
+
+std::uint64_t uninterrupted() {
+    std::array<std::int64_t, 1> hash = {0};
+    if (world().root()) {
+        Simulation s = make(Communicator());
+        s.start(start_height);
+        advance(s, first_leg);
+        EXPECT_EQ(s.leg(), Leg::pull_off);
+        EXPECT_LT(std::abs(s.drive().velocity(s.time())), options().drive.velocity)
+            << "in the turn";
+        advance(s, second_leg);
+        EXPECT_GT(s.now().in_contact, 0);
+        hash[0] = std::bit_cast<std::int64_t>(trace(s));
+    }
+    world().broadcast(std::as_writable_bytes(std::span(hash)));
+    return std::bit_cast<std::uint64_t>(hash[0]);
+}
+
+std::string file(const char* name) {
+    return std::string(name) + "_ranks" + std::to_string(world().size()) + ".h5";
+}
+
+/// Removed again by the root.
+class Scratch {
+public:
+    explicit Scratch(const char* name) : path(file(name)) { remove(); }
+    ~Scratch() { remove(); }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    const std::string path;
+
+private:
+    void remove() const {
+        world().barrier();
+        if (world().root()) {
+            std::error_code ignored;
+            std::filesystem::remove(path, ignored);
+        }
+        world().barrier();
+    }
+};
+
+} // namespace
+
+TEST(Checkpoint, WrittenByAllRanksAndTakenUpByOne) {
+    const std::uint64_t expected = uninterrupted();
+    const Scratch scratch("many_to_one");
+    Simulation before = make(world());
+    before.start(start_height);
+    advance(before, first_leg);
+    write_checkpoint(scratch.path, before, {{"rows", 12.0}, {"binding", 0.1}}, "scene A");
+    world().barrier();
+    if (world().root()) {
+        Simulation after = make(Communicator());
+        const RunScalars scalars = read_checkpoint(scratch.path, after, "scene A");
+        EXPECT_EQ(scalars, (RunScalars{{"rows", 12.0}, {"binding", 0.1}}));
+        EXPECT_EQ(after.steps(), first_leg);
+        advance(after, second_leg);
+        EXPECT_EQ(trace(after), expected);
+        EXPECT_FALSE(std::filesystem::exists(scratch.path + ".part"));
+    }
+    // Writing has changed nothing.
+    advance(before, second_leg);
+    EXPECT_EQ(trace(before), expected);
+}
+
+TEST(Checkpoint, WrittenByOneAndTakenUpByAllRanks) {
+    const std::uint64_t expected = uninterrupted();
+    const Scratch scratch("one_to_many");
+    if (world().root()) {
+        Simulation before = make(Communicator());
+        before.start(start_height);
+        advance(before, first_leg);
+        write_checkpoint(scratch.path, before, {}, "scene A");
+    }
+    world().barrier();
+    Simulation after = make(world());
+    advance(after, 3); // whatever it did before must be forgotten
+    EXPECT_TRUE(read_checkpoint(scratch.path, after, "scene A").empty());
+    EXPECT_EQ(after.steps(), first_leg);
+    advance(after, second_leg);
+    EXPECT_EQ(trace(after), expected);
+}
+
+TEST(Checkpoint, OfAnotherSceneIsRefused) {
+    const Scratch scratch("other_scene");
+    Simulation s = make(world());
+    s.start(start_height);
+    write_checkpoint(scratch.path, s, {}, "scene A");
+    if (world().root())
+        EXPECT_THROW(read_checkpoint(scratch.path, s, "scene B"), io::SceneError);
+    else
+        EXPECT_THROW(read_checkpoint(scratch.path, s, "scene B"), RootFailure);
+}
+
+TEST(Checkpoint, WhatIsNoneIsRefused) {
+    const Scratch scratch("no_checkpoint");
+    Simulation s = make(world());
+    const auto read = [&] { read_checkpoint(scratch.path, s, "scene A"); };
+    for (const char* content : {"", "not HDF5"}) {
+        if (world().root() && *content) std::ofstream(scratch.path) << content;
+        world().barrier();
+        if (world().root())
+            EXPECT_THROW(read(), io::FileError);
+        else
+            EXPECT_THROW(read(), RootFailure);
+    }
+}
+
+TEST(Snapshot, PutsTheSimulationBack) {
+    Simulation s = make(world());
+    s.start(start_height);
+    advance(s, first_leg);
+    Snapshot snapshot;
+    EXPECT_TRUE(snapshot.empty());
+    snapshot.take(s);
+    EXPECT_EQ(snapshot.step(), first_leg);
+    const std::uint64_t there = test::fingerprint(s.block());
+    advance(s, second_leg);
+    const std::uint64_t end = trace(s);
+    snapshot.restore(s);
+    EXPECT_EQ(s.steps(), first_leg);
+    EXPECT_EQ(test::fingerprint(s.block()), there);
+    advance(s, second_leg);
+    EXPECT_EQ(trace(s), end);
+}

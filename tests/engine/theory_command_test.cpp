@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The theory of a scene: the scene's keys reach the solver, its numbers reach the result. The
+// expected numbers are those of theory.md (tests/theory judges the solver itself).
+#include "engine/theory_command.hpp"
+
+#include "engine/setup.hpp"
+#include "engine/sweep.hpp"
+#include "io/error.hpp"
+#include "io/plot.hpp"
+#include "theory/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace asperity {
+namespace {
+
+Scene paper(double rms) {
+    Scene s;
+    s.surface.rms = rms;
+    s.theory.delta_gamma = 100.0;
+    s.theory.clip = false;
+    return s;
+}
+
+Scene small(double rms) {
+    Scene s;
+    s.surface.sites = 64;
+    s.block.thickness = 64;
+    s.surface.rms = rms;
+    return s;
+}
+
+TEST(TheoryOfAScene, GivesTheNumbersOfThePaper) {
+    struct Row {
+        double rms, gamma, area, full;
+    };
+    for (const Row& row : {Row{3, 0.67469, 0.98985, 0.68120}, Row{5, 0.15159, 0.66628, 0.11353},
+                           Row{6.5, 0.00604, 0.24305, -0.49960}}) {
+        const TheoryCase what = theory_case(paper(row.rms));
+        const TheoryNumbers n = solve_theory(what);
+        EXPECT_NEAR(n.gamma_eff, 100.0 * row.gamma, 2e-3) << row.rms;
+        EXPECT_NEAR(n.state.area, row.area, 2e-5) << row.rms;
+        EXPECT_NEAR(n.gamma_full_contact, 100.0 * row.full, 2e-3) << row.rms;
+        EXPECT_GT(n.gamma_eff_with_gaps, n.gamma_eff);
+        EXPECT_NEAR(what.flat, 98.86, 5e-3); // model.md section 4
+    }
+}
+
+TEST(TheoryOfAScene, TakesFactorAndBetaFromTheScene) {
+    Scene s = paper(3);
+    s.theory.area_factor = AreaFactor::none;
+    EXPECT_NEAR(solve_theory(theory_case(s)).gamma_eff, 65.999582, 2e-3);
+    s.theory.beta = 1.0; // more elastic energy at partial contact
+    EXPECT_LT(solve_theory(theory_case(s)).gamma_eff, 65.999);
+}
+
+TEST(TheoryOfAScene, ClipsAtNyquistAndSaysSo) {
+    Scene s = paper(3);
+    s.theory.clip = true;
+    const TheoryCase what = theory_case(s);
+    EXPECT_NEAR(what.contact.spectrum.q1(), std::numbers::pi / 2.6, 1e-12);
+    EXPECT_NEAR(what.contact.spectrum.rms_height(), 3.0, 1e-12);
+    ASSERT_EQ(what.notes.size(), 1u);
+    EXPECT_NE(what.notes[0].find("Nyquist"), std::string::npos);
+}
+
+TEST(TheoryOfAScene, ReadsTheLoadAsPressure) {
+    Scene s = paper(3);
+    s.drive.load = -1960.0; // theory.md: the branch ends at -1.974 GPa with A = 0.741
+    EXPECT_EQ(solve_theory(theory_case(s)).state.status, theory::Status::adhesive);
+    s.drive.load = -1990.0;
+    const TheoryNumbers off = solve_theory(theory_case(s));
+    EXPECT_EQ(off.state.status, theory::Status::no_contact);
+    EXPECT_EQ(off.gamma_eff, 0.0);
+    EXPECT_EQ(off.state.area, 0.0);
+    EXPECT_EQ(off.gamma_eff_with_gaps, 0.0);
+}
+
+TEST(TheoryOfAScene, OfAFlatSurfaceIsTheFlatReference) {
+    Scene s = small(3);
+    s.surface.kind = SurfaceKind::flat;
+    const TheoryCase what = theory_case(s);
+    const TheoryNumbers n = solve_theory(what);
+    EXPECT_NEAR(n.gamma_eff, what.flat, 1e-9);
+    EXPECT_EQ(n.state.area, 1.0);
+    EXPECT_NEAR(n.gamma_full_contact, what.flat, 1e-9);
+    EXPECT_NEAR(n.gamma_eff_with_gaps, what.flat, 1e-9);
+}
+
+TEST(TheoryOfAScene, RealisedSpectrumHasTheRmsAndTheFullContactEnergyOfTheMap) {
+    for (const Amplitudes amplitudes : {Amplitudes::gaussian, Amplitudes::fixed}) {
+        Scene s = small(0.8);
+        s.surface.amplitudes = amplitudes;
+        s.theory.spectrum = TheorySpectrum::realised;
+        s.theory.area_factor = AreaFactor::none;
+        const Surface surface = scene_surface(s);
+        const TheoryCase what = theory_case(s, &surface);
+        EXPECT_NEAR(what.contact.spectrum.rms_height(), 0.8, 1e-9);
+        EXPECT_NEAR(what.contact.spectrum.rms_slope(), surface.statistics.rms_slope,
+                    0.02 * surface.statistics.rms_slope);
+        // U_el of full contact, wave by wave: (E*/4) sum of q |h_q|^2.
+        double energy = 0.0;
+        for (const SpectrumBin& bin : surface.statistics.spectrum) {
+            const double q_unit = 2.0 * std::numbers::pi / surface.length;
+            energy += 0.25 * what.contact.contact_modulus * bin.q * bin.realised * bin.modes *
+                      q_unit * q_unit;
+        }
+        const TheoryNumbers n = solve_theory(what);
+        EXPECT_NEAR(what.delta_gamma - n.gamma_full_contact, 1e3 * energy, 0.03 * 1e3 * energy);
+        // Made anew it is the same surface, and of another roughness the same shape.
+        EXPECT_EQ(solve_theory(theory_case(s)).gamma_eff, n.gamma_eff);
+        s.surface.rms = 0.4;
+        EXPECT_NEAR(theory_case(s, &surface).contact.spectrum.rms_slope(),
+                    theory_case(s).contact.spectrum.rms_slope(), 1e-9);
+    }
+}
+
+TEST(TheoryOfAScene, OfASphereIsJkrWithTheEffectiveEnergy) {
+    Scene s = paper(0);
+    s.surface.radius = 4410.0;
+    const TheoryNumbers n = solve_theory(theory_case(s));
+    EXPECT_NEAR(n.jkr_pull_off_force.value(), 2078.16, 0.01); // theory.md
+    s.surface.rms = 3;
+    EXPECT_NEAR(solve_theory(theory_case(s)).jkr_pull_off_force.value(), 0.67469 * 2078.16, 0.1);
+    s.surface.rms = 9;
+    EXPECT_EQ(solve_theory(theory_case(s)).jkr_pull_off_force.value(), 0.0);
+}
+
+TEST(TheoryOfAScene, NeverMakesARunFail) {
+    Scene s = small(1);
+    const Surface surface = scene_surface(s);
+    io::ResultRecord good;
+    add_theory(s, surface, 98.0, good);
+    EXPECT_TRUE(good.theory.gamma_eff.has_value());
+    s.surface.cutoff = 1.0; // a band of no width
+    s.surface.rolloff = 1.0;
+    io::ResultRecord bad;
+    add_theory(s, surface, 98.0, bad);
+    EXPECT_FALSE(bad.theory.gamma_eff.has_value());
+    const io::JsonValue json = io::result_json(bad);
+    ASSERT_NE(json.find("theory.note"), nullptr);
+    EXPECT_NE(json.find("theory.note")->text().find("surface.cutoff"), std::string::npos);
+}
+
+TEST(SweepAxes, ReadListsRangesAndSingleValues) {
+    std::vector<std::string> fixed;
+    const auto axes = sweep_axes({"surface.rms=0.1:0.5:0.1,3", "surface.sites=32:96:32",
+                                  "theory.area_factor=none,gaussian", "drive.load=5",
+                                  "drive.path=approach,pull-off"},
+                                 fixed);
+    ASSERT_EQ(axes.size(), 3u);
+    EXPECT_EQ(axes[0].values, (std::vector<std::string>{"0.1", "0.2", "0.3", "0.4", "0.5", "3"}));
+    EXPECT_EQ(axes[1].values, (std::vector<std::string>{"32", "64", "96"}));
+    EXPECT_EQ(axes[2].values, (std::vector<std::string>{"none", "gaussian"}));
+    EXPECT_EQ(fixed, (std::vector<std::string>{"drive.load=5", "drive.path=approach,pull-off"}));
+    const auto grid = sweep_grid(axes);
+    ASSERT_EQ(grid.size(), 36u);
+    EXPECT_EQ(grid[1], (std::vector<std::string>{"surface.rms=0.1", "surface.sites=32",
+                                                 "theory.area_factor=gaussian"}));
+    const auto hundred = sweep_axes({"surface.rms=0.1:25:0.25"}, fixed);
+    EXPECT_EQ(hundred.at(0).values.size(), 100u);
+    EXPECT_EQ(hundred.at(0).values.back(), "24.85");
+    const auto down = sweep_axes({"drive.load=100:-100:-100"}, fixed);
+    EXPECT_EQ(down.at(0).values, (std::vector<std::string>{"100", "0", "-100"}));
+}
+
+TEST(SweepAxes, RefuseNonsense) {
+    std::vector<std::string> fixed;
+    for (const char* text : {"surface.rms=1:2:0", "surface.rms=1:2:-1", "surface.rms=1:2",
+                             "surface.rms=1,,2", "surface.rms=0:1:1e-9", "surface.rms=1:2:x"})
+        EXPECT_THROW(sweep_axes({text}, fixed), io::SceneError) << text;
+    EXPECT_THROW(sweep_axes({"surface.rms=1,2", "surface.rms=3,4"}, fixed), io::SceneError);
+    EXPECT_THROW(sweep_axes({"surface.rms=1:1000:1", "drive.load=1:1000:1"}, fixed),
+                 io::SceneError);
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+        ++n;
+    return n;
+}
+
+/// Every tag is closed, in order, and no stray <, & stands in the text.
+bool well_formed(const std::string& text) {
+    std::vector<std::string> open;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text[at] == '&' && text.compare(at, 5, "&amp;") != 0 &&
+            text.compare(at, 4, "&lt;") != 0 && text.compare(at, 4, "&gt;") != 0 &&
+            text.compare(at, 6, "&quot;") != 0)
+            return false;
+        if (text[at] != '<') continue;
+        const std::size_t end = text.find('>', at);
+        if (end == std::string::npos) return false;
+        const std::string tag = text.substr(at + 1, end - at - 1);
+        at = end;
+        if (tag.starts_with("?") || tag.ends_with("/")) continue;
+        const std::string name = tag.substr(0, tag.find_first_of(" \n"));
+        if (count(tag, "\"") % 2 != 0) return false;
+        if (!name.starts_with("/")) {
+            open.push_back(name);
+        } else {
+            if (open.empty() || "/" + open.back() != name) return false;
+            open.pop_back();
+        }
+    }
+    return open.empty();
+}
+
+TEST(Plot, IsWellFormed) {
+    io::Plot plot;
+    plot.title = "a < b & \"c\"";
+    plot.x_label = "h_{rms} (Å)";
+    plot.y_label = "γ_{eff} / Δγ";
+    const double nan = std::nan("");
+    plot.series.push_back({.label = "broken", .x = {0, 1, 2, 3, 4}, .y = {1, 2, nan, 3, 4}});
+    plot.series.push_back({.label = "points",
+                           .x = {0, 1},
+                           .y = {1e30, -1e30},
+                           .style = io::PlotSeries::Style::points});
+    plot.y_low = 0.0;
+    plot.y_high = 5.0;
+    const std::string svg = io::plot_svg(plot);
+    EXPECT_TRUE(well_formed(svg)) << svg;
+    EXPECT_TRUE(svg.starts_with("<?xml"));
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_EQ(svg.find("inf"), std::string::npos);
+    EXPECT_NE(svg.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
+    EXPECT_EQ(count(svg, "<circle"), 3u); // two points and the legend's
+    const std::size_t path = svg.find("<path d=\"M");
+    ASSERT_NE(path, std::string::npos);
+    EXPECT_EQ(count(svg.substr(path, svg.find('"', path + 9) - path), "M"), 2u); // a gap at NaN
+    plot.series.clear();
+    EXPECT_TRUE(well_formed(io::plot_svg(plot)));
+    plot.series.push_back({.label = "uneven", .x = {0, 1}, .y = {1}});
+    EXPECT_THROW(io::plot_svg(plot), std::invalid_argument);
+}
+
+TEST(Plot, TicksStandAtRoundNumbers) {
+    const auto labels = [](double low, double high, int n) {
+        std::vector<std::string> list;
+        const std::vector<double> ticks = io::nice_ticks(low, high, n);
+        for (const double t : ticks)
+            list.push_back(io::tick_label(t, ticks.at(1) - ticks.at(0)));
+        return list;
+    };
+    EXPECT_EQ(labels(0, 1, 6), (std::vector<std::string>{"0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
+    EXPECT_EQ(labels(-9, 11, 4), (std::vector<std::string>{"−5", "0", "5", "10"}));
+    EXPECT_EQ(labels(0, 0.003, 3), (std::vector<std::string>{"0", "0.001", "0.002", "0.003"}));
+    EXPECT_TRUE(io::nice_ticks(1, 1, 5).empty());
+}
+
+} // namespace
+} // namespace asperity

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The same bits on any number of ranks and threads: positions, velocities, energies, and the state
+// that a relaxation finds. The run on one rank, in the same process, is the judge; so a wrong tile,
+// a stale halo or a sum that depends on its order shows at its first bit.
+//
+// Two stacks on 32 x 32 sites. Shallow: 4 + 4 + 5 cells; three ranks cut its lowest level alone (10
+// + 11 + 11 rows, odd offsets) and hold the other two whole. Deep: five levels down to 2 x 2 nodes;
+// two and four ranks cut four of them and hold the last one whole.
+#include "support/cases.hpp"
+#include "support/parallel_main.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <vector>
+
+using namespace asperity;
+
+namespace {
+
+const Communicator& world() { return test::world(); }
+
+struct Stack {
+    const char* name;
+    int thickness, layers;
+    double temperature;
+};
+constexpr Stack stacks[] = {
+    {"shallow", 32, 3, 0.0}, {"deep", 62, 2, 0.0}, {"warm", 32, 3, 300.0}, {"lattice", 6, 0, 0.0}};
+void PrintTo(const Stack& s, std::ostream* out) { *out << s.name; }
+
+SimulationOptions options_of(const Stack& stack) {
+    SimulationOptions options;
+    options.block = test::paper_block(32, stack.thickness, stack.layers);
+    options.interface = test::paper_interface();
+    options.drive.velocity = 1e-3; // 100 m/s: into contact within 300 steps
+    options.drive.ramp = 500.0;
+    options.damping = 1e-3;
+    options.damping_from = 0.3;
+    options.temperature = stack.temperature;
+    options.seed = 7;
+    return options;
+}
+
+/// What a run leaves behind, bit by bit.
+struct Trace {
+    std::vector<double> numbers;
+    std::uint64_t state = 0;
+    long long in_contact = 0;
+    bool operator==(const Trace&) const = default;
+};
+
+Trace run(const Stack& stack, const Communicator& ranks) {
+    const SimulationOptions options = options_of(stack);
+    const Surface surface = test::reference_surface("c3_N32_T32_rms1.5");
+    Simulation s(options, surface, ranks, test::grid_for(options.block, ranks));
+    s.start(7.0);
+    Trace trace;
+    for (int n = 0; n < 300; ++n) {
+        const StepRecord& now = s.step(n % 10 == 0);
+        s.drive().observe(now.time, now.force, false); // turns round on contact
+        for (double value : {now.top, now.mean_height, now.force, now.top_force})
+            trace.numbers.push_back(value);
+        if (!now.observed) continue;
+        for (double value : {now.interface_energy, now.elastic_energy, now.kinetic_energy,
+                             now.closest, static_cast<double>(now.in_contact),
+                             static_cast<double>(now.pushed), s.energy_residual()})
+            trace.numbers.push_back(value);
+        trace.in_contact = std::max(trace.in_contact, now.in_contact);
+    }
+    const Ledger& l = s.ledger();
+    for (double value : {l.top_work, l.drag_work, l.damped, l.heat, l.approach, l.pull_off})
+        trace.numbers.push_back(value);
+    trace.state = test::fingerprint(s.block());
+    return trace;
+}
+
+Trace relaxation(const Stack& stack, const Communicator& ranks) {
+    const auto r = test::relax_from_attraction(
+        test::paper_block(32, stack.thickness, stack.layers), test::paper_interface(),
+        test::reference_surface("c4_N32_T16_rms3"), 1e-3, ranks);
+    Trace trace;
+    trace.numbers = {r.binding_energy,
+                     r.pairwise,
+                     r.mean_height,
+                     r.state.residual,
+                     r.state.force,
+                     static_cast<double>(r.state.iterations),
+                     static_cast<double>(r.state.pushed)};
+    trace.in_contact = r.state.in_contact;
+    return trace;
+}
+
+/// The root's serial trace on every rank, so that each compares its own.
+Trace from_root(const std::function<Trace()>& make) {
+    Trace trace;
+    if (world().root()) trace = make();
+    std::array<std::int64_t, 3> head = {static_cast<std::int64_t>(trace.numbers.size()),
+                                        std::bit_cast<std::int64_t>(trace.state), trace.in_contact};
+    world().broadcast(std::as_writable_bytes(std::span(head)));
+    trace.numbers.resize(static_cast<std::size_t>(head[0]));
+    trace.state = std::bit_cast<std::uint64_t>(head[1]);
+    trace.in_contact = head[2];
+    world().broadcast(std::span<double>(trace.numbers));
+    return trace;
+}
+
+void expect_same(const Trace& mine, const Trace& expected) {
+    EXPECT_EQ(mine.state, expected.state) << "displacements and velocities";
+    EXPECT_EQ(mine.in_contact, expected.in_contact);
+    ASSERT_EQ(mine.numbers.size(), expected.numbers.size());
+    for (std::size_t i = 0; i < mine.numbers.size(); ++i)
+        if (std::bit_cast<std::uint64_t>(mine.numbers[i]) !=
+            std::bit_cast<std::uint64_t>(expected.numbers[i])) {
+            ADD_FAILURE() << "number " << i
+                          << " of the record is the first that differs: " << mine.numbers[i]
+                          << " instead of " << expected.numbers[i];
+            return;
+        }
+}
+
+/// OpenMP threads for as long as it lives.
+class Threads {
+public:
+    explicit Threads(int n) : before_(omp_get_max_threads()) { omp_set_num_threads(n); }
+    ~Threads() { omp_set_num_threads(before_); }
+    Threads(const Threads&) = delete;
+    Threads& operator=(const Threads&) = delete;
+
+private:
+    int before_;
+};
+
+class SameBits : public testing::TestWithParam<Stack> {};
+
+} // namespace
+
+TEST_P(SameBits, OfARunOnAnyRanksAndThreads) {
+    const Stack& stack = GetParam();
+    const Trace expected = from_root([&] {
+        const Threads one(1);
+        return run(stack, Communicator());
+    });
+    EXPECT_GT(expected.in_contact, 100) << "the scene must touch, or nothing is tested";
+    {
+        const Threads one(1);
+        expect_same(run(stack, world()), expected);
+    }
+    // Two cores: no more than four workers at once, and those on one stack.
+    if (world().size() > 2 || (world().size() == 2 && stack.name != stacks[0].name)) return;
+    const Threads two(2);
+    expect_same(run(stack, world()), expected);
+}
+
+TEST_P(SameBits, OfARelaxationOnAnyRanksAndThreads) {
+    const Stack& stack = GetParam();
+    if (stack.temperature > 0.0) return; // no other block than the shallow one
+    const Trace expected = from_root([&] {
+        const Threads one(1);
+        return relaxation(stack, Communicator());
+    });
+    EXPECT_GT(expected.in_contact, 50);
+    {
+        const Threads one(1);
+        expect_same(relaxation(stack, world()), expected);
+    }
+    if (world().size() > 1) return;
+    const Threads two(2);
+    expect_same(relaxation(stack, world()), expected);
+}
+
+TEST_P(SameBits, OfTheForcesOnEveryNodeOfARandomState) {
+    // One evaluation, plane by plane: says where, when one of the tests above only says that.
+    const BlockOptions options = options_of(GetParam()).block;
+    Block mine(options, world(), test::grid_for(options, world()));
+    Block alone(options, Communicator(), test::serial_grid(options));
+    std::vector<VectorField<double>> forces[2];
+    for (Block* block : {&mine, &alone}) {
+        auto& out = forces[block == &alone];
+        block->set_uniform(0.1, 0.0);
+        for (auto& level : block->levels()) {
+            out.emplace_back(level.tile, level.plan.cells);
+            const Tile& t = level.tile;
+            for (int z = 0; z < level.plan.cells; ++z)
+                for (int y = 0; y < t.ny; ++y)
+                    for (int x = 0; x < t.nx; ++x) {
+                        const double phase =
+                            1.3 * (t.x0 + x) + 71.7 * (t.y0 + y) + 0.7 * z + 5.0 * level.plan.level;
+                        level.u.x.view()(x, y, z) = std::sin(phase);
+                        level.u.y.view()(x, y, z) = std::sin(phase * 1.7);
+                        level.u.z.view()(x, y, z) = std::sin(phase * 2.3);
+                    }
+        }
+        block->exchange();
+        block->interpolate();
+        block->forces(out);
+    }
+    for (std::size_t l = 0; l < mine.levels().size(); ++l) {
+        const Tile t = mine.levels()[l].tile;
+        const auto f = forces[0][l].view(), g = forces[1][l].view();
+        for (int z = 0; z < mine.levels()[l].plan.cells; ++z) {
+            int wrong = 0, last = -1;
+            for (int y = 0; y < t.ny; ++y)
+                for (int x = 0; x < t.nx; ++x)
+                    if (f.x(x, y, z) != g.x(t.x0 + x, t.y0 + y, z) ||
+                        f.y(x, y, z) != g.y(t.x0 + x, t.y0 + y, z) ||
+                        f.z(x, y, z) != g.z(t.x0 + x, t.y0 + y, z))
+                        ++wrong, last = t.y0 + y;
+            EXPECT_EQ(wrong, 0) << "nodes of level " << l << ", plane " << z << ", the last in row "
+                                << last;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Stacks, SameBits, testing::ValuesIn(stacks));
+
+TEST(SameBits, TheStacksAreCutAsIntended) {
+    const auto levels = [](const Stack& s) { return plan_levels(options_of(s).block).size(); };
+    ASSERT_EQ(levels(stacks[0]), 3u);
+    ASSERT_EQ(levels(stacks[1]), 5u);
+    if (world().size() == 3) {
+        EXPECT_EQ(test::grid_for(options_of(stacks[0]).block, world()).cut_level(), 0);
+    }
+    if (world().size() == 2 || world().size() == 4) {
+        EXPECT_EQ(test::grid_for(options_of(stacks[1]).block, world()).cut_level(), 3);
+    }
+}
