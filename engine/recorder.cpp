@@ -99,10 +99,9 @@ void Recorder::row(const Simulation& simulation) {
     });
 }
 
-void Recorder::fields(const std::string& state, const Block& block, const Interface& interface,
+void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
+                      const ProcessGrid& grid, const Interface& interface,
                       double reference_height) {
-    const ProcessGrid& grid = block.grid();
-    const auto layer = block.lowest_layer();
     const InterfaceMaps maps = interface.maps(layer, reference_height);
     std::vector<double> contact(maps.contact.begin(), maps.contact.end());
     const auto gap = whole(communicator_, grid, maps.gap);
@@ -115,7 +114,7 @@ void Recorder::fields(const std::string& state, const Block& block, const Interf
         const std::string group = "/fields/" + state;
         if (file_->exists(group)) return; // taken up from a checkpoint written before this state
         file_->make_group(group);
-        const auto n = static_cast<std::uint64_t>(block.options().sites);
+        const auto n = static_cast<std::uint64_t>(grid.tile(0).sites);
         const auto write = [&](const char* name, const char* unit, const std::vector<double>& map) {
             file_->write<double>(group + "/" + name, {n, n}, map);
             file_->write_attribute(group + "/" + name, "unit", unit);

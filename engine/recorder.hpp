@@ -24,8 +24,8 @@ public:
     void row(const Simulation& simulation);
     std::uint64_t rows() const { return rows_; }
     /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
-    void fields(const std::string& state, const Block& block, const Interface& interface,
-                double reference_height);
+    void fields(const std::string& state, const VectorPlane<const double>& layer,
+                const ProcessGrid& grid, const Interface& interface, double reference_height);
     void flush();
 
 private:

@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The life of a run: set up, follow the path, relax the zero-load state, write what was found.
+// The life of a run in time: set up, follow the path, relax the zero-load state, write what was
+// found. Runs without a path in time are equilibrium_run.cpp.
 #include "engine/run.hpp"
 
-#include "decomposition/global_sum.hpp"
 #include "engine/checkpoint.hpp"
+#include "engine/equilibrium.hpp"
+#include "engine/equilibrium_run.hpp"
 #include "engine/recorder.hpp"
+#include "engine/run_record.hpp"
 #include "engine/setup.hpp"
 #include "engine/summary.hpp"
-#include "engine/theory_command.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "io/progress.hpp"
@@ -72,10 +74,7 @@ public:
         progress_.finish();
         write_record({});
         if (ranks_.root()) {
-            const bool dynamic = simulation_.steps() > 0;
-            print_summary(stdout, scene_, setup_, findings_,
-                          dynamic ? simulation_.energy_residual()
-                                  : std::numeric_limits<double>::quiet_NaN(),
+            print_summary(stdout, scene_, setup_, findings_, simulation_.energy_residual(),
                           directory_);
             if (!stopped_.empty())
                 fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);
@@ -88,13 +87,8 @@ private:
     void follow() {
         const bool taken_up = take_up();
         recorder_.emplace(directory_ + "/run.h5", surface_, ranks_, taken_up, rows_at_start_);
-        if (scene_.has(PathPart::zero_load)) {
-            simulation_.start(height_of_strongest_attraction());
-            find_zero_load(simulation_.block());
-        } else {
-            if (!taken_up) simulation_.start(simulation_.interface().start_height());
-            march();
-        }
+        if (!taken_up) simulation_.start(simulation_.interface().start_height());
+        march();
         const auto t = simulation_.phases().time(Phase::output);
         recorder_->flush();
     }
@@ -148,64 +142,19 @@ private:
         }
         findings_.approach = units::milli_per_unit * simulation_.ledger().approach / area;
         progress_.say("contact is made; relaxing a copy of this state under zero load");
-        Block copy = simulation_.block().copy_at_rest();
-        find_zero_load(copy);
+        relax_copy();
         if (!simulation_.drive().done()) progress_.say("pull-off begins");
     }
 
-    void find_zero_load(Block& block) {
+    void relax_copy() {
         const auto t = simulation_.phases().time(Phase::relax);
-        RelaxOptions options;
-        options.tolerance = scene_.drive.tolerance;
-        options.site_stiffness =
-            setup_.flat.stiffness * scene_.surface.spacing * scene_.surface.spacing;
-        options.report = [&](long long iteration, double residual) {
-            if (!progress_.due()) return;
-            progress_.update({fmt::format("relaxing, largest force {:.1e} eV/Å", residual),
-                              iteration, 0.0, -1.0});
-        };
-        Phases own; // its lines are not lines of the step
-        const RelaxedState s =
-            relax(block, simulation_.interface(), simulation_.reference_height(), options, own);
-        const double area = scene_.edge() * scene_.edge();
-        const double sites = static_cast<double>(scene_.surface.sites) * scene_.surface.sites;
-        if (!s.converged)
-            throw io::PhysicsError(
-                fmt::format("the zero-load state was not found in {} iterations", s.iterations),
-                fmt::format(
-                    "the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
-                    s.residual, scene_.drive.tolerance),
-                "look at run.h5 whether the surfaces touch at all; a looser drive.tolerance ends "
-                "earlier");
-        ZeroLoad z;
-        z.binding_energy = -units::milli_per_unit * (s.interface_energy + s.elastic_energy) / area;
-        z.pairwise = -units::milli_per_unit * s.interface_energy / area;
-        z.elastic = units::milli_per_unit * s.elastic_energy / area;
-        z.contact_fraction = static_cast<double>(s.in_contact) / sites;
-        z.pushed_fraction = static_cast<double>(s.pushed) / sites;
-        z.mean_height = simulation_.reference_height() + s.mean_height;
-        z.residual = s.residual;
-        z.iterations = static_cast<double>(s.iterations);
-        findings_.zero_load = z;
+        const auto copy = at_rest(simulation_.block().copy_at_rest());
+        findings_.zero_load =
+            find_zero_load(*copy, simulation_.interface(), simulation_.reference_height(), scene_,
+                           setup_, progress_);
         if (scene_.writes_field("zero-load"))
-            recorder_->fields("zero-load", block, simulation_.interface(),
+            recorder_->fields("zero-load", copy->lowest_layer(), grid_, simulation_.interface(),
                               simulation_.reference_height());
-    }
-
-    /// Where a rigid block feels the strongest attraction on its way down: the descent that starts
-    /// there ends in the state that a slow approach reaches.
-    double height_of_strongest_attraction() {
-        Block& block = simulation_.block();
-        block.set_uniform(0.0, 0.0);
-        double best_height = simulation_.interface().start_height(), strongest = 0.0;
-        constexpr double stride = 0.1;
-        for (double height = best_height;; height -= stride) {
-            const InterfaceSums sums = simulation_.interface().sweep(
-                block.lowest_layer(), block.interface_force(), height, false);
-            const double force = global_sum(ranks_, sums.force_z);
-            if (force < strongest) strongest = force, best_height = height;
-            if (force > 0.0 || height < surface_.statistics.lowest) return best_height;
-        }
     }
 
     void guard(const StepRecord& now) {
@@ -387,33 +336,7 @@ private:
 
 void Run::write_record(const io::ResultRecord::Failure& failure) {
     if (!ranks_.root()) return;
-    io::ResultRecord r;
-    r.scene = scene_json(scene_);
-    const auto& s = surface_.statistics;
-    r.surface = {s.rms, s.rms_slope, s.lowest, s.highest};
-    r.delta_gamma = setup_.flat.work_of_adhesion;
-    r.work_of_adhesion.approach = findings_.approach;
-    r.work_of_adhesion.pull_off = findings_.pull_off;
-    if (findings_.zero_load) {
-        const ZeroLoad& z = *findings_.zero_load;
-        r.binding_energy = z.binding_energy;
-        r.work_of_adhesion.pairwise = z.pairwise;
-        r.contact_fraction = z.contact_fraction;
-        r.pushed_fraction = z.pushed_fraction;
-        r.run.iterations = static_cast<long long>(z.iterations);
-        r.extra.emplace_back("zero_load.elastic_energy", z.elastic);
-        r.extra.emplace_back("zero_load.mean_height", z.mean_height);
-        r.extra.emplace_back("zero_load.residual_force", z.residual);
-    }
-    if (findings_.pull_off) r.pull_off_force = findings_.attraction_out;
-    if (scene_.surface.radius) {
-        const auto jkr = [&](double f) {
-            return units::milli_per_unit * f /
-                   (1.5 * 3.14159265358979323846 * *scene_.surface.radius);
-        };
-        if (findings_.approach) r.jkr.in = jkr(findings_.attraction_in);
-        if (findings_.pull_off) r.jkr.out = jkr(findings_.attraction_out);
-    }
+    io::ResultRecord r = run_record(scene_, surface_, setup_, findings_, ranks_.size());
     if (simulation_.steps() > 0) {
         const StepRecord& now = simulation_.now();
         const Ledger& l = simulation_.ledger();
@@ -424,16 +347,9 @@ void Run::write_record(const io::ResultRecord::Failure& failure) {
         r.energy.interface = now.interface_energy;
         r.energy.damped = l.damped;
     }
-    add_theory(scene_, surface_, setup_.flat.work_of_adhesion, r);
     r.run.wall_seconds = seconds();
     r.run.steps = simulation_.steps();
-    r.run.ranks = ranks_.size();
-    r.run.threads = omp_get_max_threads();
-    for (std::size_t p = 0; p < phase_names.size(); ++p) {
-        const PhaseClock& clock = simulation_.phases()[static_cast<Phase>(p)];
-        if (clock.calls > 0)
-            r.run.phases.push_back({std::string(phase_names[p]), clock.seconds, clock.calls});
-    }
+    add_phases(simulation_.phases(), r);
     r.run.stopped = stopped_;
     r.failure = failure;
     io::write_result(directory_, r);
@@ -445,6 +361,7 @@ int run(const Scene& scene, const RunOptions& options, const Communicator& commu
     io::Problems problems = scene.problems();
     not_yet(scene, problems);
     problems.throw_if_any();
+    if (scene.has(PathPart::zero_load)) return run_equilibrium(scene, options, communicator);
     return Run(scene, options, communicator).go();
 }
 

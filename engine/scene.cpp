@@ -307,12 +307,13 @@ void not_yet(const Scene& scene, io::Problems& problems) {
                      "it is part of the scene format, and this release does not compute it",
                      std::move(instead));
     };
-    if (scene.block.model == BlockModel::spectral)
-        refuse("block.model", "\"spectral\"",
-               "use \"multiscale\", or \"lattice\" for the reference");
+    const bool equilibrium = scene.has(PathPart::zero_load);
+    if (scene.block.model == BlockModel::spectral && !equilibrium)
+        refuse("block.model", "\"spectral\" on a path",
+               "use path = [\"zero-load\"], or \"multiscale\" (\"lattice\" is the reference)");
     if (scene.block.strain == Strain::finite)
         refuse("block.strain", "\"finite\"", "use \"linear\"");
-    if (scene.drive.mode == DriveMode::quasistatic)
+    if (scene.drive.mode == DriveMode::quasistatic && !equilibrium)
         refuse(
             "drive.mode", "\"quasistatic\"",
             "use \"dynamic\" with a low velocity; path = [\"zero-load\"] gives the relaxed state");

@@ -63,6 +63,11 @@ Setup make_setup(const Scene& scene, int ranks) {
     block.layers_per_level = scene.block.layers_per_level;
     block.multiscale = scene.block.model == BlockModel::multiscale;
     setup.levels = plan_levels(block);
+    if (scene.block.model == BlockModel::spectral && ranks > 1)
+        problems.add("block.model", fmt::format("= \"spectral\" on {} ranks", ranks),
+                     "its Fourier transforms are those of one rank, shared by threads",
+                     "start one rank (OMP_NUM_THREADS sets its threads), or take block.model = "
+                     "\"multiscale\"");
 
     InterfaceOptions& interface = setup.simulation.interface;
     interface.potential = {scene.interface.epsilon, scene.interface.r0, scene.interface.cutoff};

@@ -12,7 +12,9 @@ namespace asperity {
 
 namespace {
 
-std::string levels_text(const Setup& setup) {
+std::string levels_text(const Scene& scene, const Setup& setup) {
+    if (scene.block.model == BlockModel::spectral)
+        return "the lattice's static answer, wave by wave";
     const auto& levels = setup.levels;
     if (levels.size() == 1) return fmt::format("one lattice of {} layers", levels.front().cells);
     long long nodes = 0;
@@ -44,7 +46,7 @@ void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const 
                    ? fmt::format(", on a sphere of R = {:.6g} Å", *scene.surface.radius)
                    : "");
     fmt::print(to, "  block       {} layers ({:.1f} Å): {}\n", block.thickness,
-               block.thickness * block.spacing, levels_text(setup));
+               block.thickness * block.spacing, levels_text(scene, setup));
     fmt::print(to,
                "  interface   flat on flat {:.2f} meV/Å² at {:.2f} Å with the cutoff of {:.2f} Å\n",
                setup.flat.work_of_adhesion, setup.flat.separation, scene.interface.cutoff);

@@ -241,6 +241,8 @@ TEST(Scene, NotYet) {
         return problems.list().size();
     };
     EXPECT_EQ(refused(""), 0u);
+    EXPECT_EQ(refused("block.model = \"spectral\"\ndrive.path = [\"zero-load\"]"), 0u);
+    EXPECT_EQ(refused("drive.mode = \"quasistatic\"\ndrive.path = [\"zero-load\"]"), 0u);
     for (const char* later :
          {"block.model = \"spectral\"", "block.strain = \"finite\"", "drive.mode = \"quasistatic\"",
           "numerics.precision = \"mixed\"", "numerics.accuracy = \"1%\"", "output.trajectory = 100",

@@ -132,4 +132,34 @@ TEST_P(ReferenceCase, Multiscale) {
     }
 }
 
+TEST_P(ReferenceCase, Spectral) {
+    // The same numbers and tolerances as the lattice: nothing of the depth is left to differ.
+    const Case& c = GetParam();
+    const auto r = test::relax_spectral(test::paper_block(c.sites, c.thickness, 0),
+                                        test::paper_interface(c.cutoff),
+                                        test::reference_surface(c.map), 1e-6);
+    ASSERT_TRUE(r.state.converged);
+    std::printf("%s spectral: %.8f meV/A^2 (%+.1e), pairwise %+.1e, %lld iterations\n", c.map,
+                r.binding_energy, r.binding_energy / c.binding - 1.0, r.pairwise / c.pairwise - 1.0,
+                r.state.iterations);
+    EXPECT_NEAR(r.binding_energy, c.binding, c.binding_tolerance * c.binding);
+    EXPECT_NEAR(r.pairwise, c.pairwise, c.first_order * c.pairwise);
+    EXPECT_NEAR(r.state.elastic_energy, c.elastic, 2.0 * c.first_order * c.elastic);
+    EXPECT_NEAR(r.mean_height, c.mean_height, c.first_order);
+    EXPECT_EQ(r.state.in_contact, c.contact);
+    EXPECT_EQ(r.state.pushed, c.pushed);
+    EXPECT_NEAR(r.state.force, 0.0, 1e-6 * c.sites * c.sites);
+}
+
+TEST(ZeroLoad, SpectralOnALargerMap) {
+    const auto r = test::relax_spectral(test::paper_block(64, 64, 0), test::paper_interface(),
+                                        test::reference_surface("c7_N64_T64_rms2"), 1e-6);
+    ASSERT_TRUE(r.state.converged);
+    EXPECT_NEAR(r.binding_energy, 35.68851389, 2e-8 * 35.7);
+    EXPECT_NEAR(r.pairwise, 58.794007, 2e-5 * 58.8);
+    EXPECT_NEAR(r.mean_height, 4.1968680, 2e-5);
+    EXPECT_EQ(r.state.in_contact, 2585);
+    EXPECT_EQ(r.state.pushed, 1315);
+}
+
 INSTANTIATE_TEST_SUITE_P(Maps, ReferenceCase, testing::ValuesIn(cases));

@@ -3,6 +3,7 @@
 #include "support/cases.hpp"
 
 #include "decomposition/halo_exchange.hpp"
+#include "engine/spectral_relaxation.hpp"
 #include "engine/units.hpp"
 
 #include <algorithm>
@@ -89,6 +90,31 @@ Relaxed relax_from_attraction(const BlockOptions& options,
     const double height = height_of_strongest_attraction(block, interface, surface);
     RelaxOptions relax_options;
     relax_options.tolerance = tolerance;
+    Phases phases;
+    Relaxed relaxed;
+    relaxed.state = relax(block, interface, height, relax_options, phases);
+    const double edge = options.sites * options.spacing;
+    relaxed.binding_energy =
+        -1e3 * (relaxed.state.interface_energy + relaxed.state.elastic_energy) / (edge * edge);
+    relaxed.pairwise = -1e3 * relaxed.state.interface_energy / (edge * edge);
+    relaxed.mean_height = height + relaxed.state.mean_height;
+    return relaxed;
+}
+
+Relaxed relax_spectral(const BlockOptions& options, const InterfaceOptions& interface_options,
+                       const Surface& surface, double tolerance) {
+    SpectralBlock block(options, Communicator());
+    const Interface interface(surface, block.tile(), options.spacing, interface_options);
+    double height = interface.start_height(), strongest = 0.0;
+    for (double z = height;; z -= 0.1) {
+        const double force =
+            interface.sweep(block.lowest_layer(), block.interface_force(), z, false).force_z.value();
+        if (force < strongest) strongest = force, height = z;
+        if (force > 0.0 || z < surface.statistics.lowest) break;
+    }
+    RelaxOptions relax_options;
+    relax_options.tolerance = tolerance;
+    relax_options.max_move = 0.2;
     Phases phases;
     Relaxed relaxed;
     relaxed.state = relax(block, interface, height, relax_options, phases);

@@ -42,6 +42,10 @@ Relaxed relax_from_attraction(const BlockOptions& block, const InterfaceOptions&
                               const Surface& surface, double tolerance,
                               const Communicator& communicator = Communicator());
 
+/// The same with the spectral block.
+Relaxed relax_spectral(const BlockOptions& block, const InterfaceOptions& interface,
+                       const Surface& surface, double tolerance);
+
 /// 64 bits that differ if any bit of any displacement, velocity or the top differs. Collective; the
 /// same on every rank, and for any number of them.
 std::uint64_t fingerprint(const Block& block);

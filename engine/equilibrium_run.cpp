@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium_run.hpp"
+
+#include "engine/equilibrium.hpp"
+#include "engine/recorder.hpp"
+#include "engine/run_record.hpp"
+#include "engine/summary.hpp"
+#include "io/error.hpp"
+#include "io/progress.hpp"
+
+#include <omp.h>
+
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace asperity {
+
+namespace {
+
+class EquilibriumRun {
+public:
+    EquilibriumRun(const Scene& scene, const RunOptions& options, const Communicator& ranks)
+        : scene_(scene), ranks_(ranks), setup_(make_setup(scene, ranks.size())),
+          surface_(scene_surface(scene)), grid_(ranks.size(), ranks.rank(), scene.surface.sites,
+                                                static_cast<int>(setup_.levels.size())),
+          interface_(surface_, grid_.tile(0), scene.surface.spacing, setup_.simulation.interface),
+          block_(make_equilibrium(scene, setup_, ranks, grid_)),
+          progress_(options.progress, !ranks.root()) {
+        ranks_.on_root([&] {
+            const auto place =
+                io::choose_result_directory(options.out, scene.name, options.resuming());
+            directory_ = place.directory;
+            if (!place.note.empty()) progress_.say(place.note);
+            if (options.resuming())
+                progress_.say("a relaxation keeps no checkpoints: starting from the beginning");
+        });
+    }
+
+    int go() {
+        ranks_.on_root([&] { io::make_directory(directory_); });
+        try {
+            if (ranks_.root())
+                print_opening(stdout, scene_, setup_, surface_, grid_, omp_get_max_threads(),
+                              block_->bytes() + interface_.bytes(), directory_);
+            relax();
+        } catch (const io::Error& e) {
+            progress_.finish();
+            record_failure(e);
+            throw;
+        }
+        progress_.finish();
+        write_record({});
+        if (ranks_.root())
+            print_summary(stdout, scene_, setup_, findings_,
+                          std::numeric_limits<double>::quiet_NaN(), directory_);
+        return io::exit_code::done;
+    }
+
+private:
+    void relax() {
+        Recorder recorder(directory_ + "/run.h5", surface_, ranks_, false, 0);
+        const double height =
+            height_of_strongest_attraction(*block_, interface_, surface_.statistics.lowest, ranks_);
+        {
+            const auto t = phases_.time(Phase::relax);
+            findings_.zero_load =
+                find_zero_load(*block_, interface_, height, scene_, setup_, progress_);
+        }
+        const auto t = phases_.time(Phase::output);
+        if (scene_.writes_field("zero-load"))
+            recorder.fields("zero-load", block_->lowest_layer(), grid_, interface_, height);
+        recorder.flush();
+    }
+
+    void record_failure(const io::Error& e) {
+        io::ResultRecord::Failure failure;
+        failure.exit_code = e.code();
+        failure.reason = e.what();
+        try {
+            write_record(failure);
+        } catch (const std::exception&) { // the first error is the one to report
+        }
+    }
+
+    void write_record(const io::ResultRecord::Failure& failure) {
+        if (!ranks_.root()) return;
+        io::ResultRecord r = run_record(scene_, surface_, setup_, findings_, ranks_.size());
+        r.run.wall_seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        add_phases(phases_, r);
+        r.failure = failure;
+        io::write_result(directory_, r);
+    }
+
+    const Scene& scene_;
+    Communicator ranks_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Setup setup_;
+    Surface surface_;
+    ProcessGrid grid_;
+    Interface interface_;
+    std::unique_ptr<Equilibrium> block_;
+    io::Progress progress_;
+    Phases phases_;
+    Findings findings_;
+    std::string directory_;
+};
+
+} // namespace
+
+int run_equilibrium(const Scene& scene, const RunOptions& options,
+                    const Communicator& communicator) {
+    return EquilibriumRun(scene, options, communicator).go();
+}
+
+} // namespace asperity

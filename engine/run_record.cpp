@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run_record.hpp"
+
+#include "engine/theory_command.hpp"
+#include "engine/units.hpp"
+
+#include <omp.h>
+
+#include <string>
+
+namespace asperity {
+
+io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Setup& setup,
+                            const Findings& findings, int ranks) {
+    io::ResultRecord r;
+    r.scene = scene_json(scene);
+    const auto& s = surface.statistics;
+    r.surface = {s.rms, s.rms_slope, s.lowest, s.highest};
+    r.delta_gamma = setup.flat.work_of_adhesion;
+    r.work_of_adhesion.approach = findings.approach;
+    r.work_of_adhesion.pull_off = findings.pull_off;
+    if (findings.zero_load) {
+        const ZeroLoad& z = *findings.zero_load;
+        r.binding_energy = z.binding_energy;
+        r.work_of_adhesion.pairwise = z.pairwise;
+        r.contact_fraction = z.contact_fraction;
+        r.pushed_fraction = z.pushed_fraction;
+        r.run.iterations = static_cast<long long>(z.iterations);
+        r.extra.emplace_back("zero_load.elastic_energy", z.elastic);
+        r.extra.emplace_back("zero_load.mean_height", z.mean_height);
+        r.extra.emplace_back("zero_load.residual_force", z.residual);
+    }
+    if (findings.pull_off) r.pull_off_force = findings.attraction_out;
+    if (scene.surface.radius) {
+        const auto jkr = [&](double f) {
+            return units::milli_per_unit * f /
+                   (1.5 * 3.14159265358979323846 * *scene.surface.radius);
+        };
+        if (findings.approach) r.jkr.in = jkr(findings.attraction_in);
+        if (findings.pull_off) r.jkr.out = jkr(findings.attraction_out);
+    }
+    add_theory(scene, surface, setup.flat.work_of_adhesion, r);
+    r.run.ranks = ranks;
+    r.run.threads = omp_get_max_threads();
+    return r;
+}
+
+void add_phases(const Phases& phases, io::ResultRecord& record) {
+    for (std::size_t p = 0; p < phase_names.size(); ++p) {
+        const PhaseClock& clock = phases[static_cast<Phase>(p)];
+        if (clock.calls > 0)
+            record.run.phases.push_back({std::string(phase_names[p]), clock.seconds, clock.calls});
+    }
+}
+
+} // namespace asperity

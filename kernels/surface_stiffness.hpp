@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// S(q): what the elastic block is to its lowest layer at rest (model.md section 5, "spectral").
+//
+// A static plane wave u exp(i q r) in the lowest layer of a lattice of `thickness` cells, its top
+// plane clamped, is answered by the force -S(q) u, all other layers being at equilibrium. S follows
+// layer by layer from the top. With a, d the matrices that a single layer of cells gives its lower
+// and its upper plane, and b the one between them,
+//
+//     S_1 = a,      S_(k+1) = a - b (d + S_k)^-1 b^T,      S = S_thickness.
+//
+// Why six real numbers are enough. The stencil (elastic_cell.hpp) is even in x and y within the
+// plane components and within z, and odd where it couples z with x or y: its filters are cosines,
+// sin sin, or i sin. With w = i u_z in place of u_z the i's are gone: for the pair (x, w)
+//
+//     F_x = A (i u_z(z+1) - i u_z(z-1)) = A (w(z+1) - w(z-1)),     F_w = i F_z = -A (x(z+1) -
+//     x(z-1)),
+//
+// A = 2 sin p_x (out_r + 2 out_rd cos p_y). So a, b, d are real, a and d symmetric, and the
+// recursion keeps S real and symmetric in (x, y, w). In (x, y, z): S_xz = i xz, S_zx = -i xz,
+// hermitian. Signs: xy is odd in both of p_x, p_y, xz odd in p_x, yz odd in p_y; x and y may be
+// exchanged. So an eighth of the Brillouin zone holds everything, and where a sine vanishes (the
+// Nyquist lines, the axes) the couplings do.
+//
+// The answer of layers deeper than a few wavelengths decays like exp(-2 q depth): the recursion
+// ends where they add nothing, so a whole table costs little more than its short waves.
+#pragma once
+
+#include "kernels/elastic_cell.hpp"
+
+namespace asperity {
+
+/// A real symmetric matrix on (u_x, u_y, i u_z); for a stiffness in eV/Å^2 for each site.
+struct SurfaceMatrix {
+    double xx = 0.0, yy = 0.0, zz = 0.0;
+    double xy = 0.0, xz = 0.0, yz = 0.0;
+};
+
+/// Cosine and sine of a phase 2 pi n / sites across one cell, 0 <= n <= sites / 2; the sine is
+/// zero, not nearly zero, on the Nyquist line.
+struct WavePhase {
+    double cosine = 1.0, sine = 0.0;
+};
+WavePhase wave_phase(int n, int sites);
+
+/// S at the phases along x and y. The uniform mode (both sines zero and both cosines one) is exact:
+/// shear mu a / thickness, normal (lambda + 2 mu) a / thickness.
+SurfaceMatrix surface_stiffness(CellElasticity elasticity, WavePhase x, WavePhase y, int thickness);
+
+/// The inverse of a positive matrix.
+ASPERITY_INLINE SurfaceMatrix inverse(const SurfaceMatrix& s) {
+    const double x = s.yy * s.zz - s.yz * s.yz; // cofactors
+    const double y = s.xx * s.zz - s.xz * s.xz;
+    const double z = s.xx * s.yy - s.xy * s.xy;
+    const double xy = s.xz * s.yz - s.xy * s.zz;
+    const double xz = s.xy * s.yz - s.xz * s.yy;
+    const double yz = s.xy * s.xz - s.yz * s.xx;
+    const double scale = 1.0 / (s.xx * x + s.xy * xy + s.xz * xz);
+    return {scale * x, scale * y, scale * z, scale * xy, scale * xz, scale * yz};
+}
+
+} // namespace asperity

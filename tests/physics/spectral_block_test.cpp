@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The spectral block's stiffness against the elimination straight from the cell energy
+// (support/spectral_lattice.hpp), and its laws: positive, exact at long and uniform waves, a force that is
+// the gradient of its energy. That it is the lattice, states show (zero_load_test).
+#include "engine/spectral_relaxation.hpp"
+#include "support/cases.hpp"
+#include "support/spectral_lattice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <random>
+
+using namespace asperity;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+SurfaceMatrix stiffness(const BlockOptions& o, int nx, int ny) {
+    return surface_stiffness(o.elasticity(0), wave_phase(nx, o.sites), wave_phase(ny, o.sites),
+                             o.thickness);
+}
+
+/// Frictionless normal stiffness over E* q/2.
+double ratio(const BlockOptions& o, int nx, int ny) {
+    const double q = 2.0 * pi * std::hypot(nx, ny) / (o.sites * o.spacing);
+    const double normal = 1.0 / (inverse(stiffness(o, nx, ny)).zz * o.spacing * o.spacing);
+    return normal / (0.5 * o.contact_modulus() * q);
+}
+
+void randomise(SpectralBlock& block, std::mt19937_64& random, double size) {
+    std::normal_distribution<double> normal(0.0, size);
+    VectorField<double> d = block.new_field();
+    Waves<double> waves(block.options().sites);
+    for (Field<double>* f : {&d.x, &d.y, &d.z})
+        for (int y = 0; y < block.tile().ny; ++y)
+            for (int x = 0; x < block.tile().nx; ++x) f->plane(0)(x, y) = normal(random);
+    block.to_waves(d, waves);
+    block.displace(1.0, waves, d);
+}
+
+} // namespace
+
+TEST(SurfaceMatrix, IsTheElimination) {
+    for (int sites : {15, 16, 40})
+        for (int thickness : {1, 2, 7, 40, 300}) {
+            BlockOptions o = test::paper_block(sites, thickness, 0);
+            for (int nx = 0; nx <= sites / 2; ++nx)
+                for (int ny = 0; ny <= nx; ++ny) {
+                    if (nx + ny == 0) continue;
+                    const double dq = 2.0 * pi / (sites * o.spacing);
+                    const double judge = test::surface_stiffness_ratio(
+                        nx * dq, ny * dq, thickness, o.spacing, o.lame(), o.shear_modulus());
+                    EXPECT_NEAR(ratio(o, nx, ny), judge, 1e-10 * judge) << nx << ", " << ny;
+                }
+        }
+}
+
+TEST(SurfaceMatrix, GivesTheNumbersOfTheModel) {
+    struct Row {
+        int period;
+        double along_x; // reference (model.md section 5)
+    };
+    for (const Row& row : {Row{4, 0.8713020761}, Row{8, 0.9797060798}, Row{16, 0.9964538307},
+                           Row{32, 0.9992299794}})
+        EXPECT_NEAR(ratio(test::paper_block(row.period, 8 * row.period, 0), 1, 0), row.along_x, 1e-9);
+}
+
+TEST(SurfaceMatrix, UniformModesAreExact) {
+    for (int thickness : {1, 8, 512}) {
+        const BlockOptions o = test::paper_block(16, thickness, 0);
+        const SurfaceMatrix s = stiffness(o, 0, 0);
+        const double area = o.spacing * o.spacing, depth = thickness * o.spacing;
+        EXPECT_NEAR(s.zz / area, (o.lame() + 2 * o.shear_modulus()) / depth, 1e-15 / depth);
+        EXPECT_NEAR(s.xx / area, o.shear_modulus() / depth, 1e-15 / depth);
+        EXPECT_EQ(s.xz, 0.0);
+    }
+}
+
+TEST(SurfaceMatrix, IsPositiveAndStopsWhereNothingIsLeft) {
+    const BlockOptions thick = test::paper_block(512, 512, 0), thicker = test::paper_block(512, 100000, 0);
+    for (int nx : {1, 2, 3, 17, 64, 200, 255, 256})
+        for (int ny : {0, 1, 2, 60, 128, 255, 256}) {
+            if (ny > nx) continue;
+            const SurfaceMatrix s = stiffness(thick, nx, ny), t = stiffness(thicker, nx, ny);
+            EXPECT_GT(s.xx, 0.0);
+            EXPECT_GT(s.xx * s.yy - s.xy * s.xy, 0.0);
+            EXPECT_GT(inverse(s).zz * (s.xx * s.yy - s.xy * s.xy), 0.0);
+            // Clamped at 512 a or far away: exp(-4 pi n) apart for the wave with n periods.
+            const double apart = 1e-11 + 1e3 * std::exp(-4.0 * pi * std::hypot(nx, ny));
+            EXPECT_NEAR(s.zz, t.zz, apart * t.zz) << nx << ", " << ny;
+            EXPECT_NEAR(s.xz, t.xz, apart * t.zz) << nx << ", " << ny;
+        }
+}
+
+TEST(SpectralBlock, ForceIsTheGradientOfItsEnergy) {
+    // The energy is quadratic, so a central difference along any direction is exact; no interface acts.
+    for (int sites : {9, 12, 20})
+        for (bool held : {false, true}) {
+            SpectralBlock block(test::paper_block(sites, 7, 0), Communicator());
+            std::mt19937_64 random(3);
+            randomise(block, random, 0.3);
+            if (held) block.hold_top(0.17);
+            Waves<double> g(sites), along(sites);
+            block.gradient(0.0, g);
+            VectorField<double> d = block.new_field();
+            std::normal_distribution<double> normal;
+            for (Field<double>* f : {&d.x, &d.y, &d.z})
+                for (int y = 0; y < sites; ++y)
+                    for (int x = 0; x < sites; ++x) f->plane(0)(x, y) = normal(random);
+            block.to_waves(d, along);
+            const double slope = dot(g, along);
+            block.displace(1.0, along, d);
+            const double above = block.elastic_energy();
+            block.displace(-2.0, along, d);
+            const double below = block.elastic_energy();
+            EXPECT_NEAR(slope, 0.5 * (above - below), 1e-10 * (above + below)) << sites << held;
+        }
+}
+
+TEST(SpectralBlock, AHeldTopPullsWithItsSpring) {
+    const BlockOptions o = test::paper_block(10, 6, 0);
+    SpectralBlock block(o, Communicator());
+    block.set_uniform(0.0);
+    block.hold_top(0.2);
+    const double spring = (o.lame() + 2 * o.shear_modulus()) * 100 * o.spacing / 6;
+    EXPECT_NEAR(block.top_force(), -0.2 * spring, 1e-12 * spring);
+    EXPECT_NEAR(block.elastic_energy(), 0.5 * 0.04 * spring, 1e-12 * spring);
+    block.free_top();
+    EXPECT_EQ(block.elastic_energy(), 0.0);
+    EXPECT_EQ(block.top_force(), 0.0);
+}
+
+TEST(SpectralBlock, PreconditionerIsAnInverse) {
+    // (S + k) (S + k)^-1 x = x, in the precision of the products.
+    for (int sites : {11, 16}) {
+        SpectralBlock block(test::paper_block(sites, 9, 0), Communicator());
+        std::mt19937_64 random(5);
+        randomise(block, random, 1.0);
+        Waves<double> g(sites);
+        block.gradient(0.0, g);
+        Waves<float> x(sites), y(sites);
+        add(1.0, g, x);
+        add(1.0, x, y);
+        block.precondition(1.5, y);
+        Waves<float> back(sites);
+        add(1.5, y, back);
+        block.add_stiffness(y, 1.0, back);
+        add(-1.0, x, back);
+        EXPECT_LT(dot(back, back), 1e-12 * dot(x, x));
+    }
+}
