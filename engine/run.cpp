@@ -108,7 +108,8 @@ private:
         last_checkpoint_ = seconds();
         std::optional<Leg> ended; // the leg that the last step ended
         while (ended || !simulation_.drive().done()) {
-            const bool last = simulation_.steps() + 1 == scene_.drive.max_steps;
+            const bool last =
+                scene_.drive.max_steps > 0 && simulation_.steps() + 1 >= scene_.drive.max_steps;
             const bool due = simulation_.steps() % scene_.output.series == 0;
             if (due && !ended && time_to_stop()) return;
             // The step after a leg and the last of all are observed, so that the guard has seen the
@@ -123,6 +124,7 @@ private:
             if (progress_.due()) progress_.update(progress_state(now));
             if (last) {
                 stopped_ = "max_steps";
+                if (scene_.output.checkpoint > 0.0) save_checkpoint();
                 return;
             }
         }
@@ -237,16 +239,20 @@ private:
         std::array<double, 1> agreed = {decision};
         ranks_.max(agreed);
         if (agreed[0] == nothing) return false;
-        const auto t = simulation_.phases().time(Phase::checkpoint);
-        recorder_->flush();
-        write_checkpoint(directory_ + "/checkpoint.h5", simulation_, run_scalars(), fingerprint_);
-        last_checkpoint_ = seconds();
+        save_checkpoint();
         if (agreed[0] == save) return false;
         stopped_ = agreed[0] == wall ? "wall_limit" : "signal";
         progress_.say(fmt::format(
             "stopping: the state at step {} is in {}/checkpoint.h5; go on with --resume auto",
             simulation_.steps(), directory_));
         return true;
+    }
+
+    void save_checkpoint() {
+        const auto t = simulation_.phases().time(Phase::checkpoint);
+        recorder_->flush();
+        write_checkpoint(directory_ + "/checkpoint.h5", simulation_, run_scalars(), fingerprint_);
+        last_checkpoint_ = seconds();
     }
 
     RunScalars run_scalars() {
