@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/drive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,11 +36,13 @@ double Drive::velocity(double t) const {
 
 bool Drive::observe(double t, double force, bool out_of_reach) {
     if (leg_ == Leg::approach) {
-        if (force < 0.0) attracted_ = true;
-        // With a load to reach, or a substrate that does not attract, the first contact is the way
-        // there.
-        if (!attracted_ && force <= options_.load_force) return false;
-        if (force < options_.load_force || (attracted_ && force < 0.0)) return false;
+        // Through attraction (beyond the load, if that pulls) and back to the load; or, where
+        // nothing attracts that much, pressed.
+        const double load = options_.load_force;
+        if (force < std::min(load, 0.0)) attracted_ = true;
+        const bool back = attracted_ && force >= load;
+        const bool pressed = force > std::max(load, 0.0);
+        if (!back && !pressed) return false;
         leg_ = options_.pull_off ? Leg::pull_off : Leg::done;
         turned_at_ = t;
         return true;

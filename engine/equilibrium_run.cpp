@@ -31,7 +31,7 @@ public:
           progress_(options.progress, !ranks.root()) {
         ranks_.on_root([&] {
             const auto place =
-                io::choose_result_directory(options.out, scene.name, options.resuming());
+                io::choose_result_directory(options.out, scene.name, false); // nothing to resume
             directory_ = place.directory;
             if (!place.note.empty()) progress_.say(place.note);
             if (options.resuming())

@@ -53,6 +53,13 @@ public:
             const auto place =
                 io::choose_result_directory(options.out, scene.name, options.resuming());
             directory_ = place.directory;
+            namespace fs = std::filesystem;
+            if (options.resume == "auto" && !fs::exists(directory_ + "/checkpoint.h5") &&
+                fs::exists(directory_ + "/result.json"))
+                throw io::SceneError({"--resume auto",
+                                      directory_ + " holds a result and no checkpoint",
+                                      "the run in it ended before its first checkpoint was due",
+                                      "nothing is left to do; for a new run give another --out"});
             if (!place.note.empty()) progress_.say(place.note);
         });
         fingerprint_ = fingerprint();

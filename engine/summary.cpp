@@ -116,17 +116,22 @@ void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const 
                    "  {:.1f} % of the block's surface atoms are in contact.\n",
                    z->binding_energy, 100.0 * z->binding_energy / flat, z->pairwise, z->elastic,
                    100.0 * z->contact_fraction);
-    if (findings.approach && findings.pull_off && z)
-        fmt::print(to,
-                   "  Approach and pull-off are the work of the interface's force on the mean "
-                   "surface. Where nothing\n"
-                   "  snaps, both equal the state's energy; pull-off minus approach, {:.2f} "
-                   "meV/Å², is energy that\n"
-                   "  snapping in and off has turned into vibrations (hysteresis). A thick block is a "
-                   "soft spring and\n"
-                   "  snaps as a whole; a thinner one (block.thickness) follows the interface more "
-                   "closely.\n",
-                   *findings.pull_off - *findings.approach);
+    if (findings.approach && findings.pull_off && z) {
+        const double lost = *findings.pull_off - *findings.approach;
+        fmt::print(to, "  Approach and pull-off are the work of the interface's force on the mean "
+                       "surface. Where nothing\n"
+                       "  snaps, both equal the state's energy");
+        if (lost < 0.01 * flat)
+            fmt::print(to, ", as they do here to {:.2f} meV/Å².\n", std::abs(lost));
+        else
+            fmt::print(to,
+                       "; pull-off minus approach, {:.2f} meV/Å², is energy that\n"
+                       "  snapping in and off has turned into vibrations (hysteresis). A thick "
+                       "block is a soft spring and\n"
+                       "  snaps as a whole; a thinner one (block.thickness) follows the interface "
+                       "more closely.\n",
+                       lost);
+    }
     if (std::isfinite(residual))
         fmt::print(to,
                    "  Energy balance: work done = energy gained + energy damped, to {:.1e} of the "

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/table.hpp"
 
+#include "io/progress.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -23,7 +25,8 @@ int visible_width(std::string_view text) {
 bool colours(std::FILE* stream) {
     const char* const no_color = std::getenv("NO_COLOR");
     const char* const term = std::getenv("TERM");
-    return ::isatty(::fileno(stream)) != 0 && !(no_color && *no_color) &&
+    // mpirun gives its ranks a terminal of their own, wherever the output goes in the end.
+    return ::isatty(::fileno(stream)) != 0 && !under_mpirun() && !(no_color && *no_color) &&
            !(term && std::strcmp(term, "dumb") == 0);
 }
 

@@ -10,6 +10,7 @@
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 small="--set surface.sites=32 block.thickness=32 --progress off"
 "$asperity" surface "$source/scenes/first-contact.toml" --out map >/dev/null || fail "no surface"
+ln -s "$source/scenes" scenes
 cp map/heights.h5 heights.h5 # "your own surface"
 
 count=0
@@ -24,7 +25,6 @@ while IFS= read -r line; do
         [ "$wanted" = 0 ] && command="$command --set drive.max_steps=30" ;;
     esac
     command=${command//.\/asperity/\"$asperity\"}
-    command=${command//scenes\//$source/scenes/}
     command=${command//docs\/scene.md/scene.md}
     command=${command//mpirun /mpirun --oversubscribe }
     out=$(eval "timeout 120 $command" 2>&1 </dev/null)

@@ -45,6 +45,21 @@ TEST(Drive, ALoadIsReachedWithOrWithoutAttraction) {
     EXPECT_TRUE(hard.observe(1.0, 2.5, false));
 }
 
+TEST(Drive, APullingLoadIsReachedFromBeyondIt) {
+    auto options = both_ways();
+    options.load_force = -2.0;
+    Drive drive(options);
+    EXPECT_FALSE(drive.observe(0.0, 0.0, false))
+        << "out of reach is above the load, but no contact";
+    EXPECT_FALSE(drive.observe(1.0, -1.0, false));
+    EXPECT_FALSE(drive.observe(2.0, -5.0, false)) << "beyond the load";
+    EXPECT_FALSE(drive.observe(3.0, -2.5, false));
+    EXPECT_TRUE(drive.observe(4.0, -1.5, false));
+    Drive weak(options);
+    EXPECT_FALSE(weak.observe(0.0, -1.0, false)) << "never attracts that much";
+    EXPECT_TRUE(weak.observe(1.0, 0.5, false));
+}
+
 TEST(Drive, TurnsSmoothly) {
     Drive drive(both_ways());
     drive.observe(100.0, -1.0, false);
