@@ -309,10 +309,8 @@ void not_yet(const Scene& scene, io::Problems& problems) {
     };
     const bool equilibrium = scene.has(PathPart::zero_load);
     if (scene.block.model == BlockModel::spectral && !equilibrium)
-        refuse("block.model", "\"spectral\"",
-               "it has no inertia: use it with path = [\"zero-load\"], or take \"multiscale\" "
-               "(\"lattice\" is "
-               "the reference)");
+        refuse("block.model", "\"spectral\" on a path",
+               "use path = [\"zero-load\"], or \"multiscale\" (\"lattice\" is the reference)");
     if (scene.block.strain == Strain::finite)
         refuse("block.strain", "\"finite\"", "use \"linear\"");
     if (scene.drive.mode == DriveMode::quasistatic && !equilibrium)
