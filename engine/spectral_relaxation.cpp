@@ -54,7 +54,8 @@ bool clip(double bound, VectorField<double>& field) {
 #pragma omp parallel for schedule(static) reduction(|| : clipped)
     for (int y = 0; y < f.x.ny; ++y)
         for (int x = 0; x < f.x.nx; ++x) {
-            const double length = std::hypot(f.x(x, y), f.y(x, y), f.z(x, y));
+            const double length =
+                std::sqrt(f.x(x, y) * f.x(x, y) + f.y(x, y) * f.y(x, y) + f.z(x, y) * f.z(x, y));
             if (!(length > bound)) continue;
             const double q = bound / length;
             f.x(x, y) *= q;
@@ -68,7 +69,7 @@ bool clip(double bound, VectorField<double>& field) {
 /// What the last steps have told of the curvature.
 class Curvature {
 public:
-    Curvature(int sites, std::size_t pairs) : sites_(sites), limit_(pairs) {}
+    Curvature(int sites, std::size_t pairs) : sites_(sites), limit_(pairs), work_(sites) {}
 
     /// The pair step, change of gradient; left out where the energy curves down along the step.
     void learn(double t, const Waves<double>& d, const Waves<double>& g_new,
@@ -91,19 +92,20 @@ public:
     void forget() { pairs_.clear(); }
     bool empty() const { return pairs_.empty(); }
 
-    /// d <- -H d, with H the inverse Hessian as far as it is known.
-    void descend(const SpectralBlock& block, double k, Waves<double>& d) const {
+    /// d <- -H g, with H the inverse Hessian as far as it is known.
+    void descend(const SpectralBlock& block, double k, const Waves<double>& g, Waves<double>& d) {
         std::vector<double> alpha(pairs_.size());
+        copy(-1.0, g, work_);
         for (std::size_t i = pairs_.size(); i-- > 0;) {
-            alpha[i] = pairs_[i].rho * dot(pairs_[i].s, d);
-            add(-alpha[i], pairs_[i].y, d);
+            alpha[i] = pairs_[i].rho * dot(pairs_[i].s, work_);
+            add(-alpha[i], pairs_[i].y, work_);
         }
-        block.precondition(k, d);
+        block.precondition(k, work_);
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
-            const double beta = pairs_[i].rho * dot(pairs_[i].y, d);
-            add(alpha[i] - beta, pairs_[i].s, d);
+            const double beta = pairs_[i].rho * dot(pairs_[i].y, work_);
+            add(alpha[i] - beta, pairs_[i].s, work_);
         }
-        copy(-1.0, d, d);
+        copy(1.0, work_, d);
     }
 
 private:
@@ -114,6 +116,7 @@ private:
     int sites_;
     std::size_t limit_;
     std::deque<Pair> pairs_;
+    Waves<float> work_;
 };
 
 /// Newton's direction: (S + H) d = -g by conjugate gradients, in single precision.
@@ -132,7 +135,7 @@ public:
                            reference_height);
         // The nearer the end, the more exact: what is left of the gradient, by then quadratically
         // small.
-        const double forcing = std::clamp(std::sqrt(rms), 1e-3, 0.3);
+        const double forcing = std::clamp(std::sqrt(rms), 0.03, 0.3);
         copy(-1.0, g, r_);
         copy(0.0, r_, d_);
         copy(1.0, r_, p_);
@@ -220,11 +223,10 @@ public:
     /// One step downhill. False if there is no way down.
     bool step(long long iteration) {
         const bool newton =
-            (settled_ || rms_ < near_) && iteration >= newton_from_ && newton_direction(iteration);
+            settled_ && rms_ < near_ && iteration >= newton_from_ && newton_direction(iteration);
         if (!newton) {
             const auto t = phases_.time(Phase::sums);
-            copy(1.0, g_, d_);
-            curvature_.descend(block_, stiffness_, d_);
+            curvature_.descend(block_, stiffness_, g_, d_);
             block_.at_sites(d_, at_sites_);
         }
         const bool clipped = clip(options_.max_move, at_sites_);
@@ -259,7 +261,7 @@ private:
         const auto t = phases_.time(Phase::relax);
         if (newton_.direction(interface_, height_, stiffness_, rms_, g_, d_)) {
             block_.at_sites(d_, at_sites_);
-            if (largest(at_sites_) <= 10.0 * options_.max_move) return true;
+            if (largest(at_sites_) <= 2.0 * options_.max_move) return true;
         }
         newton_from_ = iteration + patience;
         return false;
@@ -276,7 +278,7 @@ private:
     }
 
     static constexpr long long patience = 10; ///< iterations before Newton is tried (again)
-    static constexpr double near_ = 0.02;     ///< mean residual, eV/Å, at which Newton is tried
+    static constexpr double near_ = 0.005;    ///< mean residual, eV/Å, at which Newton is tried
 
     SpectralBlock& block_;
     const Interface& interface_;

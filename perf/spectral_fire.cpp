@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What does the spectral block's own relaxation gain over FIRE? Both start from the same state, use
+// the same block, sweep, transforms and preconditioner (S(q) + k)^-1, and end at the same largest
+// force of 1e-4 eV/Å.
+//
+//     spectral_fire SITES RMS [k of FIRE = 6.6] [its largest move = 1.0 Å] [own = both]
+//
+// FIRE (Bitzek et al. 2006) in the metric of the preconditioner, settings tuned for it at 256
+// sites: of k = 2.2, 6.6, ... eV/Å^2 and time steps 0.5 to 1.4, see docs/relaxation.md. It is a
+// baseline, no part of the product. Give "own" as fifth argument to leave it out (peak memory is
+// then the product's).
+#include "engine/spectral_relaxation.hpp"
+#include "engine/surface.hpp"
+#include "engine/units.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+using namespace asperity;
+
+namespace {
+
+constexpr double tolerance = 1e-4; // eV/Å
+
+double largest(const VectorPlane<const double>& f) {
+    double longest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : longest)
+    for (int y = 0; y < f.x.ny; ++y)
+        for (int x = 0; x < f.x.nx; ++x)
+            longest = std::max(longest, f.x(x, y) * f.x(x, y) + f.y(x, y) * f.y(x, y) +
+                                            f.z(x, y) * f.z(x, y));
+    return std::sqrt(longest);
+}
+
+struct Answer {
+    long long iterations = 0;
+    double seconds = 0.0, energy = 0.0; ///< s, eV
+    bool converged = false;
+};
+
+Answer fire(SpectralBlock& block, const Interface& interface, double height, double k,
+            double max_move) {
+    constexpr double dt_max = 1.0;
+    const auto start = std::chrono::steady_clock::now();
+    const int n = block.options().sites;
+    // v and its momentum p = (S + k) v; a = (S + k)^-1 F.
+    Waves<double> g(n), v(n), p(n), a(n);
+    VectorField<double> at_sites = block.new_field();
+    double dt = 0.3 * dt_max, mixing = 0.1;
+    int downhill = 0;
+    Answer answer;
+    for (; answer.iterations < 20000; ++answer.iterations) {
+        interface.sweep(block.lowest_layer(), block.interface_force(), height, false);
+        block.gradient(0.0, g);
+        if (std::sqrt(dot(g, g)) / n <= tolerance) {
+            block.at_sites(g, at_sites);
+            answer.converged = largest(std::as_const(at_sites).plane(0)) <= tolerance;
+            if (answer.converged) break;
+        }
+#pragma omp parallel for schedule(static)
+        for (int y = 0; y < n; ++y)
+            for (int c = 0; c < 3; ++c)
+                for (int i = 0; i < 2 * g.columns(); ++i)
+                    a.row(c, y)[i] = -g.row(c, y)[i];
+        block.precondition(k, a);
+        const double power = -dot(g, v), force2 = -dot(g, a), speed2 = dot(v, p);
+        double keep = 0.0, gain = 0.0;
+        if (power > 0.0 || answer.iterations == 0) {
+            keep = 1.0 - mixing;
+            gain = dt + (force2 > 0.0 ? mixing * std::sqrt(std::max(0.0, speed2) / force2) : 0.0);
+            if (++downhill > 5) dt = std::min(1.1 * dt, dt_max), mixing *= 0.99;
+        } else {
+            downhill = 0;
+            dt *= 0.5;
+            mixing = 0.1;
+            gain = dt;
+        }
+#pragma omp parallel for schedule(static)
+        for (int y = 0; y < n; ++y)
+            for (int c = 0; c < 3; ++c)
+                for (int i = 0; i < 2 * g.columns(); ++i) {
+                    v.row(c, y)[i] = keep * v.row(c, y)[i] + gain * a.row(c, y)[i];
+                    p.row(c, y)[i] = keep * p.row(c, y)[i] - gain * g.row(c, y)[i];
+                }
+        block.at_sites(v, at_sites);
+        const double move = dt * largest(std::as_const(at_sites).plane(0));
+        block.displace(move > max_move ? dt * max_move / move : dt, v, at_sites);
+    }
+    block.settle();
+    const auto sums = interface.sweep(block.lowest_layer(), block.interface_force(), height, true);
+    answer.energy = sums.energy.value() + block.elastic_energy();
+    answer.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return answer;
+}
+
+Answer own(SpectralBlock& block, const Interface& interface, double height) {
+    const auto start = std::chrono::steady_clock::now();
+    RelaxOptions options;
+    options.tolerance = tolerance;
+    options.max_move = 0.2;
+    Phases phases;
+    const RelaxedState s = relax(block, interface, height, options, phases);
+    for (std::size_t i = 0; i < phase_names.size(); ++i)
+        if (const PhaseClock& c = phases[static_cast<Phase>(i)]; c.calls > 0)
+            fmt::print("         {:10} {:7.3f} s in {} calls\n", phase_names[i], c.seconds,
+                       c.calls);
+    return {s.iterations,
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+            s.interface_energy + s.elastic_energy, s.converged};
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const int sites = argc > 1 ? std::atoi(argv[1]) : 256;
+    SurfaceOptions s;
+    s.kind = SurfaceKind::self_affine;
+    s.sites = sites;
+    s.length = 2.6 * sites;
+    s.rms = argc > 2 ? std::atof(argv[2]) : 3.0;
+    s.cutoff = 0.5 * sites;
+    const double k = argc > 3 ? std::atof(argv[3]) : 6.6;
+    const double max_move = argc > 4 ? std::atof(argv[4]) : 1.0;
+    const bool both = argc <= 5 || std::string(argv[5]) != "own";
+    const Surface surface = make_surface(s);
+
+    BlockOptions b;
+    b.sites = sites;
+    b.thickness = sites;
+    b.young = 77.2 * units::gigapascal;
+    b.atom_mass = 197.0 * units::atomic_mass;
+    b.multiscale = false;
+    const auto begin = std::chrono::steady_clock::now();
+    SpectralBlock block(b, Communicator());
+    const double made =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const Interface interface(surface, block.tile(), b.spacing, {});
+    block.set_uniform(0.0);
+    double height = interface.start_height(), strongest = 0.0;
+    for (double z = height; z > surface.statistics.lowest; z -= 0.1) {
+        const double force =
+            interface.sweep(block.lowest_layer(), block.interface_force(), z, false)
+                .force_z.value();
+        if (force < strongest) strongest = force, height = z;
+        if (force > 0.0) break;
+    }
+    const double area = 6.76 * sites * sites;
+    const auto say = [&](const char* what, const Answer& a) {
+        fmt::print("{:8} {} sites, rms {} Å: {:5} iterations, {:8.2f} s, {:.10f} meV/Å²{}\n", what,
+                   sites, s.rms, a.iterations, a.seconds, -1e3 * a.energy / area,
+                   a.converged ? "" : "  NOT CONVERGED");
+    };
+    const Answer mine = own(block, interface, height);
+    say("own", mine);
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    fmt::print("         S(q) {:.3f} s; peak memory {:.0f} MB\n", made,
+               static_cast<double>(use.ru_maxrss) / 1024.0);
+    if (!both) return 0;
+    block.set_uniform(0.0);
+    const Answer baseline = fire(block, interface, height, k, max_move);
+    say("FIRE", baseline);
+    fmt::print("         own is {:.1f} times faster\n", baseline.seconds / mine.seconds);
+    return 0;
+}
