@@ -122,7 +122,7 @@ private:
             else
                 ended = follow_drive(now);
             if (progress_.due()) progress_.update(progress_state(now));
-            if (last) {
+            if (last && !ended) {
                 stopped_ = "max_steps";
                 if (scene_.output.checkpoint > 0.0) save_checkpoint();
                 return;
