@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The spectral block's stiffness against the elimination straight from the cell energy
-// (support/spectral_lattice.hpp), and its laws: positive, exact at long and uniform waves, a force that is
-// the gradient of its energy. That it is the lattice, states show (zero_load_test).
+// (support/spectral_lattice.hpp), and its laws: positive, exact at long and uniform waves, a force
+// that is the gradient of its energy. That it is the lattice, states show (zero_load_test).
 #include "engine/spectral_relaxation.hpp"
 #include "support/cases.hpp"
 #include "support/spectral_lattice.hpp"
@@ -39,7 +39,8 @@ void randomise(SpectralBlock& block, std::mt19937_64& random, double size) {
     Waves<double> waves(block.options().sites);
     for (Field<double>* f : {&d.x, &d.y, &d.z})
         for (int y = 0; y < block.tile().ny; ++y)
-            for (int x = 0; x < block.tile().nx; ++x) f->plane(0)(x, y) = normal(random);
+            for (int x = 0; x < block.tile().nx; ++x)
+                f->plane(0)(x, y) = normal(random);
     block.to_waves(d, waves);
     block.displace(1.0, waves, d);
 }
@@ -66,9 +67,10 @@ TEST(SurfaceMatrix, GivesTheNumbersOfTheModel) {
         int period;
         double along_x; // reference (model.md section 5)
     };
-    for (const Row& row : {Row{4, 0.8713020761}, Row{8, 0.9797060798}, Row{16, 0.9964538307},
-                           Row{32, 0.9992299794}})
-        EXPECT_NEAR(ratio(test::paper_block(row.period, 8 * row.period, 0), 1, 0), row.along_x, 1e-9);
+    for (const Row& row :
+         {Row{4, 0.8713020761}, Row{8, 0.9797060798}, Row{16, 0.9964538307}, Row{32, 0.9992299794}})
+        EXPECT_NEAR(ratio(test::paper_block(row.period, 8 * row.period, 0), 1, 0), row.along_x,
+                    1e-9);
 }
 
 TEST(SurfaceMatrix, UniformModesAreExact) {
@@ -83,7 +85,8 @@ TEST(SurfaceMatrix, UniformModesAreExact) {
 }
 
 TEST(SurfaceMatrix, IsPositiveAndStopsWhereNothingIsLeft) {
-    const BlockOptions thick = test::paper_block(512, 512, 0), thicker = test::paper_block(512, 100000, 0);
+    const BlockOptions thick = test::paper_block(512, 512, 0),
+                       thicker = test::paper_block(512, 100000, 0);
     for (int nx : {1, 2, 3, 17, 64, 200, 255, 256})
         for (int ny : {0, 1, 2, 60, 128, 255, 256}) {
             if (ny > nx) continue;
@@ -99,7 +102,8 @@ TEST(SurfaceMatrix, IsPositiveAndStopsWhereNothingIsLeft) {
 }
 
 TEST(SpectralBlock, ForceIsTheGradientOfItsEnergy) {
-    // The energy is quadratic, so a central difference along any direction is exact; no interface acts.
+    // The energy is quadratic, so a central difference along any direction is exact; no interface
+    // acts.
     for (int sites : {9, 12, 20})
         for (bool held : {false, true}) {
             SpectralBlock block(test::paper_block(sites, 7, 0), Communicator());
@@ -112,7 +116,8 @@ TEST(SpectralBlock, ForceIsTheGradientOfItsEnergy) {
             std::normal_distribution<double> normal;
             for (Field<double>* f : {&d.x, &d.y, &d.z})
                 for (int y = 0; y < sites; ++y)
-                    for (int x = 0; x < sites; ++x) f->plane(0)(x, y) = normal(random);
+                    for (int x = 0; x < sites; ++x)
+                        f->plane(0)(x, y) = normal(random);
             block.to_waves(d, along);
             const double slope = dot(g, along);
             block.displace(1.0, along, d);

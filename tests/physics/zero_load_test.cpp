@@ -135,9 +135,9 @@ TEST_P(ReferenceCase, Multiscale) {
 TEST_P(ReferenceCase, Spectral) {
     // The same numbers and tolerances as the lattice: nothing of the depth is left to differ.
     const Case& c = GetParam();
-    const auto r = test::relax_spectral(test::paper_block(c.sites, c.thickness, 0),
-                                        test::paper_interface(c.cutoff),
-                                        test::reference_surface(c.map), 1e-6);
+    const auto r =
+        test::relax_spectral(test::paper_block(c.sites, c.thickness, 0),
+                             test::paper_interface(c.cutoff), test::reference_surface(c.map), 1e-6);
     ASSERT_TRUE(r.state.converged);
     std::printf("%s spectral: %.8f meV/A^2 (%+.1e), pairwise %+.1e, %lld iterations\n", c.map,
                 r.binding_energy, r.binding_energy / c.binding - 1.0, r.pairwise / c.pairwise - 1.0,

@@ -108,7 +108,8 @@ Relaxed relax_spectral(const BlockOptions& options, const InterfaceOptions& inte
     double height = interface.start_height(), strongest = 0.0;
     for (double z = height;; z -= 0.1) {
         const double force =
-            interface.sweep(block.lowest_layer(), block.interface_force(), z, false).force_z.value();
+            interface.sweep(block.lowest_layer(), block.interface_force(), z, false)
+                .force_z.value();
         if (force < strongest) strongest = force, height = z;
         if (force > 0.0 || z < surface.statistics.lowest) break;
     }
