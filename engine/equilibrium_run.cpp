@@ -6,6 +6,7 @@
 #include "engine/recorder.hpp"
 #include "engine/run_record.hpp"
 #include "engine/summary.hpp"
+#include "engine/units.hpp"
 #include "io/error.hpp"
 #include "io/progress.hpp"
 
@@ -90,6 +91,13 @@ private:
         io::ResultRecord r = run_record(scene_, surface_, setup_, findings_, ranks_.size());
         r.run.wall_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        r.run.steps = 0;
+        if (findings_.zero_load) {
+            const double area = scene_.edge() * scene_.edge() / units::milli_per_unit;
+            r.energy.kinetic = 0.0;
+            r.energy.elastic = findings_.zero_load->elastic * area;
+            r.energy.interface = -findings_.zero_load->pairwise * area;
+        }
         add_phases(phases_, r);
         r.failure = failure;
         io::write_result(directory_, r);

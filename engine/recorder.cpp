@@ -85,15 +85,15 @@ Recorder::Recorder(const std::string& path, const Surface& surface,
 
 void Recorder::row(const Simulation& simulation) {
     const StepRecord& r = simulation.now();
-    const Ledger& ledger = simulation.ledger();
+    const Leg leg = simulation.leg();
+    const bool pulling =
+        leg == Leg::pull_off || (leg == Leg::done && simulation.options().drive.pull_off);
     const double sites = static_cast<double>(simulation.options().block.sites);
     ++rows_;
     communicator_.on_root([&] {
-        series_.append({static_cast<double>(r.step), r.time * 1e-3,
-                        simulation.leg() == Leg::approach ? 0.0 : 1.0, r.top, r.mean_height,
-                        r.force, r.top_force, r.interface_energy, r.elastic_energy,
-                        r.kinetic_energy, ledger.work(), ledger.damped,
-                        simulation.energy_residual(),
+        series_.append({static_cast<double>(r.step), r.time * 1e-3, pulling ? 1.0 : 0.0, r.top,
+                        r.mean_height, r.force, r.top_force, r.interface_energy, r.elastic_energy,
+                        r.kinetic_energy, r.work, r.damped, r.residual,
                         static_cast<double>(r.in_contact) / (sites * sites),
                         static_cast<double>(r.pushed) / (sites * sites), r.closest});
     });

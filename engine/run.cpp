@@ -157,6 +157,7 @@ private:
 
     void relax_copy() {
         const auto t = simulation_.phases().time(Phase::relax);
+        recorder_->flush(); // to be looked at if no state is found
         const auto copy = at_rest(simulation_.block().copy_at_rest());
         findings_.zero_load =
             find_zero_load(*copy, simulation_.interface(), simulation_.reference_height(), scene_,
@@ -172,27 +173,30 @@ private:
         const double residual = now.observed ? simulation_.energy_residual() : 0.0;
         const bool balanced = std::isfinite(residual) && std::abs(residual) <= energy_limit;
         if (finite && balanced) return;
+        const StepRecord failed = now; // what follows puts the simulation back
         const std::string where = fastest_site();
         std::string kept = "no earlier state was kept";
+        recorder_->flush();
         if (!snapshot_.empty()) {
             snapshot_.restore(simulation_);
             const std::string path = directory_ + "/last-good.h5";
-            write_checkpoint(path, simulation_, run_scalars(), fingerprint_);
-            kept = fmt::format("the last good state, step {}, is in {}", snapshot_.step(), path);
+            write_checkpoint(path, simulation_, snapshot_scalars_, fingerprint_);
+            kept = fmt::format("the last good state, step {}, is in {} for a look",
+                               snapshot_.step(), path);
         }
         const double limit = setup_.longest_timestep;
         throw io::PhysicsError(
             finite ? fmt::format("the energy balance is off by {:.1f} % at step {}",
-                                 100.0 * residual, now.step)
-                   : fmt::format("the motion diverged at step {}: the force is {}", now.step,
-                                 now.force),
+                                 100.0 * residual, failed.step)
+                   : fmt::format("the motion diverged at step {}: the force is {}", failed.step,
+                                 failed.force),
             fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
                         "contact, and less "
                         "where atoms are pressed into the wall or hit it fast",
                         where, scene_.drive.timestep, limit),
-            fmt::format(
-                "take a smaller drive.timestep (for example {:.2g} fs) or drive.velocity; {}",
-                std::min(0.5 * scene_.drive.timestep, 0.2 * limit), kept));
+            fmt::format("start again with a smaller drive.timestep (for example {:.2g} fs) or "
+                        "drive.velocity; {}",
+                        std::min(0.5 * scene_.drive.timestep, 0.2 * limit), kept));
     }
 
     /// The site of the lowest layer that moves fastest (or not by a number any more).
@@ -220,8 +224,11 @@ private:
 
     void record_row() {
         const auto t = simulation_.phases().time(Phase::output);
-        if (recorder_->rows() % rows_between_snapshots == 0) snapshot_.take(simulation_);
+        const bool keep = recorder_->rows() % rows_between_snapshots == 0;
         recorder_->row(simulation_);
+        if (!keep) return;
+        snapshot_.take(simulation_);
+        snapshot_scalars_ = run_scalars();
     }
 
     /// Between two steps: signals, the wall limit and checkpoints; the root decides for all.
@@ -264,6 +271,21 @@ private:
         return list;
     }
 
+    /// A checkpoint taken up in another directory brings its series along.
+    void bring_series(const std::string& checkpoint) const {
+        namespace fs = std::filesystem;
+        const fs::path here = fs::path(directory_) / "run.h5";
+        const fs::path there = fs::path(checkpoint).parent_path() / "run.h5";
+        if (fs::exists(here)) return;
+        std::error_code failed;
+        fs::copy_file(there, here, failed);
+        if (failed)
+            throw io::FileError(checkpoint, "cannot be taken up",
+                                "the series so far, " + there.string() +
+                                    ", cannot be copied: " + failed.message(),
+                                "keep a checkpoint and its run.h5 in one folder");
+    }
+
     /// Goes on from a checkpoint if asked. True if it did.
     bool take_up() {
         if (!options_.resuming()) return false;
@@ -278,6 +300,7 @@ private:
             progress_.say("no checkpoint yet: starting from the beginning");
             return false;
         }
+        ranks_.on_root([&] { bring_series(path); });
         const RunScalars scalars = read_checkpoint(path, simulation_, fingerprint_);
         rows_at_start_ = static_cast<std::uint64_t>(scalars.front().second);
         std::size_t at = 1;
@@ -341,6 +364,7 @@ private:
     std::optional<Recorder> recorder_;
     Findings findings_;
     Snapshot snapshot_;
+    RunScalars snapshot_scalars_;
     std::string directory_, fingerprint_, stopped_;
     std::uint64_t rows_at_start_ = 0;
     double last_checkpoint_ = 0.0;
@@ -351,14 +375,9 @@ void Run::write_record(const io::ResultRecord::Failure& failure) {
     if (!ranks_.root()) return;
     io::ResultRecord r = run_record(scene_, surface_, setup_, findings_, ranks_.size());
     if (simulation_.steps() > 0) {
-        const StepRecord& now = simulation_.now();
-        const Ledger& l = simulation_.ledger();
-        r.energy.residual = simulation_.energy_residual();
-        r.energy.work = l.work();
-        r.energy.kinetic = now.kinetic_energy;
-        r.energy.elastic = now.elastic_energy;
-        r.energy.interface = now.interface_energy;
-        r.energy.damped = l.damped;
+        const StepRecord& now = simulation_.now(); // energies of the last observed step
+        r.energy = {now.residual,         now.work,  now.kinetic_energy, now.elastic_energy,
+                    now.interface_energy, now.damped};
     }
     r.run.wall_seconds = seconds();
     r.run.steps = simulation_.steps();

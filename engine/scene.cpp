@@ -30,7 +30,7 @@ io::Schema bind(Scene& scene) {
     schema.integer("sites", surface.sites, between(4, 32768),
                    "N; the periodic box is N spacings wide");
     schema.number("spacing", surface.spacing, "Å", positive(),
-                  "lattice constant a of the substrate");
+                  "lattice constant a of the block (and of the substrate at lattice_ratio 1)");
     schema.number(
         "lattice_ratio", surface.lattice_ratio, "", between(0.1, 10.0),
         "block spacing over substrate spacing; 1.618 is incommensurate (rounded to whole atoms)");
@@ -291,6 +291,14 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                          "take it out, or take path = [\"zero-load\"]: after an approach the state "
                          "under zero load is found anyway");
     }
+    if (surface.kind == SurfaceKind::file && surface.rms_given && surface.rms == 0.0)
+        problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
+                     "take kind = \"flat\", or leave rms out to take the map as it is");
+    if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
+        problems.add("drive.damping_from",
+                     fmt::format("= {:.6g} with a temperature", drive.damping_from),
+                     "the thermostat acts where the damping does, and that is nowhere",
+                     "give a fraction below 1");
     if (drive.temperature > 0.0 && drive.damping == 0.0)
         problems.add("drive.temperature",
                      fmt::format("= {:.6g} K with drive.damping = 0", drive.temperature),

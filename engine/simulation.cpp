@@ -139,14 +139,12 @@ void Simulation::keep_books() {
         damped_at_start_ = ledger_.damped;
     }
     scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(ledger_.work())});
-}
-
-double Simulation::energy_residual() const {
-    if (!energy_at_start_ || scale_ == 0.0) return 0.0;
-    const double change = record_.interface_energy + record_.elastic_energy +
-                          record_.kinetic_energy - *energy_at_start_;
-    const double work = ledger_.work() - work_at_start_, damped = ledger_.damped - damped_at_start_;
-    return (work - change - damped) / scale_;
+    const double change = lj + elastic + kinetic - *energy_at_start_;
+    record_.work = ledger_.work();
+    record_.damped = ledger_.damped;
+    const double balance =
+        (record_.work - work_at_start_) - change - (record_.damped - damped_at_start_);
+    record_.residual = scale_ > 0.0 ? balance / scale_ : 0.0;
 }
 
 } // namespace asperity

@@ -41,6 +41,8 @@ struct StepRecord {
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
     long long in_contact = 0, pushed = 0; ///< sites
     double closest = 0.0;                 ///< smallest pair distance, Å
+    double work = 0.0, damped = 0.0;      ///< since the start, at that step
+    double residual = 0.0; ///< of the energy balance, over the largest term met so far
 };
 
 /// Work and dissipation since the start, eV.
@@ -79,9 +81,9 @@ public:
     Phases& phases() { return phases_; }
     const Communicator& communicator() const { return block_.communicator(); }
 
-    /// (work - change of energy - damped) over the largest of these terms and of the interface
-    /// energy seen so far; needs an observed step.
-    double energy_residual() const;
+    /// Of the last observed step: (work - change of energy - damped) over the largest of these
+    /// terms and of the interface energy met so far.
+    double energy_residual() const { return record_.residual; }
 
     /// Everything but the fields, for checkpoints.
     template <class Visitor>
@@ -130,6 +132,12 @@ void Simulation::visit(Visitor& v) {
     v("record.mean_height", record_.mean_height);
     v("record.force", record_.force);
     v("record.top_force", record_.top_force);
+    v("record.interface_energy", record_.interface_energy);
+    v("record.elastic_energy", record_.elastic_energy);
+    v("record.kinetic_energy", record_.kinetic_energy);
+    v("record.work", record_.work);
+    v("record.damped", record_.damped);
+    v("record.residual", record_.residual);
     v("ledger.top_work", ledger_.top_work);
     v("ledger.drag_work", ledger_.drag_work);
     v("ledger.damped", ledger_.damped);
