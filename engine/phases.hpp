@@ -56,6 +56,12 @@ public:
         Clock::time_point start_;
     };
     Timer time(Phase phase) { return Timer(*this, phase); }
+    /// Does the work on the phase's clock.
+    template <class Work>
+    void during(Phase phase, const Work& work) {
+        const Timer timer(*this, phase);
+        work();
+    }
 
 private:
     std::array<PhaseClock, static_cast<std::size_t>(Phase::count)> clocks_{};

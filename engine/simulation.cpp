@@ -35,37 +35,24 @@ void Simulation::start(double height) {
 //   sums          what the ranks summed at n, added up; work and dissipation booked
 // The top plane's displacement at n is set at the end of the step before.
 const StepRecord& Simulation::step(bool observe) {
-    {
-        const auto t = phases_.time(Phase::interpolate);
-        block_.interpolate();
-    }
-    {
-        const auto t = phases_.time(Phase::interface);
-        interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
-                                           reference_height_, observe);
-    }
-    {
-        const auto t = phases_.time(Phase::observe);
-        collect(observe);
-    }
-    {
-        const auto t = phases_.time(Phase::advance);
-        kick_and_drift(observe);
-    }
-    if (thermostat_) {
-        const auto t = phases_.time(Phase::thermostat);
-        heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_);
-    }
-    {
-        const auto t = phases_.time(Phase::exchange);
-        block_.exchange();
-    }
-    {
-        const auto t = phases_.time(Phase::sums);
-        keep_books();
-    }
+    phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
+    phases_.during(Phase::interface, [&] { sweep_interface(observe); });
+    phases_.during(Phase::observe, [&] { collect(observe); });
+    phases_.during(Phase::advance, [&] { kick_and_drift(observe); });
+    if (thermostat_) phases_.during(Phase::thermostat, [&] { add_noise(); });
+    phases_.during(Phase::exchange, [&] { block_.exchange(); });
+    phases_.during(Phase::sums, [&] { keep_books(); });
     ++step_;
     return record_;
+}
+
+void Simulation::sweep_interface(bool observe) {
+    interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
+                                       reference_height_, observe);
+}
+
+void Simulation::add_noise() {
+    heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_);
 }
 
 void Simulation::kick_and_drift(bool observe) {

@@ -90,7 +90,9 @@ public:
     void visit(Visitor& v);
 
 private:
+    void sweep_interface(bool observe);
     void kick_and_drift(bool observe);
+    void add_noise();
     void collect(bool observe);
     void keep_books();
 

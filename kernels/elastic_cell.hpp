@@ -24,8 +24,9 @@
 //
 //   Fx = [own_c c + own_e ex + own_t ey + own_d d](ux)  + own_xy rxy(uy)
 //      + [out_c c + out_e ex + out_t ey + out_d d](Px)  + out_xy rxy(Py)
-//      + [out_r rx + out_rd rxd](Mz) - tau [out_r0 rx + out_rd rxd](uz)
-//   Fz = [..](uz) + [..](Pz) + [out_r rx + out_rd rxd](Mx + ..y..) + tau [..](ux, uy)
+//      + [out_r rx + out_rd rxd](Mz) - [tau_r rx + tau_rd rxd](uz)
+//   Fz = [normal_..](uz) + [out_normal_..](Pz)
+//      + [out_r rx + out_rd rxd](Mx) + [tau_r rx + tau_rd rxd](ux) + the same with ry, ryd of y
 //
 // On a level's lowest plane there are cells above only: w = 1, tau = +1, P = M = u(z+1); on its
 // upper plane cells below only: w = 1, tau = -1, P = u(z-1), M = -u(z-1). Nothing else
