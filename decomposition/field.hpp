@@ -22,19 +22,14 @@ public:
     Field() = default;
 
     /// halo: frame of nodes around the tile, at least halo_width.
-    Field(const Tile& tile, int planes, int halo = halo_width) : halo_(halo) {
-        constexpr std::ptrdiff_t line = 64 / static_cast<std::ptrdiff_t>(sizeof(T));
-        const auto round_up = [](std::ptrdiff_t n) { return (n + line - 1) / line * line; };
+    Field(const Tile& tile, int planes, int halo = halo_width)
+        : size_(size(tile, planes, halo)), halo_(halo) {
         const std::ptrdiff_t left = round_up(halo);
-        // Behind the owned nodes: the halo, and what a vector starting at the last owned node and
-        // read at an offset of the halo still touches.
-        view_.row = left + round_up(tile.nx + halo + line);
+        view_.row = row_length(tile, halo);
         view_.plane = view_.row * (tile.ny + 2 * halo);
         view_.nx = tile.nx;
         view_.ny = tile.ny;
         view_.nz = planes;
-        size_ = static_cast<std::size_t>(view_.plane) * static_cast<std::size_t>(planes) +
-                static_cast<std::size_t>(2 * line);
         data_.reset(static_cast<T*>(std::aligned_alloc(
             64,
             static_cast<std::size_t>(round_up(static_cast<std::ptrdiff_t>(size_))) * sizeof(T))));
@@ -57,6 +52,10 @@ public:
     int halo() const { return halo_; }
     bool empty() const { return !data_; }
     std::size_t bytes() const { return size_ * sizeof(T); }
+    /// What a field of this shape would take.
+    static std::size_t bytes_for(const Tile& tile, int planes, int halo = halo_width) {
+        return size(tile, planes, halo) * sizeof(T);
+    }
     /// Bit-for-bit copy from a field of the same shape.
     void copy_from(const Field& other) {
         for (std::size_t i = 0; i < size_; ++i)
@@ -64,6 +63,19 @@ public:
     }
 
 private:
+    static constexpr std::ptrdiff_t line = 64 / static_cast<std::ptrdiff_t>(sizeof(T));
+    static std::ptrdiff_t round_up(std::ptrdiff_t n) { return (n + line - 1) / line * line; }
+    /// Behind the owned nodes: the halo, and what a vector starting at the last owned node and read
+    /// at an offset of the halo still touches.
+    static std::ptrdiff_t row_length(const Tile& tile, int halo) {
+        return round_up(halo) + round_up(tile.nx + halo + line);
+    }
+    static std::size_t size(const Tile& tile, int planes, int halo) {
+        const std::ptrdiff_t plane = row_length(tile, halo) * (tile.ny + 2 * halo);
+        return static_cast<std::size_t>(plane) * static_cast<std::size_t>(planes) +
+               static_cast<std::size_t>(2 * line);
+    }
+
     struct Free {
         void operator()(void* p) const { std::free(p); }
     };
@@ -87,6 +99,9 @@ struct VectorField {
     VectorPlane<T> plane(int k) { return {x.plane(k), y.plane(k), z.plane(k)}; }
     VectorPlane<const T> plane(int k) const { return {x.plane(k), y.plane(k), z.plane(k)}; }
     bool empty() const { return x.empty(); }
+    static std::size_t bytes_for(const Tile& tile, int planes, int halo = halo_width) {
+        return 3 * Field<T>::bytes_for(tile, planes, halo);
+    }
     std::size_t bytes() const { return x.empty() ? 0 : x.bytes() + y.bytes() + z.bytes(); }
     void copy_from(const VectorField& other) {
         x.copy_from(other.x);

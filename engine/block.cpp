@@ -86,13 +86,18 @@ std::vector<LevelPlan> plan_levels(const BlockOptions& options) {
     }
 }
 
+std::size_t Block::Level::bytes() const {
+    return u.bytes() + u_next.bytes() + v.bytes() + incoming.bytes() + upper_force.bytes();
+}
+
 double Block::Level::mass(int z) const {
     if (z > 0 || plan.level == 0) return node_mass; // the lowest layer's atoms are full atoms
     // Half a coarse cell above, and from below the hanging plane's half cells: 4 (m/8)/2 = m/4.
     return 0.75 * node_mass;
 }
 
-Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid)
+Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid,
+             Motion motion)
     : options_(options), communicator_(communicator), grid_(grid), halo_(communicator, grid) {
     const auto plans = plan_levels(options);
     double depth = 0.0;
@@ -108,10 +113,12 @@ Block::Block(const BlockOptions& options, const Communicator& communicator, cons
         level.inner = make_stencil(level.elasticity, Face::inner);
         level.upper = make_stencil(level.elasticity, Face::upper);
         level.u = VectorField<double>(level.tile, plan.cells + 1);
-        level.u_next = VectorField<double>(level.tile, plan.cells + 1);
-        level.v = VectorField<double>(level.tile, plan.cells);
         level.incoming = VectorField<double>(level.tile, 1);
         level.upper_force = VectorField<double>(level.tile, 1);
+        if (motion == Motion::in_time) {
+            level.u_next = VectorField<double>(level.tile, plan.cells + 1);
+            level.v = VectorField<double>(level.tile, plan.cells);
+        }
         depth += plan.cells * static_cast<double>(1 << plan.level);
         levels_.push_back(std::move(level));
     }
@@ -120,10 +127,9 @@ Block::Block(const BlockOptions& options, const Communicator& communicator, cons
 }
 
 Block Block::copy_at_rest() const {
-    Block copy(options_, communicator_, grid_);
+    Block copy(options_, communicator_, grid_, Motion::at_rest);
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         copy.levels_[l].u.copy_from(levels_[l].u);
-        copy.levels_[l].u_next.copy_from(levels_[l].u_next);
         copy.levels_[l].incoming.copy_from(levels_[l].incoming);
     }
     copy.top_ = top_;
@@ -139,8 +145,8 @@ void Block::set_uniform(double z, double w) {
                 for (int x = -h; x < level.tile.nx + h; ++x) {
                     u.x(x, y, k) = u.y(x, y, k) = 0.0;
                     u.z(x, y, k) = z;
-                    if (k < level.plan.cells && x >= 0 && x < level.tile.nx && y >= 0 &&
-                        y < level.tile.ny) {
+                    if (!level.v.empty() && k < level.plan.cells && x >= 0 && x < level.tile.nx &&
+                        y >= 0 && y < level.tile.ny) {
                         v.x(x, y, k) = v.y(x, y, k) = 0.0;
                         v.z(x, y, k) = w;
                     }
@@ -269,9 +275,13 @@ struct Advance {
 
     void operator()(Block::Level& level, const VectorVolume<const double>& u, int z, int y0, int y1,
                     KickSums& sums) const {
+        const KickDrift kd = coefficients(level, z);
         elastic_kernels().advance(u, z, level.stencil(z), y0, y1,
-                                  std::as_const(level.incoming).plane(0), coefficients(level, z),
-                                  level.v.view(), level.u_next.view(), sums);
+                                  std::as_const(level.incoming).plane(0), kd, level.v.view(),
+                                  level.u_next.view(), sums);
+        const long long nodes = static_cast<long long>(level.tile.nx) * (y1 - y0);
+        sums.nodes += nodes;
+        if (kd.damped) sums.damped += nodes;
     }
     void merge(const Block::Level& level, const KickSums& sums) const {
         if (block.counts(level)) total.merge(sums);
@@ -362,9 +372,30 @@ void Block::add_lowest_z(ExactSum& sum) const {
 std::size_t Block::bytes() const {
     std::size_t total = 0;
     for (const Level& level : levels_)
-        total += level.u.bytes() + level.u_next.bytes() + level.v.bytes() + level.incoming.bytes() +
-                 level.upper_force.bytes();
+        total += level.bytes();
     return total;
+}
+
+std::size_t Block::motion_bytes() const {
+    std::size_t total = 0;
+    for (const Level& level : levels_)
+        total += level.u_next.bytes() + level.v.bytes();
+    return total;
+}
+
+Block::Memory Block::memory_for(const BlockOptions& options, const ProcessGrid& grid) {
+    Memory memory;
+    for (const LevelPlan& plan : plan_levels(options)) {
+        const auto planes = [&](int n) {
+            return VectorField<double>::bytes_for(grid.tile(plan.level), n);
+        };
+        const std::size_t motion = planes(plan.cells + 1) + planes(plan.cells);
+        memory.motion += motion;
+        const std::size_t level = motion + planes(plan.cells + 1) + 2 * planes(1);
+        memory.bytes += level;
+        if (plan.level > 0) memory.coarse += level;
+    }
+    return memory;
 }
 
 } // namespace asperity

@@ -73,6 +73,10 @@ struct StepPlan {
     bool observe = false;         ///< sum the kinetic energy
 };
 
+/// What a block is for: a path in time needs velocities and the next displacements; a state at rest
+/// has neither.
+enum class Motion { in_time, at_rest };
+
 class Block {
 public:
     struct Level {
@@ -83,9 +87,11 @@ public:
         double depth = 0.0;     ///< of its lowest plane, in cells of edge a
         CellElasticity elasticity;
         Stencil lower, inner, upper;
-        VectorField<double> u, u_next, v, incoming;
+        VectorField<double> u, incoming;
+        VectorField<double> u_next, v;   ///< in time only
         VectorField<double> upper_force; ///< on the prescribed plane; one plane
 
+        std::size_t bytes() const;
         double edge(double a) const { return a * (1 << plan.level); }
         /// Mass of a node of plane z, eV fs^2/Å^2.
         double mass(int z) const;
@@ -94,9 +100,10 @@ public:
         }
     };
 
-    Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid);
+    Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid,
+          Motion motion = Motion::in_time);
 
-    /// A deep copy of the state, without velocities (they are zero).
+    /// A deep copy of the state, without its motion.
     Block copy_at_rest() const;
 
     const BlockOptions& options() const { return options_; }
@@ -114,6 +121,8 @@ public:
     void set_top(double z);
     double top() const { return top_; }
 
+    /// Only where there are hanging planes: nothing to do for a block of one level.
+    bool hangs() const { return levels_.size() > 1; }
     void interpolate();
     void advance(const StepPlan& plan, KickSums& sums);
     void exchange();
@@ -128,6 +137,15 @@ public:
     /// Sum of u_z over the lowest layer, Å.
     void add_lowest_z(ExactSum& sum) const;
     std::size_t bytes() const;
+    /// Of these, what only a path in time needs.
+    std::size_t motion_bytes() const;
+    /// Of these, what lies in levels coarser than the first.
+    std::size_t coarse_bytes() const { return bytes() - levels_.front().bytes(); }
+    /// The same three numbers, without making the block.
+    struct Memory {
+        std::size_t bytes = 0, motion = 0, coarse = 0;
+    };
+    static Memory memory_for(const BlockOptions& options, const ProcessGrid& grid);
     std::size_t halo_bytes() const { return halo_.bytes_sent(); }
 
     /// True if this rank counts a level's nodes in global sums (levels held whole count once).

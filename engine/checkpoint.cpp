@@ -190,6 +190,13 @@ void Snapshot::take(Simulation& simulation) {
     step_ = simulation.steps();
 }
 
+std::size_t Snapshot::bytes() const {
+    std::size_t total = 0;
+    for (const LevelState& level : levels_)
+        total += level.u.bytes() + level.v.bytes();
+    return total;
+}
+
 void Snapshot::restore(Simulation& simulation) const {
     Collect names;
     simulation.visit(names);

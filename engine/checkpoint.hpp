@@ -37,6 +37,7 @@ public:
     /// Puts the simulation back to the state taken.
     void restore(Simulation& simulation) const;
     long long step() const { return step_; }
+    std::size_t bytes() const;
 
 private:
     struct LevelState {

@@ -26,6 +26,7 @@ public:
         return asperity::relax(block_, interface, reference_height, options, phases);
     }
     std::size_t bytes() const override { return block_.bytes(); }
+    std::size_t coarse_bytes() const override { return block_.coarse_bytes(); }
 
 private:
     Block block_;
@@ -45,6 +46,7 @@ public:
     std::size_t bytes() const override {
         return block_.bytes() + spectral_relaxation_bytes(block_.options().sites);
     }
+    std::size_t coarse_bytes() const override { return 0; }
 
 private:
     SpectralBlock block_;
@@ -60,7 +62,7 @@ std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& s
                                               const Communicator& ranks, const ProcessGrid& grid) {
     if (scene.block.model == BlockModel::spectral)
         return std::make_unique<WavesAtRest>(setup.simulation.block, ranks);
-    return at_rest(Block(setup.simulation.block, ranks, grid));
+    return at_rest(Block(setup.simulation.block, ranks, grid, Motion::at_rest));
 }
 
 double height_of_strongest_attraction(Equilibrium& block, const Interface& interface,

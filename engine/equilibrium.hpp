@@ -30,6 +30,8 @@ public:
     virtual RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
                                Phases& phases) = 0;
     virtual std::size_t bytes() const = 0;
+    /// Of these, in levels coarser than the first.
+    virtual std::size_t coarse_bytes() const = 0;
 };
 
 /// A block of levels, taken over.

@@ -13,8 +13,10 @@
 #include <omp.h>
 
 #include <chrono>
+#include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace asperity {
@@ -54,6 +56,8 @@ public:
         }
         progress_.finish();
         write_record({});
+        for (const std::string& difference : differences_)
+            fmt::print("  NOT AS PLANNED: {}\n", difference);
         if (ranks_.root())
             print_summary(stdout, scene_, setup_, findings_,
                           std::numeric_limits<double>::quiet_NaN(), directory_);
@@ -62,7 +66,7 @@ public:
 
 private:
     void relax() {
-        Recorder recorder(directory_ + "/run.h5", surface_, ranks_, false, 0);
+        Recorder& recorder = recorder_.emplace(directory_ + "/run.h5", surface_, ranks_, false, 0);
         const double height =
             height_of_strongest_attraction(*block_, interface_, surface_.statistics.lowest, ranks_);
         {
@@ -71,7 +75,7 @@ private:
                 find_zero_load(*block_, interface_, height, scene_, setup_, progress_);
         }
         const auto t = phases_.time(Phase::output);
-        if (scene_.writes_field("zero-load"))
+        if (setup_.effects.on(Effect::maps))
             recorder.fields("zero-load", block_->lowest_layer(), grid_, interface_, height);
         recorder.flush();
     }
@@ -99,8 +103,21 @@ private:
             r.energy.interface = -findings_.zero_load->pairwise * area;
         }
         add_phases(phases_, r);
+        differences_ = add_effects(setup_.effects, books(), failure.exit_code == 0, r);
         r.failure = failure;
         io::write_result(directory_, r);
+    }
+
+    /// What was done of each effect, by this rank.
+    EffectBooks books() const {
+        EffectBooks done = common_books(surface_, interface_, findings_);
+        const long long iterations = done[Effect::relaxation].calls;
+        done[Effect::relaxation].bytes = block_->bytes();
+        done[Effect::lateral] = {iterations, 2 * block_->bytes() / 3};
+        done[Effect::coarse_levels] = {block_->coarse_bytes() > 0 ? iterations : 0,
+                                       block_->coarse_bytes()};
+        if (recorder_) done[Effect::maps] = {recorder_->maps(), 0};
+        return done;
     }
 
     const Scene& scene_;
@@ -113,7 +130,9 @@ private:
     std::unique_ptr<Equilibrium> block_;
     io::Progress progress_;
     Phases phases_;
+    std::optional<Recorder> recorder_;
     Findings findings_;
+    std::vector<std::string> differences_; ///< between the effects planned and done
     std::string directory_;
 };
 

@@ -256,6 +256,10 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe) 
 #pragma omp critical(asperity_interface_sums)
         total.merge(mine);
     }
+    const long long swept = static_cast<long long>(tile_.nx) * tile_.ny;
+    work_.sites += swept;
+    work_.in_reach += total.in_reach;
+    if (options_.tail) work_.tails += swept;
     return total;
 }
 
@@ -314,7 +318,7 @@ std::size_t Interface::bytes() const {
                                 atom_y_.size() + atom_z_.size();
     return doubles * sizeof(double) + first_.size() * sizeof(std::int32_t) +
            quads_.size() * sizeof(OffsetQuad) + (height_.empty() ? 0 : height_.bytes()) +
-           (mean_height_.empty() ? 0 : mean_height_.bytes());
+           tail_bytes();
 }
 
 // Flat on flat.

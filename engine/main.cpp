@@ -7,6 +7,7 @@
 // Under mpirun every rank runs this; rank 0 alone speaks. A scene that is wrong is met by all ranks
 // alike, or by rank 0 for all of them: they agree on the code and end in order. Any other error
 // ends them all at once (abort), because the others may be waiting for this one.
+#include "engine/plan.hpp"
 #include "engine/run.hpp"
 #include "engine/scene.hpp"
 #include "engine/setup.hpp"
@@ -50,6 +51,7 @@ struct SceneArguments {
     std::string resume;
     std::string wall_limit;
     std::string progress = "auto";
+    int ranks = 0; ///< to plan for; 0: as many as there are
     bool markdown = false;
     bool plain = false;
     bool theory_only = false;
@@ -162,6 +164,16 @@ int command_check(const SceneArguments& arguments, const Communicator& world) {
                    setup.longest_timestep);
     for (const std::string& note : setup.notes)
         fmt::print("  note: {}\n", note);
+    return io::exit_code::done;
+}
+
+int command_plan(const SceneArguments& arguments, const Communicator& world) {
+    const Scene scene = scene_of(arguments);
+    const int ranks = arguments.ranks > 0 ? arguments.ranks : world.size();
+    examine(scene, ranks);
+    const int cores = omp_get_max_threads() * world.size();
+    world.on_root(
+        [&] { print_plan(stdout, scene, make_plan(scene, ranks, std::max(1, cores / ranks))); });
     return io::exit_code::done;
 }
 
@@ -336,6 +348,12 @@ int command_line(int argc, char** argv, const Communicator& world) {
     CLI::App& check =
         *app.add_subcommand("check", "look for mistakes in a scene without running it");
     add_scene(check, arguments);
+    CLI::App& plan = *app.add_subcommand(
+        "plan", "what a scene will simulate and what not, and what it will cost; runs nothing");
+    add_scene(plan, arguments);
+    plan.add_option("--ranks", arguments.ranks, "for so many ranks (default: as started)")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
     CLI::App& surface = *app.add_subcommand(
         "surface", "make or read the surface, print and write its statistics and heights");
     add_scene(surface, arguments);
@@ -384,6 +402,7 @@ int command_line(int argc, char** argv, const Communicator& world) {
     }
     if (run.parsed()) return command_run(arguments, world);
     if (check.parsed()) return command_check(arguments, world);
+    if (plan.parsed()) return command_plan(arguments, world);
     if (surface.parsed()) return command_surface(arguments, world);
     if (theory.parsed()) return command_theory(arguments, world);
     if (sweep.parsed()) return command_sweep(arguments, world);

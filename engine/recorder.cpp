@@ -102,6 +102,7 @@ void Recorder::row(const Simulation& simulation) {
 void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
                       const ProcessGrid& grid, const Interface& interface,
                       double reference_height) {
+    ++maps_;
     const InterfaceMaps maps = interface.maps(layer, reference_height);
     std::vector<double> contact(maps.contact.begin(), maps.contact.end());
     const auto gap = whole(communicator_, grid, maps.gap);

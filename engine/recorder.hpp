@@ -23,6 +23,7 @@ public:
     /// One row: the simulation's last step, which must have been observed.
     void row(const Simulation& simulation);
     std::uint64_t rows() const { return rows_; }
+    long long maps() const { return maps_; } ///< states whose maps were written
     /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface, double reference_height);
@@ -33,6 +34,7 @@ private:
     std::unique_ptr<io::Hdf5File> file_; ///< root only
     io::Series series_;
     std::uint64_t rows_ = 0;
+    long long maps_ = 0;
 };
 
 } // namespace asperity

@@ -8,6 +8,7 @@
 #include "engine/checkpoint.hpp"
 #include "engine/equilibrium.hpp"
 #include "engine/equilibrium_run.hpp"
+#include "engine/plan.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_record.hpp"
 #include "engine/setup.hpp"
@@ -81,6 +82,8 @@ public:
         progress_.finish();
         write_record({});
         if (ranks_.root()) {
+            for (const std::string& difference : differences_)
+                fmt::print("  NOT AS PLANNED: {}\n", difference);
             print_summary(stdout, scene_, setup_, findings_, simulation_.energy_residual(),
                           directory_);
             if (!stopped_.empty())
@@ -124,7 +127,7 @@ private:
             if (progress_.due()) progress_.update(progress_state(now));
             if (last && !ended) {
                 stopped_ = "max_steps";
-                if (scene_.output.checkpoint > 0.0) save_checkpoint();
+                if (setup_.effects.on(Effect::checkpoints)) save_checkpoint();
                 return;
             }
         }
@@ -162,7 +165,8 @@ private:
         findings_.zero_load =
             find_zero_load(*copy, simulation_.interface(), simulation_.reference_height(), scene_,
                            setup_, progress_);
-        if (scene_.writes_field("zero-load"))
+        relaxation_bytes_ = copy->bytes();
+        if (setup_.effects.on(Effect::maps))
             recorder_->fields("zero-load", copy->lowest_layer(), grid_, simulation_.interface(),
                               simulation_.reference_height());
     }
@@ -237,7 +241,7 @@ private:
         double decision = nothing;
         if (ranks_.root()) {
             const double now = seconds();
-            if (scene_.output.checkpoint > 0.0 &&
+            if (setup_.effects.on(Effect::checkpoints) &&
                 now - last_checkpoint_ >= scene_.output.checkpoint)
                 decision = save;
             if (options_.wall_limit && now >= *options_.wall_limit) decision = wall;
@@ -322,19 +326,11 @@ private:
     }
 
     io::Progress::State progress_state(const StepRecord& now) const {
-        // The way: down from the start to contact, up again as far, and the stretch of a block that
-        // is pulled with a fair part of the largest tension.
-        const double down = simulation_.interface().start_height() - setup_.flat.separation;
-        const auto& b = setup_.simulation.block;
-        const double stretch = scene_.has(PathPart::pull_off)
-                                   ? 0.5 * setup_.flat.largest_tension * units::gigapascal *
-                                         b.thickness * b.spacing /
-                                         (b.lame() + 2.0 * b.shear_modulus())
-                                   : 0.0;
-        const double total = scene_.has(PathPart::pull_off) ? 2.0 * down + stretch : down;
-        const double done = simulation_.leg() == Leg::approach ? -now.top : 2.0 * down + now.top;
+        const ExpectedWay way = expected_way(setup_, simulation_.interface().start_height());
+        const double done =
+            simulation_.leg() == Leg::approach ? -now.top : 2.0 * way.down + now.top;
         return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force),
-                simulation_.steps(), now.time, std::clamp(done / total, 0.0, 0.99)};
+                simulation_.steps(), now.time, std::clamp(done / (way.down + way.up), 0.0, 0.99)};
     }
 
     double seconds() const {
@@ -353,6 +349,24 @@ private:
 
     void write_record(const io::ResultRecord::Failure& failure);
 
+    /// What was done of each effect, by this rank.
+    EffectBooks books() const {
+        EffectBooks done = common_books(surface_, simulation_.interface(), findings_);
+        const StepWork& work = simulation_.work();
+        const Phases& phases = simulation_.phases();
+        done[Effect::inertia] = {work.nodes, simulation_.block().motion_bytes()};
+        done[Effect::lateral] = {work.steps, 2 * simulation_.block().bytes() / 3};
+        done[Effect::damping] = {work.damped, 0};
+        done[Effect::temperature] = {phases[Phase::thermostat].calls, 0};
+        done[Effect::coarse_levels] = {phases[Phase::interpolate].calls,
+                                       simulation_.block().coarse_bytes()};
+        done[Effect::relaxation].bytes = relaxation_bytes_;
+        done[Effect::observation] = {work.observed, snapshot_.bytes()};
+        done[Effect::checkpoints] = {phases[Phase::checkpoint].calls, 0};
+        if (recorder_) done[Effect::maps] = {recorder_->maps(), 0};
+        return done;
+    }
+
     const Scene& scene_;
     const RunOptions& options_;
     Communicator ranks_;
@@ -366,6 +380,8 @@ private:
     Snapshot snapshot_;
     RunScalars snapshot_scalars_;
     std::string directory_, fingerprint_, stopped_;
+    std::vector<std::string> differences_; ///< between the effects planned and done
+    std::size_t relaxation_bytes_ = 0;
     std::uint64_t rows_at_start_ = 0;
     double last_checkpoint_ = 0.0;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -382,6 +398,9 @@ void Run::write_record(const io::ResultRecord::Failure& failure) {
     r.run.wall_seconds = seconds();
     r.run.steps = simulation_.steps();
     add_phases(simulation_.phases(), r);
+    const bool complete = stopped_.empty() && failure.exit_code == 0 && !options_.resuming();
+    if (simulation_.work().steps > 0)
+        differences_ = add_effects(setup_.effects, books(), complete, r);
     r.run.stopped = stopped_;
     r.failure = failure;
     io::write_result(directory_, r);
@@ -393,7 +412,7 @@ int run(const Scene& scene, const RunOptions& options, const Communicator& commu
     io::Problems problems = scene.problems();
     not_yet(scene, problems);
     problems.throw_if_any();
-    if (scene.has(PathPart::zero_load)) return run_equilibrium(scene, options, communicator);
+    if (!Effects(scene).on(Effect::inertia)) return run_equilibrium(scene, options, communicator);
     return Run(scene, options, communicator).go();
 }
 

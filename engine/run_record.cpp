@@ -46,6 +46,30 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
     return r;
 }
 
+EffectBooks common_books(const Surface& surface, const Interface& interface,
+                         const Findings& findings) {
+    EffectBooks done;
+    const InterfaceWork& work = interface.work();
+    done[Effect::skipping] = {work.sites - work.in_reach, interface.reach_bytes()};
+    done[Effect::tail] = {work.tails, interface.tail_bytes()};
+    done[Effect::curvature] = {surface.radius > 0.0 ? 1 : 0, 0};
+    if (findings.zero_load)
+        done[Effect::relaxation].calls = static_cast<long long>(findings.zero_load->iterations);
+    return done;
+}
+
+std::vector<std::string> add_effects(const Effects& planned, EffectBooks done, bool complete,
+                                     io::ResultRecord& record) {
+    done[Effect::theory].calls = record.theory.gamma_eff ? 1 : 0;
+    std::vector<std::string> differences = done.differences(planned, complete);
+    record.extra.emplace_back("run.effects", done.json(planned));
+    io::JsonValue list = io::JsonValue::array();
+    for (const std::string& difference : differences)
+        list.push_back(difference);
+    if (!differences.empty()) record.extra.emplace_back("run.not_as_planned", std::move(list));
+    return differences;
+}
+
 void add_phases(const Phases& phases, io::ResultRecord& record) {
     for (std::size_t p = 0; p < phase_names.size(); ++p) {
         const PhaseClock& clock = phases[static_cast<Phase>(p)];

@@ -50,6 +50,8 @@ Surface scene_surface(const Scene& scene) {
 
 Setup make_setup(const Scene& scene, int ranks) {
     Setup setup;
+    setup.effects = Effects(scene);
+    const auto on = [&](Effect effect) { return setup.effects.on(effect); };
     io::Problems problems = scene.problems();
     setup.notes = notes(scene);
 
@@ -61,7 +63,7 @@ Setup make_setup(const Scene& scene, int ranks) {
     block.atom_mass = scene.block.atom_mass * units::atomic_mass;
     block.thickness = scene.block.thickness;
     block.layers_per_level = scene.block.layers_per_level;
-    block.multiscale = scene.block.model == BlockModel::multiscale;
+    block.multiscale = on(Effect::coarse_levels);
     setup.levels = plan_levels(block);
     if (scene.block.model == BlockModel::spectral && ranks > 1)
         problems.add("block.model", fmt::format("= \"spectral\" on {} ranks", ranks),
@@ -71,7 +73,7 @@ Setup make_setup(const Scene& scene, int ranks) {
 
     InterfaceOptions& interface = setup.simulation.interface;
     interface.potential = {scene.interface.epsilon, scene.interface.r0, scene.interface.cutoff};
-    interface.tail = scene.interface.tail;
+    interface.tail = on(Effect::tail);
     const int substrate = substrate_sites(block.sites, scene.surface.lattice_ratio);
     try {
         setup.flat = flat_reference(interface, block.spacing, block.sites, substrate);
@@ -88,15 +90,16 @@ Setup make_setup(const Scene& scene, int ranks) {
     drive.pull_off = scene.has(PathPart::pull_off);
 
     setup.simulation.dt = scene.drive.timestep;
-    setup.simulation.damping = scene.drive.damping * units::per_picosecond;
-    setup.simulation.damping_from = scene.drive.damping_from;
-    setup.simulation.temperature = scene.drive.temperature;
+    if (on(Effect::damping)) {
+        setup.simulation.damping = scene.drive.damping * units::per_picosecond;
+        setup.simulation.damping_from = scene.drive.damping_from;
+    }
+    if (on(Effect::temperature)) setup.simulation.temperature = scene.drive.temperature;
     setup.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
 
     const double site_stiffness = setup.flat.stiffness * block.spacing * block.spacing;
     setup.longest_timestep = 2.0 / block.highest_frequency(site_stiffness);
-    const bool moves = drive.approach || drive.pull_off;
-    if (moves && scene.drive.timestep >= setup.longest_timestep)
+    if (on(Effect::inertia) && scene.drive.timestep >= setup.longest_timestep)
         problems.add(
             "drive.timestep",
             fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",

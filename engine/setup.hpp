@@ -6,6 +6,7 @@
 // Everything that can be known to be wrong before the first step is found here.
 #pragma once
 
+#include "engine/effects.hpp"
 #include "engine/scene.hpp"
 #include "engine/simulation.hpp"
 #include "engine/surface.hpp"
@@ -21,6 +22,7 @@ Surface scene_surface(const Scene& scene);
 
 /// What the numbers of the scene mean for the engine, before anything is allocated.
 struct Setup {
+    Effects effects; ///< that the scene calls for; what follows is built from it
     SimulationOptions simulation;
     FlatReference flat;            ///< flat on flat, same cutoff and lattices
     double longest_timestep = 0.0; ///< stability limit 2/omega_max at the bottom of the well, fs

@@ -26,7 +26,7 @@ void Simulation::start(double height) {
 }
 
 // A step, and what must be current when:
-//   interpolate   hanging planes of u(n), from coarse planes with current halos
+//   interpolate   hanging planes of u(n), from coarse planes with current halos, if there are any
 //   interface     forces of the substrate at u(n)          -> incoming of level 0
 //   observe       energies of u(n), if this step is observed
 //   advance       all forces at u(n), level by level; v(n-1/2) -> v(n+1/2); u(n) -> u(n+1)
@@ -35,7 +35,7 @@ void Simulation::start(double height) {
 //   sums          what the ranks summed at n, added up; work and dissipation booked
 // The top plane's displacement at n is set at the end of the step before.
 const StepRecord& Simulation::step(bool observe) {
-    phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
+    if (block_.hangs()) phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
     phases_.during(Phase::interface, [&] { sweep_interface(observe); });
     phases_.during(Phase::observe, [&] { collect(observe); });
     phases_.during(Phase::advance, [&] { kick_and_drift(observe); });
@@ -43,6 +43,7 @@ const StepRecord& Simulation::step(bool observe) {
     phases_.during(Phase::exchange, [&] { block_.exchange(); });
     phases_.during(Phase::sums, [&] { keep_books(); });
     ++step_;
+    ++work_.steps;
     return record_;
 }
 
@@ -61,6 +62,9 @@ void Simulation::kick_and_drift(bool observe) {
     kick_sums_ = {};
     block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
                    kick_sums_);
+    work_.nodes += kick_sums_.nodes;
+    work_.damped += kick_sums_.damped;
+    if (observe) ++work_.observed;
     top_force_ = {};
     block_.add_top_force(top_force_);
     block_.set_top(block_.top() + options_.dt * velocity);

@@ -56,6 +56,14 @@ struct Ledger {
     double work() const { return top_work + drag_work + heat; }
 };
 
+/// Work of a simulation since it was made, on this rank.
+struct StepWork {
+    long long steps = 0;
+    long long nodes = 0;    ///< advanced
+    long long damped = 0;   ///< of these, against the medium
+    long long observed = 0; ///< steps whose energies were summed
+};
+
 class Simulation {
 public:
     Simulation(const SimulationOptions& options, const Surface& substrate,
@@ -79,6 +87,8 @@ public:
     Interface& interface() { return interface_; }
     const Interface& interface() const { return interface_; }
     Phases& phases() { return phases_; }
+    const Phases& phases() const { return phases_; }
+    const StepWork& work() const { return work_; }
     const Communicator& communicator() const { return block_.communicator(); }
 
     /// Of the last observed step: (work - change of energy - damped) over the largest of these
@@ -102,6 +112,7 @@ private:
     Drive drive_;
     std::optional<Thermostat> thermostat_; ///< only if the scene has a temperature
     Phases phases_;
+    StepWork work_;
 
     double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
     long long step_ = 0;

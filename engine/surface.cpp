@@ -214,6 +214,7 @@ void measure(const SurfaceOptions& o, Surface& s) {
 Surface finish(const SurfaceOptions& o, Surface s) {
     measure(o, s);
     if (o.radius > 0.0) {
+        s.radius = o.radius;
         const double spacing = o.length / o.sites, centre = 0.5 * o.length;
         for (int y = 0; y < s.sites; ++y)
             for (int x = 0; x < s.sites; ++x) {

@@ -56,6 +56,7 @@ struct SurfaceStatistics {
 struct Surface {
     int sites = 0;
     double length = 0.0;        ///< Å
+    double radius = 0.0;        ///< of the cap that the heights hold, Å; 0: none
     std::vector<double> height; ///< height[y * sites + x] of the atom at (x, y) length / sites, Å
     SurfaceStatistics statistics;
     std::vector<std::string> notes; ///< what was clipped or resampled, in words
