@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What does it cost that the program could do more? A scene with every effect off (no damping, no
+// temperature, no tail, one level) against a loop written by hand over the same kernels: forces of
+// the interface, kick and drift, periodic halos, and the two sums that a drive needs. Blocks of
+// steps are timed by turns; the ratio is that of the shortest.
+//
+//     build/release/perf/minimal_loop [sites] [layers] [seconds]
+#include "engine/scene.hpp"
+#include "engine/setup.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+using namespace asperity;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A lattice of one rank, its loop spelt out.
+class ByHand {
+public:
+    ByHand(const SimulationOptions& options, const Surface& surface, double height)
+        : options_(options), tile_{0, 0, options.block.sites, options.block.sites,
+                                   options.block.sites},
+          cells_(options.block.thickness), height_(height),
+          interface_(surface, tile_, options.block.spacing, options.interface),
+          u_(tile_, cells_ + 1), next_(tile_, cells_ + 1), v_(tile_, cells_), force_(tile_, 1),
+          top_(tile_, 1), lower_(make_stencil(options.block.elasticity(0), Face::lower)),
+          inner_(make_stencil(options.block.elasticity(0), Face::inner)),
+          upper_(make_stencil(options.block.elasticity(0), Face::upper)) {
+        kick_drift_.kick = options.dt / options.block.atom_mass;
+        kick_drift_.dt = options.dt;
+        for (int z = 0; z < cells_; ++z)
+            for (int y = 0; y < tile_.ny; ++y)
+                for (int x = 0; x < tile_.nx; ++x)
+                    v_.z.view()(x, y, z) = -options.drive.velocity;
+    }
+
+    void step() {
+        const InterfaceSums sums =
+            interface_.sweep(std::as_const(u_).plane(0), force_.plane(0), height_, false);
+        ExactSum lowest, pulled;
+        KickSums kicks;
+        const ElasticKernels& kernels = elastic_kernels();
+        const auto u = std::as_const(u_).view();
+        const int n = tile_.nx;
+#pragma omp parallel
+        {
+            ExactSum mine;
+            KickSums none;
+#pragma omp for schedule(static) nowait
+            for (int y0 = 0; y0 < n; y0 += 8) {
+                const int y1 = std::min(n, y0 + 8);
+                kernels.sum(u.z[0], y0, y1, mine);
+                for (int z = 0; z < cells_; ++z)
+                    kernels.advance(u, z, z ? inner_ : lower_, y0, y1,
+                                    std::as_const(force_).plane(0), kick_drift_, v_.view(),
+                                    next_.view(), none);
+                kernels.force(u, cells_, upper_, {0, n, y0, y1}, top_.plane(0));
+            }
+#pragma omp critical
+            lowest.merge(mine);
+        }
+        kernels.sum(std::as_const(top_).plane(0).z, 0, n, pulled);
+        std::swap(u_, next_);
+        top_displacement_ -= options_.dt * options_.drive.velocity;
+        wrap();
+        force = sums.force_z.value();
+        mean_height = height_ + lowest.value() / (static_cast<double>(n) * n);
+        top_force = pulled.value();
+    }
+
+    double force = 0.0, mean_height = 0.0, top_force = 0.0;
+
+private:
+    /// Halos of the moving planes; the top plane.
+    void wrap() {
+        constexpr int h = halo_width;
+        const int n = tile_.nx;
+        for (Field<double>* f : {&u_.x, &u_.y, &u_.z}) {
+            for (int z = 0; z < cells_; ++z) {
+                const PlaneView<double> p = f->plane(z);
+                for (int y = 0; y < n; ++y)
+                    for (int i = 0; i < h; ++i)
+                        p(-1 - i, y) = p(n - 1 - i, y), p(n + i, y) = p(i, y);
+                for (int i = 0; i < h; ++i) {
+                    std::copy(p.line(n - 1 - i) - h, p.line(n - 1 - i) + n + h, p.line(-1 - i) - h);
+                    std::copy(p.line(i) - h, p.line(i) + n + h, p.line(n + i) - h);
+                }
+            }
+            const PlaneView<double> p = f->plane(cells_);
+            if (f == &u_.z)
+                for (int y = -h; y < n + h; ++y)
+                    std::fill(p.line(y) - h, p.line(y) + n + h, top_displacement_);
+        }
+    }
+
+    SimulationOptions options_;
+    Tile tile_;
+    int cells_;
+    double height_, top_displacement_ = 0.0;
+    Interface interface_;
+    VectorField<double> u_, next_, v_, force_, top_;
+    Stencil lower_, inner_, upper_;
+    KickDrift kick_drift_;
+};
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const std::string sites = argc > 1 ? argv[1] : "128", layers = argc > 2 ? argv[2] : "8";
+    const double seconds = argc > 3 ? std::atof(argv[3]) : 10.0;
+    const Scene scene = read_scene_text(
+        "[surface]\nrms = 1.0\n[block]\nmodel = \"lattice\"\n[drive]\ndamping = 0\n", "minimal",
+        {"surface.sites=" + sites, "block.thickness=" + layers});
+    const Setup setup = make_setup(scene, 1);
+    const Surface surface = scene_surface(scene);
+    const double height = surface.statistics.highest + 3.0; // in contact
+    const ProcessGrid grid(1, 0, scene.surface.sites, 1);
+    Simulation simulation(setup.simulation, surface, Communicator(), grid);
+    simulation.start(height);
+    ByHand by_hand(setup.simulation, surface, height);
+
+    constexpr int steps = 8;
+    double program = 1e300, hand = 1e300;
+    const auto timed = [](auto&& step) {
+        const auto start = Clock::now();
+        for (int n = 0; n < steps; ++n)
+            step();
+        return std::chrono::duration<double>(Clock::now() - start).count() / steps;
+    };
+    const auto start = Clock::now();
+    int turns = 0;
+    for (; std::chrono::duration<double>(Clock::now() - start).count() < seconds; ++turns) {
+        program = std::min(program, timed([&] { simulation.step(false); }));
+        hand = std::min(hand, timed([&] { by_hand.step(); }));
+    }
+    const StepRecord& now = simulation.now();
+    std::printf("%s x %s sites, %s layers, %d turns of %d steps\n", sites.c_str(), sites.c_str(),
+                layers.c_str(), turns, steps);
+    std::printf("same motion: force %.17g and %.17g eV/A, mean height %.17g and %.17g A\n",
+                now.force, by_hand.force, now.mean_height, by_hand.mean_height);
+    std::printf("a step: program %.1f us, by hand %.1f us, ratio %.4f\n", 1e6 * program, 1e6 * hand,
+                program / hand);
+    return now.force == by_hand.force && now.mean_height == by_hand.mean_height ? 0 : 1;
+}
