@@ -60,9 +60,12 @@ void Effects::decide(Effect effect, bool on, std::string why) {
 Effects::Effects(const Scene& scene) {
     const auto& [surface, block, drive, output] =
         std::tie(scene.surface, scene.block, scene.drive, scene.output);
-    // Time passes on a dynamic path; the way straight to the state at zero load has none.
-    const bool in_time = !scene.has(PathPart::zero_load) && drive.mode == DriveMode::dynamic;
-    const std::string timeless = "no time passes: drive.path = [\"zero-load\"]";
+    // Time passes on a dynamic path; equilibria have none.
+    const bool direct = scene.has(PathPart::zero_load);
+    const bool in_time = !direct && drive.mode == DriveMode::dynamic;
+    const std::string equilibria =
+        direct ? "drive.path = [\"zero-load\"]" : "drive.mode = \"quasistatic\"";
+    const std::string timeless = "no time passes: " + equilibria;
 
     decide(Effect::inertia, in_time, in_time ? "drive.path is followed in time" : timeless);
     decide(Effect::lateral, true, "always: three components a node");
@@ -94,7 +97,7 @@ Effects::Effects(const Scene& scene) {
                           : "surface.radius = \"none\"");
     const bool relaxes = !in_time || scene.has(PathPart::approach);
     decide(Effect::relaxation, relaxes,
-           !in_time  ? "drive.path = [\"zero-load\"]"
+           !in_time  ? equilibria
            : relaxes ? "drive.path has an approach: a copy of where it ends is relaxed"
                      : "drive.path has no approach");
     decide(Effect::observation, in_time,

@@ -289,7 +289,7 @@ TEST(Levels, OneAndTen) {
     s.dt = 10.0;
     Simulation ten = make(s, test::flat_surface(sites));
     ten.start(3.3);
-    const double residual = worst_residual(ten, at_length ? 2000 : 30);
+    const double residual = worst_residual(ten, at_length ? 500 : 30);
     std::printf("ten levels: residual %.1e\n", residual);
     EXPECT_LT(residual, 1e-3);
     s.block = test::paper_block(16, 16, 0);
