@@ -38,6 +38,11 @@ bool Drive::observe(double t, double force, bool out_of_reach) {
     if (leg_ == Leg::approach) {
         // Through attraction (beyond the load, if that pulls) and back to the load; or, where
         // nothing attracts that much, pressed.
+        // A force of exactly zero is no contact: a warm block's tip was in reach and left it again.
+        if (force == 0.0) {
+            attracted_ = false;
+            return false;
+        }
         const double load = options_.load_force;
         if (force < std::min(load, 0.0)) attracted_ = true;
         const bool back = attracted_ && force >= load;

@@ -45,6 +45,19 @@ TEST(Drive, ALoadIsReachedWithOrWithoutAttraction) {
     EXPECT_TRUE(hard.observe(1.0, 2.5, false));
 }
 
+TEST(Drive, ATipThatLeavesTheReachAgainIsNoContact) {
+    // What a warm block does: the first attraction is gone a few steps later.
+    auto options = both_ways();
+    for (double load : {-2.0, 0.0, 2.0}) {
+        options.load_force = load;
+        Drive drive(options);
+        EXPECT_FALSE(drive.observe(0.0, -5.0, false));
+        EXPECT_FALSE(drive.observe(1.0, 0.0, false)) << "out of reach";
+        EXPECT_FALSE(drive.observe(2.0, -5.0, false));
+        EXPECT_TRUE(drive.observe(3.0, 2.5, false)) << load;
+    }
+}
+
 TEST(Drive, APullingLoadIsReachedFromBeyondIt) {
     auto options = both_ways();
     options.load_force = -2.0;
