@@ -336,6 +336,12 @@ Plan make_plan(const Scene& scene, int ranks, int threads) {
                                     share * static_cast<double>(plan.iterations) * nodes *
                                         rates.iteration};
     }
+    if (!on(Effect::inertia)) { // all there is is the relaxation
+        const EffectCost& all = cost(Effect::relaxation);
+        cost(Effect::lateral).bytes = 2.0 * all.bytes / 3.0;
+        if (on(Effect::coarse_levels))
+            cost(Effect::coarse_levels).seconds = all.seconds * coarse / nodes;
+    }
     if (on(Effect::maps)) cost(Effect::maps) = {56.0 * sites, 56.0 * sites / disk};
     plan.making = {16.0 * static_cast<double>(surface.height.size()) * ranks,
                    surface_seconds + share * sites * rates.making};
