@@ -11,6 +11,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <type_traits>
 
 namespace asperity {
 
@@ -67,15 +68,15 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
     if (same_lattice) map_.spacing = spacing;
     method_ = options.method;
     if (method_ == InterfaceMethod::automatic)
-        method_ = same_lattice ? InterfaceMethod::lattice : InterfaceMethod::cell_list;
+        method_ = same_lattice ? InterfaceMethod::lattice : InterfaceMethod::rows;
     if (method_ == InterfaceMethod::lattice && !same_lattice)
         throw std::invalid_argument(fmt::format(
             "interface: the lattice sweep needs as many atoms ({}) as sites ({}) across the box; "
-            "use the cell list",
+            "use the sweep over rows",
             substrate.sites, tile.sites));
     if (method_ != InterfaceMethod::reference) build_reach();
     if (method_ == InterfaceMethod::lattice) build_lattice();
-    if (method_ == InterfaceMethod::cell_list) build_cells();
+    if (method_ == InterfaceMethod::rows) build_rows();
     if (options.tail) {
         tail_ = {options.potential, 1.0 / (map_.spacing * map_.spacing)};
         mean_height_ = Field<double>(tile, 1);
@@ -95,131 +96,117 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
     }
 }
 
-/// For each block of sites and each ring of lateral distance: the greatest height in it.
+/// For each block of sites and each ring of lateral distance: the greatest and least height in it.
 void Interface::build_reach() {
     const double widest = options_.potential.cutoff + margin_;
     reach_.offset_margin = margin_;
     reach_.ring_width = widest / interface_rings;
     reach_.blocks = (tile_.nx + interface_block - 1) / interface_block;
-    reach_highest_.assign(static_cast<std::size_t>(reach_.blocks) *
-                              static_cast<std::size_t>(tile_.ny) * interface_rings,
-                          nothing_there);
+    const std::size_t rings = static_cast<std::size_t>(reach_.blocks) *
+                              static_cast<std::size_t>(tile_.ny) * interface_rings;
+    reach_highest_.assign(rings, nothing_there);
+    reach_lowest_.assign(rings, -nothing_there);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < tile_.ny; ++y)
         for (int x = 0; x < tile_.nx; ++x) {
-            double* highest =
-                reach_highest_.data() +
-                (static_cast<std::ptrdiff_t>(y) * reach_.blocks + x / interface_block) *
-                    interface_rings;
+            const std::size_t block =
+                (static_cast<std::size_t>(y) * static_cast<std::size_t>(reach_.blocks) +
+                 static_cast<std::size_t>(x / interface_block)) *
+                interface_rings;
             // Slightly beyond the widest reach, so that rounding leaves no atom out.
-            for_atoms_around(map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_,
-                             widest + 1e-3, [&](double lateral, double h) {
-                                 // An atom on the border of two rings counts in both.
-                                 const double scaled = lateral / reach_.ring_width;
-                                 for (double edge : {scaled - 1e-9, scaled + 1e-9}) {
-                                     const int ring =
-                                         std::clamp(static_cast<int>(edge), 0, interface_rings - 1);
-                                     highest[ring] = std::max(highest[ring], h);
-                                 }
-                             });
+            for_atoms_around(
+                map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_,
+                widest + 1e-3, [&](double lateral, double h) {
+                    // An atom on the border of two rings counts in both.
+                    const double scaled = lateral / reach_.ring_width;
+                    for (double edge : {scaled - 1e-9, scaled + 1e-9}) {
+                        const auto ring = static_cast<std::size_t>(
+                            std::clamp(static_cast<int>(edge), 0, interface_rings - 1));
+                        reach_highest_[block + ring] = std::max(reach_highest_[block + ring], h);
+                        reach_lowest_[block + ring] = std::min(reach_lowest_[block + ring], h);
+                    }
+                });
         }
-    if (!options_.skip) reach_highest_.assign(reach_highest_.size(), -nothing_there);
+    if (!options_.skip) {
+        reach_highest_.assign(rings, -nothing_there);
+        reach_lowest_.assign(rings, nothing_there);
+    }
     reach_.highest = reach_highest_.data();
+    reach_.lowest = reach_lowest_.data();
 }
 
-/// The tile's heights with their halo, and the offsets by growing lateral distance.
+SubstrateHeights Interface::heights_on(const Tile& atoms, int halo) {
+    const auto fill = [&](auto& field, auto as) {
+        field = std::remove_reference_t<decltype(field)>(atoms, 1, halo);
+        auto height = field.plane(0);
+#pragma omp parallel for schedule(static)
+        for (int y = -halo; y < atoms.ny + halo; ++y)
+            for (int x = -halo; x < atoms.nx + halo; ++x)
+                height(x, y) =
+                    as(map_height_[static_cast<std::size_t>(periodic(atoms.y0 + y, map_.sites)) *
+                                       static_cast<std::size_t>(map_.sites) +
+                                   static_cast<std::size_t>(periodic(atoms.x0 + x, map_.sites))] -
+                       highest_);
+    };
+    SubstrateHeights heights;
+    heights.datum = highest_;
+    if (options_.mixed) {
+        fill(fixed_height_, [](double h) {
+            return static_cast<std::int32_t>(
+                std::nearbyint(std::max(h, -fixed_depth) / fixed_quantum));
+        });
+        heights.fixed = fixed_height_.plane(0);
+    } else {
+        fill(height_, [](double h) { return h; });
+        heights.height = height_.plane(0);
+    }
+    return heights;
+}
+
+/// The tile's heights with their halo, and how many offsets lie within each lateral distance.
 void Interface::build_lattice() {
     const double widest = options_.potential.cutoff + margin_;
     const int half = static_cast<int>(std::ceil(widest / spacing_ + 0.5));
-    height_ = Field<double>(tile_, 1, half + 1);
-    auto height = height_.plane(0);
-    const int halo = height_.halo();
-    for (int y = -halo; y < tile_.ny + halo; ++y)
-        for (int x = -halo; x < tile_.nx + halo; ++x)
-            height(x, y) =
-                map_height_[static_cast<std::size_t>(periodic(tile_.y0 + y, map_.sites)) *
-                                static_cast<std::size_t>(map_.sites) +
-                            static_cast<std::size_t>(periodic(tile_.x0 + x, map_.sites))];
-    const auto row = static_cast<std::int32_t>(height.row);
-    for (int n = 1; n <= half; ++n)
-        for (int m = 1; m <= half; ++m) {
-            const double cx = (m - 0.5) * spacing_, cy = (n - 0.5) * spacing_;
-            const double lateral = std::sqrt(cx * cx + cy * cy);
-            if (lateral > widest) continue;
-            quads_.push_back({cx, cy, lateral, m, n, (1 - n) * row + 1 - m, (1 - n) * row + m,
-                              n * row + 1 - m, n * row + m});
-        }
-    std::stable_sort(quads_.begin(), quads_.end(), [](const OffsetQuad& a, const OffsetQuad& b) {
-        return a.lateral < b.lateral;
-    });
+    lattice_.heights = heights_on(tile_, half + 1);
     // A sixteenth of a spacing is fine enough a cut and keeps the table in the nearest cache.
-    const double per_length = 16.0 / spacing_;
-    OffsetCut cut{0, 0};
-    for (int k = 0; cut.quads < static_cast<int>(quads_.size()); ++k) {
-        while (cut.quads < static_cast<int>(quads_.size()) &&
-               quads_[static_cast<std::size_t>(cut.quads)].lateral < (k + 1) / per_length + 1e-9) {
-            const OffsetQuad& q = quads_[static_cast<std::size_t>(cut.quads++)];
-            cut.half_offsets = std::max({cut.half_offsets, q.m, q.n});
+    lattice_.cuts_per_length = 16.0 / spacing_;
+    lattice_.cut_count = static_cast<int>(widest * lattice_.cuts_per_length) + 2;
+    lattice_.half_offsets = half;
+    for (int k = 0; k < lattice_.cut_count; ++k) {
+        const double lateral = k / lattice_.cuts_per_length + 1e-9;
+        for (int n = 1; n <= half; ++n) {
+            const auto within = [&](int m) {
+                return std::hypot((m - 0.5) * spacing_, (n - 0.5) * spacing_) < lateral;
+            };
+            int m = 0;
+            while (m < half && within(m + 1))
+                ++m;
+            columns_.push_back(m);
         }
-        cuts_.push_back(cut);
     }
-    lattice_ = {height,     quads_.data(), cuts_.data(), static_cast<int>(cuts_.size()),
-                per_length, reach_,        map_};
+    lattice_.columns = columns_.data();
+    lattice_.reach = reach_;
+    lattice_.map = map_;
 }
 
-/// Atoms sorted into square cells around the tile. Cells are numbered over the whole box and on
-/// beyond it, so that their borders, and the order of atoms, are the same for every tile.
-void Interface::build_cells() {
-    const double box = tile_.sites * spacing_;
-    // Two atoms across: a row of cells follows the circle of the cutoff closely, and an even number
-    // of atoms a cell leaves no lane of the paired division empty.
-    const int across = std::max(1, map_.sites / 2);
-    const double cell = box / across;
-    // An atom on a border, up to rounding, belongs to the cell that begins there.
-    const auto cell_of = [&](int i) {
-        return std::min(across - 1, static_cast<int>(i * map_.spacing / cell + 1e-9));
-    };
-    std::vector<std::vector<int>> members(static_cast<std::size_t>(across)); // along one axis
-    for (int i = 0; i < map_.sites; ++i)
-        members[static_cast<std::size_t>(cell_of(i))].push_back(i);
-
+/// The heights of the atoms around the tile, on the substrate's own lattice.
+void Interface::build_rows() {
+    const double b = map_.spacing;
     const double widest = options_.potential.cutoff + margin_;
-    const auto range = [&](int begin, int count, int& first, int& number) {
-        first = static_cast<int>(std::floor(((begin + 0.5) * spacing_ - widest) / cell)) - 1;
-        const double end = (begin + count - 0.5) * spacing_ + widest;
-        number = static_cast<int>(std::floor(end / cell)) + 2 - first;
+    const auto first = [&](int begin) {
+        return static_cast<int>(std::floor(((begin + 0.5) * spacing_ - widest) / b));
     };
-    range(tile_.x0, tile_.nx, cells_.column0, cells_.columns);
-    range(tile_.y0, tile_.ny, cells_.row0, cells_.rows);
-    cells_.cell = cell;
-
-    const auto box_of = [&](int c) { return (c - periodic(c, across)) / across; };
-    for (int r = cells_.row0; r < cells_.row0 + cells_.rows; ++r) {
-        for (int c = cells_.column0; c < cells_.column0 + cells_.columns; ++c) {
-            first_.push_back(static_cast<std::int32_t>(atom_x_.size()));
-            for (int j : members[static_cast<std::size_t>(periodic(r, across))])
-                for (int i : members[static_cast<std::size_t>(periodic(c, across))]) {
-                    atom_x_.push_back(i * map_.spacing + box_of(c) * box);
-                    atom_y_.push_back(j * map_.spacing + box_of(r) * box);
-                    atom_z_.push_back(map_height_[static_cast<std::size_t>(j) *
-                                                      static_cast<std::size_t>(map_.sites) +
-                                                  static_cast<std::size_t>(i)]);
-                }
-            // Atoms are summed in pairs: an odd one gets a partner far below.
-            if (atom_x_.size() % 2) {
-                atom_x_.push_back((c + 0.5) * cell);
-                atom_y_.push_back((r + 0.5) * cell);
-                atom_z_.push_back(-1e9);
-            }
-        }
-        first_.push_back(static_cast<std::int32_t>(atom_x_.size()));
-    }
-    cells_.x = atom_x_.data();
-    cells_.y = atom_y_.data();
-    cells_.z = atom_z_.data();
-    cells_.first = first_.data();
-    cells_.reach = reach_;
-    cells_.map = map_;
+    const auto count = [&](int begin, int sites) {
+        const double end = (begin + sites - 0.5) * spacing_ + widest;
+        return static_cast<int>(std::ceil(end / b)) + 1 - first(begin);
+    };
+    rows_.i0 = first(tile_.x0);
+    rows_.j0 = first(tile_.y0);
+    const Tile atoms{rows_.i0, rows_.j0, count(tile_.x0, tile_.nx), count(tile_.y0, tile_.ny),
+                     map_.sites};
+    rows_.heights = heights_on(atoms, interface_block);
+    rows_.reach = reach_;
+    rows_.map = map_;
 }
 
 InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
@@ -230,7 +217,11 @@ InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
 }
 
 InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe) const {
-    const InterfaceKernels& kernels = interface_kernels();
+    const auto pick = [&](const auto& sweeps) {
+        return (options_.mixed ? sweeps.in_mixed : sweeps.plain)[observe];
+    };
+    const auto lattice = pick(interface_kernels().lattice);
+    const auto rows = pick(interface_kernels().rows);
     const LennardJones& potential = options_.potential;
     InterfaceSums total;
 #pragma omp parallel
@@ -240,12 +231,10 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe) 
         for (int y = 0; y < tile_.ny; ++y) {
             switch (method_) {
             case InterfaceMethod::lattice:
-                (observe ? kernels.lattice_observed : kernels.lattice)(sites, lattice_, potential,
-                                                                       y, y + 1, mine);
+                lattice(sites, lattice_, potential, y, y + 1, mine);
                 break;
-            case InterfaceMethod::cell_list:
-                (observe ? kernels.cell_list_observed : kernels.cell_list)(sites, cells_, potential,
-                                                                           y, y + 1, mine);
+            case InterfaceMethod::rows:
+                rows(sites, rows_, potential, y, y + 1, mine);
                 break;
             default:
                 reference_sweep(sites, map_, potential, y, y + 1, mine);
@@ -314,11 +303,10 @@ double Interface::start_height() const {
 }
 
 std::size_t Interface::bytes() const {
-    const std::size_t doubles = map_height_.size() + reach_highest_.size() + atom_x_.size() +
-                                atom_y_.size() + atom_z_.size();
-    return doubles * sizeof(double) + first_.size() * sizeof(std::int32_t) +
-           quads_.size() * sizeof(OffsetQuad) + (height_.empty() ? 0 : height_.bytes()) +
-           tail_bytes();
+    const std::size_t doubles = map_height_.size() + reach_highest_.size() + reach_lowest_.size();
+    return doubles * sizeof(double) + columns_.size() * sizeof(std::int32_t) +
+           (height_.empty() ? 0 : height_.bytes()) +
+           (fixed_height_.empty() ? 0 : fixed_height_.bytes()) + tail_bytes();
 }
 
 // Flat on flat.

@@ -5,15 +5,15 @@
 // 4).
 //
 // Built once per run. It keeps what the sweeps need of the substrate around the tile (heights with
-// a halo as wide as the reach, or the atoms sorted into cells), the table of neighbour offsets, and
-// for each block of sites how high the substrate gets around it. Every rank knows the whole height
-// map, so nothing is communicated here: the sweep is local to the tile, and its sums are exact
-// (ExactSum), to be merged over ranks in any order.
+// a halo as wide as the reach), the table of neighbour offsets, and for each block of sites how
+// high and low the substrate gets around it. Every rank knows the whole height map, so nothing is
+// communicated here: the sweep is local to the tile, and its sums are exact (ExactSum), to be
+// merged over ranks in any order.
 //
 // Which sweep runs is decided at construction: lattice if the substrate has the block's lattice,
-// cell list otherwise. The tables allow for sideways displacements up to two spacings; sites that
-// go beyond are summed by the reference loop (kernels/interface_sweep.hpp), so no pair is ever
-// missed and no table is ever rebuilt.
+// rows otherwise; in double, or mixed. The tables allow for sideways displacements up to two
+// spacings; sites that go beyond are summed by the reference loop (kernels/interface_sweep.hpp), so
+// no pair is ever missed and no table is ever rebuilt.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -26,13 +26,15 @@
 
 namespace asperity {
 
-enum class InterfaceMethod { automatic, reference, lattice, cell_list };
+enum class InterfaceMethod { automatic, reference, lattice, rows };
 
 struct InterfaceOptions {
     LennardJones potential;
     bool tail = false; ///< continuum correction beyond the cutoff
+    bool mixed =
+        false; ///< pairs in single precision, sums in double; the reference knows only double
     InterfaceMethod method = InterfaceMethod::automatic;
-    bool skip = true; ///< false: visit all offsets or cells everywhere (same bits; for tests)
+    bool skip = true; ///< false: visit all offsets or atoms everywhere (same bits; for tests)
 };
 
 /// Flat block on flat substrate: what gamma_eff is divided by.
@@ -91,7 +93,9 @@ private:
     InterfaceSums sweep_sites(const InterfaceSites& sites, bool observe) const;
     void build_reach();
     void build_lattice();
-    void build_cells();
+    void build_rows();
+    /// The heights of atoms (i, j) of a tile of the substrate's lattice and a halo.
+    SubstrateHeights heights_on(const Tile& atoms, int halo);
 
     InterfaceOptions options_;
     InterfaceMethod method_ = InterfaceMethod::reference;
@@ -101,15 +105,13 @@ private:
     double highest_ = 0.0;
     std::vector<double> map_height_;
     SubstrateMap map_;
-    std::vector<double> reach_highest_;
+    std::vector<double> reach_highest_, reach_lowest_;
     ReachBounds reach_;
-    Field<double> height_; ///< lattice: the tile's atoms with a halo
-    std::vector<OffsetQuad> quads_;
-    std::vector<OffsetCut> cuts_;
+    Field<double> height_;             ///< in double
+    Field<std::int32_t> fixed_height_; ///< mixed
+    std::vector<std::int32_t> columns_;
     LatticeSubstrate lattice_;
-    std::vector<double> atom_x_, atom_y_, atom_z_; ///< cell list
-    std::vector<std::int32_t> first_;
-    CellListSubstrate cells_;
+    RowSubstrate rows_;
     Field<double> mean_height_; ///< tail: of the atoms within the cutoff sideways
     TailCorrection tail_;
     mutable InterfaceWork work_; ///< counted between sweeps, by one thread

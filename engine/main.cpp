@@ -266,7 +266,8 @@ int command_info(const Communicator& world) {
     table.row({"FFTW", fftw_version});
     table.row({"ranks", std::to_string(world.size())});
     table.row({"threads", fmt::format("{} a rank", omp_get_max_threads())});
-    table.row({"processor", fmt::format("kernels for {}", name(processor_level()))});
+    table.row({"processor", fmt::format("kernels for {}, interface in double or mixed precision",
+                                        name(processor_level()))});
     fmt::print("asperity {}\n", build.version);
     table.print(stdout);
     return io::exit_code::done;

@@ -140,9 +140,10 @@ io::Schema bind(Scene& scene) {
 
     auto& numerics = scene.numerics;
     schema.section("numerics", "Arithmetic.");
-    schema.choice<Precision>("precision", numerics.precision,
-                             {{"double", Precision::double_precision}, {"mixed", Precision::mixed}},
-                             "of the arithmetic");
+    schema.choice<Precision>(
+        "precision", numerics.precision,
+        {{"double", Precision::double_precision}, {"mixed", Precision::mixed}},
+        "of the pairs across the interface: \"mixed\" works them out in single precision");
     schema.number_or("accuracy", numerics.accuracy, "none", "", io::Range{0.0, 1.0, true, true},
                      "\"1%\": choose the cheapest settings that reach it");
 
@@ -332,8 +333,6 @@ void not_yet(const Scene& scene, io::Problems& problems) {
     if (scene.drive.path.size() > 1 && scene.drive.path.front() == PathPart::zero_load)
         refuse("drive.path", "a pull-off from \"zero-load\"",
                "use path = [\"approach\", \"pull-off\"]");
-    if (scene.numerics.precision == Precision::mixed)
-        refuse("numerics.precision", "\"mixed\"", "use \"double\"");
     if (scene.numerics.accuracy)
         refuse("numerics.accuracy", fmt::format("{:.6g}", *scene.numerics.accuracy),
                "use \"none\" and choose layers_per_level, timestep and velocity yourself");

@@ -74,6 +74,7 @@ Setup make_setup(const Scene& scene, int ranks) {
     InterfaceOptions& interface = setup.simulation.interface;
     interface.potential = {scene.interface.epsilon, scene.interface.r0, scene.interface.cutoff};
     interface.tail = on(Effect::tail);
+    interface.mixed = scene.numerics.precision == Precision::mixed;
     const int substrate = substrate_sites(block.sites, scene.surface.lattice_ratio);
     try {
         setup.flat = flat_reference(interface, block.spacing, block.sites, substrate);

@@ -48,8 +48,11 @@ void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const 
     fmt::print(to, "  block       {} layers ({:.1f} Å): {}\n", block.thickness,
                block.thickness * block.spacing, levels_text(scene, setup));
     fmt::print(to,
-               "  interface   flat on flat {:.2f} meV/Å² at {:.2f} Å with the cutoff of {:.2f} Å\n",
-               setup.flat.work_of_adhesion, setup.flat.separation, scene.interface.cutoff);
+               "  interface   flat on flat {:.2f} meV/Å² at {:.2f} Å with the cutoff of {:.2f} Å, "
+               "pairs in "
+               "{} precision\n",
+               setup.flat.work_of_adhesion, setup.flat.separation, scene.interface.cutoff,
+               setup.simulation.interface.mixed ? "single" : "double");
     fmt::print(to, "  machine     {}, {} thread{} each, {:.0f} MB a rank\n", grid.describe(),
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6);
     fmt::print(to, "  results     {}\n", directory);

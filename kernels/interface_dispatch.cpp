@@ -9,18 +9,22 @@ namespace asperity {
 
 #if ASPERITY_HAS_X86_VARIANTS
 namespace v2 {
-InterfaceKernels interface_table();
-}
+InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps();
+InterfaceKernels::Sweeps<RowSubstrate> row_sweeps();
+} // namespace v2
 namespace v3 {
-InterfaceKernels interface_table();
-}
+InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps();
+InterfaceKernels::Sweeps<RowSubstrate> row_sweeps();
+} // namespace v3
 namespace v4 {
-InterfaceKernels interface_table();
-}
+InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps();
+InterfaceKernels::Sweeps<RowSubstrate> row_sweeps();
+} // namespace v4
 #else
 namespace portable {
-InterfaceKernels interface_table();
-}
+InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps();
+InterfaceKernels::Sweeps<RowSubstrate> row_sweeps();
+} // namespace portable
 #endif
 
 namespace {
@@ -29,14 +33,14 @@ InterfaceKernels pick() {
 #if ASPERITY_HAS_X86_VARIANTS
     switch (processor_level()) {
     case ProcessorLevel::v4:
-        return v4::interface_table();
+        return {v4::lattice_sweeps(), v4::row_sweeps()};
     case ProcessorLevel::v3:
-        return v3::interface_table();
+        return {v3::lattice_sweeps(), v3::row_sweeps()};
     default:
-        return v2::interface_table();
+        return {v2::lattice_sweeps(), v2::row_sweeps()};
     }
 #else
-    return portable::interface_table();
+    return {portable::lattice_sweeps(), portable::row_sweeps()};
 #endif
 }
 

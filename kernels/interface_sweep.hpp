@@ -8,20 +8,26 @@
 //              scalar, obvious: the judge of the other two;
 //   lattice    both sides are the same lattice, so the neighbours of a site are known offsets: SIMD
 //              over sites, sums in registers over the offsets in a fixed order;
-//   cell list  any substrate (incommensurate): atoms sorted into square cells, SIMD over the atoms
-//   of
-//              a row of cells.
+//   rows       a substrate with a spacing of its own (incommensurate): site by site, SIMD over the
+//              atoms along x, row after row.
+//
+// The last two exist twice: in double, and mixed, where pairs are worked out in single precision
+// and a site's sums in double. Mixed heights are 32-bit integers, multiples of 2^-22 Å: the
+// difference of two is exact, wherever in the box and however high it is formed, and only then
+// becomes a float.
 //
 // Block site (x, y) of the tile stands at ((x0+x+1/2) a + ux, (y0+y+1/2) a + uy, z_ref + uz).
 // Units: Å, eV, eV/Å.
 //
-// What is out of reach costs nothing. For each block of eight sites along x the owner tabulates how
-// high the substrate gets in rings of lateral distance around it. From the lowest site of the block
-// follows a gap, from the gap the lateral distance beyond which no pair can interact, and only
-// offsets (cells) nearer than that are visited. What is left out would have added exact zeros.
+// What is out of reach costs nothing. For each block of sixteen sites along x the owner tabulates
+// how high the substrate gets in rings of lateral distance around it. From the lowest site of the
+// block follows a gap, from the gap the lateral distance beyond which no pair can interact, and
+// only offsets (atoms) nearer than that are visited. What is left out would have added exact zeros.
+// In the same way, from how low the substrate gets, follow the offsets that need no look at the
+// cutoff.
 //
 // Reproducibility: a site's force is summed in an order that the site alone decides (offset number,
-// or cell and atom order of the whole box), never the tile, block or lane it is in; so its bits are
+// or atoms counted from the one below it), never the tile, block or lane it is in; so its bits are
 // the same for any decomposition and number of threads. Sums over sites are exact sums.
 //
 // Sites displaced sideways by more than offset_margin (a run about to be stopped by its guard) are
@@ -36,8 +42,8 @@
 
 namespace asperity {
 
-/// Sites along x whose reach is bounded together: the widest register in double.
-inline constexpr int interface_block = 8;
+/// Sites along x whose reach is bounded together: the widest register in single precision.
+inline constexpr int interface_block = 16;
 /// Rings of lateral distance for which each block knows the substrate's greatest height.
 inline constexpr int interface_rings = 8;
 /// Most offsets along one half axis, (cutoff + margin) / a + 1 at most.
@@ -87,50 +93,46 @@ struct SubstrateMap {
 /// How high the substrate gets around each block of sites, ring by ring.
 struct ReachBounds {
     const double* highest = nullptr; ///< [(y * blocks + block) * interface_rings + ring], Å
+    const double* lowest = nullptr;  ///< likewise
     int blocks = 0;                  ///< blocks in a row
     /// Ring r holds lateral distances [r, r + 1) ring_width from the undisplaced site, Å.
     double ring_width = 1.0;
     double offset_margin = 0.0; ///< largest sideways displacement the tables allow for, Å
 };
 
-/// Four offsets that lie symmetrically around a hollow site: (±cx, ±cy) from site to atom.
-struct OffsetQuad {
-    double cx, cy;       ///< (m - 1/2) a, (n - 1/2) a, Å
-    double lateral;      ///< sqrt(cx^2 + cy^2), Å
-    std::int32_t m, n;   ///< 1, 2, ...
-    std::int32_t sw, se; ///< index of the atoms at (1-m, 1-n), (m, 1-n) relative to the site's
-    std::int32_t nw, ne; ///< (1-m, n), (m, n)
+/// The substrate's heights as the sweeps read them; one of the two views is empty.
+struct SubstrateHeights {
+    PlaneView<const double> height;      ///< over the datum, Å
+    PlaneView<const std::int32_t> fixed; ///< over the datum, in units of fixed_quantum
+    double datum = 0.0;                  ///< height of the highest atom, Å
 };
 
-/// How much of the table of offsets a lateral distance calls for.
-struct OffsetCut {
-    std::int32_t quads;        ///< the first so many
-    std::int32_t half_offsets; ///< greatest m or n among them
-};
+/// Å, a power of two: it rounds positions by half of it at most, as a float does at 3 Å.
+inline constexpr double fixed_quantum = 0x1p-22;
+/// Atoms farther below the datum than this stand this far below it, Å: differences of heights fit
+/// into 32 bits. Sites as low as that are left to the reference loop.
+inline constexpr double fixed_depth = 250.0;
 
 /// A substrate of the block's own lattice: atom (x, y) of the tile at ((x0+x) a, (y0+y) a, height).
+///
+/// Offsets from a hollow site to atoms are (±(m - 1/2) a, ±(n - 1/2) a), m, n = 1, 2, ...
 struct LatticeSubstrate {
-    PlaneView<const double> height; ///< with a halo that holds every offset and a whole vector, Å
-    const OffsetQuad* quads = nullptr; ///< by growing lateral distance (ties: n, m)
-    const OffsetCut* cuts = nullptr; ///< [k]: what distances below (k+1) / cuts_per_length call for
+    SubstrateHeights heights; ///< with a halo that holds every offset and a whole vector
+    /// [k * half_offsets + n - 1]: how many m lie within the lateral distance k / cuts_per_length.
+    const std::int32_t* columns = nullptr;
+    int half_offsets = 0; ///< greatest m and n
     int cut_count = 0;
     double cuts_per_length = 1.0; ///< 1/Å
     ReachBounds reach;
     SubstrateMap map;
 };
 
-/// Any substrate, sorted into square cells. Cells are counted over the box and beyond it (images);
-/// in a row of cells the atoms follow one another in memory.
-struct CellListSubstrate {
-    const double* x = nullptr; ///< Å; images carry whole box edges
-    const double* y = nullptr;
-    const double* z = nullptr;
-    const std::int32_t* first = nullptr; ///< [row * (columns + 1) + column]: first atom of a cell
-    int column0 = 0;                     ///< first column and row held
-    int row0 = 0;
-    int columns = 0;
-    int rows = 0;
-    double cell = 1.0; ///< edge, Å
+/// A substrate of any spacing b: atom (i, j), counted over the box and beyond it, at (i b, j b,
+/// height(i - i0, j - j0)). Held as far as any site reaches, and a register and a row farther.
+struct RowSubstrate {
+    SubstrateHeights heights;
+    int i0 = 0;
+    int j0 = 0;
     ReachBounds reach;
     SubstrateMap map;
 };
@@ -179,14 +181,16 @@ void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
 /// The sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile
 /// and overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
 struct InterfaceKernels {
-    using Lattice = void (*)(const InterfaceSites&, const LatticeSubstrate&, const LennardJones&,
-                             int row_begin, int row_end, InterfaceSums&);
-    using CellList = void (*)(const InterfaceSites&, const CellListSubstrate&, const LennardJones&,
-                              int row_begin, int row_end, InterfaceSums&);
-    Lattice lattice = nullptr;
-    Lattice lattice_observed = nullptr;
-    CellList cell_list = nullptr;
-    CellList cell_list_observed = nullptr;
+    template <class Substrate>
+    using Sweep = void (*)(const InterfaceSites&, const Substrate&, const LennardJones&,
+                           int row_begin, int row_end, InterfaceSums&);
+    template <class Substrate>
+    struct Sweeps {
+        Sweep<Substrate> plain[2];    ///< in double; [observe]
+        Sweep<Substrate> in_mixed[2]; ///< pairs in single precision
+    };
+    Sweeps<LatticeSubstrate> lattice;
+    Sweeps<RowSubstrate> rows;
 };
 
 /// The kernels for the running processor (processor_level()).

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -116,6 +117,23 @@ ASPERITY_INLINE Pack<T> max(Pack<T> a, Pack<T> b) {
     return a.r > b.r ? a.r : b.r;
 }
 
+/// Bit i is set where lane i of a is less than that of b.
+template <class T>
+ASPERITY_INLINE unsigned bits_where_less(Pack<T> a, Pack<T> b) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(T) == 8)
+        return _mm512_cmp_pd_mask((__m512d)a.r, (__m512d)b.r, _CMP_LT_OQ);
+    else
+        return _mm512_cmp_ps_mask((__m512)a.r, (__m512)b.r, _CMP_LT_OQ);
+#else
+    const auto less = a < b;
+    unsigned bits = 0;
+    for (int i = 0; i < Pack<T>::width; ++i)
+        bits |= less[i] ? 1u << i : 0u;
+    return bits;
+#endif
+}
+
 /// The pack one element further on, given the pack a and the one behind it, b: a1 a2 ... b0.
 template <class T>
 ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
@@ -131,6 +149,46 @@ ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
     for (int i = 0; i < Pack<T>::width; ++i)
         lanes[i] = Pack<T>::width - 1 + i;
     return __builtin_shuffle(a.r, b.r, lanes);
+}
+
+/// As many integers as a register has floats: fixed-point numbers, whose differences are exact.
+struct PackInt32 {
+    FloatMask r;
+
+    PackInt32() = default;
+    ASPERITY_INLINE PackInt32(FloatMask value) : r(value) {}
+    static ASPERITY_INLINE PackInt32 load(const std::int32_t* from) {
+        PackInt32 p;
+        std::memcpy(&p.r, from, sizeof p.r);
+        return p;
+    }
+    friend ASPERITY_INLINE PackInt32 operator-(PackInt32 a, PackInt32 b) { return a.r - b.r; }
+};
+ASPERITY_INLINE Pack<float> to_float(PackInt32 a) {
+    return Pack<float>(__builtin_convertvector(a.r, FloatRegister));
+}
+
+/// Half a register of floats, from lane `first` on, as doubles.
+template <int first, int... lane>
+ASPERITY_INLINE Pack<double> widen(Pack<float> a, std::integer_sequence<int, lane...>) {
+    return Pack<double>(__builtin_convertvector(
+        __builtin_shufflevector(a.r, a.r, (first + lane)...), DoubleRegister));
+}
+ASPERITY_INLINE Pack<double> widen_low(Pack<float> a) {
+    return widen<0>(a, std::make_integer_sequence<int, Pack<double>::width>());
+}
+ASPERITY_INLINE Pack<double> widen_high(Pack<float> a) {
+    return widen<Pack<double>::width>(a, std::make_integer_sequence<int, Pack<double>::width>());
+}
+
+/// Lane i is that of lane i ^ half.
+template <int half, int... lane>
+ASPERITY_INLINE Pack<double> exchange(Pack<double> a, std::integer_sequence<int, lane...>) {
+    return __builtin_shufflevector(a.r, a.r, (lane ^ half)...);
+}
+template <int half>
+ASPERITY_INLINE Pack<double> exchange(Pack<double> a) {
+    return exchange<half>(a, std::make_integer_sequence<int, Pack<double>::width>());
 }
 
 /// a * b + c, rounded once where the processor level has it.
@@ -154,7 +212,45 @@ ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {
     return a.r * b.r + c.r;
 #endif
 }
-/// The same operation for one lane, for scalar twins of a kernel: same bits as the pack's lane.
+/// a * b - c, likewise.
+template <class T>
+ASPERITY_INLINE Pack<T> fms(Pack<T> a, Pack<T> b, Pack<T> c) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>(
+            (typename Pack<T>::Register)_mm512_fmsub_pd((__m512d)a.r, (__m512d)b.r, (__m512d)c.r));
+    else
+        return Pack<T>(
+            (typename Pack<T>::Register)_mm512_fmsub_ps((__m512)a.r, (__m512)b.r, (__m512)c.r));
+#elif defined(__FMA__)
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>(
+            (typename Pack<T>::Register)_mm256_fmsub_pd((__m256d)a.r, (__m256d)b.r, (__m256d)c.r));
+    else
+        return Pack<T>(
+            (typename Pack<T>::Register)_mm256_fmsub_ps((__m256)a.r, (__m256)b.r, (__m256)c.r));
+#else
+    return a.r * b.r - c.r;
+#endif
+}
+/// a * b - c in the lanes where x < y, zero elsewhere; the mask costs no more than the comparison.
+template <class T>
+ASPERITY_INLINE Pack<T> fms_where_less(Pack<T> x, Pack<T> y, Pack<T> a, Pack<T> b, Pack<T> c) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>((typename Pack<T>::Register)_mm512_maskz_fmsub_pd(
+            _mm512_cmp_pd_mask((__m512d)x.r, (__m512d)y.r, _CMP_LT_OQ), (__m512d)a.r, (__m512d)b.r,
+            (__m512d)c.r));
+    else
+        return Pack<T>((typename Pack<T>::Register)_mm512_maskz_fmsub_ps(
+            _mm512_cmp_ps_mask((__m512)x.r, (__m512)y.r, _CMP_LT_OQ), (__m512)a.r, (__m512)b.r,
+            (__m512)c.r));
+#else
+    return select(x < y, fms(a, b, c), Pack<T>(T(0)));
+#endif
+}
+/// Fused multiplication and addition of one lane, for scalar twins of a kernel: same bits as the
+/// pack's lane.
 ASPERITY_INLINE double fma(double a, double b, double c) {
 #if defined(__FMA__)
     return __builtin_fma(a, b, c);

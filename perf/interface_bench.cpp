@@ -1,23 +1,101 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// How long does a pair take? The lattice sweep and the cell list over a nearly flat interface at
-// the equilibrium separation, one thread. Counter "s/pair" divides by the pairs within the cutoff,
-// so lanes spent on pairs beyond it show.
+// How long does a pair take, and how near is that to the processor's limit? Both sweeps, in double
+// and mixed, force only and observed, over a nearly flat interface at the equilibrium separation;
+// and what skipping gains over a rough one in partial contact. One thread.
+//
+//   s/pair         time by pairs within the cutoff, so lanes spent on others show
+//   limit          what the multiplications of a pair (fused or not) take in a loop of nothing
+//                  else, measured in the same run
+//   share          limit / (s/pair)
+//   div_limit      the same where the loop holds a pair's part of a division, too; div_share
 #include "engine/interface.hpp"
 #include "kernels/variant.hpp"
 
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <random>
+#include <vector>
 
 namespace asperity {
 namespace {
 
 constexpr double a = 2.6;
 constexpr int n = 128;
+
+/// Of four pairs in the force-only lattice sweep: 4 for r^2, 6 about two shared divisions, 16 for
+/// the force, 4 for its z component, 1 for the lateral ones. The sweep over rows takes one more.
+constexpr int multiplications = 31;
+constexpr int divisions = 2;
+
+/// One function for each processor level and precision: the seconds that the multiplications of
+/// four pairs take, with their divisions or without, in independent chains on the level's
+/// registers.
+#if defined(__x86_64__)
+#define ASPERITY_LIMIT(NAME, TARGET, REAL, BYTES)                                                  \
+    __attribute__((target(TARGET), noinline)) double NAME(bool divide) {                           \
+        typedef REAL Register __attribute__((vector_size(BYTES)));                                 \
+        constexpr int rounds = 2000;                                                               \
+        Register chain[10], quotient[divisions];                                                   \
+        Register one = Register{} + REAL(1);                                                       \
+        for (Register & c : chain)                                                                 \
+            c = one;                                                                               \
+        for (Register & q : quotient)                                                              \
+            q = one;                                                                               \
+        asm volatile("" : "+v"(one));                                                              \
+        const auto begin = std::chrono::steady_clock::now();                                       \
+        for (int r = 0; r < rounds; ++r) {                                                         \
+            if (divide)                                                                            \
+                for (Register & q : quotient) {                                                    \
+                    q = one / q;                                                                   \
+                    asm volatile("" : "+v"(q));                                                    \
+                }                                                                                  \
+            _Pragma("GCC unroll 31") for (int k = 0; k < multiplications; ++k) {                   \
+                chain[k % 10] = chain[k % 10] * one;                                               \
+                asm volatile("" : "+v"(chain[k % 10]));                                            \
+            }                                                                                      \
+        }                                                                                          \
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;       \
+        return took.count() / rounds / (BYTES / sizeof(REAL));                                     \
+    }
+ASPERITY_LIMIT(double_v2, "arch=x86-64-v2", double, 16)
+ASPERITY_LIMIT(double_v3, "arch=x86-64-v3", double, 32)
+ASPERITY_LIMIT(double_v4, "arch=x86-64-v4", double, 64)
+ASPERITY_LIMIT(float_v2, "arch=x86-64-v2", float, 16)
+ASPERITY_LIMIT(float_v3, "arch=x86-64-v3", float, 32)
+ASPERITY_LIMIT(float_v4, "arch=x86-64-v4", float, 64)
+#endif
+
+/// Seconds for one pair, the best of many trials; 0 where no loop has been written.
+double limit(bool mixed, bool divide) {
+#if defined(__x86_64__)
+    double best = 1.0;
+    for (int trial = 0; trial < 50; ++trial) {
+        double four = 0.0;
+        switch (processor_level()) {
+        case ProcessorLevel::v4:
+            four = mixed ? float_v4(divide) : double_v4(divide);
+            break;
+        case ProcessorLevel::v3:
+            four = mixed ? float_v3(divide) : double_v3(divide);
+            break;
+        default:
+            four = mixed ? float_v2(divide) : double_v2(divide);
+        }
+        best = std::min(best, four / 4.0);
+    }
+    return best;
+#else
+    static_cast<void>(mixed && divide);
+    return 0.0;
+#endif
+}
 
 Surface nearly_flat(int sites) {
     Surface s;
@@ -42,42 +120,65 @@ double pairs_in_reach(double b, double cutoff, double z) {
     return pairs * n * n;
 }
 
-void sweep(benchmark::State& state, int sites, double height, bool observe) {
+/// Sweeps of an undisplaced block at a reference height; returns the processor's seconds for one.
+double time_sweeps(benchmark::State& state, const Surface& substrate,
+                   const InterfaceOptions& options, double height, bool observe) {
     omp_set_num_threads(1);
     const Tile tile{0, 0, n, n, n};
-    const Interface interface(nearly_flat(sites), tile, a, {});
+    const Interface interface(substrate, tile, a, options);
     VectorField<double> u(tile, 1), f(tile, 1);
     const VectorField<double>& seen = u;
+    const std::clock_t begin = std::clock();
     for (auto _ : state)
         benchmark::DoNotOptimize(
             interface.sweep(seen.plane(0), f.plane(0), height, observe).force_z.bin[0]);
-    const double pairs =
-        pairs_in_reach(n * a / sites, interface.options().potential.cutoff, height);
-    if (pairs > 0.0) {
-        const auto swept = static_cast<double>(state.iterations()) * pairs;
-        state.counters["pairs/s"] = benchmark::Counter(swept, benchmark::Counter::kIsRate);
-        state.counters["s/pair"] =
-            benchmark::Counter(swept, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-    }
-    state.counters["s/site"] =
-        benchmark::Counter(static_cast<double>(state.iterations()) * n * n,
-                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    const double sweep = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC /
+                         static_cast<double>(state.iterations());
+    state.counters["s/site"] = sweep / (n * n);
     state.SetLabel(name(processor_level()));
+    return sweep;
 }
 
-void lattice(benchmark::State& state) { sweep(state, n, 3.11, false); }
-void lattice_observed(benchmark::State& state) { sweep(state, n, 3.11, true); }
-void lattice_out_of_reach(benchmark::State& state) { sweep(state, n, 14.0, false); }
-void cell_list(benchmark::State& state) { sweep(state, substrate_sites(n, 1.618), 3.11, false); }
-void cell_list_observed(benchmark::State& state) {
-    sweep(state, substrate_sites(n, 1.618), 3.11, true);
+/// In contact over a nearly flat substrate of so many sites.
+void contact(benchmark::State& state, int sites, bool mixed, bool observe) {
+    constexpr double height = 3.11;
+    InterfaceOptions options;
+    options.mixed = mixed;
+    const double pairs = pairs_in_reach(n * a / sites, options.potential.cutoff, height);
+    const double product = limit(mixed, false), with_division = limit(mixed, true);
+    const double pair = time_sweeps(state, nearly_flat(sites), options, height, observe) / pairs;
+    state.counters["s/pair"] = pair;
+    state.counters["limit"] = product;
+    state.counters["share"] = product / pair;
+    state.counters["div_limit"] = with_division;
+    state.counters["div_share"] = with_division / pair;
 }
 
-BENCHMARK(lattice);
-BENCHMARK(lattice_observed);
-BENCHMARK(lattice_out_of_reach);
-BENCHMARK(cell_list);
-BENCHMARK(cell_list_observed);
+void lattice(benchmark::State& state) { contact(state, n, state.range(0), state.range(1)); }
+void rows(benchmark::State& state) {
+    contact(state, substrate_sites(n, 1.618), state.range(0), state.range(1));
+}
+
+void out_of_reach(benchmark::State& state) { time_sweeps(state, nearly_flat(n), {}, 14.0, false); }
+
+/// Rough on an undisplaced block, the highest atom 4 Å deep in it: a small part is in reach.
+void partial_contact(benchmark::State& state) {
+    SurfaceOptions rough;
+    rough.sites = n;
+    rough.length = n * a;
+    rough.rms = 9.0;
+    const Surface surface = make_surface(rough);
+    InterfaceOptions options;
+    options.skip = state.range(0);
+    const double highest = *std::max_element(surface.height.begin(), surface.height.end());
+    time_sweeps(state, surface, options, highest - 4.0, false);
+}
+
+const std::vector<std::vector<std::int64_t>> both{{0, 1}, {0, 1}};
+BENCHMARK(lattice)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
+BENCHMARK(rows)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
+BENCHMARK(out_of_reach);
+BENCHMARK(partial_contact)->ArgName("skip")->Arg(0)->Arg(1);
 
 } // namespace
 } // namespace asperity

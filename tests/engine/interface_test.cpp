@@ -148,10 +148,9 @@ TEST(InterfaceSweep, AgreesWithTheReference) {
                     expect_close(
                         judge, sweep(same, state, with(InterfaceMethod::lattice, cutoff), z, true),
                         "lattice " + what);
-                    expect_close(
-                        judge,
-                        sweep(same, state, with(InterfaceMethod::cell_list, cutoff), z, true),
-                        "cell list " + what);
+                    expect_close(judge,
+                                 sweep(same, state, with(InterfaceMethod::rows, cutoff), z, true),
+                                 "rows " + what);
                     const Surface other = rough(substrate_sites(n, 1.618), n * a, 2.0, seed);
                     expect_close(
                         sweep(other, state, with(InterfaceMethod::reference, cutoff), z, true),
@@ -163,10 +162,12 @@ TEST(InterfaceSweep, AgreesWithTheReference) {
 TEST(InterfaceSweep, ForceOnlyGivesTheBitsOfTheObservedSweep) {
     const int n = 19;
     const State state(n, 0.8, 1.0, 3);
-    for (int m : {19, 31}) {
+    for (auto [m, mixed] : {std::pair{19, false}, {31, false}, {19, true}, {31, true}}) {
         const Surface s = rough(m, n * a, 1.0, 4);
-        Outcome quick = sweep(s, state, with(InterfaceMethod::automatic), 4.0, false);
-        const Outcome full = sweep(s, state, with(InterfaceMethod::automatic), 4.0, true);
+        InterfaceOptions o = with(InterfaceMethod::automatic);
+        o.mixed = mixed;
+        Outcome quick = sweep(s, state, o, 4.0, false);
+        const Outcome full = sweep(s, state, o, 4.0, true);
         EXPECT_EQ(quick.sums.energy.value(), 0.0);
         quick.sums.energy = full.sums.energy;
         quick.sums.in_contact = full.sums.in_contact;
@@ -180,8 +181,8 @@ TEST(InterfaceSweep, ForceIsMinusTheGradient) {
     const int n = 10;
     for (int m : {10, 16})
         for (bool tail : {false, true})
-            for (auto method : {InterfaceMethod::automatic, InterfaceMethod::reference,
-                                InterfaceMethod::cell_list}) {
+            for (auto method :
+                 {InterfaceMethod::automatic, InterfaceMethod::reference, InterfaceMethod::rows}) {
                 const Surface s = rough(m, n * a, 0.5, 5);
                 State state(n, 0.6, 0.6, 6);
                 InterfaceOptions o = with(method);
@@ -245,7 +246,7 @@ TEST(InterfaceSweep, IsTheSameOnAShiftedLattice) {
         u += a;
     for (double& u : shifted.u[1])
         u -= a;
-    for (auto method : {InterfaceMethod::lattice, InterfaceMethod::cell_list})
+    for (auto method : {InterfaceMethod::lattice, InterfaceMethod::rows})
         expect_close(sweep(s, state, with(method), 3.5, true),
                      sweep(moved, shifted, with(method), 3.5, true), "shifted");
 }
@@ -256,10 +257,11 @@ TEST(InterfaceSweep, GivesTheSameBitsOnAnyTilesAndThreads) {
         state.at(0, 5, 6) = 8.0; // beyond the margin
         state.at(1, 32, 1) = -6.0;
         for (int m : {n, substrate_sites(n, 1.618)})
-            for (bool tail : {false, true}) {
+            for (auto [tail, mixed] : {std::pair{false, false}, {true, false}, {false, true}}) {
                 const Surface s = rough(m, n * a, 3.0, 12);
                 InterfaceOptions o = with(InterfaceMethod::automatic);
                 o.tail = tail;
+                o.mixed = mixed;
                 const Outcome whole = sweep(s, state, o, 9.0, true);
                 for (auto [nx, ny] : {std::pair{17, 40}, {40, 16}, {11, 13}, {8, 8}, {3, 1}})
                     EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true, nx, ny)))
@@ -282,8 +284,7 @@ TEST(InterfaceSweep, SkipsWhatIsOutOfReach) {
     for (int m : {n, 52}) {
         if (m != n) s = rough(m, n * a, 1.0, 2);
         const Interface interface(s, tile, a, {});
-        EXPECT_EQ(interface.method(),
-                  m == n ? InterfaceMethod::lattice : InterfaceMethod::cell_list);
+        EXPECT_EQ(interface.method(), m == n ? InterfaceMethod::lattice : InterfaceMethod::rows);
         const double z = interface.start_height();
         EXPECT_EQ(sweep(s, still, {}, z + 1e-9, true).sums.in_reach, 0);
         EXPECT_EQ(sweep(s, still, {}, z + 1e-9, true).sums.force_z.value(), 0.0);

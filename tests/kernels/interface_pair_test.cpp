@@ -113,10 +113,12 @@ TEST(InterfaceTail, ForceIsMinusTheGradient) {
 
 TEST(InterfaceKernelTable, IsFilled) {
     const InterfaceKernels& kernels = interface_kernels();
-    EXPECT_NE(kernels.lattice, nullptr);
-    EXPECT_NE(kernels.lattice_observed, nullptr);
-    EXPECT_NE(kernels.cell_list, nullptr);
-    EXPECT_NE(kernels.cell_list_observed, nullptr);
+    for (bool observe : {false, true}) {
+        EXPECT_NE(kernels.lattice.plain[observe], nullptr);
+        EXPECT_NE(kernels.lattice.in_mixed[observe], nullptr);
+        EXPECT_NE(kernels.rows.plain[observe], nullptr);
+        EXPECT_NE(kernels.rows.in_mixed[observe], nullptr);
+    }
 }
 
 } // namespace

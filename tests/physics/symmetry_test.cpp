@@ -106,7 +106,7 @@ std::vector<double> path(const Block16& block, const InterfaceOptions& interface
 }
 
 constexpr std::array methods = {std::pair{"lattice sweep", InterfaceMethod::lattice},
-                                std::pair{"cell list", InterfaceMethod::cell_list}};
+                                std::pair{"rows sweep", InterfaceMethod::rows}};
 
 } // namespace
 
@@ -212,7 +212,7 @@ TEST(Gradient, BlockAndInterfaceHaveOneEnergy) {
     const Surface surface = test::reference_surface("c1_N16_T16_rms0.5");
     for (const Block16& block : blocks)
         for (auto method :
-             {InterfaceMethod::reference, InterfaceMethod::lattice, InterfaceMethod::cell_list})
+             {InterfaceMethod::reference, InterfaceMethod::lattice, InterfaceMethod::rows})
             for (bool tail : {false, true})
                 for (double height : {3.4, 4.6})
                     for (bool lift : {false, true}) {
@@ -256,7 +256,7 @@ TEST(Gradient, BlockAndInterfaceHaveOneEnergy) {
 
 TEST(Gradient, TheSpectralBlockAndInterfaceHaveOneEnergy) {
     const Surface surface = test::reference_surface("c1_N16_T16_rms0.5");
-    for (auto method : {InterfaceMethod::lattice, InterfaceMethod::cell_list})
+    for (auto method : {InterfaceMethod::lattice, InterfaceMethod::rows})
         for (bool tail : {false, true})
             for (bool held : {false, true}) {
                 SpectralBlock block(test::paper_block(16, 8, 0), Communicator());

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Mixed precision against the reference loop in double: forces of each site, energies, states at
+// zero load, the books of a run, and a long one.
+//
+// What to expect of a force: positions are rounded to 1.2e-7 Å (half of fixed_quantum) on both
+// sides, and r^2 by three float roundings: about 3e-7 of r^2. Where a pair repels, t^7 - t^4 is
+// half of t^7 and takes fourteen times that, 4e-6; five roundings on the way to t^7 add 3e-6. So
+// 1e-5 bounds the error in units of a pair's force (7e-6 is the worst seen, on any processor
+// level). The pairs of a site pull against each other: the unit is the largest of their forces, not
+// the sum.
+#include "support/cases.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <tuple>
+#include <utility>
+
+namespace asperity {
+namespace {
+
+constexpr double a = 2.6;
+constexpr double force_bound = 1e-5;
+/// Likewise for energies: t^6 and t^3, of a unit that is the well's depth or more.
+constexpr double energy_bound = 2e-6;
+
+[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
+
+Surface rough(int sites, double length, double amplitude, double level, unsigned seed) {
+    Surface s;
+    s.sites = sites;
+    s.length = length;
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> height(-amplitude, amplitude);
+    for (int i = 0; i < sites * sites; ++i)
+        s.height.push_back(level + height(random));
+    return s;
+}
+
+struct Compared {
+    double force = 0.0;  ///< worst error of a component, of the site's largest pair force
+    double energy = 0.0; ///< error of the total, of the sum of the sizes of the sites' energies
+    bool same_counts = true;
+};
+
+/// The mixed sweep against pair sums in double, on one tile of n * n sites.
+Compared compare(const Surface& substrate, int n, double z, double sideways, double up,
+                 unsigned seed) {
+    const Tile tile{0, 0, n, n, n};
+    InterfaceOptions options;
+    options.mixed = true;
+    const Interface mixed(substrate, tile, a, options);
+    options.method = InterfaceMethod::reference;
+    const Interface judge(substrate, tile, a, options);
+    VectorField<double> u(tile, 1), f(tile, 1), g(tile, 1);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            u.x.plane(0)(x, y) = sideways * unit(random);
+            u.y.plane(0)(x, y) = sideways * unit(random);
+            u.z.plane(0)(x, y) = up * unit(random);
+        }
+    const auto seen = std::as_const(u).plane(0);
+    const InterfaceSums sums = mixed.sweep(seen, f.plane(0), z, true);
+    const InterfaceSums judged = judge.sweep(seen, g.plane(0), z, true);
+    const InterfaceMaps maps = judge.maps(seen, z);
+    Compared c;
+    double energies = 1e-3;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const auto i = static_cast<std::size_t>(y * n + x);
+            // The nearest atom's force; at the minimum of the pair potential, its well's steepest.
+            const double r2 = maps.distance[i] * maps.distance[i];
+            double pair = 0.0;
+            if (std::isfinite(r2))
+                pair = std::abs(options.potential.force_over_distance(r2)) * maps.distance[i] +
+                       (r2 < 36.0 ? 0.07 : 1e-3);
+            for (auto [mine, theirs] : {std::pair{f.x.plane(0)(x, y), g.x.plane(0)(x, y)},
+                                        {f.y.plane(0)(x, y), g.y.plane(0)(x, y)},
+                                        {f.z.plane(0)(x, y), g.z.plane(0)(x, y)}}) {
+                if (pair == 0.0)
+                    EXPECT_EQ(mine, 0.0);
+                else
+                    c.force = std::max(c.force, std::abs(mine - theirs) / pair);
+            }
+            energies += options.potential.epsilon * (std::isfinite(r2) ? 1.0 : 0.0);
+        }
+    c.energy = std::abs(sums.energy.value() - judged.energy.value()) /
+               std::max(energies, std::abs(judged.energy.value()));
+    c.same_counts = sums.in_contact == judged.in_contact && sums.pushed == judged.pushed;
+    return c;
+}
+
+TEST(MixedPrecision, ForcesAndEnergiesOfRoughStates) {
+    unsigned seed = 1;
+    double force = 0.0, energy = 0.0;
+    for (int n : {16, 33})
+        for (int atoms : {n, substrate_sites(n, 1.618)})
+            for (double sideways : {0.1, 1.5})
+                // Flat, rough, and a box as high as a mountain: only differences matter.
+                for (auto [amplitude, level, gap] : {std::tuple{0.05, 0.0, 3.1},
+                                                     {1.0, 0.0, 4.0},
+                                                     {2.0, -4321.0, 5.0},
+                                                     {8.0, 9876.5, 10.0}}) {
+                    const Surface s = rough(atoms, n * a, amplitude, level, ++seed);
+                    const Compared c = compare(s, n, level + gap, sideways, 0.5, seed);
+                    force = std::max(force, c.force);
+                    energy = std::max(energy, c.energy);
+                    EXPECT_LT(c.force, force_bound) << n << ' ' << atoms << ' ' << amplitude;
+                    EXPECT_LT(c.energy, energy_bound) << n << ' ' << atoms << ' ' << amplitude;
+                    EXPECT_TRUE(c.same_counts);
+                }
+    std::printf("worst force error %.2e, energy %.2e\n", force, energy);
+    EXPECT_GT(force, 1e-9) << "is it mixed at all?";
+}
+
+TEST(MixedPrecision, LeavesDepthsBeyondTheFixedRangeToTheReference) {
+    // A pit 400 Å deep, and sites at its bottom: atoms there are beyond the 250 Å of fixed depth.
+    for (int atoms : {16, 26}) {
+        Surface pit = rough(atoms, 16 * a, 0.3, 0.0, 5);
+        for (std::size_t i = 0; i < pit.height.size() / 2; ++i)
+            pit.height[i] -= 400.0;
+        for (double z : {3.0, -100.0, -238.0, -247.0, -300.0, -396.8}) {
+            const Compared c = compare(pit, 16, z, 0.2, 0.2, 6);
+            EXPECT_LT(c.force, force_bound) << z;
+            EXPECT_TRUE(c.same_counts) << z;
+        }
+    }
+}
+
+TEST(MixedPrecision, BindsLikeDouble) {
+    for (auto [map, sites, thickness] :
+         {std::tuple{"n8_b_rms1.0", 8, 6}, {"c2_N16_T8_rms1.5", 16, 8}}) {
+        InterfaceOptions interface = test::paper_interface();
+        const auto relaxed = [&] {
+            return test::relax_from_attraction(test::paper_block(sites, thickness, 0), interface,
+                                               test::reference_surface(map), 1e-5);
+        };
+        const test::Relaxed exact = relaxed();
+        interface.mixed = true;
+        const test::Relaxed mixed = relaxed();
+        std::printf("%s: %.9f %.9f meV/Å^2\n", map, exact.binding_energy, mixed.binding_energy);
+        EXPECT_NEAR(mixed.binding_energy / exact.binding_energy, 1.0, 1e-6) << map;
+        EXPECT_NEAR(mixed.mean_height, exact.mean_height, 1e-4) << map;
+    }
+}
+
+/// A rough contact released from a strained state under its own forces, or driven and damped.
+SimulationOptions contact_options(bool mixed) {
+    SimulationOptions options;
+    options.block = test::paper_block(8, 7, 2);
+    options.interface = test::paper_interface();
+    options.interface.mixed = mixed;
+    options.drive.velocity = 0.0;
+    options.dt = 10.0;
+    return options;
+}
+
+TEST(MixedPrecision, KeepsEnergyOverTenThousandSteps) {
+    // The mean energy of the last tenth against that of the first: no more of a drift than
+    // double's.
+    double drift[2], ripple = 0.0;
+    for (bool mixed : {false, true}) {
+        const SimulationOptions options = contact_options(mixed);
+        Simulation simulation(options, test::reference_surface("n8_b_rms1.0"), Communicator(),
+                              test::serial_grid(options.block));
+        simulation.start(4.5);
+        double first = 0.0, last = 0.0, least = 1e300, most = -1e300;
+        for (int n = 0; n < 10000; ++n) {
+            const StepRecord& now = simulation.step(true);
+            const double energy = now.interface_energy + now.elastic_energy + now.kinetic_energy;
+            if (n < 1000) first += energy / 1000.0;
+            if (n >= 9000) last += energy / 1000.0;
+            least = std::min(least, energy), most = std::max(most, energy);
+        }
+        drift[mixed] = last - first;
+        ripple = most - least;
+    }
+    std::printf("drift %.2e eV in double, %.2e mixed; ripple %.2e\n", drift[0], drift[1], ripple);
+    EXPECT_LT(std::abs(drift[1]), std::abs(drift[0]) + 0.02 * ripple);
+}
+
+TEST(MixedPrecision, ClosesTheBooksOfADrivenRun) {
+    double residual[2];
+    for (bool mixed : {false, true}) {
+        SimulationOptions options = contact_options(mixed);
+        options.drive.velocity = 1e-3; // Å/fs
+        options.drive.approach = true;
+        options.damping = 1e-3;
+        options.dt = 5.0;
+        Simulation simulation(options, test::reference_surface("n8_b_rms1.0"), Communicator(),
+                              test::serial_grid(options.block));
+        simulation.start(8.0);
+        for (int n = 0; n < 2000; ++n)
+            simulation.step(n % 100 == 0);
+        residual[mixed] = simulation.step(true).residual;
+    }
+    std::printf("residual %.3e in double, %.3e mixed\n", residual[0], residual[1]);
+    EXPECT_LT(std::abs(residual[1]), std::abs(residual[0]) + 1e-6);
+}
+
+} // namespace
+} // namespace asperity
