@@ -5,6 +5,7 @@
 #include "io/build_info.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -107,6 +108,7 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
     std::vector<double> contact(maps.contact.begin(), maps.contact.end());
     const auto gap = whole(communicator_, grid, maps.gap);
     const auto pressure = whole(communicator_, grid, maps.pressure);
+    const auto distance = whole(communicator_, grid, maps.distance);
     const auto touching = whole(communicator_, grid, contact);
     const auto ux = gather_plane(communicator_, grid, 0, layer.x);
     const auto uy = gather_plane(communicator_, grid, 0, layer.y);
@@ -122,6 +124,7 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
         };
         write("gap", "Å", gap);
         write("pressure", "GPa", pressure);
+        write("distance", "Å", distance);
         write("u_x", "Å", ux);
         write("u_y", "Å", uy);
         write("u_z", "Å", uz);
@@ -143,6 +146,51 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
         file_->write<double>(group + "/gap_edges", {bins + 1}, edge);
         file_->write<double>(group + "/gap_density", {bins}, density);
         file_->flush();
+    });
+}
+
+void Recorder::begin_trajectory(const Simulation& simulation, bool velocities) {
+    velocities_ = velocities;
+    communicator_.on_root([&] {
+        const auto& block = simulation.options().block;
+        const auto n = static_cast<std::uint64_t>(block.sites);
+        const double edge = block.sites * block.spacing;
+        const double height = 2.0 * simulation.interface().start_height() + // room for both ends
+                              block.thickness * block.spacing;
+        trajectory_.emplace(*file_, n * n, std::array{edge, edge, height}, velocities,
+                            simulation.steps());
+    });
+}
+
+void Recorder::frame(const Simulation& simulation) {
+    const Block::Level& level = simulation.block().levels().front();
+    const ProcessGrid& grid = simulation.block().grid();
+    const auto whole_layer = [&](const VectorPlane<const double>& plane) {
+        return std::array{gather_plane(communicator_, grid, 0, plane.x),
+                          gather_plane(communicator_, grid, 0, plane.y),
+                          gather_plane(communicator_, grid, 0, plane.z)};
+    };
+    const auto u = whole_layer(level.u.view()[0]);
+    std::array<std::vector<double>, 3> v;
+    if (velocities_) v = whole_layer(level.v.view()[0]);
+    communicator_.on_root([&] {
+        const auto& block = simulation.options().block;
+        const auto sites = static_cast<std::size_t>(block.sites);
+        std::vector<float> position(3 * sites * sites), velocity;
+        for (std::size_t i = 0; i < sites * sites; ++i) {
+            const std::array<double, 3> rest = {static_cast<double>(i % sites) * block.spacing,
+                                                static_cast<double>(i / sites) * block.spacing,
+                                                simulation.reference_height()};
+            for (std::size_t c = 0; c < 3; ++c)
+                position[3 * i + c] = static_cast<float>(rest[c] + u[c][i]);
+        }
+        if (velocities_) {
+            velocity.resize(position.size());
+            for (std::size_t i = 0; i < sites * sites; ++i)
+                for (std::size_t c = 0; c < 3; ++c)
+                    velocity[3 * i + c] = static_cast<float>(1e3 * v[c][i]); // Å/fs to Å/ps
+        }
+        trajectory_->append(simulation.steps(), simulation.time() * 1e-3, position, velocity);
     });
 }
 

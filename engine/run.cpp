@@ -98,6 +98,8 @@ private:
         const bool taken_up = take_up();
         recorder_.emplace(directory_ + "/run.h5", surface_, ranks_, taken_up, rows_at_start_);
         if (!taken_up) simulation_.start(simulation_.interface().start_height());
+        if (scene_.output.trajectory)
+            recorder_->begin_trajectory(simulation_, scene_.output.velocities);
         march();
         const auto t = simulation_.phases().time(Phase::output);
         recorder_->flush();
@@ -115,6 +117,8 @@ private:
                 scene_.drive.max_steps > 0 && simulation_.steps() + 1 >= scene_.drive.max_steps;
             const bool due = simulation_.steps() % scene_.output.series == 0;
             if (due && !ended && time_to_stop()) return;
+            if (scene_.output.trajectory && simulation_.steps() % *scene_.output.trajectory == 0)
+                record_frame();
             // The step after a leg and the last of all are observed, so that the guard has seen the
             // energy balance before anything is concluded.
             const StepRecord& now = simulation_.step(due || ended || last);
@@ -233,6 +237,11 @@ private:
         if (!keep) return;
         snapshot_.take(simulation_);
         snapshot_scalars_ = run_scalars();
+    }
+
+    void record_frame() {
+        const auto t = simulation_.phases().time(Phase::output);
+        recorder_->frame(simulation_);
     }
 
     /// Between two steps: signals, the wall limit and checkpoints; the root decides for all.

@@ -149,7 +149,9 @@ io::Schema bind(Scene& scene) {
 
     auto& output = scene.output;
     schema.section("output", "What is written.");
-    schema.integer_or("trajectory", output.trajectory, "none", at_least(1), "steps between frames");
+    schema.integer_or("trajectory", output.trajectory, "none", at_least(1),
+                      "steps between frames of the lowest layer (H5MD, in run.h5)");
+    schema.boolean("velocities", output.velocities, "in the frames of the trajectory too");
     schema.list("fields", output.fields, {"zero-load", "pull-off", "every:"},
                 "when maps are written");
     schema.integer("series", output.series, at_least(1), "steps between rows of the series");
@@ -308,6 +310,11 @@ void check_scene(const Scene& scene, io::Problems& problems) {
     if (scene.writes_field("pull-off") && !scene.has(PathPart::pull_off))
         problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
                      "add it to drive.path or take it out of output.fields");
+    if (scene.output.trajectory &&
+        (scene.has(PathPart::zero_load) || drive.mode == DriveMode::quasistatic))
+        problems.add("output.trajectory", fmt::format("= {}", *scene.output.trajectory),
+                     "frames are taken over time, and this path has none",
+                     "leave it out: the maps of output.fields hold the states");
 }
 
 void not_yet(const Scene& scene, io::Problems& problems) {
@@ -336,8 +343,6 @@ void not_yet(const Scene& scene, io::Problems& problems) {
     if (scene.numerics.accuracy)
         refuse("numerics.accuracy", fmt::format("{:.6g}", *scene.numerics.accuracy),
                "use \"none\" and choose layers_per_level, timestep and velocity yourself");
-    if (scene.output.trajectory)
-        refuse("output.trajectory", std::to_string(*scene.output.trajectory), "use \"none\"");
     for (const std::string& field : scene.output.fields)
         if (field != "zero-load")
             refuse("output.fields", "\"" + field + "\"", "use [\"zero-load\"], or [] for none");
@@ -370,6 +375,7 @@ std::vector<std::string> notes(const Scene& scene) {
     const auto idle = [&](const std::string& key, const std::string& reason) {
         if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
     };
+    if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
     if (surface.kind != SurfaceKind::file) idle("surface.file", "surface.kind is not \"file\"");
     if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");
     if (surface.kind != SurfaceKind::self_affine)

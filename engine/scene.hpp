@@ -98,6 +98,7 @@ struct Scene {
 
     struct Output {
         std::optional<long long> trajectory; ///< steps between frames; empty: none
+        bool velocities = false;             ///< in the frames too
         std::vector<std::string> fields = {"zero-load"};
         long long series = 100;    ///< steps between rows
         double checkpoint = 600.0; ///< s of wall time; 0: none

@@ -1,11 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-//
-// The parts of H5MD 1.1 (nongnu.org/h5md) that a run of rough solids has: who wrote the file, and
-// the box.
-#include "io/hdf5_file.hpp"
+#include "io/h5md.hpp"
+
+#include "io/error.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
 
 namespace asperity::io {
+
+namespace {
+
+std::string member(const std::string& name) {
+    return fmt::format("{}/{}", H5mdTrajectory::group, name);
+}
+
+} // namespace
 
 void write_h5md_head(Hdf5File& file, const std::string& creator_version) {
     file.make_group("/h5md/author");
@@ -16,13 +28,59 @@ void write_h5md_head(Hdf5File& file, const std::string& creator_version) {
     file.write_attribute("/h5md/creator", "version", creator_version);
 }
 
-void write_h5md_box(Hdf5File& file, const std::string& group, double edge_x, double edge_y,
-                    double edge_z) {
-    file.make_group(group);
-    file.write_attribute(group, "dimension", std::int64_t{3});
-    file.write_text_list_attribute(group, "boundary", {"periodic", "periodic", "none"});
-    file.write<double>(group + "/edges", {3}, std::vector<double>{edge_x, edge_y, edge_z});
-    file.write_attribute(group + "/edges", "unit", "Å");
+H5mdTrajectory::H5mdTrajectory(Hdf5File& file, std::uint64_t particles, std::array<double, 3> edges,
+                               bool velocities, std::int64_t step)
+    : file_(&file), particles_(particles), edges_(edges), velocities_(velocities) {
+    if (!file.exists(group)) {
+        file.make_group(member("box"));
+        file.write_attribute(member("box"), "dimension", std::int64_t{3});
+        file.write_text_list_attribute(member("box"), "boundary", {"periodic", "periodic", "none"});
+        file.make_series<float>(member("box/edges/value"), {3, 3});
+        file.write_attribute(member("box/edges/value"), "unit", "Angstrom");
+        element("box/edges", "");
+        file.make_series<float>(member("position/value"), {particles, 3});
+        element("position", "Angstrom");
+        if (velocities) {
+            file.make_series<float>(member("velocity/value"), {particles, 3});
+            element("velocity", "Angstrom ps-1");
+        }
+        return;
+    }
+    if (file.shape(member("position/value")) !=
+            Hdf5File::Shape{file.shape(member("position/step"))[0], particles, 3} ||
+        file.exists(member("velocity")) != velocities)
+        throw FileError(file.path(), "holds another trajectory",
+                        "its particles or columns are not those of this scene",
+                        "go on with the scene that began it, or start another --out");
+    const auto steps = file.read<std::int64_t>(member("position/step"));
+    const auto kept = static_cast<std::uint64_t>(
+        std::lower_bound(steps.begin(), steps.end(), step) - steps.begin());
+    for (const char* name : {"box/edges", "position", "velocity"})
+        if (velocities || name != std::string("velocity"))
+            for (const char* part : {"/value", "/step", "/time"})
+                file.truncate(member(name) + part, kept);
+}
+
+void H5mdTrajectory::element(const std::string& name, const std::string& unit) {
+    if (!unit.empty()) file_->write_attribute(member(name + "/value"), "unit", unit);
+    file_->make_series<std::int64_t>(member(name + "/step"));
+    file_->make_series<double>(member(name + "/time"));
+    file_->write_attribute(member(name + "/time"), "unit", "ps");
+}
+
+void H5mdTrajectory::append(std::int64_t step, double time, std::span<const float> position,
+                            std::span<const float> velocity) {
+    std::array<float, 9> edges{};
+    for (std::size_t i = 0; i < 3; ++i)
+        edges[4 * i] = static_cast<float>(edges_[i]);
+    const auto write = [&](const std::string& name, std::span<const float> value) {
+        file_->append<float>(member(name + "/value"), value);
+        file_->append<std::int64_t>(member(name + "/step"), std::span(&step, 1));
+        file_->append<double>(member(name + "/time"), std::span(&time, 1));
+    };
+    write("box/edges", edges);
+    write("position", position);
+    if (velocities_) write("velocity", velocity);
 }
 
 } // namespace asperity::io

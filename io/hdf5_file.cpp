@@ -212,13 +212,12 @@ bool put_numbers(hid_t file, const std::string& object, const std::string& name,
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name,
                                const std::string& value) {
+    // Of variable length: such strings are text to Python, fixed ones are bytes.
     const Handle type(string_type(), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
-    const bool good = type.good() && space.good() &&
-                      H5Tset_size(type, std::max<std::size_t>(value.size(), 1)) >= 0 &&
-                      H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0 &&
-                      H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
-    const std::string padded = value.empty() ? std::string(1, '\0') : value;
-    if (!good || !put_attribute(id_, object, name, type, space, padded.data()))
+    const char* text = value.c_str();
+    if (!type.good() || !space.good() || H5Tset_size(type, H5T_VARIABLE) < 0 ||
+        H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
+        !put_attribute(id_, object, name, type, space, &text))
         fail(object, "cannot take the attribute " + name);
 }
 

@@ -98,11 +98,4 @@ private:
     std::int64_t id_ = -1;
 };
 
-/// The head of an H5MD 1.1 file: /h5md with version, author and creator.
-void write_h5md_head(Hdf5File& file, const std::string& creator_version);
-/// A box of fixed edges under group ("/particles/trajectory/box"): dimension 3, boundary periodic
-/// in x and y.
-void write_h5md_box(Hdf5File& file, const std::string& group, double edge_x, double edge_y,
-                    double edge_z);
-
 } // namespace asperity::io
