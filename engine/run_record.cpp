@@ -4,6 +4,7 @@
 
 #include "engine/theory_command.hpp"
 #include "engine/units.hpp"
+#include "kernels/variant.hpp"
 
 #include <omp.h>
 
@@ -41,6 +42,7 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
         if (findings.pull_off) r.jkr.out = jkr(findings.attraction_out);
     }
     add_theory(scene, surface, setup.flat.work_of_adhesion, r);
+    r.extra.emplace_back("run.kernels", std::string(name(processor_level())));
     r.run.ranks = ranks;
     r.run.threads = omp_get_max_threads();
     return r;

@@ -7,6 +7,9 @@
 
 #include "git_hash.hpp"
 
+#include <fstream>
+#include <thread>
+
 #include <fmt/format.h>
 #include <hdf5.h>
 
@@ -22,6 +25,18 @@ BuildInfo build_info() {
 #endif
     return {ASPERITY_VERSION, ASPERITY_GIT_HASH, compiler, ASPERITY_FLAGS,
             known ? fmt::format("{}.{}.{}", major, minor, release) : "unknown"};
+}
+
+std::string machine() {
+    std::ifstream file("/proc/cpuinfo");
+    std::string line, model = "unknown processor";
+    while (std::getline(file, line))
+        if (line.starts_with("model name") && line.find(": ") != std::string::npos) {
+            model = line.substr(line.find(": ") + 2);
+            break;
+        }
+    const unsigned count = std::thread::hardware_concurrency();
+    return fmt::format("{}, {} processor{}", model, count, count == 1 ? "" : "s");
 }
 
 } // namespace asperity::io

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What this program was built from and with: for `asperity info` and for every result.
+// What this program was built from and with, and what it runs on: for `asperity info` and for every
+// result.
 #pragma once
 
 #include <string>
@@ -16,5 +17,8 @@ struct BuildInfo {
     std::string hdf5;     ///< version of the library in use
 };
 BuildInfo build_info();
+
+/// The processor that runs it and how many it sees: "AMD EPYC 9B14, 2 processors".
+std::string machine();
 
 } // namespace asperity::io

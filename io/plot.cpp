@@ -90,8 +90,8 @@ double round_step(double span, int count) {
 struct Limits {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
-    void take(double v) {
-        if (!std::isfinite(v)) return;
+    void take(double v, bool logarithmic) {
+        if (!std::isfinite(v) || (logarithmic && v <= 0.0)) return;
         low = std::min(low, v);
         high = std::max(high, v);
     }
@@ -100,10 +100,17 @@ struct Limits {
 /// One axis: its limits on round numbers unless they are given, and its ticks.
 struct Axis {
     double low = 0.0, high = 1.0, step = 1.0;
+    bool logarithmic = false;
     std::vector<double> ticks;
 
-    Axis(Limits data, std::optional<double> given_low, std::optional<double> given_high,
-         int count) {
+    Axis(Limits data, std::optional<double> given_low, std::optional<double> given_high, int count,
+         bool by_decades)
+        : logarithmic(by_decades) {
+        if (logarithmic) {
+            if (!(data.low <= data.high)) data = {1.0, 10.0};
+            decades(given_low.value_or(data.low), given_high.value_or(data.high), count);
+            return;
+        }
         if (!(data.low <= data.high)) data = {0.0, 1.0};
         low = given_low.value_or(data.low);
         high = given_high.value_or(data.high);
@@ -118,38 +125,76 @@ struct Axis {
         ticks = nice_ticks(low, high, count);
         if (ticks.size() > 1) step = ticks[1] - ticks[0];
     }
+
+    /// Where a value lies between low (0) and high (1).
+    double place(double v) const {
+        return logarithmic ? std::log(v / low) / std::log(high / low) : (v - low) / (high - low);
+    }
+    bool holds(double v) const { return std::isfinite(v) && (!logarithmic || v > 0.0); }
+    std::string label(double tick) const {
+        if (!logarithmic) return tick_label(tick, step);
+        const double power = std::log10(tick);
+        if (std::abs(power) <= 3.0) return fmt::format("{:g}", tick);
+        return fmt::format("1e{:.0f}", power);
+    }
+
+private:
+    /// From decade to decade where there are several, else at 1, 2 and 5.
+    void decades(double from, double to, int count) {
+        const double first = std::floor(std::log10(from) + 1e-9),
+                     last = std::ceil(std::log10(to) - 1e-9);
+        const bool few = last - first <= 2.0;
+        low = few ? from / 1.2 : std::pow(10.0, first);
+        high = few ? to * 1.2 : std::pow(10.0, last);
+        const double stride = std::max(1.0, std::ceil((last - first) / count));
+        for (double k = first; k <= last; k += few ? 1.0 : stride)
+            for (const double m : {1.0, 2.0, 5.0})
+                if (const double t = m * std::pow(10.0, k);
+                    (few || m == 1.0) && t >= 0.999 * low && t <= 1.001 * high)
+                    ticks.push_back(t);
+    }
 };
 
 class Drawing {
 public:
     explicit Drawing(const Plot& plot)
-        : plot_(plot), x_(limits(&PlotSeries::x), plot.x_low, plot.x_high, 8),
-          y_(limits(&PlotSeries::y), plot.y_low, plot.y_high, 6) {
+        : plot_(plot),
+          x_(limits(&PlotSeries::x, plot.x_log), plot.x_low, plot.x_high, 8, plot.x_log),
+          y_(limits(&PlotSeries::y, plot.y_log), plot.y_low, plot.y_high, 6, plot.y_log) {
         int widest = 0;
         for (const double t : y_.ticks)
-            widest = std::max(widest, visible_width(tick_label(t, y_.step)));
+            widest = std::max(widest, visible_width(y_.label(t)));
         left_ = 44.0 + letter * font * widest;
         right_ = plot.width - 22.0;
         top_ = plot.title.empty() ? 20.0 : 44.0;
         bottom_ = plot.height - 58.0;
+        place_legend();
     }
 
     std::string svg() {
-        out_ = fmt::format(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        const bool alone = plot_.id.empty();
+        const std::string frame = alone ? "frame" : plot_.id + "-frame";
+        out_ = alone ? "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" : "";
+        out_ += fmt::format(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
             "viewBox=\"0 0 {0} {1}\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" "
-            "font-size=\"{2}\" fill=\"#222222\">\n"
-            "<title>{3}</title>\n"
-            "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-            plot_.width, plot_.height, font,
-            escape(plain(plot_.title.empty() ? plot_.y_label : plot_.title)));
+            "font-size=\"{2}\" fill=\"#222222\" class=\"plot ink\" role=\"img\" "
+            "data-frame=\"{3:.1f} {4:.1f} {5:.1f} {6:.1f}\" data-x=\"{7:.9g} {8:.9g} {9}\" "
+            "data-y=\"{10:.9g} {11:.9g} {12}\">\n",
+            plot_.width, plot_.height, font, left_, top_, right_, bottom_, x_.low, x_.high,
+            x_.logarithmic ? "log" : "linear", y_.low, y_.high, y_.logarithmic ? "log" : "linear");
+        out_ +=
+            fmt::format("<title>{3}</title>\n"
+                        "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\" class=\"paper\"/>\n",
+                        plot_.width, plot_.height, font,
+                        escape(plain(plot_.title.empty() ? plot_.y_label : plot_.title)));
         axes();
-        out_ += fmt::format("<clipPath id=\"frame\"><rect x=\"{:.1f}\" y=\"{:.1f}\" "
+        out_ += fmt::format("<clipPath id=\"{}\"><rect x=\"{:.1f}\" y=\"{:.1f}\" "
                             "width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n",
-                            left_ - 1, top_ - 1, right_ - left_ + 2, bottom_ - top_ + 2);
-        out_ += "<g clip-path=\"url(#frame)\" fill=\"none\" stroke-width=\"2\" "
-                "stroke-linejoin=\"round\">\n";
+                            frame, left_ - 1, top_ - 1, right_ - left_ + 2, bottom_ - top_ + 2);
+        out_ += fmt::format("<g clip-path=\"url(#{})\" fill=\"none\" stroke-width=\"2\" "
+                            "stroke-linejoin=\"round\">\n",
+                            frame);
         for (std::size_t i = 0; i < plot_.series.size(); ++i)
             series(plot_.series[i], colour(i));
         out_ += "</g>\n";
@@ -158,7 +203,7 @@ public:
     }
 
 private:
-    Limits limits(std::vector<double> PlotSeries::*member) const {
+    Limits limits(std::vector<double> PlotSeries::*member, bool logarithmic) const {
         Limits all;
         for (const PlotSeries& s : plot_.series) {
             if (s.x.size() != s.y.size())
@@ -167,28 +212,29 @@ private:
                                 "the one as of the other",
                                 s.label, s.x.size(), s.y.size()));
             for (const double v : s.*member)
-                all.take(v);
+                all.take(v, logarithmic);
         }
         return all;
     }
 
-    double px(double x) const {
-        return left_ + (x - x_.low) / (x_.high - x_.low) * (right_ - left_);
-    }
+    double px(double x) const { return left_ + x_.place(x) * (right_ - left_); }
     double py(double y) const {
         // Far outside the frame any place will do; viewers dislike enormous coordinates.
-        const double v = bottom_ - (y - y_.low) / (y_.high - y_.low) * (bottom_ - top_);
+        const double v = bottom_ - y_.place(y) * (bottom_ - top_);
         return std::clamp(v, -10.0 * plot_.height, 11.0 * plot_.height);
     }
-    const char* colour(std::size_t i) const {
+    bool holds(const PlotSeries& s, std::size_t i) const {
+        return x_.holds(s.x[i]) && y_.holds(s.y[i]);
+    }
+    std::size_t colour(std::size_t i) const {
         const int own = plot_.series[i].colour;
-        return palette[(own < 0 ? i : static_cast<std::size_t>(own)) % palette.size()];
+        return (own < 0 ? i : static_cast<std::size_t>(own)) % palette.size();
     }
 
-    void line(double x1, double y1, double x2, double y2, const char* stroke) {
+    void line(double x1, double y1, double x2, double y2, const char* stroke, const char* role) {
         out_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
-                            "stroke=\"{}\"/>\n",
-                            x1, y1, x2, y2, stroke);
+                            "stroke=\"{}\" class=\"{}\"/>\n",
+                            x1, y1, x2, y2, stroke, role);
     }
     void text(double x, double y, const char* anchor, const std::string& body,
               const std::string& more = "") {
@@ -199,17 +245,18 @@ private:
 
     void axes() {
         for (const double t : y_.ticks)
-            line(left_, py(t), right_, py(t), t == 0.0 ? "#b0b0b0" : "#e6e6e6");
+            line(left_, py(t), right_, py(t), t == 0.0 ? "#b0b0b0" : "#e6e6e6",
+                 t == 0.0 ? "zero" : "grid");
         for (const double t : x_.ticks)
-            line(px(t), bottom_, px(t), bottom_ + 5.0, "#444444");
+            line(px(t), bottom_, px(t), bottom_ + 5.0, "#444444", "axis");
         for (const double t : y_.ticks)
-            line(left_ - 5.0, py(t), left_, py(t), "#444444");
-        line(left_, bottom_, right_, bottom_, "#444444");
-        line(left_, top_, left_, bottom_, "#444444");
+            line(left_ - 5.0, py(t), left_, py(t), "#444444", "axis");
+        line(left_, bottom_, right_, bottom_, "#444444", "axis");
+        line(left_, top_, left_, bottom_, "#444444", "axis");
         for (const double t : x_.ticks)
-            text(px(t), bottom_ + 20.0, "middle", tick_label(t, x_.step));
+            text(px(t), bottom_ + 20.0, "middle", x_.label(t));
         for (const double t : y_.ticks)
-            text(left_ - 9.0, py(t) + 4.5, "end", tick_label(t, y_.step));
+            text(left_ - 9.0, py(t) + 4.5, "end", y_.label(t));
         const double middle = 0.5 * (top_ + bottom_);
         text(0.5 * (left_ + right_), plot_.height - 16.0, "middle", marked_up(plot_.x_label));
         text(18.0, middle, "middle", marked_up(plot_.y_label),
@@ -225,73 +272,96 @@ private:
         return "";
     }
 
-    void series(const PlotSeries& s, const char* stroke) {
+    void series(const PlotSeries& s, std::size_t tint) {
         if (s.style == PlotSeries::Style::points) {
             for (std::size_t i = 0; i < s.x.size(); ++i)
-                if (std::isfinite(s.x[i]) && std::isfinite(s.y[i]))
+                if (holds(s, i))
                     out_ += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"{}\" "
-                                        "stroke=\"#ffffff\" stroke-width=\"1\"/>\n",
-                                        px(s.x[i]), py(s.y[i]), stroke);
+                                        "stroke=\"#ffffff\" stroke-width=\"1\" class=\"f{}\" "
+                                        "data-label=\"{}\"/>\n",
+                                        px(s.x[i]), py(s.y[i]), palette[tint], tint,
+                                        escape(plain(s.label)));
             return;
         }
         std::string path;
         bool drawing = false;
         for (std::size_t i = 0; i < s.x.size(); ++i) {
-            const bool there = std::isfinite(s.x[i]) && std::isfinite(s.y[i]);
+            const bool there = holds(s, i);
             if (there)
                 path += fmt::format("{}{:.2f} {:.2f}", drawing ? "L" : "M", px(s.x[i]), py(s.y[i]));
             drawing = there;
         }
         if (!path.empty())
             out_ +=
-                fmt::format("<path d=\"{}\" stroke=\"{}\"{}/>\n", path, stroke, dashes(s.style));
+                fmt::format("<path d=\"{}\" stroke=\"{}\" class=\"c{}\" data-label=\"{}\"{}/>\n",
+                            path, palette[tint], tint, escape(plain(s.label)), dashes(s.style));
     }
 
-    /// How many samples of the curves lie in the box.
-    int hidden(double x, double y, double w, double h) const {
-        int count = 0;
+    /// Whether a curve passes through the box: its samples, and its lines every few pixels.
+    bool hides(double x, double y, double w, double h) const {
+        const auto inside = [&](double u, double v) {
+            return u > x - 4.0 && u < x + w + 4.0 && v > y - 4.0 && v < y + h + 4.0;
+        };
         for (const PlotSeries& s : plot_.series)
             for (std::size_t i = 0; i < s.x.size(); ++i) {
-                if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+                if (!holds(s, i)) continue;
                 const double u = px(s.x[i]), v = py(s.y[i]);
-                count += u > x && u < x + w && v > y && v < y + h ? 1 : 0;
+                if (inside(u, v)) return true;
+                if (s.style == PlotSeries::Style::points || i == 0 || !holds(s, i - 1)) continue;
+                const double du = px(s.x[i - 1]) - u, dv = py(s.y[i - 1]) - v;
+                const int parts = static_cast<int>(std::min(std::hypot(du, dv), 2e4) / 6.0);
+                for (int k = 1; k <= parts; ++k)
+                    if (const double f = static_cast<double>(k) / (parts + 1);
+                        inside(u + f * du, v + f * dv))
+                        return true;
             }
-        return count;
+        return false;
     }
 
-    void legend() {
+    /// A free corner of the frame, or room above it.
+    void place_legend() {
         int lines = 0, widest = 0;
         for (const PlotSeries& s : plot_.series)
             if (!s.label.empty()) {
                 ++lines;
                 widest = std::max(widest, visible_width(plain(s.label)));
             }
+        legend_h_ = lines == 0 ? 0.0 : legend_line * lines + 8.0;
         if (lines == 0) return;
-        const double w = sample + 24.0 + letter * font * widest, h = legend_line * lines + 8.0;
-        double x = 0.0, y = 0.0;
-        int least = std::numeric_limits<int>::max();
-        for (const double v : {top_ + 6.0, bottom_ - h - 6.0})
-            for (const double u : {right_ - w - 6.0, left_ + 8.0})
-                if (const int n = hidden(u, v, w, h); n < least) {
-                    least = n;
-                    x = u;
-                    y = v;
+        legend_w_ = sample + 24.0 + letter * font * widest;
+        for (const double v : {top_ + 6.0, bottom_ - legend_h_ - 6.0})
+            for (const double u : {right_ - legend_w_ - 6.0, left_ + 8.0})
+                if (!hides(u, v, legend_w_, legend_h_)) {
+                    legend_x_ = u;
+                    legend_y_ = v;
+                    return;
                 }
+        legend_x_ = left_;
+        legend_y_ = top_ - 6.0;
+        top_ += legend_h_;
+    }
+
+    void legend() {
+        if (legend_h_ == 0.0) return;
         out_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
-                            "fill=\"#ffffff\" fill-opacity=\"0.85\" stroke=\"#d0d0d0\"/>\n",
-                            x, y, w, h);
-        double at = y + 4.0 + 0.5 * legend_line;
+                            "fill=\"#ffffff\" fill-opacity=\"0.85\" stroke=\"#d0d0d0\" "
+                            "class=\"legend\"/>\n",
+                            legend_x_, legend_y_, legend_w_, legend_h_);
+        double at = legend_y_ + 4.0 + 0.5 * legend_line;
         for (std::size_t i = 0; i < plot_.series.size(); ++i) {
             const PlotSeries& s = plot_.series[i];
             if (s.label.empty()) continue;
+            const std::size_t tint = colour(i);
             if (s.style == PlotSeries::Style::points)
-                out_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\"/>\n",
-                                    x + 8.0 + 0.5 * sample, at, colour(i));
+                out_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\" "
+                                    "class=\"f{} sample\"/>\n",
+                                    legend_x_ + 8.0 + 0.5 * sample, at, palette[tint], tint);
             else
-                out_ += fmt::format("<path d=\"M{:.1f} {:.1f}h{}\" stroke=\"{}\" "
-                                    "stroke-width=\"2\"{}/>\n",
-                                    x + 8.0, at, sample, colour(i), dashes(s.style));
-            text(x + sample + 16.0, at + 4.5, "start", marked_up(s.label));
+                out_ +=
+                    fmt::format("<path d=\"M{:.1f} {:.1f}h{}\" stroke=\"{}\" "
+                                "stroke-width=\"2\" class=\"c{} sample\"{}/>\n",
+                                legend_x_ + 8.0, at, sample, palette[tint], tint, dashes(s.style));
+            text(legend_x_ + sample + 16.0, at + 4.5, "start", marked_up(s.label));
             at += legend_line;
         }
     }
@@ -299,6 +369,7 @@ private:
     const Plot& plot_;
     Axis x_, y_;
     double left_ = 0.0, right_ = 0.0, top_ = 0.0, bottom_ = 0.0;
+    double legend_x_ = 0.0, legend_y_ = 0.0, legend_w_ = 0.0, legend_h_ = 0.0;
     std::string out_;
 };
 
@@ -324,6 +395,36 @@ std::string tick_label(double value, double step) {
 }
 
 std::string plot_svg(const Plot& plot) { return Drawing(plot).svg(); }
+
+std::string plot_csv(const Plot& plot) {
+    const auto name = [](std::string text) { // CSV wants quotes doubled
+        for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2)
+            text.insert(at, 1, '"');
+        return "\"" + text + "\"";
+    };
+    std::string out;
+    std::size_t rows = 0;
+    for (const PlotSeries& s : plot.series) {
+        const std::string y = plain(s.label.empty() ? plot.y_label : s.label + ": " + plot.y_label);
+        out += fmt::format("{}{},{}", out.empty() ? "" : ",", name(plain(plot.x_label)), name(y));
+        rows = std::max(rows, s.x.size());
+    }
+    out += '\n';
+    const auto number = [](double v) {
+        return std::isfinite(v) ? fmt::format("{:.9g}", v) : std::string();
+    };
+    for (std::size_t i = 0; i < rows; ++i) {
+        for (std::size_t k = 0; k < plot.series.size(); ++k) {
+            const PlotSeries& s = plot.series[k];
+            out += k == 0 ? "" : ",";
+            out += i < s.x.size() ? number(s.x[i]) + "," + number(s.y[i]) : ",";
+        }
+        out += '\n';
+    }
+    return out;
+}
+
+std::string plot_markup(const std::string& text) { return marked_up(text); }
 
 void write_plot(const std::string& path, const Plot& plot) { write_whole(path, plot_svg(plot)); }
 

@@ -1,17 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Plots as SVG text: lines and points over two linear axes, without any library.
+// Plots as SVG text: lines and points over two axes, without any library.
 //
 //     Plot plot;
 //     plot.x_label = "rms roughness h_{rms} (Å)";       // _{...} is set as a subscript
 //     plot.series.push_back({.label = "theory", .x = h, .y = gamma});
 //     write_plot("gamma.svg", plot);
 //
-// Ticks stand at 1, 2 or 5 times a power of ten; the legend goes to the corner where it hides the
-// least; colours are those of Okabe and Ito, told apart by nearly everybody, and lines differ in
-// their dashes too. A value that is no number breaks a line; what lies outside given limits is cut
-// off at the frame.
+// Ticks stand at 1, 2 or 5 times a power of ten (at powers of ten on a logarithmic axis); the
+// legend goes to a free corner, or above the frame where none is free; colours are those of Okabe
+// and Ito, told apart by nearly everybody, and lines differ in their dashes too. A value that is no
+// number breaks a line; what lies outside given limits is cut off at the frame. On a logarithmic
+// axis, only what is positive is a value.
+//
+// In a page (plot.id given) the elements carry classes, so that a style sheet can give them the
+// colours of a dark page: paper, ink, grid, zero, axis, label, c0 to c6; and the svg element tells
+// a script where the frame lies and what its edges stand for (data-frame, data-x, data-y).
 #pragma once
 
 #include <optional>
@@ -37,7 +42,9 @@ struct Plot {
     std::vector<PlotSeries> series;
     /// Limits of the axes; where none is given, they follow from the data.
     std::optional<double> x_low, x_high, y_low, y_high;
+    bool x_log = false, y_log = false;
     int width = 640, height = 440; ///< pixels
+    std::string id;                ///< unique in a page; empty: a document of its own
 };
 
 /// The multiples of a round step from low to high (those in between), about `count` of them.
@@ -46,9 +53,15 @@ std::vector<double> nice_ticks(double low, double high, int count);
 /// The number as it stands at a tick, with as many digits as the step needs.
 std::string tick_label(double value, double step);
 
-/// The plot as a self-contained SVG document. Throws std::invalid_argument for series of unequal
-/// lengths.
+/// The plot as a self-contained SVG document, or as an element of a page. Throws
+/// std::invalid_argument for series of unequal lengths.
 std::string plot_svg(const Plot& plot);
+
+/// Its numbers: one pair of columns a series under their labels, series side by side.
+std::string plot_csv(const Plot& plot);
+
+/// The plot's text in SVG markup: escaped, with its subscripts.
+std::string plot_markup(const std::string& text);
 
 /// The same into a file, whole or not at all. Throws FileError.
 void write_plot(const std::string& path, const Plot& plot);

@@ -91,6 +91,7 @@ JsonValue result_json(const ResultRecord& record) {
     run["git"] = build.git;
     run["compiler"] = build.compiler;
     run["flags"] = build.flags;
+    run["machine"] = machine();
 
     if (record.failure.exit_code != 0 || !record.failure.reason.empty()) {
         root["failure"]["exit_code"] = record.failure.exit_code;

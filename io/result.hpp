@@ -57,7 +57,7 @@ struct ResultRecord {
         std::vector<Phase> phases;
         std::string
             stopped; ///< "max_steps", "wall_limit", "signal"; empty: the path's end was reached
-        // version, git, compiler and flags are filled in from build_info.
+        // version, git, compiler, flags and machine are filled in from build_info.
     } run;
 
     /// Why the command failed; empty: it did not.
