@@ -8,6 +8,7 @@
 // alike, or by rank 0 for all of them: they agree on the code and end in order. Any other error
 // ends them all at once (abort), because the others may be waiting for this one.
 #include "engine/plan.hpp"
+#include "engine/export.hpp"
 #include "engine/report.hpp"
 #include "engine/run.hpp"
 #include "engine/scene.hpp"
@@ -250,6 +251,13 @@ int command_report(const std::string& directory, const Communicator& world) {
     return code;
 }
 
+int command_export(const std::string& directory, const std::string& format,
+                   const Communicator& world) {
+    int code = io::exit_code::done;
+    world.on_root([&] { code = export_command(directory, format); });
+    return code;
+}
+
 int command_defaults(const SceneArguments& arguments, const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
     if (arguments.markdown)
@@ -382,10 +390,16 @@ int command_line(int argc, char** argv, const Communicator& world) {
     sweep.footer("--set key=v1,v2,... or key=start:stop:step sweeps a key; with several, every "
                  "combination.\nWithout any, --theory-only sweeps surface.rms past the end of "
                  "adhesion.");
-    std::string directory;
+    std::string directory, format;
     CLI::App& report =
         *app.add_subcommand("report", "a run or a sweep as one self-contained HTML page");
     report.add_option("DIR", directory, "the result directory")->required()->type_name("");
+    CLI::App& to_others = *app.add_subcommand(
+        "export", "maps and trajectory of a run for OVITO, ParaView, or as PNG");
+    to_others.add_option("DIR", directory, "the result directory")->required()->type_name("");
+    to_others.add_option("--to", format, "xyz, lammps, xdmf or png")
+        ->required()
+        ->type_name("FORMAT");
     CLI::App& defaults =
         *app.add_subcommand("defaults", "every key of a scene with its default, as TOML");
     defaults.add_flag("--markdown", arguments.markdown, "as the reference page docs/scene.md");
@@ -419,6 +433,7 @@ int command_line(int argc, char** argv, const Communicator& world) {
     if (theory.parsed()) return command_theory(arguments, world);
     if (sweep.parsed()) return command_sweep(arguments, world);
     if (report.parsed()) return command_report(directory, world);
+    if (to_others.parsed()) return command_export(directory, format, world);
     if (defaults.parsed()) return command_defaults(arguments, world);
     if (info.parsed()) return command_info(world);
     return io::exit_code::internal;

@@ -126,7 +126,8 @@ void write_surface(io::HtmlPage& page, ReportFiles& files, const StoredRun& run)
                   "asked for.");
     if (roughness)
         files.add(page, *roughness,
-                  "Persson’s theory for this scene at other roughnesses, and this run’s numbers.");
+                  "Persson’s theory for this scene at other roughnesses (dotted: with the "
+                  "attraction across the gaps), and this run’s numbers.");
     page.end_columns();
 }
 
@@ -137,7 +138,7 @@ void write_numbers(io::HtmlPage& page, const StoredRun& run) {
     const auto add = [&](const char* name, const char* key, const char* unit, bool energy = false) {
         const auto value = run.number(key);
         if (!value) return;
-        rows.push_back({name, fmt::format("{:.6g}", *value), unit,
+        rows.push_back({name, minus(fmt::format("{:.6g}", *value)), unit,
                         energy && flat > 0.0 ? fmt::format("{:.4f}", *value / flat) : ""});
     };
     add("flat on flat, Δγ", "delta_gamma", "meV/Å²", true);
@@ -227,13 +228,16 @@ std::string ReportFiles::keep(const std::string& name, const std::string& svg,
 }
 
 void ReportFiles::add(io::HtmlPage& page, const io::Plot& plot, const std::string& caption) {
-    const std::string files = keep(plot.id, io::plot_svg(plot), io::plot_csv(plot));
-    page.figure(io::plot_svg(plot), caption, files);
+    io::Plot alone = plot;
+    alone.id.clear();
+    page.figure(io::plot_svg(plot), caption,
+                keep(plot.id, io::plot_svg(alone), io::plot_csv(plot)));
 }
 
 void ReportFiles::add(io::HtmlPage& page, const io::MapPlot& map, const std::string& caption) {
-    const std::string svg = io::map_svg(map);
-    page.figure(svg, caption, keep(map.id, svg, io::map_csv(map)));
+    io::MapPlot alone = map;
+    alone.id.clear();
+    page.figure(io::map_svg(map), caption, keep(map.id, io::map_svg(alone), io::map_csv(map)));
 }
 
 int report_command(const std::string& directory) {

@@ -40,6 +40,7 @@ private:
 };
 
 // report_words.cpp
+std::string minus(std::string number); ///< with the sign that is as wide as a digit
 std::vector<io::KeyNumber> key_numbers(const StoredRun& run);
 std::string lead(const StoredRun& run);
 std::vector<std::string> findings_in_words(const StoredRun& run);

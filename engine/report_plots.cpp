@@ -187,7 +187,7 @@ std::optional<io::Plot> roughness_plot(const StoredRun& run) {
             plot.series.push_back({label, {rms}, {*gamma / flat}, Style::points, colour});
     };
     io::PlotSeries contact{"theory", {}, {}, Style::line, grey};
-    io::PlotSeries gaps{"with attraction across gaps", {}, {}, Style::dotted, grey};
+    io::PlotSeries gaps{"theory with gaps", {}, {}, Style::dotted, grey};
     if (run.scene && run.scene->surface.kind != SurfaceKind::flat) try {
             Scene scene = *run.scene;
             std::optional<Surface> surface;
@@ -213,10 +213,11 @@ std::optional<io::Plot> roughness_plot(const StoredRun& run) {
     point("work_of_adhesion.pull_off", "pull-off", red);
     point("binding_energy", "state at zero load", green);
     if (plot.series.empty()) return std::nullopt;
-    plot.y_low = 0.0;
+    double lowest = 0.0;
     for (const io::PlotSeries& s : plot.series)
         for (const double y : s.y)
-            if (y < *plot.y_low) plot.y_low = 1.1 * y;
+            if (y < lowest) lowest = y;
+    plot.y_low = 1.1 * lowest;
     return plot;
 }
 

@@ -13,14 +13,14 @@
 
 namespace asperity {
 
-namespace {
-
 std::string minus(std::string number) {
     return number.starts_with('-') ? "−" + number.substr(1) : number;
 }
 
+namespace {
+
 std::string percent(double fraction) {
-    return minus(fmt::format("{:.{}f} %", 100.0 * fraction, std::abs(fraction) < 0.1 ? 2 : 1));
+    return minus(fmt::format("{:.{}f}\u00a0%", 100.0 * fraction, std::abs(fraction) < 0.1 ? 2 : 1));
 }
 
 std::string meV(double gamma) { return minus(fmt::format("{:.2f} meV/Å²", gamma)); }

@@ -72,25 +72,28 @@ Scale scale_of(const MapPlot& map) {
     return s;
 }
 
-/// Pixels from the top: y grows upwards. Number 255 is no number.
-std::string picture(const MapPlot& map, const Scale& scale) {
-    const auto n = static_cast<std::size_t>(map.sites);
+/// Pixels from the top: y grows upwards. Number 255 is no number. repeat: pixels to a value, where
+/// the viewer would smear them.
+std::string picture(const MapPlot& map, const Scale& scale, int repeat) {
+    const auto n = static_cast<std::size_t>(map.sites), k = static_cast<std::size_t>(repeat);
     std::vector<Rgb> colours = palette(map.colours);
     colours[255] = rgb({grey_level, 0.0, 0.0});
-    std::vector<std::uint8_t> pixels(n * n);
-    for (std::size_t y = 0; y < n; ++y)
-        for (std::size_t x = 0; x < n; ++x) {
-            const double v = map.values[y * n + x];
+    std::vector<std::uint8_t> pixels;
+    pixels.reserve(n * n * k * k);
+    for (std::size_t row = 0; row < n * k; ++row)
+        for (std::size_t column = 0; column < n * k; ++column) {
+            const double v = map.values[(n - 1 - row / k) * n + column / k];
             const double place = std::clamp((v - scale.low) / (scale.high - scale.low), 0.0, 1.0);
-            pixels[(n - 1 - y) * n + x] =
-                std::isfinite(v) ? static_cast<std::uint8_t>(std::lround(254.0 * place)) : 255;
+            pixels.push_back(std::isfinite(v)
+                                 ? static_cast<std::uint8_t>(std::lround(254.0 * place))
+                                 : std::uint8_t{255});
         }
-    return png_of(pixels, map.sites, map.sites, colours);
+    return png_of(pixels, map.sites * repeat, map.sites * repeat, colours);
 }
 
 std::string image(double x, double y, double w, double h, const std::string& png) {
     return fmt::format("<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" "
-                       "preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" "
+                       "preserveAspectRatio=\"none\" "
                        "href=\"data:image/png;base64,{}\"/>\n",
                        x, y, w, h, base64(png));
 }
@@ -175,7 +178,9 @@ std::string map_svg(const MapPlot& map) {
         width, height, plot_markup(map.title));
     out += text(margin, 24.0, "start", map.title + (map.unit.empty() ? "" : " (" + map.unit + ")"),
                 " font-weight=\"bold\"");
-    out += image(margin, top, side, side, picture(map, scale));
+    // A page tells the browser to keep pixels apart (image-rendering); other viewers smear them.
+    const int repeat = map.id.empty() ? static_cast<int>(std::ceil(2.0 * side / map.sites)) : 1;
+    out += image(margin, top, side, side, picture(map, scale, repeat));
     if (two) {
         const auto colours = palette(map.colours);
         out += swatch(margin + 0.5 * side + 20.0, top + side + 14.0, colours[0], map.low_word);

@@ -144,8 +144,8 @@ private:
         const double first = std::floor(std::log10(from) + 1e-9),
                      last = std::ceil(std::log10(to) - 1e-9);
         const bool few = last - first <= 2.0;
-        low = few ? from / 1.2 : std::pow(10.0, first);
-        high = few ? to * 1.2 : std::pow(10.0, last);
+        low = from / 1.3;
+        high = to * 1.3;
         const double stride = std::max(1.0, std::ceil((last - first) / count));
         for (double k = first; k <= last; k += few ? 1.0 : stride)
             for (const double m : {1.0, 2.0, 5.0})
@@ -169,6 +169,7 @@ public:
         top_ = plot.title.empty() ? 20.0 : 44.0;
         bottom_ = plot.height - 58.0;
         place_legend();
+        height_ = bottom_ + 58.0;
     }
 
     std::string svg() {
@@ -181,12 +182,12 @@ public:
             "font-size=\"{2}\" fill=\"#222222\" class=\"plot ink\" role=\"img\" "
             "data-frame=\"{3:.1f} {4:.1f} {5:.1f} {6:.1f}\" data-x=\"{7:.9g} {8:.9g} {9}\" "
             "data-y=\"{10:.9g} {11:.9g} {12}\">\n",
-            plot_.width, plot_.height, font, left_, top_, right_, bottom_, x_.low, x_.high,
+            plot_.width, height_, font, left_, top_, right_, bottom_, x_.low, x_.high,
             x_.logarithmic ? "log" : "linear", y_.low, y_.high, y_.logarithmic ? "log" : "linear");
         out_ +=
             fmt::format("<title>{3}</title>\n"
                         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\" class=\"paper\"/>\n",
-                        plot_.width, plot_.height, font,
+                        plot_.width, height_, font,
                         escape(plain(plot_.title.empty() ? plot_.y_label : plot_.title)));
         axes();
         out_ += fmt::format("<clipPath id=\"{}\"><rect x=\"{:.1f}\" y=\"{:.1f}\" "
@@ -258,7 +259,7 @@ private:
         for (const double t : y_.ticks)
             text(left_ - 9.0, py(t) + 4.5, "end", y_.label(t));
         const double middle = 0.5 * (top_ + bottom_);
-        text(0.5 * (left_ + right_), plot_.height - 16.0, "middle", marked_up(plot_.x_label));
+        text(0.5 * (left_ + right_), height_ - 16.0, "middle", marked_up(plot_.x_label));
         text(18.0, middle, "middle", marked_up(plot_.y_label),
              fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", middle));
         if (!plot_.title.empty())
@@ -328,7 +329,7 @@ private:
             }
         legend_h_ = lines == 0 ? 0.0 : legend_line * lines + 8.0;
         if (lines == 0) return;
-        legend_w_ = sample + 24.0 + letter * font * widest;
+        legend_w_ = sample + 24.0 + 1.1 * letter * font * widest;
         for (const double v : {top_ + 6.0, bottom_ - legend_h_ - 6.0})
             for (const double u : {right_ - legend_w_ - 6.0, left_ + 8.0})
                 if (!hides(u, v, legend_w_, legend_h_)) {
@@ -339,6 +340,7 @@ private:
         legend_x_ = left_;
         legend_y_ = top_ - 6.0;
         top_ += legend_h_;
+        bottom_ += legend_h_;
     }
 
     void legend() {
@@ -369,6 +371,7 @@ private:
     const Plot& plot_;
     Axis x_, y_;
     double left_ = 0.0, right_ = 0.0, top_ = 0.0, bottom_ = 0.0;
+    double height_ = 0.0; ///< of the drawing
     double legend_x_ = 0.0, legend_y_ = 0.0, legend_w_ = 0.0, legend_h_ = 0.0;
     std::string out_;
 };
