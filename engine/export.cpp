@@ -54,9 +54,10 @@ public:
         std::vector<io::XdmfGrid> grids = {{"substrate",
                                             run_.substrate_sites,
                                             run_.edge() / run_.substrate_sites,
+                                            0.0,
                                             {{"height (Å)", "/substrate/height"}}}};
         for (const StoredState& state : run_.states) {
-            io::XdmfGrid grid{state.name, state.sites, spacing_, {}};
+            io::XdmfGrid grid{state.name, state.sites, spacing_, 0.5 * spacing_, {}};
             for (const auto& [name, map] : state.maps)
                 grid.maps.push_back({name == "contact"    ? name
                                      : name == "pressure" ? name + " (GPa)"
@@ -121,7 +122,8 @@ private:
         frame.edges = {edge, edge, high - low + 2.0};
     }
 
-    /// The block's lowest layer with its maps as columns; the substrate's are zero.
+    /// The block's lowest layer with its maps as columns; the substrate's are zero. Sites stand
+    /// over the hollows of the substrate.
     void add_layer(io::AtomFrame& frame, const StoredState& state) const {
         for (const char* needed : {"u_x", "u_y", "u_z"})
             if (!state.has(needed))
@@ -136,8 +138,8 @@ private:
             &state.maps.at("u_x"), &state.maps.at("u_y"), &state.maps.at("u_z")};
         for (std::size_t i = 0; i < n * n; ++i) {
             frame.type.push_back(2);
-            const std::array<double, 3> rest = {spacing_ * static_cast<double>(i % n),
-                                                spacing_ * static_cast<double>(i / n),
+            const std::array<double, 3> rest = {spacing_ * (static_cast<double>(i % n) + 0.5),
+                                                spacing_ * (static_cast<double>(i / n) + 0.5),
                                                 state.reference_height};
             for (std::size_t c = 0; c < 3; ++c) {
                 frame.position.push_back(rest[c] + (*u[c])[i]);

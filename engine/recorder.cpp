@@ -178,9 +178,11 @@ void Recorder::frame(const Simulation& simulation) {
         const auto sites = static_cast<std::size_t>(block.sites);
         std::vector<float> position(3 * sites * sites), velocity;
         for (std::size_t i = 0; i < sites * sites; ++i) {
-            const std::array<double, 3> rest = {static_cast<double>(i % sites) * block.spacing,
-                                                static_cast<double>(i / sites) * block.spacing,
-                                                simulation.reference_height()};
+            // Sites stand over the hollows of the substrate (docs/model.md).
+            const std::array<double, 3> rest = {
+                (static_cast<double>(i % sites) + 0.5) * block.spacing,
+                (static_cast<double>(i / sites) + 0.5) * block.spacing,
+                simulation.reference_height()};
             for (std::size_t c = 0; c < 3; ++c)
                 position[3 * i + c] = static_cast<float>(rest[c] + u[c][i]);
         }

@@ -32,6 +32,13 @@ std::optional<double> number(const JsonValue& point, const std::string& key) {
     return value->number();
 }
 
+/// The value of a key that was set: names like "surface.rms" are whole here, not paths.
+std::optional<double> value_of(const JsonValue& point, const std::string& key) {
+    for (const auto& [name, value] : point.find("set")->members())
+        if (name == key && value.is_number()) return value.number();
+    return std::nullopt;
+}
+
 /// One quantity of the points: where it is, and how it is drawn.
 struct Trace {
     const char* label;
@@ -128,7 +135,7 @@ private:
               bool over_flat) const {
         std::vector<std::pair<double, double>> pairs;
         for (const JsonValue* point : points_) {
-            const auto x = number(*point->find("set"), x_), y = number(*point, trace.key);
+            const auto x = value_of(*point, x_), y = number(*point, trace.key);
             if (!x || !y || group_of(*point) != group) continue;
             pairs.emplace_back(*x, over_flat ? *y / divisor(*point, trace.key) : *y);
         }

@@ -51,7 +51,7 @@ figure{margin:0;min-width:0;position:relative}
 svg image{image-rendering:pixelated}
 figure svg{display:block;width:100%;height:auto;touch-action:pan-y}
 figcaption{font-size:.86rem;line-height:1.45;color:var(--soft);max-width:36rem;margin-top:.3rem}
-figcaption i{font-style:normal;white-space:nowrap;font-size:.79rem;opacity:.85}
+figcaption i{font-style:normal;font-size:.79rem;opacity:.85}
 output{display:block;min-height:1.3em;font-size:.82rem;font-variant-numeric:tabular-nums;
 color:var(--accent);padding-left:.9rem}
 .scroll{overflow-x:auto;margin:0 0 1.4rem}

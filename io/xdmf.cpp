@@ -15,11 +15,11 @@ std::string grid_text(const std::string& hdf5, const XdmfGrid& g) {
                     "      <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"1 {1} {1}\"/>\n"
                     "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"
                     "        <DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" "
-                    "Format=\"XML\">0 0 0</DataItem>\n"
+                    "Format=\"XML\">0 {3:.9g} {3:.9g}</DataItem>\n"
                     "        <DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" "
                     "Format=\"XML\">{2:.9g} {2:.9g} {2:.9g}</DataItem>\n"
                     "      </Geometry>\n",
-                    g.name, g.sites, g.spacing);
+                    g.name, g.sites, g.spacing, g.origin);
     for (const XdmfMap& m : g.maps)
         text += fmt::format("      <Attribute Name=\"{0}\" AttributeType=\"Scalar\" "
                             "Center=\"Node\">\n"

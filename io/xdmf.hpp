@@ -22,6 +22,7 @@ struct XdmfGrid {
     std::string name;
     int sites = 0;
     double spacing = 0.0; ///< of the nodes, Å
+    double origin = 0.0;  ///< x and y of the first node, Å
     std::vector<XdmfMap> maps;
 };
 

@@ -83,6 +83,7 @@ TEST(Scene, DefaultsAreThePapers) {
         {"numerics.precision", "\"double\""},
         {"numerics.accuracy", "\"none\""},
         {"output.trajectory", "\"none\""},
+        {"output.velocities", "false"},
         {"output.fields", "[\"zero-load\"]"},
         {"output.series", "100"},
         {"output.checkpoint", "600.0"},
@@ -170,6 +171,9 @@ TEST(Scene, Contradictions) {
     EXPECT_EQ(only("[drive]\ntemperature = 300\ndamping = 0\n").where, "s.toml:2:15");
     EXPECT_EQ(only("[output]\nfields = [\"pull-off\"]\n[drive]\npath = [\"approach\"]\n").where,
               "s.toml:2:10");
+    EXPECT_EQ(only("[output]\ntrajectory = 10\n[drive]\npath = [\"zero-load\"]\n").where,
+              "s.toml:2:14"); // frames are taken over time
+    only("[output]\ntrajectory = 10\n[drive]\nmode = \"quasistatic\"\n");
 }
 
 TEST(Scene, Paths) {
@@ -241,6 +245,7 @@ TEST(Scene, NotYet) {
         return problems.list().size();
     };
     EXPECT_EQ(refused(""), 0u);
+    EXPECT_EQ(refused("output.trajectory = 100"), 0u);
     EXPECT_EQ(refused("block.model = \"spectral\"\ndrive.path = [\"zero-load\"]"), 0u);
     EXPECT_EQ(refused("numerics.precision = \"mixed\""), 0u);
     EXPECT_EQ(refused("drive.mode = \"quasistatic\"\ndrive.path = [\"zero-load\"]"), 0u);
