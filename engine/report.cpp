@@ -88,10 +88,10 @@ void write_state(io::HtmlPage& page, ReportFiles& files, const StoredRun& run,
         files.add(page, map,
                   map.unit == "Å"
                       ? "Height of each site above the substrate below it. The colour bar spans "
-                        "99 % of the values."
+                        "99\u00a0% of the values."
                   : map.unit == "GPa"
                       ? "Normal force of the substrate on a site over its area. Blue "
-                        "pulls, orange pushes; the colour bar spans 99 % of the "
+                        "pulls, orange pushes; the colour bar spans 99\u00a0% of the "
                         "values."
                       : "Sites nearer to an atom of the substrate than the "
                         "inflection of the potential.");
@@ -119,7 +119,7 @@ void write_surface(io::HtmlPage& page, ReportFiles& files, const StoredRun& run)
     page.section("surface", "Surface and theory");
     page.begin_columns("figures");
     if (height)
-        files.add(page, *height, "The substrate from above. The colour bar spans 99 % of it.");
+        files.add(page, *height, "The substrate from above. The colour bar spans 99\u00a0% of it.");
     if (spectrum)
         files.add(page, *spectrum,
                   "Radially averaged power spectrum of the surface that was made, and what was "

@@ -109,6 +109,13 @@ std::optional<io::Plot> force_plot(const StoredRun& run, const std::string& id,
     return plot;
 }
 
+/// Along the path: time, or the points of a path without time.
+const std::vector<double>* along(const StoredRun& run, std::string& label) {
+    const auto* time = column(run, "time");
+    label = time ? "time (ps)" : "point of the path";
+    return time ? time : column(run, "step");
+}
+
 } // namespace
 
 std::optional<io::Plot> separation_plot(const StoredRun& run) {
@@ -124,9 +131,10 @@ std::optional<io::Plot> loading_plot(const StoredRun& run) {
 }
 
 std::optional<io::Plot> energy_plot(const StoredRun& run) {
-    const auto* time = column(run, "time");
+    std::string axis;
+    const auto* time = along(run, axis);
     if (!time || area(run) == 0.0) return std::nullopt;
-    io::Plot plot = empty_plot("energy", "Energies", "time (ps)", "energy per area (meV/Å²)");
+    io::Plot plot = empty_plot("energy", "Energies", axis, "energy per area (meV/Å²)");
     const double unit = units::milli_per_unit / area(run);
     const auto add = [&](const char* name, const char* label, int colour, Style style) {
         const auto* values = column(run, name);

@@ -26,17 +26,20 @@ using Style = io::PlotSeries::Style;
 
 constexpr std::size_t most_curves = 7;
 
+/// Names like "surface.rms" are whole in a point, not paths.
+std::optional<double> member(const JsonValue* object, const std::string& name) {
+    if (object && object->is_object())
+        for (const auto& [key, value] : object->members())
+            if (key == name && value.is_number()) return value.number();
+    return std::nullopt;
+}
+
+/// What the theory says of the point, or what its simulation found.
 std::optional<double> number(const JsonValue& point, const std::string& key) {
+    if (const auto found = member(point.find("result"), key)) return found;
     const JsonValue* value = point.find(key);
     if (!value || !value->is_number()) return std::nullopt;
     return value->number();
-}
-
-/// The value of a key that was set: names like "surface.rms" are whole here, not paths.
-std::optional<double> value_of(const JsonValue& point, const std::string& key) {
-    for (const auto& [name, value] : point.find("set")->members())
-        if (name == key && value.is_number()) return value.number();
-    return std::nullopt;
 }
 
 /// One quantity of the points: where it is, and how it is drawn.
@@ -48,8 +51,8 @@ struct Trace {
 };
 const std::vector<Trace> energies = {
     {"theory", "theory.gamma_eff", Style::line, 6},
-    {"theory, with attraction across gaps", "theory.gamma_eff_with_gaps", Style::dotted, 6},
-    {"theory, assuming full contact", "theory.gamma_full_contact", Style::dashed, 6},
+    {"theory with gaps", "theory.gamma_eff_with_gaps", Style::dotted, 6},
+    {"theory, full contact", "theory.gamma_full_contact", Style::dashed, 6},
     {"state at zero load", "binding_energy", Style::points, 2},
     {"approach", "work_of_adhesion.approach", Style::points, 0},
     {"pull-off", "work_of_adhesion.pull_off", Style::points, 1}};
@@ -135,7 +138,7 @@ private:
               bool over_flat) const {
         std::vector<std::pair<double, double>> pairs;
         for (const JsonValue* point : points_) {
-            const auto x = value_of(*point, x_), y = number(*point, trace.key);
+            const auto x = member(point->find("set"), x_), y = number(*point, trace.key);
             if (!x || !y || group_of(*point) != group) continue;
             pairs.emplace_back(*x, over_flat ? *y / divisor(*point, trace.key) : *y);
         }
@@ -179,9 +182,9 @@ void write_table(io::HtmlPage& page, const SweepPlots& plots) {
         for (const Trace& trace : shown) {
             const auto value = number(point, trace.key);
             const bool area = std::string(trace.key).find("contact_fraction") != std::string::npos;
-            row.push_back(
-                value ? fmt::format("{:.4f}", area ? *value : *value / divisor(point, trace.key))
-                      : "");
+            row.push_back(value ? minus(fmt::format(
+                                      "{:.4f}", area ? *value : *value / divisor(point, trace.key)))
+                                : "");
         }
         rows.push_back(std::move(row));
     }
@@ -216,7 +219,7 @@ io::HtmlPage sweep_page(const std::string& directory, ReportFiles& files) {
         if (const auto plot = plots.plot("gamma", "Binding energy", "γ_{eff} / Δγ", energies, true))
             files.add(page, *plot,
                       "Binding energy over that of two flat surfaces: theory, and what was "
-                      "simulated.");
+                      "simulated. With gaps: with the attraction between areas that do not touch.");
         if (const auto plot = plots.plot("area", "Contact area", "A / A_{0}", areas, false))
             files.add(page, *plot, "Projected contact area over the nominal area at zero load.");
     }

@@ -77,7 +77,8 @@ std::vector<io::KeyNumber> key_numbers(const StoredRun& run) {
         list.push_back({fmt::format("{:.2f}", *in), "meV/Å²", "JKR energy, way in", ""});
     if (const auto out = run.number("jkr.out"))
         list.push_back({fmt::format("{:.2f}", *out), "meV/Å²", "JKR energy, way out", ""});
-    if (const auto residual = run.number("energy.residual"))
+    if (const auto residual = run.number("energy.residual");
+        residual && !run.result.find("failure"))
         list.push_back({fmt::format("{:.1e}", std::abs(*residual)), "", "energy balance",
                         "relative to its largest term"});
     return list;

@@ -70,6 +70,12 @@ expect 0 sweep small.toml --theory-only --set surface.rms=0.2:1:0.2 --set drive.
 expect 0 report sweep
 holds sweep/report.html '10 points over surface.rms, drive.load' 'theory, load = 100' 'All points'
 [ -s sweep/report/gamma.png ] || fail "no plot of the sweep"
+# Points that were simulated carry their numbers; names with dots are whole.
+sed '0,/"delta_gamma": [0-9]/s//"result": { "binding_energy": 91.5, "work_of_adhesion.approach": 90.25 },\n&/' \
+    sweep/sweep.json >simulated.json
+mkdir simulated && mv simulated.json simulated/sweep.json
+expect 0 report simulated
+holds simulated/report.html 'state at zero load, load' 'approach, load' '0.9255' '0.9129'
 expect 0 run small.toml --progress off --out 'a <b> & c' --set drive.max_steps=5
 expect 0 report 'a <b> & c'
 holds 'a <b> & c/report.html' '<h1>a &lt;b&gt; &amp; c</h1>'
