@@ -7,8 +7,8 @@
 // Under mpirun every rank runs this; rank 0 alone speaks. A scene that is wrong is met by all ranks
 // alike, or by rank 0 for all of them: they agree on the code and end in order. Any other error
 // ends them all at once (abort), because the others may be waiting for this one.
-#include "engine/plan.hpp"
 #include "engine/export.hpp"
+#include "engine/plan.hpp"
 #include "engine/report.hpp"
 #include "engine/run.hpp"
 #include "engine/scene.hpp"

@@ -163,6 +163,7 @@ void Recorder::begin_trajectory(const Simulation& simulation, bool velocities) {
 }
 
 void Recorder::frame(const Simulation& simulation) {
+    ++frames_;
     const Block::Level& level = simulation.block().levels().front();
     const ProcessGrid& grid = simulation.block().grid();
     const auto whole_layer = [&](const VectorPlane<const double>& plane) {

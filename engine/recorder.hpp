@@ -26,7 +26,8 @@ public:
     /// One row: the simulation's last step, which must have been observed.
     void row(const Simulation& simulation);
     std::uint64_t rows() const { return rows_; }
-    long long maps() const { return maps_; } ///< states whose maps were written
+    long long maps() const { return maps_; }     ///< states whose maps were written
+    long long frames() const { return frames_; } ///< of the trajectory, by this run
     /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface, double reference_height);
@@ -44,7 +45,7 @@ private:
     std::optional<io::H5mdTrajectory> trajectory_; ///< root only
     bool velocities_ = false;
     std::uint64_t rows_ = 0;
-    long long maps_ = 0;
+    long long maps_ = 0, frames_ = 0;
 };
 
 } // namespace asperity

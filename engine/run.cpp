@@ -373,6 +373,7 @@ private:
         done[Effect::observation] = {work.observed, snapshot_.bytes()};
         done[Effect::checkpoints] = {phases[Phase::checkpoint].calls, 0};
         if (recorder_) done[Effect::maps] = {recorder_->maps(), 0};
+        if (recorder_) done[Effect::trajectory] = {recorder_->frames(), 0};
         return done;
     }
 
