@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <utility>
 
 namespace asperity {
 
@@ -19,84 +20,69 @@ namespace {
 
 constexpr int format_version = 1;
 
-/// Visitors of Simulation::visit: every scalar as a double by name. Integers below 2^53 are kept
-/// exactly.
-struct Collect {
-    std::vector<std::pair<std::string, double>> values;
-    template <class T>
-    void operator()(const char* name, T& value) {
-        values.emplace_back(name, static_cast<double>(value));
-    }
-};
-
-struct Restore {
-    const std::vector<std::pair<std::string, double>>& values;
-    std::size_t at = 0;
-    template <class T>
-    void operator()(const char* name, T& value) {
-        if (at >= values.size() || values[at].first != name)
-            throw io::FileError(
-                "checkpoint", fmt::format("has no number \"{}\" where it is expected", name),
-                "it was written by another version of the program", "run the scene from its start");
-        value = static_cast<T>(values[at++].second);
-    }
-};
-
-std::string dataset(int level, const char* what) { return fmt::format("/level{}/{}", level, what); }
-
-/// Calls work(dataset name, field, planes) for the six arrays of each level.
-template <class Work>
-void each_field(Simulation& simulation, const Work& work) {
+/// Displacements and half-step velocities of each level.
+std::vector<StateArray> fields_of(Simulation& simulation) {
+    std::vector<StateArray> list;
     for (auto& level : simulation.block().levels()) {
         const int n = level.plan.level, planes = level.plan.cells;
-        work(n, dataset(n, "u_x"), level.u.x, planes);
-        work(n, dataset(n, "u_y"), level.u.y, planes);
-        work(n, dataset(n, "u_z"), level.u.z, planes);
-        work(n, dataset(n, "v_x"), level.v.x, planes);
-        work(n, dataset(n, "v_y"), level.v.y, planes);
-        work(n, dataset(n, "v_z"), level.v.z, planes);
+        const auto add = [&](const char* what, Field<double>& field) {
+            list.push_back({fmt::format("/level{}/{}", n, what), n, &field, planes});
+        };
+        add("u_x", level.u.x);
+        add("u_y", level.u.y);
+        add("u_z", level.u.z);
+        add("v_x", level.v.x);
+        add("v_y", level.v.y);
+        add("v_z", level.v.z);
     }
+    return list;
 }
 
 } // namespace
 
-void write_checkpoint(const std::string& path, Simulation& simulation, const RunScalars& scalars,
+double RestoreScalars::next(const char* name) {
+    if (at >= values.size() || values[at].first != name)
+        throw io::FileError(
+            "checkpoint", fmt::format("has no number \"{}\" where it is expected", name),
+            "it was written by another version of the program", "run the scene from its start");
+    return values[at++].second;
+}
+
+void write_checkpoint(const std::string& path, const Communicator& ranks, const ProcessGrid& grid,
+                      const std::vector<StateArray>& arrays, const RunScalars& scalars,
                       const std::string& fingerprint) {
-    const Communicator& ranks = simulation.communicator();
-    const ProcessGrid& grid = simulation.block().grid();
     const std::string temporary = path + ".part";
     std::unique_ptr<io::Hdf5File> file;
     ranks.on_root([&] {
         file = std::make_unique<io::Hdf5File>(temporary, io::Hdf5File::Mode::create);
         file->write_attribute("/", "asperity_checkpoint", std::int64_t{format_version});
         file->write_attribute("/", "scene", fingerprint);
-        Collect collect;
-        simulation.visit(collect);
-        for (const auto& [name, value] : scalars)
-            collect.values.emplace_back("run." + name, value);
         std::string names;
         std::vector<double> values;
-        for (const auto& [name, value] : collect.values)
+        for (const auto& [name, value] : scalars)
             names += name + "\n", values.push_back(value);
         file->write_attribute("/", "scalar_names", names);
         file->write<double>("/scalars", {values.size()}, values);
-        for (const auto& level : simulation.block().levels())
-            file->make_group(fmt::format("/level{}", level.plan.level));
+        int last = -1;
+        for (const StateArray& array : arrays)
+            if (array.level != std::exchange(last, array.level))
+                file->make_group(fmt::format("/level{}", array.level));
     });
-    each_field(simulation, [&](int level, const std::string& name, Field<double>& field,
-                               int planes) {
-        const auto sites = static_cast<std::uint64_t>(grid.tile(level).sites);
+    for (const StateArray& array : arrays) {
+        const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
         ranks.on_root([&] {
-            file->make_dataset<double>(name, {static_cast<std::uint64_t>(planes), sites, sites});
+            file->make_dataset<double>(array.name,
+                                       {static_cast<std::uint64_t>(array.planes), sites, sites});
         });
-        for (int z = 0; z < planes; ++z) {
-            const auto dense = gather_plane(ranks, grid, level, std::as_const(field).plane(z));
+        for (int z = 0; z < array.planes; ++z) {
+            const auto dense =
+                gather_plane(ranks, grid, array.level, std::as_const(*array.field).plane(z));
             ranks.on_root([&] {
-                file->write_slab<double>(name, {static_cast<std::uint64_t>(z), 0, 0},
+                file->write_slab<double>(array.name, {static_cast<std::uint64_t>(z), 0, 0},
                                          {1, sites, sites}, std::span<const double>(dense));
             });
         }
-    });
+    }
     ranks.on_root([&] {
         file->close();
         std::error_code failed;
@@ -107,10 +93,9 @@ void write_checkpoint(const std::string& path, Simulation& simulation, const Run
     });
 }
 
-RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
+RunScalars read_checkpoint(const std::string& path, const Communicator& ranks,
+                           const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                            const std::string& fingerprint) {
-    const Communicator& ranks = simulation.communicator();
-    const ProcessGrid& grid = simulation.block().grid();
     std::unique_ptr<io::Hdf5File> file;
     std::string names;
     std::vector<double> values;
@@ -141,31 +126,46 @@ RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
     ranks.broadcast(std::as_writable_bytes(std::span(names)));
     ranks.broadcast(std::span<double>(values));
 
-    std::vector<std::pair<std::string, double>> scalars;
+    RunScalars scalars;
     std::size_t from = 0;
     for (double value : values) {
         const auto to = names.find('\n', from);
         scalars.emplace_back(names.substr(from, to - from), value);
         from = to + 1;
     }
-    Restore restore{scalars};
+    for (const StateArray& array : arrays) {
+        const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
+        for (int z = 0; z < array.planes; ++z) {
+            std::vector<double> dense;
+            ranks.on_root([&] {
+                dense.resize(sites * sites);
+                file->read_slab<double>(array.name, {static_cast<std::uint64_t>(z), 0, 0},
+                                        {1, sites, sites}, std::span<double>(dense));
+            });
+            scatter_plane(ranks, grid, array.level, dense, array.field->plane(z));
+        }
+    }
+    return scalars;
+}
+
+void write_checkpoint(const std::string& path, Simulation& simulation, const RunScalars& scalars,
+                      const std::string& fingerprint) {
+    CollectScalars collect;
+    simulation.visit(collect);
+    for (const auto& [name, value] : scalars)
+        collect.values.emplace_back("run." + name, value);
+    write_checkpoint(path, simulation.communicator(), simulation.block().grid(),
+                     fields_of(simulation), collect.values, fingerprint);
+}
+
+RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
+                           const std::string& fingerprint) {
+    const RunScalars scalars =
+        read_checkpoint(path, simulation.communicator(), simulation.block().grid(),
+                        fields_of(simulation), fingerprint);
+    RestoreScalars restore{scalars};
     simulation.visit(restore);
-
-    each_field(simulation,
-               [&](int level, const std::string& name, Field<double>& field, int planes) {
-                   const auto sites = static_cast<std::uint64_t>(grid.tile(level).sites);
-                   for (int z = 0; z < planes; ++z) {
-                       std::vector<double> dense;
-                       ranks.on_root([&] {
-                           dense.resize(sites * sites);
-                           file->read_slab<double>(name, {static_cast<std::uint64_t>(z), 0, 0},
-                                                   {1, sites, sites}, std::span<double>(dense));
-                       });
-                       scatter_plane(ranks, grid, level, dense, field.plane(z));
-                   }
-               });
     simulation.block().exchange();
-
     RunScalars run;
     for (std::size_t i = restore.at; i < scalars.size(); ++i)
         run.emplace_back(scalars[i].first.substr(std::strlen("run.")), scalars[i].second);
@@ -173,42 +173,17 @@ RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
 }
 
 void Snapshot::take(Simulation& simulation) {
-    const auto& levels = simulation.block().levels();
-    if (levels_.empty())
-        for (const auto& level : levels)
-            levels_.push_back({VectorField<double>(level.tile, level.plan.cells + 1),
-                               VectorField<double>(level.tile, level.plan.cells)});
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-        levels_[l].u.copy_from(levels[l].u);
-        levels_[l].v.copy_from(levels[l].v);
-    }
-    Collect collect;
+    fields_.take(fields_of(simulation));
+    CollectScalars collect;
     simulation.visit(collect);
-    scalars_.clear();
-    for (const auto& [name, value] : collect.values)
-        scalars_.push_back(value);
+    scalars_ = std::move(collect.values);
     step_ = simulation.steps();
 }
 
-std::size_t Snapshot::bytes() const {
-    std::size_t total = 0;
-    for (const LevelState& level : levels_)
-        total += level.u.bytes() + level.v.bytes();
-    return total;
-}
-
 void Snapshot::restore(Simulation& simulation) const {
-    Collect names;
-    simulation.visit(names);
-    for (std::size_t i = 0; i < scalars_.size(); ++i)
-        names.values[i].second = scalars_[i];
-    Restore restore{names.values};
+    fields_.restore(fields_of(simulation));
+    RestoreScalars restore{scalars_};
     simulation.visit(restore);
-    auto& levels = simulation.block().levels();
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-        levels[l].u.copy_from(levels_[l].u);
-        levels[l].v.copy_from(levels_[l].v);
-    }
 }
 
 } // namespace asperity

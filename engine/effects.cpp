@@ -62,7 +62,7 @@ Effects::Effects(const Scene& scene) {
         std::tie(scene.surface, scene.block, scene.drive, scene.output);
     // Time passes on a dynamic path; equilibria have none.
     const bool direct = scene.has(PathPart::zero_load);
-    const bool in_time = !direct && drive.mode == DriveMode::dynamic;
+    const bool in_time = !scene.without_time();
     const std::string equilibria =
         direct ? "drive.path = [\"zero-load\"]" : "drive.mode = \"quasistatic\"";
     const std::string timeless = "no time passes: " + equilibria;
@@ -100,19 +100,20 @@ Effects::Effects(const Scene& scene) {
            !in_time  ? equilibria
            : relaxes ? "drive.path has an approach: a copy of where it ends is relaxed"
                      : "drive.path has no approach");
-    decide(Effect::observation, in_time,
-           in_time ? fmt::format("output.series = {}: every so many steps", output.series)
-                   : timeless);
-    const bool maps = relaxes && scene.writes_field("zero-load");
+    const bool follows = scene.has(PathPart::approach) || scene.has(PathPart::pull_off);
+    decide(Effect::observation, follows,
+           in_time   ? fmt::format("output.series = {}: every so many steps", output.series)
+           : follows ? "always: at every point of a quasi-static path"
+                     : timeless);
+    const bool maps = (relaxes && scene.writes_field("zero-load")) ||
+                      scene.writes_field("pull-off") || (follows && scene.field_stride());
     decide(Effect::maps, maps,
-           maps ? "output.fields has \"zero-load\"" : "output.fields has no \"zero-load\"");
+           maps ? "output.fields asks for them" : "output.fields asks for no state of this path");
     decide(Effect::trajectory, output.trajectory.has_value(),
            output.trajectory ? fmt::format("output.trajectory = {}", *output.trajectory)
                              : "output.trajectory = \"none\"");
-    const bool checkpoints = in_time && output.checkpoint > 0.0;
-    decide(Effect::checkpoints, checkpoints,
-           in_time ? fmt::format("output.checkpoint = {:.4g} s of wall time", output.checkpoint)
-                   : "a relaxation keeps none");
+    decide(Effect::checkpoints, output.checkpoint > 0.0,
+           fmt::format("output.checkpoint = {:.4g} s of wall time", output.checkpoint));
     decide(Effect::theory, true, "always: one solution beside the result");
 }
 

@@ -29,9 +29,9 @@ enum class Effect {
     skipping,      ///< sites out of reach are left out of the sweep
     tail,          ///< continuum correction beyond the cutoff
     curvature,     ///< a spherical cap under the roughness
-    relaxation,    ///< the state at zero load
+    relaxation,    ///< states of equilibrium
     observation,   ///< energies, contacts and the energy balance; a row of the series
-    maps,          ///< of the state at zero load
+    maps,          ///< of states that the scene asks for
     trajectory,    ///< frames of the block
     checkpoints,   ///< states to go on from
     theory,        ///< Persson's, beside the result

@@ -15,14 +15,38 @@ namespace asperity {
 
 namespace {
 
+void add_arrays(int level, VectorField<double>& u, int planes, std::vector<StateArray>& list) {
+    const auto add = [&](const char* what, Field<double>& field) {
+        list.push_back({fmt::format("/level{}/{}", level, what), level, &field, planes});
+    };
+    add("u_x", u.x);
+    add("u_y", u.y);
+    add("u_z", u.z);
+}
+
 class LevelsAtRest final : public Equilibrium {
 public:
     explicit LevelsAtRest(Block block) : block_(std::move(block)) {}
     VectorPlane<const double> lowest_layer() const override { return block_.lowest_layer(); }
     VectorPlane<double> interface_force() override { return block_.interface_force(); }
-    void undo() override { block_.set_uniform(0.0, 0.0); }
+    const Communicator& communicator() const override { return block_.communicator(); }
+    void set_uniform(double z) override { block_.set_uniform(z, 0.0); }
+    void hold_top(double z) override {
+        held_ = true;
+        block_.set_top(z);
+    }
+    void free_top() override { held_ = false; }
+    double top() const override { return block_.top(); }
+    std::vector<StateArray> state() override {
+        std::vector<StateArray> list;
+        for (Block::Level& level : block_.levels())
+            add_arrays(level.plan.level, level.u, level.plan.cells, list);
+        return list;
+    }
+    void settle() override { block_.exchange(); }
     RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
                        Phases& phases) override {
+        options.top_held = held_;
         return asperity::relax(block_, interface, reference_height, options, phases);
     }
     std::size_t bytes() const override { return block_.bytes(); }
@@ -30,6 +54,7 @@ public:
 
 private:
     Block block_;
+    bool held_ = false;
 };
 
 class WavesAtRest final : public Equilibrium {
@@ -37,11 +62,32 @@ public:
     WavesAtRest(const BlockOptions& options, const Communicator& ranks) : block_(options, ranks) {}
     VectorPlane<const double> lowest_layer() const override { return block_.lowest_layer(); }
     VectorPlane<double> interface_force() override { return block_.interface_force(); }
-    void undo() override { block_.set_uniform(0.0); }
+    const Communicator& communicator() const override { return block_.communicator(); }
+    void set_uniform(double z) override { block_.set_uniform(z); }
+    void hold_top(double z) override { block_.hold_top(z); }
+    void free_top() override { block_.free_top(); }
+    double top() const override { return block_.top(); }
+    std::vector<StateArray> state() override {
+        std::vector<StateArray> list;
+        add_arrays(0, block_.layer(), 1, list);
+        return list;
+    }
+    void settle() override { block_.settle(); }
     RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
                        Phases& phases) override {
         options.max_move = 0.2;
-        return asperity::relax(block_, interface, reference_height, options, phases);
+        RelaxedState state = asperity::relax(block_, interface, reference_height, options, phases);
+        if (!block_.top_is_free() || options.load == 0.0) return state;
+        // A free top plane follows the layer and leaves out what the load presses the block
+        // together by.
+        const BlockOptions& o = block_.options();
+        const double sites = static_cast<double>(o.sites) * o.sites;
+        const double spring =
+            (o.lame() + 2.0 * o.shear_modulus()) * sites * o.spacing / o.thickness;
+        block_.hold_top(block_.mean_height() - options.load / spring);
+        state.top_force = block_.top_force();
+        state.elastic_energy = block_.elastic_energy();
+        return state;
     }
     std::size_t bytes() const override {
         return block_.bytes() + spectral_relaxation_bytes(block_.options().sites);
@@ -58,16 +104,21 @@ std::unique_ptr<Equilibrium> at_rest(Block block) {
     return std::make_unique<LevelsAtRest>(std::move(block));
 }
 
+std::unique_ptr<Equilibrium> spectral_at_rest(const BlockOptions& options,
+                                              const Communicator& ranks) {
+    return std::make_unique<WavesAtRest>(options, ranks);
+}
+
 std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& setup,
                                               const Communicator& ranks, const ProcessGrid& grid) {
     if (scene.block.model == BlockModel::spectral)
-        return std::make_unique<WavesAtRest>(setup.simulation.block, ranks);
+        return spectral_at_rest(setup.simulation.block, ranks);
     return at_rest(Block(setup.simulation.block, ranks, grid, Motion::at_rest));
 }
 
 double height_of_strongest_attraction(Equilibrium& block, const Interface& interface,
                                       double lowest_atom, const Communicator& ranks) {
-    block.undo();
+    block.set_uniform(0.0);
     double best_height = interface.start_height(), strongest = 0.0;
     constexpr double stride = 0.1;
     for (double height = best_height;; height -= stride) {
@@ -79,18 +130,23 @@ double height_of_strongest_attraction(Equilibrium& block, const Interface& inter
     }
 }
 
-ZeroLoad find_zero_load(Equilibrium& block, Interface& interface, double reference_height,
-                        const Scene& scene, const Setup& setup, io::Progress& progress) {
+RelaxOptions relax_options(const Scene& scene, const Setup& setup) {
     RelaxOptions options;
     options.tolerance = scene.drive.tolerance;
     options.site_stiffness = setup.flat.stiffness * scene.surface.spacing * scene.surface.spacing;
-    options.report = [&](long long iteration, double residual) {
-        if (!progress.due()) return;
-        progress.update(
-            {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
-    };
+    return options;
+}
+
+std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
+                                       double reference_height, double load, const Scene& scene,
+                                       const Setup& setup,
+                                       const std::function<bool(long long, double)>& stop) {
+    RelaxOptions options = relax_options(scene, setup);
+    options.load = load;
+    options.report = stop;
     Phases own; // its lines are not lines of the step
     const RelaxedState s = block.relax(interface, reference_height, options, own);
+    if (s.interrupted) return std::nullopt;
     if (!s.converged)
         throw io::PhysicsError(
             fmt::format("the zero-load state was not found in {} iterations", s.iterations),
@@ -110,6 +166,12 @@ ZeroLoad find_zero_load(Equilibrium& block, Interface& interface, double referen
     z.residual = s.residual;
     z.iterations = static_cast<double>(s.iterations);
     return z;
+}
+
+void show_relaxation(io::Progress& progress, long long iteration, double residual) {
+    if (!progress.due()) return;
+    progress.update(
+        {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
 }
 
 } // namespace asperity

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A block at rest over its substrate, whichever of its realisations it is: what a search for the
-// relaxed state needs of it.
+// relaxed state, and a path of such states, need of it.
 //
 // The levels of a lattice or multiscale block relax by FIRE (relaxation.hpp), the waves of a
 // spectral one by L-BFGS and Newton (spectral_relaxation.hpp). Both end in the state downhill of
@@ -13,6 +13,7 @@
 #include "engine/findings.hpp"
 #include "engine/relaxation.hpp"
 #include "engine/setup.hpp"
+#include "engine/state_array.hpp"
 #include "io/progress.hpp"
 
 #include <memory>
@@ -24,9 +25,22 @@ public:
     virtual ~Equilibrium() = default;
     virtual VectorPlane<const double> lowest_layer() const = 0;
     virtual VectorPlane<double> interface_force() = 0;
-    /// Back to an undisplaced block.
-    virtual void undo() = 0;
-    /// Relaxes in place with the top plane free. options.max_move is the realisation's own.
+    virtual const Communicator& communicator() const = 0;
+
+    /// The whole block, its top plane with it, displaced by (0, 0, z).
+    virtual void set_uniform(double z) = 0;
+    /// The top plane's displacement along z, Å. Held, it stays there; free (at first), it follows
+    /// the block.
+    virtual void hold_top(double z) = 0;
+    virtual void free_top() = 0;
+    virtual double top() const = 0;
+
+    /// Displacements of all that moves, those of the lowest layer (x, y, z) first.
+    virtual std::vector<StateArray> state() = 0;
+    /// Makes the rest follow after the arrays of state() were written from outside.
+    virtual void settle() = 0;
+
+    /// Relaxes in place. options.max_move and options.top_held are the realisation's own.
     virtual RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
                                Phases& phases) = 0;
     virtual std::size_t bytes() const = 0;
@@ -36,6 +50,9 @@ public:
 
 /// A block of levels, taken over.
 std::unique_ptr<Equilibrium> at_rest(Block block);
+/// The spectral block.
+std::unique_ptr<Equilibrium> spectral_at_rest(const BlockOptions& options,
+                                              const Communicator& ranks);
 /// The scene's block.
 std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& setup,
                                               const Communicator& ranks, const ProcessGrid& grid);
@@ -45,8 +62,18 @@ std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& s
 double height_of_strongest_attraction(Equilibrium& block, const Interface& interface,
                                       double lowest_atom, const Communicator& ranks);
 
-/// The relaxed state under zero load. Collective. Throws io::PhysicsError if it is not found.
-ZeroLoad find_zero_load(Equilibrium& block, Interface& interface, double reference_height,
-                        const Scene& scene, const Setup& setup, io::Progress& progress);
+/// What a relaxation of this scene is asked for, without a load.
+RelaxOptions relax_options(const Scene& scene, const Setup& setup);
+
+/// The relaxed state with the top plane free under this load (eV/Å, pressing down). Empty if
+/// stop(iteration, residual) asked for an end. Collective. Throws io::PhysicsError if it is not
+/// found.
+std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
+                                       double reference_height, double load, const Scene& scene,
+                                       const Setup& setup,
+                                       const std::function<bool(long long, double)>& stop);
+
+/// "relaxing, largest force 1e-3 eV/Å"
+void show_relaxation(io::Progress& progress, long long iteration, double residual);
 
 } // namespace asperity

@@ -4,7 +4,7 @@
 // What a run has found so far: the numbers behind the summary and result.json.
 #pragma once
 
-#include "engine/relaxation.hpp"
+#include "engine/dissipation.hpp"
 
 #include <optional>
 
@@ -26,8 +26,9 @@ struct Findings {
     std::optional<ZeroLoad> zero_load;
     std::optional<double> approach; ///< work of adhesion, meV/Å^2
     std::optional<double> pull_off;
-    double attraction_in = 0.0;  ///< largest attraction on the way in, eV/Å
-    double attraction_out = 0.0; ///< on the way out
+    double attraction_in = 0.0;            ///< largest attraction on the way in, eV/Å
+    double attraction_out = 0.0;           ///< on the way out
+    std::optional<Dissipation> dissipated; ///< of a quasi-static path (which lists it itself)
 
     /// By name, for checkpoints: visitor(name, double&).
     template <class Visitor>

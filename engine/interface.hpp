@@ -82,6 +82,7 @@ public:
     /// cutoff. With the tail, which ends nowhere, + 4 cutoffs: 1/256 of its energy is left there.
     double start_height() const;
 
+    const Tile& tile() const { return tile_; }
     InterfaceMethod method() const { return method_; }
     const InterfaceOptions& options() const { return options_; }
     std::size_t bytes() const;

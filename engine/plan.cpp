@@ -41,8 +41,15 @@ struct Rates {
 
 /// Writing a checkpoint, bytes/s; and one solution of the theory, s: from experience.
 constexpr double disk = 2e8, theory_seconds = 0.3;
-/// Iterations of a relaxation, from experience (first-contact and flat-3A, N = 64 to 512).
-long long usual_iterations(const Scene& scene) {
+/// Iterations of a relaxation, from experience (first-contact and flat-3A, N = 64 to 512); of a
+/// quasi-static path likewise (first-contact, N = 32 to 128, some with steep falls).
+long long usual_iterations(const Scene& scene, double start, const Setup& setup) {
+    if (scene.drive.mode == DriveMode::quasistatic &&
+        (scene.has(PathPart::approach) || scene.has(PathPart::pull_off))) {
+        const ExpectedWay way = expected_way(setup, start);
+        const double points = 1.5 * (way.down + way.up) / scene.drive.step;
+        return std::llround(points * (scene.block.model == BlockModel::spectral ? 40.0 : 100.0));
+    }
     if (scene.block.model == BlockModel::spectral) return 150;
     if (!scene.has(PathPart::zero_load)) return 300; // from contact, which is near
     return std::llround(80.0 * std::sqrt(scene.surface.sites));
@@ -331,7 +338,7 @@ Plan make_plan(const Scene& scene, int ranks, int threads) {
     cost(Effect::skipping) = {8.0 * interface_rings * sites / interface_block,
                               -touched * (1.0 - in_contact) * (rates.near - rates.far)};
     if (on(Effect::relaxation)) {
-        plan.iterations = usual_iterations(scene);
+        plan.iterations = usual_iterations(scene, start, setup);
         cost(Effect::relaxation) = {spectral ? rates.relaxation_bytes * sites : at_rest + motion,
                                     share * static_cast<double>(plan.iterations) * nodes *
                                         rates.iteration};

@@ -13,27 +13,79 @@ namespace asperity {
 
 namespace {
 
-const std::vector<io::Column>& columns() {
-    static const std::vector<io::Column> list = {
-        {"step", "", "time step"},
-        {"time", "ps", "simulated time"},
-        {"leg", "", "0 approach, 1 pull-off"},
-        {"top", "Å", "displacement of the top plane"},
-        {"mean_height", "Å", "mean height of the lowest layer above the substrate's mean plane"},
-        {"force", "eV/Å",
-         "total normal force of the substrate on the lowest layer; positive pushes"},
-        {"top_force", "eV/Å", "elastic force on the top plane along z"},
-        {"interface_energy", "eV", "Lennard-Jones energy"},
-        {"elastic_energy", "eV", "elastic energy of the block"},
-        {"kinetic_energy", "eV", "kinetic energy of the block"},
-        {"work", "eV", "work done on the block since the start"},
-        {"damped", "eV", "energy damped since the start"},
-        {"residual", "",
-         "energy balance: (work - change of energy - damped) over the largest term"},
-        {"contact_fraction", "", "sites closer than the inflection of the potential to an atom"},
-        {"pushed_fraction", "", "sites whose net normal force is repulsive"},
-        {"closest", "Å", "smallest distance between a site and an atom; infinite out of reach"},
-    };
+/// What a row is made of.
+struct Row {
+    const StepRecord& r;
+    bool pulling;
+    double sites; ///< N^2
+};
+
+enum class In { both, dynamic, quasistatic };
+
+struct RecordColumn {
+    io::Column column;
+    In in;
+    double (*value)(const Row&);
+};
+
+const RecordColumn record_columns[] = {
+    {{"step", "", "time step; of a quasi-static path: point"},
+     In::both,
+     [](const Row& w) { return static_cast<double>(w.r.step); }},
+    {{"time", "ps", "simulated time"}, In::dynamic, [](const Row& w) { return w.r.time * 1e-3; }},
+    {{"leg", "", "0 approach, 1 pull-off"},
+     In::both,
+     [](const Row& w) { return w.pulling ? 1.0 : 0.0; }},
+    {{"top", "Å", "displacement of the top plane"}, In::both, [](const Row& w) { return w.r.top; }},
+    {{"mean_height", "Å", "mean height of the lowest layer above the substrate's mean plane"},
+     In::both,
+     [](const Row& w) { return w.r.mean_height; }},
+    {{"force", "eV/Å", "total normal force of the substrate on the lowest layer; positive pushes"},
+     In::both,
+     [](const Row& w) { return w.r.force; }},
+    {{"top_force", "eV/Å", "elastic force on the top plane along z"},
+     In::both,
+     [](const Row& w) { return w.r.top_force; }},
+    {{"interface_energy", "eV", "Lennard-Jones energy"},
+     In::both,
+     [](const Row& w) { return w.r.interface_energy; }},
+    {{"elastic_energy", "eV", "elastic energy of the block"},
+     In::both,
+     [](const Row& w) { return w.r.elastic_energy; }},
+    {{"kinetic_energy", "eV", "kinetic energy of the block"},
+     In::dynamic,
+     [](const Row& w) { return w.r.kinetic_energy; }},
+    {{"work", "eV", "work done on the block since the start"},
+     In::both,
+     [](const Row& w) { return w.r.work; }},
+    {{"damped", "eV", "energy damped since the start"},
+     In::dynamic,
+     [](const Row& w) { return w.r.damped; }},
+    {{"dissipated", "eV", "energy lost where the block became unstable, since the start"},
+     In::quasistatic,
+     [](const Row& w) { return w.r.damped; }},
+    {{"residual", "", "energy balance: (work - change of energy - loss) over the largest term"},
+     In::both,
+     [](const Row& w) { return w.r.residual; }},
+    {{"contact_fraction", "", "sites closer than the inflection of the potential to an atom"},
+     In::both,
+     [](const Row& w) { return static_cast<double>(w.r.in_contact) / w.sites; }},
+    {{"pushed_fraction", "", "sites whose net normal force is repulsive"},
+     In::both,
+     [](const Row& w) { return static_cast<double>(w.r.pushed) / w.sites; }},
+    {{"closest", "Å", "smallest distance between a site and an atom; infinite out of reach"},
+     In::both,
+     [](const Row& w) { return w.r.closest; }},
+};
+
+bool is_in(const RecordColumn& c, DriveMode mode) {
+    return c.in == In::both || (c.in == In::dynamic) == (mode == DriveMode::dynamic);
+}
+
+std::vector<io::Column> columns(DriveMode mode) {
+    std::vector<io::Column> list;
+    for (const RecordColumn& c : record_columns)
+        if (is_in(c, mode)) list.push_back(c.column);
     return list;
 }
 
@@ -53,17 +105,18 @@ std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
 } // namespace
 
 Recorder::Recorder(const std::string& path, const Surface& surface,
-                   const Communicator& communicator, bool resume, std::uint64_t rows)
-    : communicator_(communicator), rows_(resume ? rows : 0) {
+                   const Communicator& communicator, DriveMode mode, bool resume,
+                   std::uint64_t rows)
+    : communicator_(communicator), mode_(mode), rows_(resume ? rows : 0) {
     communicator_.on_root([&] {
         if (resume) {
             file_ = std::make_unique<io::Hdf5File>(path, io::Hdf5File::Mode::edit);
-            series_ = io::Series::reopen(*file_, "/series", columns(), rows);
+            series_ = io::Series::reopen(*file_, "/series", columns(mode), rows);
             return;
         }
         file_ = std::make_unique<io::Hdf5File>(path, io::Hdf5File::Mode::create);
         io::write_h5md_head(*file_, io::build_info().version);
-        series_ = io::Series(*file_, "/series", columns());
+        series_ = io::Series(*file_, "/series", columns(mode));
         const auto n = static_cast<std::uint64_t>(surface.sites);
         file_->make_group("/substrate");
         file_->write<double>("/substrate/height", {n, n}, surface.height);
@@ -84,19 +137,14 @@ Recorder::Recorder(const std::string& path, const Surface& surface,
     });
 }
 
-void Recorder::row(const Simulation& simulation) {
-    const StepRecord& r = simulation.now();
-    const Leg leg = simulation.leg();
-    const bool pulling =
-        leg == Leg::pull_off || (leg == Leg::done && simulation.options().drive.pull_off);
-    const double sites = static_cast<double>(simulation.options().block.sites);
+void Recorder::row(const StepRecord& record, bool pulling, int sites) {
+    const Row row{record, pulling, static_cast<double>(sites) * sites};
     ++rows_;
     communicator_.on_root([&] {
-        series_.append({static_cast<double>(r.step), r.time * 1e-3, pulling ? 1.0 : 0.0, r.top,
-                        r.mean_height, r.force, r.top_force, r.interface_energy, r.elastic_energy,
-                        r.kinetic_energy, r.work, r.damped, r.residual,
-                        static_cast<double>(r.in_contact) / (sites * sites),
-                        static_cast<double>(r.pushed) / (sites * sites), r.closest});
+        std::vector<double> values;
+        for (const RecordColumn& c : record_columns)
+            if (is_in(c, mode_)) values.push_back(c.value(row));
+        series_.append(std::span<const double>(values));
     });
 }
 
@@ -115,7 +163,7 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
     const auto uz = gather_plane(communicator_, grid, 0, layer.z);
     communicator_.on_root([&] {
         const std::string group = "/fields/" + state;
-        if (file_->exists(group)) return; // taken up from a checkpoint written before this state
+        if (file_->exists(group)) file_->remove(group); // of an earlier such state
         file_->make_group(group);
         const auto n = static_cast<std::uint64_t>(grid.tile(0).sites);
         const auto write = [&](const char* name, const char* unit, const std::vector<double>& map) {

@@ -5,7 +5,7 @@
 // (collective; the root writes).
 #pragma once
 
-#include "engine/findings.hpp"
+#include "engine/scene.hpp"
 #include "engine/simulation.hpp"
 #include "io/h5md.hpp"
 #include "io/hdf5_file.hpp"
@@ -21,10 +21,11 @@ class Recorder {
 public:
     /// A new file, or (rows > 0) an old one taken up after its first rows.
     Recorder(const std::string& path, const Surface& surface, const Communicator& communicator,
-             bool resume, std::uint64_t rows);
+             DriveMode mode, bool resume, std::uint64_t rows);
 
-    /// One row: the simulation's last step, which must have been observed.
-    void row(const Simulation& simulation);
+    /// One row: an observed step, or a point of a quasi-static path (which has no time, no kinetic
+    /// energy and no damping, and no columns for them). sites: N.
+    void row(const StepRecord& record, bool pulling, int sites);
     std::uint64_t rows() const { return rows_; }
     long long maps() const { return maps_; }     ///< states whose maps were written
     long long frames() const { return frames_; } ///< of the trajectory, by this run
@@ -42,6 +43,7 @@ private:
     Communicator communicator_;
     std::unique_ptr<io::Hdf5File> file_; ///< root only
     io::Series series_;
+    DriveMode mode_;
     std::optional<io::H5mdTrajectory> trajectory_; ///< root only
     bool velocities_ = false;
     std::uint64_t rows_ = 0;

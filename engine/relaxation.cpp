@@ -13,7 +13,7 @@ namespace asperity {
 
 namespace {
 
-/// The minimiser's view of the block: positions, fictitious masses, forces, and the free top plane.
+/// The minimiser's view of the block: positions, fictitious masses, forces, and the top plane.
 class Descent {
 public:
     Descent(Block& block, Interface& interface, double reference_height,
@@ -28,8 +28,9 @@ public:
             level.v = VectorField<double>(level.tile, level.plan.cells);
     }
 
-    /// Forces at the present positions; the largest on a node (or, for the top plane, its share
-    /// for each site).
+    /// Forces at the present positions; the largest on a node. What is left in all of the block
+    /// counts too, as a share for each site: the force on a free top plane; under a held one, what
+    /// the substrate exerts and the top plane does not feel.
     double evaluate(bool observe) {
         {
             const auto t = phases_.time(Phase::interpolate);
@@ -44,7 +45,11 @@ public:
         block_.forces(force_);
         ExactSum top;
         block_.add_top_force(top);
-        top_force_ = global_sum(block_.communicator(), top) - options_.load;
+        const auto [above, below] =
+            global_sums(block_.communicator(), std::array{top, sums_.force_z});
+        elastic_top_force_ = above;
+        top_force_ = options_.top_held ? 0.0 : above - options_.load;
+        const double whole = options_.top_held ? below - above : top_force_;
 
         double largest = 0.0;
         for (std::size_t l = 0; l < force_.size(); ++l) {
@@ -62,7 +67,7 @@ public:
         }
         const double sites = static_cast<double>(block_.options().sites);
         std::array<double, 1> all = {
-            std::max(std::sqrt(largest), std::abs(top_force_) / (sites * sites))};
+            std::max(std::sqrt(largest), std::abs(whole) / (sites * sites))};
         block_.communicator().max(all);
         return all[0];
     }
@@ -134,6 +139,7 @@ public:
     }
 
     const InterfaceSums& interface_sums() const { return sums_; }
+    double elastic_top_force() const { return elastic_top_force_; }
 
 private:
     static double mass(const Block::Level& level) {
@@ -167,7 +173,8 @@ private:
     Phases& phases_;
     std::vector<VectorField<double>> force_;
     InterfaceSums sums_;
-    double top_force_ = 0.0, top_speed_ = 0.0, top_mass_ = 1.0;
+    double elastic_top_force_ = 0.0;
+    double top_force_ = 0.0, top_speed_ = 0.0, top_mass_ = 1.0; ///< of the motion
 };
 
 } // namespace
@@ -191,8 +198,11 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
         if (state.residual <= options.tolerance || !std::isfinite(state.residual) ||
             state.iterations >= options.max_iterations)
             break;
-        if (options.report && state.iterations % 50 == 0)
-            options.report(state.iterations, state.residual);
+        if (options.report && state.iterations % 50 == 0 &&
+            options.report(state.iterations, state.residual)) {
+            state.interrupted = true;
+            break;
+        }
 
         const auto p = descent.products();
         double keep = 0.0, gain = 0.0;
@@ -228,6 +238,7 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
     const auto values = global_sums(block.communicator(), energies);
     state.interface_energy = values[0];
     state.force = values[1];
+    state.top_force = descent.elastic_top_force();
     state.elastic_energy = values[2];
     state.mean_height =
         values[3] / (static_cast<double>(block.options().sites) * block.options().sites);
@@ -235,6 +246,9 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
     block.communicator().sum(counts);
     state.in_contact = counts[0];
     state.pushed = counts[1];
+    std::array<double, 1> closest = {-sums.closest_r2};
+    block.communicator().max(closest);
+    state.closest = std::sqrt(-closest[0]);
     return state;
 }
 

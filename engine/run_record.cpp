@@ -9,6 +9,7 @@
 #include <omp.h>
 
 #include <string>
+#include <utility>
 
 namespace asperity {
 
@@ -40,6 +41,33 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
         };
         if (findings.approach) r.jkr.in = jkr(findings.attraction_in);
         if (findings.pull_off) r.jkr.out = jkr(findings.attraction_out);
+    }
+    if (findings.dissipated) {
+        const Dissipation& lost = *findings.dissipated;
+        const double area = scene.edge() * scene.edge();
+        const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
+        io::JsonValue d = io::JsonValue::object();
+        d["approach"] = units::milli_per_unit * lost.approach / area;
+        d["pull_off"] = units::milli_per_unit * lost.pull_off / area;
+        d["energy"] = lost.total();
+        d["events"] = lost.events;
+        d["jumps"] = io::JsonValue::array();
+        for (const Jump& jump : lost.jumps) {
+            io::JsonValue j = io::JsonValue::object();
+            j["leg"] = jump.leg == 0.0 ? "approach" : "pull-off";
+            j["energy"] = jump.energy;
+            j["top"] = jump.top;
+            j["mean_height"] = io::JsonValue::Array{jump.height_before, jump.height_after};
+            j["force"] = io::JsonValue::Array{jump.force_before, jump.force_after};
+            j["contact_fraction"] =
+                io::JsonValue::Array{jump.contact_before / sites, jump.contact_after / sites};
+            j["site"] =
+                io::JsonValue::Array{static_cast<int>(jump.site_x), static_cast<int>(jump.site_y)};
+            j["largest_move"] = jump.largest_move;
+            j["sites_moved"] = static_cast<long long>(jump.sites_moved);
+            d["jumps"].push_back(std::move(j));
+        }
+        r.extra.emplace_back("dissipated", std::move(d));
     }
     add_theory(scene, surface, setup.flat.work_of_adhesion, r);
     r.extra.emplace_back("run.kernels", std::string(name(processor_level())));

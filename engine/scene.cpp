@@ -3,9 +3,11 @@
 #include "engine/scene.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -102,7 +104,8 @@ io::Schema bind(Scene& scene) {
                               {"zero-load", PathPart::zero_load}},
                              "the parts of the run, in order");
     schema.number("velocity", drive.velocity, "m/s", positive(), "of the top plane (dynamic)");
-    schema.number("step", drive.step, "Å", positive(), "top displacement per point (quasistatic)");
+    schema.number("step", drive.step, "Å", positive(),
+                  "largest top displacement per point (quasistatic)");
     schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet");
     schema.number("damping", drive.damping, "1/ps", at_least(0.0),
                   "rate Γ of the force -m Γ v, v relative to the top plane");
@@ -112,14 +115,16 @@ io::Schema bind(Scene& scene) {
         "ramp", drive.ramp, "auto", "ps", at_least(0.0),
         "time over which the top plane's velocity is reversed smoothly; \"auto\": one sound "
         "transit of the block");
-    schema.number("load", drive.load, "MPa", any(), "pressure at which the approach ends");
+    schema.number("load", drive.load, "MPa", any(),
+                  "pressure at which the approach ends, or a path that starts at \"zero-load\"");
     schema.number("temperature", drive.temperature, "K", at_least(0.0),
                   "above 0: Langevin thermostat");
     schema.integer("seed", drive.seed, at_least(0), "of the thermal noise");
     schema.integer("max_steps", drive.max_steps, at_least(0),
-                   "stop after so many steps; 0: no limit");
+                   "stop after so many steps (points of a quasi-static path); 0: no limit");
     schema.number("tolerance", drive.tolerance, "eV/Å", positive(),
-                  "largest residual force of a relaxation");
+                  "largest residual force of a relaxation; of a quasi-static path, error of the "
+                  "energy for each site and Å");
 
     auto& theory = scene.theory;
     schema.section("theory", "Persson's theory for the same surface.");
@@ -152,8 +157,10 @@ io::Schema bind(Scene& scene) {
     schema.integer_or("trajectory", output.trajectory, "none", at_least(1),
                       "steps between frames of the lowest layer (H5MD, in run.h5)");
     schema.boolean("velocities", output.velocities, "in the frames of the trajectory too");
-    schema.list("fields", output.fields, {"zero-load", "pull-off", "every:"},
-                "when maps are written");
+    schema.list(
+        "fields", output.fields, {"zero-load", "pull-off", "every:"},
+        "when maps are written: at zero load, at the largest attraction of the pull-off, every "
+        "so many steps (points of a quasi-static path)");
     schema.integer("series", output.series, at_least(1), "steps between rows of the series");
     schema.number("checkpoint", output.checkpoint, "s", at_least(0.0),
                   "wall time between checkpoints; 0: none");
@@ -307,6 +314,10 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                      fmt::format("= {:.6g} K with drive.damping = 0", drive.temperature),
                      "the Langevin thermostat gives and takes heat through the damping",
                      "give a damping, for example 0.05 1/ps");
+    if (scene.field_stride() == 0)
+        problems.add("output.fields", "has an \"every:\" without a number of steps",
+                     "maps are written every so many steps (points of a quasi-static path)",
+                     "for example fields = [\"zero-load\", \"every:1000\"]");
     if (scene.writes_field("pull-off") && !scene.has(PathPart::pull_off))
         problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
                      "add it to drive.path or take it out of output.fields");
@@ -323,29 +334,24 @@ void not_yet(const Scene& scene, io::Problems& problems) {
                      "it is part of the scene format, and this release does not compute it",
                      std::move(instead));
     };
-    const bool equilibrium = scene.has(PathPart::zero_load);
-    if (scene.block.model == BlockModel::spectral && !equilibrium)
-        refuse("block.model", "\"spectral\" on a path",
-               "use path = [\"zero-load\"], or \"multiscale\" (\"lattice\" is the reference)");
+    if (scene.block.model == BlockModel::spectral && !scene.without_time())
+        refuse("block.model", "\"spectral\" on a path in time",
+               "use drive.mode = \"quasistatic\", or \"multiscale\" (\"lattice\" is the "
+               "reference)");
     if (scene.block.strain == Strain::finite)
         refuse("block.strain", "\"finite\"", "use \"linear\"");
-    if (scene.drive.mode == DriveMode::quasistatic && !equilibrium)
-        refuse(
-            "drive.mode", "\"quasistatic\"",
-            "use \"dynamic\" with a low velocity; path = [\"zero-load\"] gives the relaxed state");
     const auto parts = static_cast<std::size_t>(
         std::count(scene.drive.path.begin(), scene.drive.path.end(), PathPart::approach));
-    if (parts > 1)
-        refuse("drive.path", "a path of several cycles", "use path = [\"approach\", \"pull-off\"]");
-    if (scene.drive.path.size() > 1 && scene.drive.path.front() == PathPart::zero_load)
-        refuse("drive.path", "a pull-off from \"zero-load\"",
-               "use path = [\"approach\", \"pull-off\"]");
+    if (parts > 1 && !scene.without_time())
+        refuse("drive.path", "a path of several cycles in time",
+               "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
+    if (scene.drive.mode == DriveMode::dynamic && scene.drive.path.size() > 1 &&
+        scene.drive.path.front() == PathPart::zero_load)
+        refuse("drive.path", "a pull-off from \"zero-load\" in time",
+               "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
     if (scene.numerics.accuracy)
         refuse("numerics.accuracy", fmt::format("{:.6g}", *scene.numerics.accuracy),
                "use \"none\" and choose layers_per_level, timestep and velocity yourself");
-    for (const std::string& field : scene.output.fields)
-        if (field != "zero-load")
-            refuse("output.fields", "\"" + field + "\"", "use [\"zero-load\"], or [] for none");
     if (scene.surface.kind == SurfaceKind::file && scene.surface.file_size)
         refuse("surface.file_size", fmt::format("{:.6g} Å", *scene.surface.file_size),
                "give a map that is as wide as the box, and leave file_size out");
@@ -372,6 +378,10 @@ std::vector<std::string> notes(const Scene& scene) {
             fmt::format("the block is thinner ({} layers) than wide ({} sites): the longest waves "
                         "feel the rigid top plane",
                         scene.block.thickness, surface.sites));
+    if (scene.has(PathPart::zero_load) && scene.drive.load != 0.0)
+        list.push_back(fmt::format("the \"zero-load\" state carries drive.load = {:.6g} MPa; its "
+                                   "binding energy leaves out the load's potential",
+                                   scene.drive.load));
     const auto idle = [&](const std::string& key, const std::string& reason) {
         if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
     };
@@ -384,6 +394,18 @@ std::vector<std::string> notes(const Scene& scene) {
     if (scene.block.model != BlockModel::multiscale)
         idle("block.layers_per_level", "block.model is not \"multiscale\"");
     return list;
+}
+
+std::optional<long long> Scene::field_stride() const {
+    constexpr std::string_view every = "every:";
+    for (const std::string& field : output.fields) {
+        if (!field.starts_with(every)) continue;
+        long long n = 0;
+        const char* end = field.data() + field.size();
+        const auto [stop, error] = std::from_chars(field.data() + every.size(), end, n);
+        return error == std::errc() && stop == end && n > 0 ? n : 0;
+    }
+    return std::nullopt;
 }
 
 std::string scene_toml(const Scene& scene, bool with_docs) {

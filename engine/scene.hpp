@@ -113,7 +113,14 @@ struct Scene {
     /// An empty list of problems that knows this scene's positions.
     io::Problems problems() const { return io::Problems(positions); }
     bool has(PathPart part) const;
+    /// Equilibria only: nothing moves in time.
+    bool without_time() const {
+        return drive.mode == DriveMode::quasistatic || has(PathPart::zero_load);
+    }
     bool writes_field(const std::string& which) const; ///< "zero-load", "pull-off"
+    /// N of "every:N" among the fields: steps, or points of a quasi-static path, between maps.
+    /// Empty: there is none; 0: what stands there is no N.
+    std::optional<long long> field_stride() const;
 };
 
 /// Every key, bound to the fields of this scene (which must outlive the schema).

@@ -40,6 +40,8 @@ public:
     const Communicator& communicator() const { return communicator_; }
 
     VectorPlane<const double> lowest_layer() const { return layer_.plane(0); }
+    /// The displacement at the sites, to be written from outside; settle() makes the waves follow.
+    VectorField<double>& layer() { return layer_; }
     VectorPlane<double> interface_force() { return force_.plane(0); }
     VectorPlane<const double> interface_force() const { return force_.plane(0); }
 
@@ -74,7 +76,7 @@ public:
     VectorField<double> new_field() const { return VectorField<double>(tile_, 1, 0); }
     /// u <- u + t d, given both as waves and at the sites.
     void displace(double t, const Waves<double>& d, const VectorField<double>& d_at_sites);
-    /// Restores agreement of waves and sites to rounding after many displacements.
+    /// The waves of what is at the sites: after many displacements, or a state from outside.
     void settle();
 
     /// S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2.

@@ -309,8 +309,11 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
         if (state.residual <= options.tolerance || !std::isfinite(state.residual) ||
             state.iterations >= options.max_iterations)
             break;
-        if (options.report && state.iterations % 10 == 0)
-            options.report(state.iterations, state.residual);
+        if (options.report && state.iterations % 10 == 0 &&
+            options.report(state.iterations, state.residual)) {
+            state.interrupted = true;
+            break;
+        }
         if (!descent.step(state.iterations)) break;
     }
     block.settle();
@@ -320,10 +323,12 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     state.converged = state.residual <= options.tolerance;
     state.interface_energy = sums.energy.value();
     state.force = sums.force_z.value();
+    state.top_force = block.top_force();
     state.elastic_energy = block.elastic_energy();
     state.mean_height = block.mean_height();
     state.in_contact = sums.in_contact;
     state.pushed = sums.pushed;
+    state.closest = std::sqrt(sums.closest_r2);
     return state;
 }
 

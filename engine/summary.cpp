@@ -85,6 +85,12 @@ void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const 
     table.row({fmt::format("  over flat on flat ({:.2f})", flat),
                number(share(findings.approach), 4), number(share(findings.pull_off), 4),
                number(share(state), 4)});
+    if (const auto& lost = findings.dissipated) {
+        const double per_area = 1e3 / (scene.edge() * scene.edge());
+        table.row({"lost where it fell, meV/Å²",
+                   scene.has(PathPart::approach) ? number(per_area * lost->approach) : "-",
+                   scene.has(PathPart::pull_off) ? number(per_area * lost->pull_off) : "-", ""});
+    }
     const auto force = [&](double f, bool there) -> std::string {
         return there && f > 0.0 ? fmt::format("{:.1f}", f) : "-";
     };
@@ -137,9 +143,9 @@ void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const 
     }
     if (std::isfinite(residual))
         fmt::print(to,
-                   "  Energy balance: work done = energy gained + energy damped, to {:.1e} of the "
+                   "  Energy balance: work done = energy gained + energy {}, to {:.1e} of the "
                    "largest term.\n",
-                   std::abs(residual));
+                   findings.dissipated ? "lost" : "damped", std::abs(residual));
     fmt::print(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

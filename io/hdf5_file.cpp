@@ -161,6 +161,10 @@ bool Hdf5File::is_dataset(const std::string& object) const {
     return H5Iget_type(handle) == H5I_DATASET;
 }
 
+void Hdf5File::remove(const std::string& object) {
+    if (H5Ldelete(id_, object.c_str(), H5P_DEFAULT) < 0) fail(object, "cannot be removed");
+}
+
 void Hdf5File::make_group(const std::string& group) {
     if (group.empty() || exists(group)) return;
     const std::size_t slash = group.rfind('/');

@@ -34,6 +34,8 @@ public:
     void close();
 
     bool exists(const std::string& object) const;
+    /// Takes a group, with all that is in it, or a data set out of the file.
+    void remove(const std::string& object);
     /// Makes the group and those above it, if they are not there.
     void make_group(const std::string& group);
     /// Names of the members of a group, in alphabetical order.

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Where in the whole box a value of the sites is largest: the same site whatever the number of
+// ranks.
+#pragma once
+
+#include "decomposition/communicator.hpp"
+#include "decomposition/tile.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace asperity {
+
+struct LargestSite {
+    double value = 0.0;
+    int x = 0, y = 0; ///< in the whole box
+};
+
+/// value(x, y) of the tile's own sites, not negative; what is no number counts as the largest.
+/// Among equals the first row by row. Collective.
+template <class Value>
+LargestSite global_largest(const Communicator& ranks, const Tile& tile, const Value& value) {
+    double worst = -1.0;
+    int wx = 0, wy = 0;
+    for (int y = 0; y < tile.ny; ++y)
+        for (int x = 0; x < tile.nx; ++x) {
+            double here = value(x, y);
+            if (!std::isfinite(here)) here = std::numeric_limits<double>::max();
+            if (here > worst) worst = here, wx = x + tile.x0, wy = y + tile.y0;
+        }
+    std::array<double, 1> most = {worst};
+    ranks.max(most);
+    const double sites = tile.sites;
+    std::array<double, 1> place = {most[0] == worst ? sites * sites - (wy * sites + wx) : 0.0};
+    ranks.max(place);
+    const auto index = static_cast<long long>(sites * sites - place[0]);
+    return {most[0], static_cast<int>(index % tile.sites), static_cast<int>(index / tile.sites)};
+}
+
+} // namespace asperity

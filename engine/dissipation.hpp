@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Energy that a quasi-static path loses: where a state becomes unstable, the block falls to the
+// next one at a standing top plane, and what it gains on the way goes into vibrations that the path
+// does not follow.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace asperity {
+
+/// One fall.
+struct Jump {
+    double energy = 0.0;                              ///< dissipated, eV
+    double leg = 0.0;                                 ///< 0 approach, 1 pull-off
+    double top = 0.0;                                 ///< displacement of the top plane, Å
+    double height_before = 0.0, height_after = 0.0;   ///< mean height of the lowest layer, Å
+    double force_before = 0.0, force_after = 0.0;     ///< on the top plane, eV/Å
+    double contact_before = 0.0, contact_after = 0.0; ///< sites
+    double site_x = 0.0, site_y = 0.0; ///< the site of the lowest layer that moved most
+    double largest_move = 0.0;         ///< how far, Å
+    double sites_moved = 0.0;          ///< sites that moved more than half as far
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("energy", energy);
+        v("leg", leg);
+        v("top", top);
+        v("height_before", height_before);
+        v("height_after", height_after);
+        v("force_before", force_before);
+        v("force_after", force_after);
+        v("contact_before", contact_before);
+        v("contact_after", contact_after);
+        v("site_x", site_x);
+        v("site_y", site_y);
+        v("largest_move", largest_move);
+        v("sites_moved", sites_moved);
+    }
+};
+
+/// All that was lost so far.
+struct Dissipation {
+    double approach = 0.0, pull_off = 0.0; ///< eV
+    long long events = 0;                  ///< points of the path at which some was booked
+    std::vector<Jump> jumps;               ///< the strongest, in the order of the path
+
+    double total() const { return approach + pull_off; }
+    void book(const Jump& jump) {
+        (jump.leg == 0.0 ? approach : pull_off) += jump.energy;
+        ++events;
+        jumps.push_back(jump);
+        constexpr std::size_t kept = 20;
+        if (jumps.size() <= kept) return;
+        const auto weaker = [](const Jump& a, const Jump& b) { return a.energy < b.energy; };
+        jumps.erase(std::min_element(jumps.begin(), jumps.end(), weaker));
+    }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("dissipation.approach", approach);
+        v("dissipation.pull_off", pull_off);
+        v("dissipation.events", events);
+        std::size_t count = jumps.size();
+        v("dissipation.jumps", count);
+        jumps.resize(count);
+        for (Jump& jump : jumps)
+            jump.visit(v);
+    }
+};
+
+} // namespace asperity

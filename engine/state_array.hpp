@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A state as a list of arrays: what is copied, extrapolated and written to checkpoints, whoever
+// owns it.
+#pragma once
+
+#include "decomposition/field.hpp"
+
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// One component of a field of one level; its first `planes` planes are the state.
+struct StateArray {
+    std::string name; ///< of its data set in a checkpoint
+    int level = 0;
+    Field<double>* field = nullptr;
+    int planes = 0;
+};
+
+/// A copy of all arrays of a list, to go back to.
+class StateCopy {
+public:
+    void take(const std::vector<StateArray>& arrays);
+    /// The arrays as they were taken, bit for bit, halos included.
+    void restore(const std::vector<StateArray>& arrays) const;
+    /// x <- x + ratio (x - copy) on the owned nodes; halos are left to the caller.
+    void extrapolate(double ratio, const std::vector<StateArray>& arrays) const;
+    bool empty() const { return copies_.empty(); }
+    void clear() { copies_.clear(); }
+    const Field<double>& operator[](std::size_t i) const { return copies_[i]; }
+    std::size_t bytes() const;
+
+private:
+    std::vector<Field<double>> copies_;
+};
+
+} // namespace asperity

@@ -1,0 +1,64 @@
+#!/bin/bash
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+#
+# Runs without time as a user meets them: stopped and taken up again they end the same, and their
+# files say what there is.
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+
+export OMP_NUM_THREADS=1 # small boxes: a second thread has nothing to win
+
+# number FILE KEY: the first number behind this key of a result.
+number() { sed -n "s/.*\"$2\": \([-0-9.e+]*\),\?$/\1/p" "$1/result.json" | head -n 1; }
+# near A B TOLERANCE TEXT
+near() {
+    awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !(a != "" && b != "" && d * d <= t * t) }' ||
+        fail "$4: $1, $2"
+}
+
+cat >path.toml <<'EOF'
+[surface]
+sites = 24
+rms = 0.8
+[block]
+model = "spectral"
+thickness = 90
+[drive]
+mode = "quasistatic"
+[output]
+fields = ["zero-load", "pull-off", "every:40"]
+EOF
+expect 0 run path.toml --progress off --out whole
+says "lost where it fell"
+# The balance of the legs: approach + lost = state = pull-off - lost, to the tolerance on the way.
+state=$(number whole binding_energy)
+awk -v s="$state" -v a="$(sed -n '/"work_of_adhesion"/,/}/s/.*"approach": \([0-9.]*\),*/\1/p' whole/result.json)" \
+    -v l="$(sed -n '/"dissipated"/,/"pull_off"/s/.*"approach": \([0-9.]*\),*/\1/p' whole/result.json)" \
+    'BEGIN { d = a + l - s; exit !(l > 1 && d * d < 0.1 * 0.1) }' || fail "the approach's balance: $out"
+for object in fields/zero-load fields/pull-off fields/step-40 series/dissipated; do
+    h5ls "whole/run.h5/$object" >/dev/null 2>&1 || ! command -v h5ls >/dev/null || fail "no $object"
+done
+! command -v h5ls >/dev/null || ! h5ls whole/run.h5/series/time >/dev/null 2>&1 || fail "a time without time"
+
+# A wall limit ends it at a point, wherever it is then.
+expect 75 run path.toml --progress off --out parts --wall-limit 0.2s
+grep -q '"stopped": "wall_limit"' parts/result.json || fail "run.stopped is not wall_limit"
+expect 0 run path.toml --progress off --out parts --resume auto
+for key in approach pull_off; do near "$(number whole $key)" "$(number parts $key)" 0.1 "$key"; done
+near "$state" "$(number parts binding_energy)" 1e-4 "binding energy"
+
+# One relaxation, stopped inside.
+for model in spectral multiscale; do
+    zero=(--set drive.path=zero-load 'output.fields=["zero-load"]' surface.sites=64 drive.tolerance=1e-6 block.model=$model)
+    expect 0 run path.toml --progress off --out zero-$model "${zero[@]}"
+    expect 75 run path.toml --progress off --out zero-parts-$model --wall-limit 0.001s "${zero[@]}"
+    expect 0 run path.toml --progress off --out zero-parts-$model --resume auto "${zero[@]}"
+    near "$(number zero-$model binding_energy)" "$(number zero-parts-$model binding_energy)" 1e-6 "$model"
+done
+
+expect 2 check path.toml --set drive.mode=dynamic
+says "on a path in time is not available yet"
+expect 0 check path.toml --set 'output.fields=[]' 'drive.path=["zero-load","pull-off"]' drive.load=100
+says "carries drive.load"
+finish

@@ -1,0 +1,340 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Quasi-static paths against their laws: flat on flat is a problem in one dimension, solved here on
+// its own (force, snap-in, snap-off, energies lost); work = energy + loss and loop area = loss on
+// rough surfaces; the block models agree; slow motion approaches the path.
+#include "engine/quasistatic.hpp"
+#include "engine/units.hpp"
+#include "support/cases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+using namespace asperity;
+using Outcome = QuasistaticPath::Outcome;
+
+namespace {
+
+/// A block over a surface, and the path of its top plane.
+struct Case {
+    BlockOptions options;
+    Surface surface;
+    ProcessGrid grid = test::serial_grid(options);
+    Interface interface;
+    std::unique_ptr<Equilibrium> block;
+
+    Case(const BlockOptions& o, Surface s, bool spectral, double cutoff = 4.0)
+        : options(o), surface(std::move(s)),
+          interface(surface, grid.tile(0), o.spacing, test::paper_interface(cutoff)),
+          block(spectral ? spectral_at_rest(o, Communicator())
+                         : at_rest(Block(o, Communicator(), grid))) {}
+
+    QuasistaticPath path(double tolerance, double step = 0.25, double load = 0.0) {
+        PathOptions p;
+        p.step = step;
+        p.tolerance = tolerance;
+        p.load = load;
+        p.reference_height = interface.start_height();
+        return QuasistaticPath(*block, interface, p);
+    }
+    double sites() const { return static_cast<double>(options.sites) * options.sites; }
+    /// Of the whole block under uniform stretch, eV/Å^2.
+    double spring() const {
+        return (options.lame() + 2.0 * options.shear_modulus()) * sites() * options.spacing /
+               options.thickness;
+    }
+};
+
+/// All points of a leg.
+std::vector<StepRecord> follow(QuasistaticPath& path, Leg leg) {
+    std::vector<StepRecord> points = {path.now()};
+    for (Outcome o = Outcome::point; o == Outcome::point;) {
+        o = path.advance(leg);
+        points.push_back(path.now());
+        if (points.size() > 5000) ADD_FAILURE() << "no end";
+        if (points.size() > 5000) break;
+    }
+    return points;
+}
+
+double energy(const StepRecord& r) { return r.interface_energy + r.elastic_energy; }
+
+/// Flat on flat as one coordinate: N^2 sites at gap z on the spring of the block.
+struct OneDimension {
+    const Case& c;
+    double force(double z) const { return c.sites() * pair(z).force[2]; }
+    double potential(double z) const { return c.sites() * pair(z).energy; }
+    /// Displacement of the top plane at which z is an equilibrium.
+    double top(double z) const { return z - c.interface.start_height() - force(z) / c.spring(); }
+    double total(double z, double top_at) const {
+        const double stretch = z - c.interface.start_height() - top_at;
+        return potential(z) + 0.5 * c.spring() * stretch * stretch;
+    }
+    /// The z in [from, to] where top() is least (sign 1) or greatest (-1): d force/dz = spring.
+    double turning_point(double from, double to, double sign) const {
+        double best = from;
+        for (double z = from; z < to; z += 1e-3)
+            if (sign * top(z) < sign * top(best)) best = z;
+        double a = best - 1e-3, b = best + 1e-3;
+        for (int i = 0; i < 60; ++i) {
+            const double g = (std::sqrt(5.0) - 1.0) / 2.0, x = b - g * (b - a), y = a + g * (b - a);
+            (sign * top(x) < sign * top(y) ? b : a) = sign * top(x) < sign * top(y) ? y : x;
+        }
+        return 0.5 * (a + b);
+    }
+    /// The equilibrium at this top between from and to.
+    double other(double top_at, double from, double to) const {
+        const bool rising = top(to) > top(from);
+        for (int i = 0; i < 80; ++i) {
+            const double z = 0.5 * (from + to);
+            ((top(z) < top_at) == rising ? from : to) = z;
+        }
+        return 0.5 * (from + to);
+    }
+
+private:
+    PairSum pair(double z) const {
+        return flat_pair_sum(c.interface.options(), c.options.spacing, c.options.sites,
+                             c.options.sites, z);
+    }
+};
+
+} // namespace
+
+TEST(ForceTrail, ErrorFallsWithTheFourthPowerOfTheStep) {
+    const auto error = [](int steps) {
+        ForceTrail trail;
+        trail.begin(0.0, 0.0);
+        double sum = 0.0;
+        for (int i = 1; i <= steps; ++i) {
+            const double x = 2.0 * i / steps, f = std::sin(x);
+            const auto piece = trail.to(x, f);
+            sum += piece.value;
+            const double exact = std::cos(x - 2.0 / steps) - std::cos(x);
+            EXPECT_LE(std::abs(piece.value - exact), piece.error) << i << " of " << steps;
+            trail.add(x, f);
+        }
+        return std::abs(sum - (1.0 - std::cos(2.0)));
+    };
+    EXPECT_GT(error(20) / error(40), 12.0);
+    EXPECT_GT(error(40) / error(80), 12.0);
+}
+
+TEST(Quasistatic, StiffBlockIsReversible) {
+    // Stiffer than the interface anywhere: approach and pull-off give the state's energy to what
+    // the tolerance allows on the way (13 Å both), and nothing is lost.
+    for (double tolerance : {1e-3, 1e-4, 1e-5}) {
+        Case c(test::paper_block(10, 3, 0), test::flat_surface(10), true);
+        QuasistaticPath path = c.path(tolerance);
+        path.start();
+        const auto in = follow(path, Leg::approach);
+        const double state = -energy(path.now());
+        const auto out = follow(path, Leg::pull_off);
+        const double allowed = tolerance * c.sites() * 11.0;
+        EXPECT_NEAR(path.approach_work(), state, allowed);
+        EXPECT_NEAR(path.pull_off_work(), -state, allowed);
+        EXPECT_EQ(path.dissipation().total(), 0.0);
+        EXPECT_NEAR(energy(path.now()), 0.0, 1e-6 * state);
+        const OneDimension one{c};
+        for (const auto* leg : {&in, &out})
+            for (const StepRecord& r : *leg)
+                EXPECT_NEAR(r.force, one.force(r.mean_height), 1e-9 * c.sites());
+        std::printf("tolerance %.0e: %zu points, approach off by %.1e, pull-off by %.1e meV/A^2\n",
+                    tolerance, in.size() + out.size(),
+                    1e3 * (path.approach_work() - state) / (6.76 * c.sites()),
+                    1e3 * (path.pull_off_work() + state) / (6.76 * c.sites()));
+    }
+}
+
+TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
+    for (bool spectral : {true, false}) {
+        Case c(test::paper_block(10, 40, spectral ? 0 : 3), test::flat_surface(10), spectral);
+        const OneDimension one{c};
+        constexpr double tolerance = 1e-5, step = 0.25;
+        QuasistaticPath path = c.path(tolerance, step);
+        path.start();
+        const auto in = follow(path, Leg::approach);
+        const auto out = follow(path, Leg::pull_off);
+        // Every point is a point of the one-dimensional problem.
+        for (const auto* leg : {&in, &out})
+            for (const StepRecord& r : *leg) {
+                EXPECT_NEAR(r.force, one.force(r.mean_height), 1e-9 * c.sites());
+                EXPECT_NEAR(r.top, one.top(r.mean_height), tolerance * c.sites() / c.spring());
+            }
+        EXPECT_NEAR(path.now().top, 0.0, step);
+
+        // Two falls that count: where d F/dz = k, and as deep as it says.
+        std::vector<Jump> falls;
+        for (const Jump& jump : path.dissipation().jumps)
+            if (jump.energy > 1e-3 * path.dissipation().total()) falls.push_back(jump);
+        ASSERT_EQ(falls.size(), 2u);
+        const double peak = 3.62; // Å: between the turning points, near the largest tension
+        const double outer = one.turning_point(peak, 9.0, 1.0);
+        const double inner = one.turning_point(3.0, outer, -1.0);
+        const double lowest = one.top(outer), highest = one.top(inner);
+        const double landing_in = one.other(lowest, 2.9, inner);
+        const double landing_out = one.other(highest, outer, 14.0);
+        const double lost_in = one.total(outer, lowest) - one.total(landing_in, lowest);
+        const double lost_out = one.total(inner, highest) - one.total(landing_out, highest);
+        std::printf("snap-in %.5f eV (%+.1e), snap-off %.5f eV (%+.1e)\n", falls[0].energy,
+                    falls[0].energy - lost_in, falls[1].energy, falls[1].energy - lost_out);
+        // What the work may be wrong by, and a force of a quarter of the tolerance that holds the
+        // block up a little beyond the turning point, along the fall.
+        const auto allowed = [&](double from, double to) {
+            return tolerance * c.sites() * (step + 0.25 * std::abs(to - from));
+        };
+        EXPECT_NEAR(falls[0].energy, lost_in, allowed(outer, landing_in));
+        EXPECT_NEAR(falls[1].energy, lost_out, allowed(inner, landing_out));
+        EXPECT_NEAR(falls[0].top, lowest, 2e-3);
+        EXPECT_NEAR(falls[1].top, highest, 2e-3);
+        EXPECT_NEAR(falls[0].height_after, landing_in, 2e-3);
+        EXPECT_EQ(falls[0].contact_before, 0.0);
+        EXPECT_EQ(falls[0].contact_after, c.sites());
+        EXPECT_EQ(falls[1].sites_moved, c.sites());
+    }
+}
+
+TEST(Quasistatic, EndsExactlyAtItsLoad) {
+    for (double pressure : {0.0, 1.0, -0.5}) { // GPa
+        Case c(test::paper_block(10, 10, 0), test::flat_surface(10), true);
+        const double load = pressure * units::gigapascal * 6.76 * c.sites();
+        QuasistaticPath path = c.path(1e-5, 0.25, load);
+        path.start();
+        follow(path, Leg::approach);
+        EXPECT_NEAR(path.now().force, load, 0.25e-5 * c.sites());
+        // On the inner branch, whatever the sign.
+        EXPECT_LT(path.now().mean_height, 3.2);
+    }
+}
+
+TEST(Quasistatic, RoughWorkIsEnergyPlusLoss) {
+    for (bool spectral : {true, false}) {
+        Case c(test::paper_block(32, 200, spectral ? 0 : 4),
+               test::reference_surface("c3_N32_T32_rms1.5"), spectral);
+        constexpr double tolerance = 1e-4;
+        QuasistaticPath path = c.path(tolerance);
+        path.start();
+        const auto in = follow(path, Leg::approach);
+        const double state = -energy(path.now());
+        const auto out = follow(path, Leg::pull_off);
+        const Dissipation& lost = path.dissipation();
+        const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
+        std::printf("lost %.3f eV in, %.3f out, %lld events, %zu points; approach %+.1e, pull-off "
+                    "%+.1e, of %.3f eV\n",
+                    lost.approach, lost.pull_off, lost.events, in.size() + out.size(),
+                    path.approach_work() + lost.approach - state,
+                    path.pull_off_work() + state + lost.pull_off, state);
+        ASSERT_GT(lost.approach, 1.0);
+        ASSERT_GT(lost.pull_off, 1.0);
+        EXPECT_NEAR(path.approach_work() + lost.approach, state,
+                    tolerance * c.sites() * (way + 1.0));
+        EXPECT_NEAR(-path.pull_off_work() - lost.pull_off, state,
+                    tolerance * c.sites() * (back + 1.0));
+        // The loop of F over the mean height encloses what was lost: by trapezia of the points,
+        // which the falls are exact for.
+        double loop = 0.0;
+        for (const auto* leg : {&in, &out})
+            for (std::size_t i = 1; i < leg->size(); ++i)
+                loop -= 0.5 * ((*leg)[i].force + (*leg)[i - 1].force) *
+                        ((*leg)[i].mean_height - (*leg)[i - 1].mean_height);
+        EXPECT_NEAR(loop, lost.total(), 0.02 * lost.total());
+        EXPECT_LT(std::abs(path.now().residual), 1e-3);
+        // Each leg only loses.
+        double before = 0.0;
+        for (const auto* leg : {&in, &out})
+            for (const StepRecord& r : *leg) {
+                EXPECT_GE(r.damped, before);
+                before = r.damped;
+            }
+    }
+}
+
+TEST(Quasistatic, AgainTheSameCycle) {
+    // Apart, nothing is left of the contact: a second cycle is the first.
+    Case c(test::paper_block(10, 40, 0), test::flat_surface(10), true);
+    QuasistaticPath path = c.path(1e-5);
+    path.start();
+    double in[2], out[2], lost[2];
+    for (int n = 0; n < 2; ++n) {
+        follow(path, Leg::approach);
+        in[n] = path.approach_work();
+        follow(path, Leg::pull_off);
+        out[n] = path.pull_off_work();
+        lost[n] = path.dissipation().total();
+    }
+    const double allowed = 1e-5 * c.sites() * 12.0;
+    EXPECT_NEAR(in[0], in[1], allowed);
+    EXPECT_NEAR(out[0], out[1], allowed);
+    EXPECT_NEAR(lost[1], 2.0 * lost[0], allowed);
+}
+
+TEST(Quasistatic, LatticeAndSpectralGiveTheSameSeries) {
+    // The same positions of the top plane, in and out of a rough contact that falls nowhere.
+    const auto series = [](bool spectral) {
+        Case c(test::paper_block(16, 4, 0), test::reference_surface("c1_N16_T16_rms0.5"), spectral);
+        c.block->set_uniform(0.0);
+        RelaxOptions o;
+        o.tolerance = 1e-7;
+        o.max_iterations = 5000;
+        Phases phases;
+        std::vector<RelaxedState> states;
+        for (int n = 0; n <= 24; ++n) {
+            const double top = n <= 12 ? -4.0 - 0.5 * n : -10.0 + 0.5 * (n - 12);
+            c.block->hold_top(top);
+            states.push_back(c.block->relax(c.interface, c.interface.start_height(), o, phases));
+            EXPECT_TRUE(states.back().converged) << n;
+        }
+        return states;
+    };
+    const auto a = series(false), b = series(true);
+    double strongest = 0.0;
+    for (const RelaxedState& s : a)
+        strongest = std::max(strongest, -s.force);
+    EXPECT_GT(strongest, 5.0);
+    for (std::size_t n = 0; n < a.size(); ++n) {
+        EXPECT_NEAR(a[n].force, b[n].force, 1e-6 * strongest) << n;
+        EXPECT_NEAR(a[n].top_force, b[n].top_force, 1e-6 * strongest) << n;
+        EXPECT_NEAR(a[n].interface_energy + a[n].elastic_energy,
+                    b[n].interface_energy + b[n].elastic_energy, 1e-6)
+            << n;
+        EXPECT_NEAR(a[n].mean_height, b[n].mean_height, 1e-6) << n;
+        EXPECT_EQ(a[n].in_contact, b[n].in_contact) << n;
+    }
+}
+
+TEST(Quasistatic, SlowMotionApproachesThePath) {
+    // Force at given tops of a stiff block: what is left of inertia and drag goes with the speed.
+    SimulationOptions o;
+    o.block = test::paper_block(10, 4, 0);
+    o.interface = test::paper_interface();
+    o.dt = 10.0;
+    o.damping = 2e-3;
+    Case c(o.block, test::flat_surface(10), true);
+    const OneDimension one{c};
+    const auto off = [&](double velocity) {
+        o.drive.velocity = velocity;
+        o.drive.pull_off = false;
+        Simulation s(o, c.surface, Communicator(), c.grid);
+        s.start(c.interface.start_height());
+        double largest = 0.0;
+        while (!s.drive().done()) {
+            const StepRecord& now = s.step(false);
+            if (now.top < -6.0) {
+                const double z = one.other(now.top, 2.8, 14.0);
+                largest = std::max(largest, std::abs(now.force - one.force(z)));
+            }
+            s.drive().observe(now.time, now.force, false);
+        }
+        return largest / c.sites();
+    };
+    const double fast = off(4e-4), slow = off(1e-4);
+    std::printf("force off by %.2e eV/A a site at 40 m/s, %.2e at 10 m/s\n", fast, slow);
+    EXPECT_LT(slow, 0.4 * fast);
+    EXPECT_LT(slow, 5e-3);
+}
