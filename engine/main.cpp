@@ -32,6 +32,7 @@
 #include <exception>
 #include <filesystem>
 #include <span>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -57,6 +58,8 @@ struct SceneArguments {
     bool markdown = false;
     bool plain = false;
     bool theory_only = false;
+    int jobs = 1;
+    std::string launch;
 };
 
 void add_scene(CLI::App& command, SceneArguments& arguments) {
@@ -77,16 +80,25 @@ bool is_override(const std::string& word) {
 }
 
 /// `--set a=1 b=2 scene.toml` means what it looks like: the scene's file; the overrides are added.
-std::string scene_file(const SceneArguments& arguments, std::vector<std::string>& overrides) {
+std::vector<std::string> scene_files(const SceneArguments& arguments,
+                                     std::vector<std::string>& overrides) {
     std::vector<std::string> files;
     overrides = arguments.overrides;
     for (const std::string& word : arguments.words)
         (is_override(word) ? overrides : files).push_back(word);
-    if (files.size() != 1)
-        throw io::SceneError(io::Problem{
-            "command line", files.empty() ? "no scene is given" : "more than one scene is given",
-            files.empty() ? "the command needs one" : fmt::format("{} and {}", files[0], files[1]),
-            "for example: asperity run scenes/first-contact.toml"});
+    if (files.empty())
+        throw io::SceneError(io::Problem{"command line", "no scene is given",
+                                         "the command needs one",
+                                         "for example: asperity run scenes/first-contact.toml"});
+    return files;
+}
+
+std::string scene_file(const SceneArguments& arguments, std::vector<std::string>& overrides) {
+    const std::vector<std::string> files = scene_files(arguments, overrides);
+    if (files.size() > 1)
+        throw io::SceneError(io::Problem{"command line", "more than one scene is given",
+                                         fmt::format("{} and {}", files[0], files[1]),
+                                         "for example: asperity run scenes/first-contact.toml"});
     return files.front();
 }
 
@@ -118,30 +130,6 @@ RunOptions run_options(const SceneArguments& arguments) {
                                  "--resume auto takes the checkpoint in the result directory"});
     problems.throw_if_any();
     return options;
-}
-
-/// Everything that run would refuse, found without running: contradictions, what is not available
-/// yet, stability, ranks, the map.
-Setup examine(const Scene& scene, int ranks) {
-    io::Problems problems = scene.problems();
-    not_yet(scene, problems);
-    Setup setup;
-    try {
-        setup = make_setup(scene, ranks);
-    } catch (const io::SceneError& error) {
-        for (const io::Problem& problem : error.problems())
-            problems.add(problem);
-    }
-    if (scene.surface.kind == SurfaceKind::file) {
-        try {
-            scene_surface(scene);
-        } catch (const io::SceneError& error) {
-            for (const io::Problem& problem : error.problems())
-                problems.add(problem);
-        }
-    }
-    problems.throw_if_any();
-    return setup;
 }
 
 int command_run(const SceneArguments& arguments, const Communicator& world) {
@@ -237,8 +225,15 @@ int command_theory(const SceneArguments& arguments, const Communicator& world) {
 
 int command_sweep(const SceneArguments& arguments, const Communicator& world) {
     SweepOptions options;
-    options.scene = scene_file(arguments, options.assignments);
+    options.scenes = scene_files(arguments, options.assignments);
     options.theory_only = arguments.theory_only;
+    options.jobs = arguments.jobs;
+    std::istringstream words(arguments.launch);
+    for (std::string word; words >> word;)
+        options.launcher.push_back(word);
+    const RunOptions common = run_options(arguments);
+    options.wall_limit = common.wall_limit;
+    options.progress = common.progress;
     options.out = arguments.out;
     int code = io::exit_code::done;
     world.on_root([&] { code = sweep_command(options); });
@@ -382,14 +377,28 @@ int command_line(int argc, char** argv, const Communicator& world) {
     theory.add_option("--out", arguments.out, "result directory (default: results/<scene>-theory)")
         ->type_name("DIR");
     CLI::App& sweep = *app.add_subcommand(
-        "sweep", "a scene over several values of its keys, one table (theory only, so far)");
+        "sweep", "a scene over several values of its keys: runs, theory, one table");
     add_scene(sweep, arguments);
+    sweep.add_option("--jobs", arguments.jobs, "points side by side")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    sweep
+        .add_option("--launch", arguments.launch,
+                    "what to put before the program for every point: \"mpirun -n 2\"")
+        ->type_name("WORDS");
+    sweep
+        .add_option("--wall-limit", arguments.wall_limit,
+                    "stop with checkpoints when this time has passed (exit 75)")
+        ->type_name("23h50m");
+    sweep.add_option("--progress", arguments.progress, "auto, bar, lines or off")
+        ->type_name("MODE");
     sweep.add_flag("--theory-only", arguments.theory_only, "the theory alone, no simulation");
     sweep.add_option("--out", arguments.out, "result directory (default: results/<scene>-sweep)")
         ->type_name("DIR");
-    sweep.footer("--set key=v1,v2,... or key=start:stop:step sweeps a key; with several, every "
-                 "combination.\nWithout any, --theory-only sweeps surface.rms past the end of "
-                 "adhesion.");
+    sweep.footer(
+        "--set key=v1,v2,... or key=start:stop:step sweeps a key, beside those of the "
+        "scene's [sweep]; with several, every combination.\nThe same command goes on where "
+        "a sweep stopped. Several scenes share one set of plots.");
     std::string directory, format;
     CLI::App& report =
         *app.add_subcommand("report", "a run or a sweep as one self-contained HTML page");

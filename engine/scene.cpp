@@ -164,6 +164,11 @@ io::Schema bind(Scene& scene) {
     schema.integer("series", output.series, at_least(1), "steps between rows of the series");
     schema.number("checkpoint", output.checkpoint, "s", at_least(0.0),
                   "wall time between checkpoints; 0: none");
+
+    schema.variations("sweep",
+                      "What `asperity sweep` varies: any key above, with a list of values or a "
+                      "range start:stop:step. Other commands pass over it.",
+                      "surface.rms = [1, 2, 3]", scene.sweep);
     return schema;
 }
 

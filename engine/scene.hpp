@@ -104,6 +104,8 @@ struct Scene {
         double checkpoint = 600.0; ///< s of wall time; 0: none
     } output;
 
+    std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only
+
     // Where it came from.
     std::string file;           ///< as given on the command line
     std::string name = "scene"; ///< the file's name without folder and ending

@@ -126,4 +126,26 @@ Setup make_setup(const Scene& scene, int ranks) {
     return setup;
 }
 
+Setup examine(const Scene& scene, int ranks) {
+    io::Problems problems = scene.problems();
+    not_yet(scene, problems);
+    Setup setup;
+    try {
+        setup = make_setup(scene, ranks);
+    } catch (const io::SceneError& error) {
+        for (const io::Problem& problem : error.problems())
+            problems.add(problem);
+    }
+    if (scene.surface.kind == SurfaceKind::file) {
+        try {
+            scene_surface(scene);
+        } catch (const io::SceneError& error) {
+            for (const io::Problem& problem : error.problems())
+                problems.add(problem);
+        }
+    }
+    problems.throw_if_any();
+    return setup;
+}
+
 } // namespace asperity

@@ -32,4 +32,8 @@ struct Setup {
 /// Throws io::SceneError with all that is wrong, for this number of ranks.
 Setup make_setup(const Scene& scene, int ranks);
 
+/// Everything that a run would refuse, found without running: contradictions, what is not available
+/// yet, stability, ranks, the map. Throws io::SceneError with all of it.
+Setup examine(const Scene& scene, int ranks);
+
 } // namespace asperity

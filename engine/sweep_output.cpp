@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/sweep_output.hpp"
 
-#include "engine/units.hpp"
 #include "io/build_info.hpp"
-#include "io/plot.hpp"
+#include "io/hdf5_file.hpp"
 #include "io/result.hpp"
 #include "io/table.hpp"
 
@@ -13,54 +12,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
-#include <limits>
-#include <optional>
 #include <utility>
 
 namespace asperity {
 
 namespace {
-
-/// A column of numbers: the name in the CSV, and where it is.
-struct Column {
-    std::string name;
-    std::function<double(const SweepPoint&)> value;
-};
-
-double ratio(const SweepPoint& p, double gamma) { return gamma / p.what.delta_gamma; }
-
-const std::vector<Column>& columns() {
-    static const std::vector<Column> list = {
-        {"delta_gamma", [](const SweepPoint& p) { return p.what.delta_gamma; }},
-        {"gamma_eff", [](const SweepPoint& p) { return p.numbers.gamma_eff; }},
-        {"gamma_eff_ratio", [](const SweepPoint& p) { return p.numbers.state.gamma_ratio; }},
-        {"contact_fraction", [](const SweepPoint& p) { return p.numbers.state.area; }},
-        {"gamma_full_contact", [](const SweepPoint& p) { return p.numbers.gamma_full_contact; }},
-        {"gamma_full_contact_ratio",
-         [](const SweepPoint& p) { return ratio(p, p.numbers.gamma_full_contact); }},
-        {"gamma_eff_with_gaps", [](const SweepPoint& p) { return p.numbers.gamma_eff_with_gaps; }},
-        {"gamma_eff_with_gaps_ratio",
-         [](const SweepPoint& p) { return ratio(p, p.numbers.gamma_eff_with_gaps); }},
-        {"theta",
-         [](const SweepPoint& p) {
-             return p.numbers.theta.value_or(std::numeric_limits<double>::quiet_NaN());
-         }},
-        {"gamma_eff_ratio_error",
-         [](const SweepPoint& p) { return p.numbers.state.gamma_ratio_error; }},
-        {"contact_fraction_error", [](const SweepPoint& p) { return p.numbers.state.area_error; }},
-    };
-    return list;
-}
-
-std::string status_of(const SweepPoint& p) {
-    return std::string(theory::name(p.numbers.state.status));
-}
-
-std::string shown(const io::JsonValue& value) {
-    if (value.is_text()) return value.text();
-    return value.is_number() ? fmt::format("{:.12g}", value.number()) : value.dump(-1);
-}
 
 std::string csv_field(const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
@@ -70,208 +26,179 @@ std::string csv_field(const std::string& text) {
     return quoted + "\"";
 }
 
-/// "surface.rms" and "Å" as an axis' label.
-std::string axis_label(const std::string& key, const std::string& unit) {
-    const std::string name = key == "surface.rms"  ? "rms roughness h_{rms}"
-                             : key == "drive.load" ? "load"
-                                                   : key;
-    if (unit.empty()) return name;
-    return fmt::format("{} ({})", name, unit == "meV/Å^2" ? "meV/Å²" : unit);
+std::string csv_number(double v) {
+    return std::isfinite(v) ? fmt::format("{:.10g},", v) : std::string(",");
 }
 
-/// The first axis whose values are numbers; of several, the one with the most values.
-std::optional<std::size_t> plotted_axis(const SweepTable& table) {
-    std::optional<std::size_t> best;
+bool has_seeds(const SweepTable& table) {
+    return std::any_of(table.axes.begin(), table.axes.end(),
+                       [](const SweepAxis& axis) { return axis.is_seed(); });
+}
+
+/// "0.663 ± 0.004", or the number alone, or nothing.
+std::string cell_of(const Spread& spread, int digits) {
+    if (spread.count == 0) return "-";
+    std::string text = fmt::format("{:.{}f}", spread.mean, digits);
+    if (spread.count > 1) text += fmt::format(" ± {:.{}f}", spread.deviation, digits);
+    return text;
+}
+
+/// A head, and what stands under it for a group.
+struct Cells {
+    std::string head;
+    std::function<double(const SweepPoint&)> value;
+    int digits;
+};
+
+std::vector<Cells> cells_of(const SweepTable& table) {
+    const auto of = [](const SweepPoint& p, double gamma) { return gamma / p.what.delta_gamma; };
+    const Cells gamma{"γ_eff/Δγ", [](const SweepPoint& p) { return p.numbers.state.gamma_ratio; },
+                      5};
+    const Cells area{"A/A0", [](const SweepPoint& p) { return p.numbers.state.area; }, 5};
+    if (!table.simulated)
+        return {{"γ_eff, meV/Å²", [](const SweepPoint& p) { return p.numbers.gamma_eff; }, 3},
+                gamma,
+                area,
+                {"full contact",
+                 [=](const SweepPoint& p) { return of(p, p.numbers.gamma_full_contact); }, 5},
+                {"with gaps",
+                 [=](const SweepPoint& p) { return of(p, p.numbers.gamma_eff_with_gaps); }, 5}};
+    const auto share = [](const char* path) {
+        return [path](const SweepPoint& p) {
+            return result_number(p, path) / result_number(p, "delta_gamma");
+        };
+    };
+    const auto plain = [](const char* path) {
+        return [path](const SweepPoint& p) { return result_number(p, path); };
+    };
+    std::vector<Cells> list = {{"state", share("binding_energy"), 4},
+                               {"approach", share("work_of_adhesion.approach"), 4},
+                               {"pull-off", share("work_of_adhesion.pull_off"), 4},
+                               {"JKR in", share("jkr.in"), 4},
+                               {"JKR out", share("jkr.out"), 4},
+                               {"contact", plain("contact_fraction"), 4},
+                               {"loop, eV", plain("hysteresis.loop"), 1}};
+    std::erase_if(list, [&](const Cells& cells) {
+        return std::none_of(table.points.begin(), table.points.end(),
+                            [&](const SweepPoint& p) { return std::isfinite(cells.value(p)); });
+    });
+    list.push_back({"theory", gamma.value, 4});
+    list.push_back({"its contact", area.value, 4});
+    return list;
+}
+
+/// "3 done", "2 done, 1 failed"; of theory alone its status.
+std::string status_of(const SweepGroup& group, bool simulated) {
+    if (group.points.size() == 1) return status_of(*group.points.front(), simulated);
+    std::string text;
+    for (const char* state : {"done", "failed", "waiting"}) {
+        const auto n =
+            std::count_if(group.points.begin(), group.points.end(),
+                          [&](const SweepPoint* p) { return status_of(*p, true) == state; });
+        if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, state);
+    }
+    return text;
+}
+
+void write_hdf5(const std::string& path, const SweepTable& table) {
+    const std::string temporary = path + ".tmp";
+    io::Hdf5File file(temporary, io::Hdf5File::Mode::create);
+    const auto write = [&](const std::string& name, const std::string& unit,
+                           const std::vector<double>& values) {
+        file.write<double>(name, {values.size()}, values);
+        file.write_attribute(name, "unit", unit);
+    };
+    Scene defaults;
+    const io::Schema schema = bind(defaults);
+    const std::vector<SweepGroup> groups = sweep_groups(table.axes, table.points);
+    for (const char* group : {"/points", "/means"})
+        file.make_group(group);
+    std::size_t place = 0; // among the axes that are no seeds
     for (std::size_t i = 0; i < table.axes.size(); ++i) {
+        const std::string& key = table.axes[i].key;
+        const auto number = [](const io::JsonValue& v) {
+            return v.is_number() ? v.number() : std::nan("");
+        };
         const bool numbers =
             std::all_of(table.points.begin(), table.points.end(),
                         [i](const SweepPoint& p) { return p.values[i].is_number(); });
-        if (numbers && (!best || table.axes[i].values.size() > table.axes[*best].values.size()))
-            best = i;
-    }
-    return best;
-}
-
-/// Points that differ in the plotted axis only, in the order of x; label: the other axes' values.
-struct Curve {
-    std::string label;
-    std::vector<double> x;
-    std::vector<const SweepPoint*> points;
-};
-
-std::vector<Curve> curves_of(const SweepTable& table, std::size_t axis) {
-    Scene defaults;
-    const io::Schema schema = bind(defaults);
-    std::vector<Curve> curves;
-    for (const SweepPoint& p : table.points) {
-        std::string label;
-        for (std::size_t i = 0; i < table.axes.size(); ++i)
-            if (i != axis) {
-                const std::string& key = table.axes[i].key;
-                const std::string unit = schema.find(key)->unit;
-                label += fmt::format("{}{} = {}", label.empty() ? "" : ", ",
-                                     key.substr(key.find('.') + 1), shown(p.values[i]));
-                if (!unit.empty() && p.values[i].is_number()) label += " " + unit;
-            }
-        auto at = std::find_if(curves.begin(), curves.end(),
-                               [&](const Curve& c) { return c.label == label; });
-        if (at == curves.end()) at = curves.insert(curves.end(), Curve{label, {}, {}});
-        at->points.push_back(&p);
-    }
-    for (Curve& c : curves) {
-        const auto x = [axis](const SweepPoint* p) { return p->values[axis].number(); };
-        std::stable_sort(c.points.begin(), c.points.end(),
-                         [&](const auto* a, const auto* b) { return x(a) < x(b); });
-        for (const SweepPoint* p : c.points)
-            c.x.push_back(x(p));
-    }
-    return curves;
-}
-
-using Style = io::PlotSeries::Style;
-struct Trace {
-    std::string label;
-    Style style = Style::line;
-    int colour = 0; ///< the same in every plot
-    std::function<double(const SweepPoint&)> value;
-};
-
-constexpr std::size_t most_curves = 7; // as many as there are colours
-
-io::Plot plot_of(const std::vector<Curve>& curves, const std::vector<Trace>& traces) {
-    io::Plot plot;
-    const bool several = curves.size() > 1;
-    for (std::size_t t = 0; t < traces.size(); ++t) {
-        const Trace& trace = traces[t];
-        for (std::size_t i = 0; i < std::min(curves.size(), most_curves); ++i) {
-            io::PlotSeries s;
-            s.label = several ? (t == 0 ? curves[i].label : "") : trace.label;
-            s.style = trace.style;
-            s.colour = several ? static_cast<int>(i) : trace.colour;
-            s.x = curves[i].x;
-            for (const SweepPoint* p : curves[i].points)
-                s.y.push_back(trace.value(*p));
-            plot.series.push_back(std::move(s));
+        std::vector<double> all, of_groups;
+        std::vector<std::string> words;
+        for (const SweepPoint& p : table.points) {
+            all.push_back(number(p.values[i]));
+            words.push_back(shown(p.values[i]));
         }
-        constexpr int grey = 6; // several curves: colours tell them apart, dashes the quantities
-        if (several && t > 0) plot.series.push_back({trace.label, {}, {}, trace.style, grey});
+        if (numbers) write("/points/" + key, schema.find(key)->unit, all);
+        // Words have no place in a data set of numbers: one a point, in their order.
+        if (!numbers) file.write_text_list_attribute("/points", key, words);
+        if (table.axes[i].is_seed()) continue;
+        words.clear();
+        for (const SweepGroup& g : groups) {
+            of_groups.push_back(number(g.values[place]));
+            words.push_back(shown(g.values[place]));
+        }
+        if (numbers) write("/means/" + key, schema.find(key)->unit, of_groups);
+        if (!numbers) file.write_text_list_attribute("/means", key, words);
+        ++place;
     }
-    if (traces.size() == 1 && !several) plot.series.front().label.clear();
-    return plot;
-}
-
-/// The plots that the grid allows; their paths, and what kept others out.
-std::vector<std::string> write_plots(const std::string& directory, const SweepTable& table,
-                                     std::string& note) {
-    const auto axis = plotted_axis(table);
-    if (!axis) {
-        note = "no plots: none of the swept keys is a number";
-        return {};
+    for (const SweepColumn& column : sweep_columns(table)) {
+        std::vector<double> all, mean, deviation, count;
+        for (const SweepPoint& p : table.points)
+            all.push_back(column.value(p));
+        for (const SweepGroup& g : groups) {
+            const Spread spread = spread_of(g, column.value);
+            mean.push_back(spread.mean);
+            deviation.push_back(spread.deviation);
+            count.push_back(spread.count);
+        }
+        write("/points/" + column.name, column.unit, all);
+        write("/means/" + column.name, column.unit, mean);
+        write("/means/" + column.name + ".deviation", column.unit, deviation);
+        write("/means/" + column.name + ".count", "", count);
     }
-    const std::vector<Curve> curves = curves_of(table, *axis);
-    if (curves.size() > most_curves)
-        note = fmt::format("the plots show the first {} of {} curves", most_curves, curves.size());
-    Scene defaults;
-    const io::Schema schema = bind(defaults);
-    const std::string x_label =
-        axis_label(table.axes[*axis].key, schema.find(table.axes[*axis].key)->unit);
-
-    const Trace theory{"theory", Style::line, 0,
-                       [](const SweepPoint& p) { return p.numbers.state.gamma_ratio; }};
-    const Trace full{"assuming full contact", Style::dashed, 2,
-                     [](const SweepPoint& p) { return ratio(p, p.numbers.gamma_full_contact); }};
-    // Where there is no contact the first-order extension says nothing.
-    const Trace gaps{"with attraction across gaps", Style::dotted, 1, [](const SweepPoint& p) {
-                         return p.numbers.state.status == theory::Status::no_contact
-                                    ? std::numeric_limits<double>::quiet_NaN()
-                                    : ratio(p, p.numbers.gamma_eff_with_gaps);
-                     }};
-    const Trace area{"contact area", Style::line, 0,
-                     [](const SweepPoint& p) { return p.numbers.state.area; }};
-    std::vector<std::string> written;
-    const auto write = [&](const char* file, const std::string& title, const std::string& y_label,
-                           const std::vector<Trace>& traces) {
-        io::Plot plot = plot_of(curves, traces);
-        plot.title = title;
-        plot.x_label = x_label;
-        plot.y_label = y_label;
-        double lowest = 0.0; // of the theory itself: full contact may go far below zero
-        double highest = 1.0;
-        for (const io::PlotSeries& s : plot.series)
-            for (const double y : s.y) {
-                if (s.style != Style::dashed && std::isfinite(y)) lowest = std::min(lowest, y);
-                if (std::isfinite(y)) highest = std::max(highest, y);
-            }
-        if (table.axes[*axis].key == "surface.rms") plot.x_low = 0.0;
-        plot.y_low = lowest == 0.0 ? 0.0 : 1.05 * lowest;
-        if (highest <= 1.02) plot.y_high = 1.02;
-        const std::string path = (std::filesystem::path(directory) / file).string();
-        io::write_plot(path, plot);
-        written.push_back(path);
-    };
-    const std::string binding = "γ_{eff} / Δγ";
-    write("gamma.svg", "Binding energy, theory", binding, {theory, gaps, full});
-    write("area.svg", "Contact area, theory", "A / A_{0}", {area});
-    write("full-contact.svg", "Binding energy, theory and full contact", binding, {theory, full});
-    return written;
-}
-
-void print_table(const SweepTable& table) {
-    std::vector<std::string> heads;
-    for (const SweepAxis& axis : table.axes)
-        heads.push_back(axis.key);
-    for (const char* head : {"γ_eff, meV/Å²", "γ_eff/Δγ", "A/A0", "full contact", "with gaps", ""})
-        heads.emplace_back(head);
-    io::Table text(heads);
-    // A hundred lines tell no more than twenty; the files have them all.
-    const std::size_t n = table.points.size(), stride = std::max<std::size_t>(1, (n + 19) / 25);
-    for (std::size_t i = 0; i < n; ++i) {
-        if (i % stride != 0 && i + 1 != n) continue;
-        const SweepPoint& p = table.points[i];
-        std::vector<std::string> row;
-        for (const io::JsonValue& value : p.values)
-            row.push_back(shown(value));
-        row.push_back(fmt::format("{:.3f}", p.numbers.gamma_eff));
-        row.push_back(fmt::format("{:.5f}", p.numbers.state.gamma_ratio));
-        row.push_back(fmt::format("{:.5f}", p.numbers.state.area));
-        row.push_back(fmt::format("{:.5f}", ratio(p, p.numbers.gamma_full_contact)));
-        row.push_back(fmt::format("{:.5f}", ratio(p, p.numbers.gamma_eff_with_gaps)));
-        row.push_back(status_of(p));
-        text.row(row);
-    }
-    text.print(stdout);
-    if (stride > 1) fmt::print("  (every {}th of {} points; all are in the files)\n", stride, n);
+    file.close();
+    std::filesystem::rename(temporary, path);
 }
 
 } // namespace
 
-SweepPoint::SweepPoint(const Scene& scene, const std::vector<SweepAxis>& axes, TheoryCase w,
-                       TheoryNumbers n)
-    : what(std::move(w)), numbers(std::move(n)) {
-    const io::JsonValue all = scene_json(scene);
-    for (const SweepAxis& axis : axes) {
-        const io::JsonValue* value = all.find(axis.key);
-        values.push_back(value ? *value : io::JsonValue());
-    }
-    numbers.state.profile = {}; // a point of a sweep keeps its numbers only
-    what.contact.spectrum = {};
-}
-
 std::string sweep_csv(const SweepTable& table) {
+    const std::vector<SweepColumn> columns = sweep_columns(table);
     std::string text;
     for (const SweepAxis& axis : table.axes)
         text += csv_field(axis.key) + ",";
-    for (const Column& column : columns())
+    for (const SweepColumn& column : columns)
         text += column.name + ",";
     text += "status\n";
     for (const SweepPoint& p : table.points) {
         for (const io::JsonValue& value : p.values)
             text += csv_field(shown(value)) + ",";
-        for (const Column& column : columns()) {
-            const double v = column.value(p);
-            text += std::isfinite(v) ? fmt::format("{:.10g},", v) : std::string(",");
+        for (const SweepColumn& column : columns)
+            text += csv_number(column.value(p));
+        text += status_of(p, table.simulated) + "\n";
+    }
+    return text;
+}
+
+std::string sweep_mean_csv(const SweepTable& table) {
+    const std::vector<SweepColumn> columns = sweep_columns(table);
+    std::string text;
+    for (const SweepAxis& axis : table.axes)
+        if (!axis.is_seed()) text += csv_field(axis.key) + ",";
+    for (const SweepColumn& column : columns)
+        text += fmt::format("{0},{0}.deviation,", column.name);
+    text += "points\n";
+    for (const SweepGroup& g : sweep_groups(table.axes, table.points)) {
+        for (const io::JsonValue& value : g.values)
+            text += csv_field(shown(value)) + ",";
+        for (const SweepColumn& column : columns) {
+            const Spread spread = spread_of(g, column.value);
+            text += csv_number(spread.mean) + csv_number(spread.deviation);
         }
-        text += status_of(p) + "\n";
+        const auto done = std::count_if(g.points.begin(), g.points.end(), [](const SweepPoint* p) {
+            return p->outcome.state == PointState::finished;
+        });
+        text += fmt::format("{}\n", done);
     }
     return text;
 }
@@ -283,6 +210,7 @@ io::JsonValue sweep_json(const SweepTable& table) {
     for (const SweepAxis& axis : table.axes)
         axes.push_back(axis.key);
     root["axes"] = std::move(axes);
+    const std::vector<SweepColumn> columns = sweep_columns(table);
     io::JsonValue points = io::JsonValue::array();
     for (const SweepPoint& p : table.points) {
         io::JsonValue point = io::JsonValue::object();
@@ -295,9 +223,41 @@ io::JsonValue sweep_json(const SweepTable& table) {
         const io::JsonValue result = io::result_json(record);
         point["delta_gamma"] = *result.find("delta_gamma");
         point["theory"] = *result.find("theory");
+        if (table.simulated) {
+            point["directory"] = p.name;
+            point["status"] = status_of(p, true);
+            if (p.outcome.exit_code != 0) {
+                point["failure"]["exit_code"] = p.outcome.exit_code;
+                point["failure"]["reason"] = p.outcome.reason;
+            }
+            io::JsonValue& numbers = point["result"] = io::JsonValue::object();
+            for (const SweepColumn& column : columns)
+                if (const double v = column.value(p);
+                    std::isfinite(v) && !column.name.starts_with("theory."))
+                    numbers[column.name] = v;
+        }
         points.push_back(std::move(point));
     }
     root["points"] = std::move(points);
+    if (table.simulated) {
+        io::JsonValue means = io::JsonValue::array();
+        for (const SweepGroup& g : sweep_groups(table.axes, table.points)) {
+            io::JsonValue line = io::JsonValue::object();
+            std::size_t place = 0;
+            line["set"] = io::JsonValue::object();
+            for (const SweepAxis& axis : table.axes)
+                if (!axis.is_seed()) line["set"][axis.key] = g.values[place++];
+            for (const SweepColumn& column : columns) {
+                const Spread spread = spread_of(g, column.value);
+                if (spread.count == 0) continue;
+                line[column.name]["mean"] = spread.mean;
+                if (spread.count > 1) line[column.name]["deviation"] = spread.deviation;
+                line[column.name]["count"] = spread.count;
+            }
+            means.push_back(std::move(line));
+        }
+        root["means"] = std::move(means);
+    }
     if (!table.notes.empty()) {
         io::JsonValue notes = io::JsonValue::array();
         for (const std::string& note : table.notes)
@@ -313,23 +273,52 @@ io::JsonValue sweep_json(const SweepTable& table) {
     return root;
 }
 
-void write_sweep(const std::string& directory, const SweepTable& table) {
-    namespace fs = std::filesystem;
-    std::string note;
-    std::vector<std::string> written = write_plots(directory, table, note);
-    const std::string csv = (fs::path(directory) / "sweep.csv").string(),
-                      json = (fs::path(directory) / "sweep.json").string();
-    io::write_whole(csv, sweep_csv(table));
-    io::write_whole(json, sweep_json(table).dump() + "\n"); // last: it marks the sweep as there
-    written.insert(written.begin(), {csv, json});
+std::vector<std::string> write_tables(const std::string& directory, const SweepTable& table) {
+    io::make_directory(directory);
+    const auto path = [&](const char* file) {
+        return (std::filesystem::path(directory) / file).string();
+    };
+    std::vector<std::string> written = {path("sweep.csv")};
+    io::write_whole(written.back(), sweep_csv(table));
+    if (table.simulated && has_seeds(table)) {
+        written.push_back(path("sweep-mean.csv"));
+        io::write_whole(written.back(), sweep_mean_csv(table));
+    }
+    written.push_back(path("sweep.h5"));
+    write_hdf5(written.back(), table);
+    written.push_back(path("sweep.json"));
+    io::write_whole(written.back(), sweep_json(table).dump() + "\n");
+    return written;
+}
 
-    print_table(table);
-    for (const std::string& said : table.notes)
-        fmt::print("note: {}\n", said);
-    if (!note.empty()) fmt::print("note: {}\n", note);
-    fmt::print("{} points in {:.2f} s; written:\n", table.points.size(), table.seconds);
-    for (const std::string& path : written)
-        fmt::print("  {}\n", path);
+void print_table(const SweepTable& table) {
+    std::vector<std::string> heads;
+    for (const SweepAxis& axis : table.axes)
+        if (!axis.is_seed()) heads.push_back(axis.key);
+    const std::vector<Cells> list = cells_of(table);
+    for (const Cells& cells : list)
+        heads.push_back(cells.head);
+    heads.emplace_back("");
+    io::Table text(heads);
+    text.align_left(static_cast<int>(heads.size()) - 1);
+    const std::vector<SweepGroup> groups = sweep_groups(table.axes, table.points);
+    // A hundred lines tell no more than twenty; the files have them all.
+    const std::size_t n = groups.size(), stride = std::max<std::size_t>(1, (n + 19) / 25);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (i % stride != 0 && i + 1 != n) continue;
+        std::vector<std::string> row;
+        for (const io::JsonValue& value : groups[i].values)
+            row.push_back(shown(value));
+        for (const Cells& cells : list)
+            row.push_back(cell_of(spread_of(groups[i], cells.value), cells.digits));
+        row.push_back(status_of(groups[i], table.simulated));
+        text.row(row);
+    }
+    if (table.simulated)
+        fmt::print("{}: binding energies and works of adhesion over Δγ{}\n", table.name,
+                   has_seeds(table) ? ", mean ± standard deviation over the seeds" : "");
+    text.print(stdout);
+    if (stride > 1) fmt::print("  (every {}th of {} lines; all are in the files)\n", stride, n);
 }
 
 } // namespace asperity

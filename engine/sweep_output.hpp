@@ -1,41 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a sweep leaves behind: sweep.json, sweep.csv, plots, and the table on the terminal.
+// What a sweep leaves behind: sweep.json, sweep.csv, sweep.h5, and the table on the terminal. The
+// plots are sweep_plots.hpp.
 #pragma once
 
-#include "engine/sweep.hpp"
-#include "engine/theory_command.hpp"
-#include "io/json_value.hpp"
+#include "engine/sweep_table.hpp"
 
 #include <string>
 #include <vector>
 
 namespace asperity {
 
-struct SweepPoint {
-    SweepPoint(const Scene& scene, const std::vector<SweepAxis>& axes, TheoryCase what,
-               TheoryNumbers numbers);
-
-    std::vector<io::JsonValue> values; ///< of the swept keys, numbers in the units of the scene
-    TheoryCase what;
-    TheoryNumbers numbers;
-};
-
-struct SweepTable {
-    std::string name;    ///< of the scene
-    io::JsonValue scene; ///< the scene that the points vary
-    std::vector<SweepAxis> axes;
-    std::vector<SweepPoint> points;
-    std::vector<std::string> notes;
-    double seconds = 0.0;
-};
-
 /// One line a point under one line of names; text in quotes where it needs them.
 std::string sweep_csv(const SweepTable& table);
+/// One line for all seeds: mean and standard deviation of every column.
+std::string sweep_mean_csv(const SweepTable& table);
 io::JsonValue sweep_json(const SweepTable& table);
 
-/// All files, and the table on the terminal.
-void write_sweep(const std::string& directory, const SweepTable& table);
+/// The tables as they are at this moment; their paths. sweep.json is written last.
+std::vector<std::string> write_tables(const std::string& directory, const SweepTable& table);
+/// The table, on the terminal.
+void print_table(const SweepTable& table);
 
 } // namespace asperity

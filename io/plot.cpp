@@ -214,6 +214,12 @@ private:
                                 s.label, s.x.size(), s.y.size()));
             for (const double v : s.*member)
                 all.take(v, logarithmic);
+            if (member == &PlotSeries::y)
+                for (std::size_t i = 0; i < std::min(s.spread.size(), s.y.size()); ++i)
+                    if (std::isfinite(s.spread[i])) {
+                        all.take(s.y[i] - s.spread[i], logarithmic);
+                        all.take(s.y[i] + s.spread[i], logarithmic);
+                    }
         }
         return all;
     }
@@ -273,15 +279,37 @@ private:
         return "";
     }
 
+    static bool is_marker(PlotSeries::Style style) {
+        return style == PlotSeries::Style::points || style == PlotSeries::Style::rings;
+    }
+
+    /// The pointer reads what a marker is of; the legend's own are no data.
+    void marker(double x, double y, const PlotSeries& s, std::size_t tint, bool in_legend) {
+        const bool ring = s.style == PlotSeries::Style::rings;
+        const std::string more =
+            in_legend ? " sample\"" : fmt::format("\" data-label=\"{}\"", escape(plain(s.label)));
+        out_ +=
+            fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"{}\" "
+                        "stroke=\"{}\" stroke-width=\"{}\" class=\"{}{}{}/>\n",
+                        x, y, ring ? "#ffffff" : palette[tint], ring ? palette[tint] : "#ffffff",
+                        ring ? 1.8 : 1.0, ring ? 'c' : 'f', tint, more);
+    }
+
     void series(const PlotSeries& s, std::size_t tint) {
-        if (s.style == PlotSeries::Style::points) {
-            for (std::size_t i = 0; i < s.x.size(); ++i)
-                if (holds(s, i))
-                    out_ += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"{}\" "
-                                        "stroke=\"#ffffff\" stroke-width=\"1\" class=\"f{}\" "
-                                        "data-label=\"{}\"/>\n",
-                                        px(s.x[i]), py(s.y[i]), palette[tint], tint,
-                                        escape(plain(s.label)));
+        if (is_marker(s.style)) {
+            for (std::size_t i = 0; i < s.x.size(); ++i) {
+                if (!holds(s, i)) continue;
+                if (i < s.spread.size() && s.spread[i] > 0.0) {
+                    const double x = px(s.x[i]), low = py(s.y[i] - s.spread[i]),
+                                 high = py(s.y[i] + s.spread[i]);
+                    out_ +=
+                        fmt::format("<path d=\"M{:.2f} {:.2f}V{:.2f}M{:.2f} {:.2f}h8M{:.2f} "
+                                    "{:.2f}h8\" stroke=\"{}\" stroke-width=\"1.2\" "
+                                    "class=\"c{}\"/>\n",
+                                    x, low, high, x - 4.0, low, x - 4.0, high, palette[tint], tint);
+                }
+                marker(px(s.x[i]), py(s.y[i]), s, tint, false);
+            }
             return;
         }
         std::string path;
@@ -354,10 +382,8 @@ private:
             const PlotSeries& s = plot_.series[i];
             if (s.label.empty()) continue;
             const std::size_t tint = colour(i);
-            if (s.style == PlotSeries::Style::points)
-                out_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\" "
-                                    "class=\"f{} sample\"/>\n",
-                                    legend_x_ + 8.0 + 0.5 * sample, at, palette[tint], tint);
+            if (is_marker(s.style))
+                marker(legend_x_ + 8.0 + 0.5 * sample, at, s, tint, true);
             else
                 out_ +=
                     fmt::format("<path d=\"M{:.1f} {:.1f}h{}\" stroke=\"{}\" "

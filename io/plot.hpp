@@ -26,11 +26,12 @@
 namespace asperity::io {
 
 struct PlotSeries {
-    enum class Style { line, dashed, dotted, points };
+    enum class Style { line, dashed, dotted, points, rings };
 
     std::string label; ///< empty: not in the legend
     std::vector<double> x;
-    std::vector<double> y; ///< as many as x
+    std::vector<double> y;           ///< as many as x
+    std::vector<double> spread = {}; ///< half lengths of error bars on points; may be empty
     Style style = Style::line;
     int colour = -1; ///< number in the palette; -1: the place among the series
 };

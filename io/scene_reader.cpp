@@ -225,6 +225,12 @@ Key& Schema::boolean(std::string name, bool& field, std::string doc) {
     return add(std::move(key));
 }
 
+Schema& Schema::variations(std::string name, std::string doc, std::string example,
+                           std::vector<Variation>& into) {
+    variations_ = {std::move(name), std::move(doc), std::move(example), &into};
+    return *this;
+}
+
 Key& Schema::integer(std::string name, int& field, Range range, std::string doc) {
     Key key;
     key.name = std::move(name);

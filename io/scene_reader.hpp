@@ -96,6 +96,13 @@ inline Range above(double low) {
 }
 inline Range between(double low, double high) { return {low, high, false, false}; }
 
+/// A key and the values it takes one after the other, as they would stand behind --set key=.
+struct Variation {
+    std::string key;
+    std::string values; ///< "1,2,5" or "0.5:10:0.5"
+    std::string where;  ///< file:line:column
+};
+
 class Schema {
 public:
     enum class Kind { boolean, integer, number, text, choice, list };
@@ -191,7 +198,14 @@ public:
             std::move(doc));
     }
 
+    /// A section without keys of its own: keys of the others, each with a list or range of values.
+    /// Only their names are looked at here.
+    Schema& variations(std::string name, std::string doc, std::string example,
+                       std::vector<Variation>& into);
+
     const std::vector<Key>& keys() const { return keys_; }
+    const std::string& variations_section() const { return variations_.name; }
+    void keep(Variation variation) const { variations_.into->push_back(std::move(variation)); }
     const Key* find(std::string_view path) const;
 
     /// Reads text (the contents of file) and overrides ("section.key=value"). Problems are added,
@@ -217,6 +231,10 @@ private:
 
     std::vector<Key> keys_;
     std::vector<std::pair<std::string, std::string>> sections_; ///< name and doc, in order
+    struct Variations {
+        std::string name, doc, example;
+        std::vector<Variation>* into = nullptr;
+    } variations_;
 };
 
 /// The name among candidates that a misspelt word most likely meant; empty if none is near.

@@ -85,6 +85,7 @@ public:
             if (sections_.empty() || sections_.back() != key.section)
                 sections_.push_back(key.section);
         }
+        if (!schema.variations_section().empty()) sections_.push_back(schema.variations_section());
     }
 
     void text(std::string_view text) {
@@ -175,6 +176,7 @@ private:
                        "sections: " + fmt::format("{}", fmt::join(sections_, ", ")),
                        near.empty() ? "take one of them" : fmt::format("did you mean [{}]?", near));
         }
+        if (name == schema_.variations_section()) return variations(*table, "");
         for (const auto& [key_name, value] : *table) {
             const std::string path = name + "." + std::string(key_name.str());
             const Schema::Key* key = schema_.find(path);
@@ -184,6 +186,36 @@ private:
             }
             store(*key, value_of(value), shown(value), position_of(value.source(), file_));
         }
+    }
+
+    /// `surface.rms = [1, 2]` (which is a table in a table), or "surface.rms" = "0.5:10:0.5".
+    void variations(const toml::table& table, const std::string& above) {
+        for (const auto& [name, node] : table) {
+            const std::string path = above + std::string(name.str());
+            const Position at = position_of(node.source(), file_);
+            if (const auto* inner = node.as_table()) {
+                variations(*inner, path + ".");
+                continue;
+            }
+            if (!schema_.find(path)) {
+                unknown(path, position_of(name.source(), file_));
+                continue;
+            }
+            std::string values;
+            if (const auto* array = node.as_array()) {
+                for (const toml::node& member : *array)
+                    values += (values.empty() ? "" : ",") + as_override(member);
+            } else {
+                values = as_override(node);
+            }
+            schema_.keep({path, values, format(at)});
+        }
+    }
+
+    /// As it would stand behind --set key=: strings without their quotes.
+    static std::string as_override(const toml::node& node) {
+        if (const auto* text = node.as_string()) return text->get();
+        return shown(node);
     }
 
     void store(const Schema::Key& key, const Schema::Value& value, const std::string& text,

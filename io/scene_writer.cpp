@@ -107,6 +107,9 @@ std::string Schema::toml(bool with_docs) const {
             text += line + '\n';
         }
     }
+    if (with_docs && !variations_.name.empty())
+        text += fmt::format("\n# {}\n# [{}]\n# {}\n", variations_.doc, variations_.name,
+                            variations_.example);
     return text;
 }
 
@@ -128,6 +131,9 @@ std::string Schema::markdown() const {
                 text += fmt::format("| `{}` | `{}` | {} | {} |\n", key.name, key.default_toml,
                                     escaped_bars(allowed(key, "`")), escaped_bars(key.doc));
     }
+    if (!variations_.name.empty())
+        text += fmt::format("\n## [{}]\n\n{}\n\n    {}\n", variations_.name, variations_.doc,
+                            variations_.example);
     return text;
 }
 

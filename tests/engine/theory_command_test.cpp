@@ -6,7 +6,7 @@
 #include "engine/theory_command.hpp"
 
 #include "engine/setup.hpp"
-#include "engine/sweep.hpp"
+#include "engine/sweep_grid.hpp"
 #include "io/error.hpp"
 #include "io/plot.hpp"
 #include "theory/error.hpp"
