@@ -28,6 +28,7 @@ struct Findings {
     std::optional<double> pull_off;
     double attraction_in = 0.0;            ///< largest attraction on the way in, eV/Å
     double attraction_out = 0.0;           ///< on the way out
+    std::optional<double> contact_made;    ///< when the approach ended, fs
     std::optional<Dissipation> dissipated; ///< of a quasi-static path (which lists it itself)
 
     /// By name, for checkpoints: visitor(name, double&).
@@ -37,6 +38,7 @@ struct Findings {
         optional(v, "pull_off", pull_off);
         v("attraction_in", attraction_in);
         v("attraction_out", attraction_out);
+        optional(v, "contact_made", contact_made);
         double has = zero_load ? 1.0 : 0.0;
         v("zero_load", has);
         ZeroLoad z = zero_load.value_or(ZeroLoad{});

@@ -98,6 +98,7 @@ private:
                 conclude(*std::exchange(ended, std::nullopt));
             else
                 ended = follow_drive(now);
+            if (!delayed_fields_.empty()) write_delayed_fields(now.time);
             if (progress_.due()) progress_.update(progress_state(now));
             if (last && !ended) {
                 stopped_ = "max_steps";
@@ -116,7 +117,22 @@ private:
         const double strongest = std::max(findings_.attraction_in, findings_.attraction_out);
         const bool gone = now.top >= 0.0 && std::abs(now.force) <= 1e-6 * strongest;
         if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
+        if (leg == Leg::approach) findings_.contact_made = now.time;
         return leg;
+    }
+
+    /// Maps that are due so long after the approach has ended.
+    void write_delayed_fields(double time) {
+        const auto& [delay, field] = delayed_fields_.front();
+        if (!is_due(delay, time)) return;
+        const auto t = simulation_.phases().time(Phase::output);
+        recorder_->fields(field, std::as_const(simulation_.block()).lowest_layer(), grid_,
+                          simulation_.interface(), simulation_.reference_height());
+        delayed_fields_.erase(delayed_fields_.begin());
+    }
+    bool is_due(double delay, double time) const { // ps, fs
+        return findings_.contact_made &&
+               time >= *findings_.contact_made + delay * units::picosecond;
     }
 
     /// What a leg has shown.
@@ -221,6 +237,9 @@ private:
         const std::optional<std::string> path = checkpoint_to_take_up();
         if (!path) return false;
         restore_run(read_checkpoint(*path, simulation_, fingerprint_));
+        std::erase_if(delayed_fields_, [&](const auto& field) { // written before it stopped
+            return is_due(field.first, simulation_.now().time);
+        });
         progress_.say(fmt::format("going on from step {} of {}", simulation_.steps(), *path));
         return true;
     }
@@ -232,6 +251,7 @@ private:
     }
 
     Simulation simulation_;
+    std::vector<std::pair<double, std::string>> delayed_fields_ = scene_.delayed_fields();
     Snapshot snapshot_;
     std::size_t relaxation_bytes_ = 0;
     RunScalars snapshot_scalars_;

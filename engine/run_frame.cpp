@@ -70,6 +70,7 @@ int RunFrame::go() {
     if (ranks_.root()) {
         for (const std::string& difference : differences_)
             fmt::print("  NOT AS PLANNED: {}\n", difference);
+        write_curve(directory_, curve_, scene_, setup_);
         print_summary(stdout, scene_, setup_, findings_, energy_residual(), directory_);
         if (!stopped_.empty())
             fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);
@@ -233,7 +234,12 @@ void RunFrame::write_record(const io::ResultRecord::Failure& failure) {
     r.run.wall_seconds = seconds();
     add_phases(phases(), r);
     const bool whole = stopped_.empty() && failure.exit_code == 0 && !options_.resuming();
-    if (recorder_) differences_ = add_effects(setup_.effects, books(), whole, r);
+    if (recorder_) {
+        differences_ = add_effects(setup_.effects, books(), whole, r);
+        recorder_.reset(); // closes run.h5, to be read
+        curve_ = read_path(directory_ + "/run.h5");
+        add_path(curve_, scene_, r);
+    }
     r.run.stopped = stopped_;
     r.failure = failure;
     io::write_result(directory_, r);

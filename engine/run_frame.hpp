@@ -11,6 +11,7 @@
 #include "decomposition/communicator.hpp"
 #include "decomposition/process_grid.hpp"
 #include "engine/checkpoint.hpp"
+#include "engine/curve.hpp"
 #include "engine/effects.hpp"
 #include "engine/findings.hpp"
 #include "engine/recorder.hpp"
@@ -106,6 +107,7 @@ private:
     } strongest_;
 
     std::vector<std::string> differences_; ///< between the effects planned and done
+    PathSeries curve_;                     ///< read back at the end, on the root
     std::uint64_t rows_at_start_ = 0;
     double last_checkpoint_ = 0.0;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

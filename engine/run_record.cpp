@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run_record.hpp"
 
+#include "engine/curve.hpp"
 #include "engine/theory_command.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
+#include "theory/jkr.hpp"
 
 #include <omp.h>
 
@@ -36,12 +38,13 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
     if (findings.pull_off) r.pull_off_force = findings.attraction_out;
     if (scene.surface.radius) {
         const auto jkr = [&](double f) {
-            return units::milli_per_unit * f /
-                   (1.5 * 3.14159265358979323846 * *scene.surface.radius);
+            return units::milli_per_unit *
+                   theory::jkr::work_from_pull_off(f, *scene.surface.radius);
         };
         if (findings.approach) r.jkr.in = jkr(findings.attraction_in);
         if (findings.pull_off) r.jkr.out = jkr(findings.attraction_out);
     }
+    add_sphere(scene, setup, r);
     if (findings.dissipated) {
         const Dissipation& lost = *findings.dissipated;
         const double area = scene.edge() * scene.edge();

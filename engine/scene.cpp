@@ -58,9 +58,11 @@ io::Schema bind(Scene& scene) {
                      "edge of the map; \"auto\": what the file says, else the box");
     schema.text("file_unit", surface.file_unit,
                 "of the map's heights; \"auto\": what the file says, else Å");
-    schema.choice<Detrend>("detrend", surface.detrend,
-                           {{"none", Detrend::none}, {"plane", Detrend::plane}},
-                           "what is taken off a map from a file");
+    schema.choice<Detrend>(
+        "detrend", surface.detrend,
+        {{"none", Detrend::none}, {"plane", Detrend::plane}, {"periodic", Detrend::periodic}},
+        "what is taken off a map from a file: nothing, the mean plane, or that "
+        "and the jumps between opposite edges");
     schema.choice<Resample>("resample", surface.resample,
                             {{"none", Resample::none}, {"band-limited", Resample::band_limited}},
                             "how a map that has not N x N values is brought onto the lattice");
@@ -158,9 +160,9 @@ io::Schema bind(Scene& scene) {
                       "steps between frames of the lowest layer (H5MD, in run.h5)");
     schema.boolean("velocities", output.velocities, "in the frames of the trajectory too");
     schema.list(
-        "fields", output.fields, {"zero-load", "pull-off", "every:"},
-        "when maps are written: at zero load, at the largest attraction of the pull-off, every "
-        "so many steps (points of a quasi-static path)");
+        "fields", output.fields, {"zero-load", std::string(after_zero_load), "pull-off", "every:"},
+        "when maps are written: at zero load, so many ps after the approach has ended, at the "
+        "largest attraction of the pull-off, every so many steps (points of a quasi-static path)");
     schema.integer("series", output.series, at_least(1), "steps between rows of the series");
     schema.number("checkpoint", output.checkpoint, "s", at_least(0.0),
                   "wall time between checkpoints; 0: none");
@@ -178,6 +180,15 @@ bool Scene::has(PathPart part) const {
 
 bool Scene::writes_field(const std::string& which) const {
     return std::find(output.fields.begin(), output.fields.end(), which) != output.fields.end();
+}
+
+std::vector<std::pair<double, std::string>> Scene::delayed_fields() const {
+    std::vector<std::pair<double, std::string>> list;
+    for (const std::string& field : output.fields)
+        if (field.starts_with(after_zero_load))
+            list.emplace_back(std::stod(field.substr(after_zero_load.size())), field);
+    std::sort(list.begin(), list.end());
+    return list;
 }
 
 namespace {
@@ -323,6 +334,11 @@ void check_scene(const Scene& scene, io::Problems& problems) {
         problems.add("output.fields", "has an \"every:\" without a number of steps",
                      "maps are written every so many steps (points of a quasi-static path)",
                      "for example fields = [\"zero-load\", \"every:1000\"]");
+    for (const auto& [delay, field] : scene.delayed_fields())
+        if (scene.without_time() || !scene.has(PathPart::pull_off))
+            problems.add("output.fields", "asks for \"" + field + "\"",
+                         "no pull-off goes on in time after zero load",
+                         "take a dynamic path with a pull-off, or take it out of output.fields");
     if (scene.writes_field("pull-off") && !scene.has(PathPart::pull_off))
         problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
                      "add it to drive.path or take it out of output.fields");
@@ -357,9 +373,6 @@ void not_yet(const Scene& scene, io::Problems& problems) {
     if (scene.numerics.accuracy)
         refuse("numerics.accuracy", fmt::format("{:.6g}", *scene.numerics.accuracy),
                "use \"none\" and choose layers_per_level, timestep and velocity yourself");
-    if (scene.surface.kind == SurfaceKind::file && scene.surface.file_size)
-        refuse("surface.file_size", fmt::format("{:.6g} Å", *scene.surface.file_size),
-               "give a map that is as wide as the box, and leave file_size out");
 }
 
 std::vector<std::string> notes(const Scene& scene) {

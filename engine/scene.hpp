@@ -14,11 +14,13 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace asperity {
 
-enum class Detrend { none, plane };
+enum class Detrend { none, plane, periodic };
 enum class Resample { none, band_limited };
 enum class BlockModel { lattice, multiscale, spectral };
 enum class Strain { linear, finite };
@@ -27,6 +29,9 @@ enum class PathPart { approach, pull_off, zero_load };
 enum class AreaFactor { gaussian, small_slope, none };
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
+
+/// Of output.fields: "after-zero-load:140", 140 ps after the approach has ended.
+inline constexpr std::string_view after_zero_load = "after-zero-load:";
 
 struct Scene {
     struct Surface {
@@ -123,6 +128,8 @@ struct Scene {
     /// N of "every:N" among the fields: steps, or points of a quasi-static path, between maps.
     /// Empty: there is none; 0: what stands there is no N.
     std::optional<long long> field_stride() const;
+    /// Those after zero load: delay in ps and name, in their order.
+    std::vector<std::pair<double, std::string>> delayed_fields() const;
 };
 
 /// Every key, bound to the fields of this scene (which must outlive the schema).

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 namespace asperity {
@@ -29,16 +30,26 @@ Surface scene_surface(const Scene& scene) {
     try {
         if (s.kind != SurfaceKind::file) return make_surface(options);
         io::HeightMap map = io::read_height_map(s.file, s.file_unit);
-        if (map.sites != options.sites && s.resample == Resample::none)
-            throw std::invalid_argument(
-                fmt::format("the map in {} has {} x {} values, but the substrate has {} x {} "
-                            "atoms; give a map of that "
-                            "size, set surface.sites = {}, or let it be resampled with "
-                            "surface.resample = \"band-limited\"",
-                            s.file, map.sites, map.sites, options.sites, options.sites, map.sites));
+        options.map_edge = s.file_size.value_or(map.size.value_or(0.0));
+        const int covered = sites_of_map(options);
+        if (map.sites != covered && s.resample == Resample::none)
+            throw std::invalid_argument(fmt::format(
+                "the map in {} has {} x {} values, but covers {} x {} atoms of the substrate; give "
+                "a map of that size, set surface.sites = {}, or let it be resampled with "
+                "surface.resample = \"band-limited\"",
+                s.file, map.sites, map.sites, covered, covered, map.sites));
         options.rms = s.rms_given ? s.rms : 0.0;
-        options.detrend = s.detrend == Detrend::plane;
-        return surface_from_heights(options, std::move(map.heights), map.sites, map.sites);
+        options.detrend = s.detrend != Detrend::none;
+        options.periodic = s.detrend == Detrend::periodic;
+        const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
+        Surface surface =
+            surface_from_heights(options, std::move(map.heights), map.sites, map.sites);
+        surface.notes.insert(
+            surface.notes.begin(),
+            fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",
+                        std::filesystem::path(s.file).filename().string(), map.sites, map.sites,
+                        edge / map.sites, edge, map.unit));
+        return surface;
     } catch (const std::invalid_argument& e) {
         io::Problems problems = scene.problems();
         problems.add(s.kind == SurfaceKind::file ? "surface.file" : "surface.kind",

@@ -145,6 +145,48 @@ void remove_plane(std::vector<double>& h, int nx, int ny) {
                         (yy > 0.0 ? sy / yy : 0.0) * (y - 0.5 * (ny - 1));
 }
 
+/// Makes a map periodic: takes off the smooth part (harmonic inside) that carries the jumps between
+/// opposite edges (L. Moisan, J. Math. Imaging Vis. 39, 161, 2011).
+void remove_jumps(std::vector<double>& h, int nx, int ny) {
+    const auto at = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) +
+               static_cast<std::size_t>(x);
+    };
+    std::vector<Complex> smooth(h.size());
+    for (int y = 0; y < ny; ++y) {
+        const double jump = h[at(nx - 1, y)] - h[at(0, y)];
+        smooth[at(0, y)] += jump;
+        smooth[at(nx - 1, y)] -= jump;
+    }
+    for (int x = 0; x < nx; ++x) {
+        const double jump = h[at(x, ny - 1)] - h[at(x, 0)];
+        smooth[at(x, 0)] += jump;
+        smooth[at(x, ny - 1)] -= jump;
+    }
+    transform(smooth, nx, ny, FFTW_FORWARD);
+    for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x) {
+            const double laplacian =
+                2.0 * std::cos(2.0 * pi * x / nx) + 2.0 * std::cos(2.0 * pi * y / ny) - 4.0;
+            smooth[at(x, y)] *= x == 0 && y == 0 ? 0.0 : 1.0 / laplacian;
+        }
+    transform(smooth, nx, ny, FFTW_BACKWARD);
+    for (std::size_t i = 0; i < h.size(); ++i)
+        h[i] -= smooth[i].real() / static_cast<double>(h.size());
+}
+
+/// The middle n x n points of a map of m x m.
+std::vector<double> middle(const std::vector<double>& h, int m, int n) {
+    std::vector<double> cut;
+    cut.reserve(cells(n));
+    const int first = (m - n) / 2;
+    for (int y = first; y < first + n; ++y) {
+        const auto row = h.begin() + static_cast<std::ptrdiff_t>(y) * m + first;
+        cut.insert(cut.end(), row, row + n);
+    }
+    return cut;
+}
+
 /// Heights on n x n points with the Fourier coefficients of nx x ny: those that both grids can
 /// hold.
 std::vector<double> resample(const std::vector<double>& h, int nx, int ny, int n) {
@@ -293,6 +335,12 @@ Surface make_surface(const SurfaceOptions& o) {
     return finish(o, std::move(s));
 }
 
+int sites_of_map(const SurfaceOptions& o) {
+    const double ratio = o.map_edge > 0.0 ? o.map_edge / o.length : 1.0;
+    if (std::abs(ratio - 1.0) <= 0.005) return o.sites;
+    return static_cast<int>(std::lround(ratio * o.sites));
+}
+
 Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int nx, int ny) {
     check(o);
     require(nx >= 1 && ny >= 1 &&
@@ -314,11 +362,34 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
         remove_plane(h, nx, ny);
         s.notes.push_back("mean plane removed from the height map");
     }
-    if (nx != o.sites || ny != o.sites) {
-        h = resample(h, nx, ny, o.sites);
+    if (o.periodic) {
+        const double before = rms_of(h);
+        remove_jumps(h, nx, ny);
+        s.notes.push_back(fmt::format("the map made periodic: rms {:.4g} Å before, {:.4g} Å after",
+                                      before, rms_of(h)));
+    }
+    const int whole = sites_of_map(o);
+    require(whole >= o.sites,
+            fmt::format("the height map is {:.6g} Å wide, the box {:.6g} Å; take {} sites at most, "
+                        "or stretch the map on purpose with surface.file_size = {:.6g}",
+                        o.map_edge, o.length, static_cast<int>(o.map_edge / o.length * o.sites),
+                        o.length));
+    if (whole == o.sites && o.map_edge > 0.0 && std::abs(o.map_edge - o.length) > 1e-9 * o.length)
+        s.notes.push_back(fmt::format("the map, {:.6g} Å wide, is stretched by {:+.2f} % to the "
+                                      "box",
+                                      o.map_edge, 100.0 * (o.length / o.map_edge - 1.0)));
+    if (nx != whole || ny != whole) {
+        h = resample(h, nx, ny, whole);
         s.notes.push_back(
             fmt::format("height map of {} x {} points resampled (Fourier, periodic) to {} x {}", nx,
-                        ny, o.sites, o.sites));
+                        ny, whole, whole));
+    }
+    if (whole > o.sites) {
+        h = middle(h, whole, o.sites);
+        s.notes.push_back(
+            fmt::format("the middle {:.6g} Å of the map are taken; at the box's edges "
+                        "heights jump",
+                        o.length));
     }
     if (o.rms > 0.0) {
         const double own = rms_of(h);

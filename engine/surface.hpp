@@ -32,8 +32,10 @@ struct SurfaceOptions {
     double cutoff = 512.0; ///< q1 / q_L, clipped at the grid's Nyquist wavevector
     Amplitudes amplitudes = Amplitudes::gaussian;
     std::uint64_t seed = 1;
-    double radius = 0.0;  ///< of the spherical cap, Å; 0: none
-    bool detrend = false; ///< measured maps: remove the mean plane
+    double radius = 0.0;   ///< of the spherical cap, Å; 0: none
+    bool detrend = false;  ///< measured maps: remove the mean plane
+    bool periodic = false; ///< measured maps: remove the jumps between opposite edges
+    double map_edge = 0.0; ///< measured maps: their edge, Å; 0: that of the box
 };
 
 /// One bin of the radially averaged spectrum.
@@ -66,8 +68,12 @@ struct Surface {
 /// options that describe none.
 Surface make_surface(const SurfaceOptions& options);
 
-/// A measured map heights[y * nx + x] that fills the box: taken as it is if it has sites x sites
-/// values, else resampled band-limited (exactly, for what both grids can hold).
+/// Lattice sites along the edge of a measured map: `sites` if it fills the box to 0.5 %.
+int sites_of_map(const SurfaceOptions& options);
+
+/// A measured map heights[y * nx + x]: taken as it is if it has as many values as it covers sites,
+/// else resampled band-limited (exactly, for what both grids can hold). Of a map wider than the box
+/// the middle is cut out; one that is narrower is refused (std::invalid_argument).
 Surface surface_from_heights(const SurfaceOptions& options, std::vector<double> heights, int nx,
                              int ny);
 
