@@ -61,9 +61,6 @@ expect 2 theory gone.toml
 expect 4 theory rough.toml --out rough.toml/x
 only_files ./rough.toml
 
-expect 2 sweep rough.toml --set surface.rms=1,2
-says "--theory-only"
-says "not available yet"
 expect 2 sweep rough.toml --theory-only --set surface.rms=1:2:-1
 says "is a range without values"
 expect 2 sweep rough.toml --theory-only --set surface.rms=1,-1 --out s

@@ -238,6 +238,75 @@ TEST(MeasuredSurface, LosesItsPlaneAndIsScaledOnRequest) {
     EXPECT_NEAR(rms_of(s.height), 2.5, 1e-12);
 }
 
+TEST(MapFromAFile, KeepsItsWidth) {
+    // Waves of 8 Å and 12 Å on a map of 96 x 96 points, 96 Å wide; the box is its middle half.
+    const int m = 96;
+    const auto wave = [](double x, double y) {
+        return std::sin(2 * pi * x / 8) + 0.5 * std::cos(2 * pi * y / 12);
+    };
+    std::vector<double> h;
+    for (int y = 0; y < m; ++y)
+        for (int x = 0; x < m; ++x)
+            h.push_back(wave(x, y));
+    SurfaceOptions o = self_affine(24);
+    o.kind = SurfaceKind::file;
+    o.length = 48.0;
+    o.rms = 0.0;
+    o.map_edge = 96.0;
+    EXPECT_EQ(sites_of_map(o), 48);
+    const Surface s = surface_from_heights(o, h, m, m);
+    ASSERT_EQ(s.height.size(), 576u);
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 24; ++x)
+            EXPECT_NEAR(s.height[static_cast<std::size_t>(24 * y + x)],
+                        wave(24 + 2 * x, 24 + 2 * y), 1e-12);
+    o.map_edge = 48.2; // as good as the box
+    EXPECT_EQ(sites_of_map(o), 24);
+    EXPECT_NO_THROW(surface_from_heights(o, h, m, m));
+    o.map_edge = 40.0;
+    try {
+        surface_from_heights(o, h, m, m);
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_NE(std::string(error.what()).find("40 Å wide, the box 48 Å"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(MapFromAFile, LosesItsJumpsAndNothingElse) {
+    const int n = 48;
+    SurfaceOptions o = self_affine(n);
+    o.kind = SurfaceKind::file;
+    o.rms = 0.0;
+    o.periodic = true;
+    std::vector<double> even, tilted;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const double wave = std::sin(2 * pi * 5 * x / n) * std::cos(2 * pi * 3 * y / n);
+            even.push_back(wave);
+            tilted.push_back(wave + 0.3 * x + 0.002 * y * y);
+        }
+    const auto jump = [n](const std::vector<double>& h) { // between the first and the last column
+        double sum = 0.0;
+        for (int y = 0; y < n; ++y)
+            sum += h[static_cast<std::size_t>(y * n)] - h[static_cast<std::size_t>(y * n + n - 1)];
+        return std::abs(sum) / n;
+    };
+    const Surface s = surface_from_heights(o, tilted, n, n);
+    EXPECT_GT(jump(tilted), 14.0);
+    EXPECT_LT(jump(s.height), 1.5); // a step like any other: 0.65 from the wave
+    // In the middle what is taken off is smooth: second differences along x are those of the wave.
+    for (int x = 20; x < 28; ++x) {
+        const auto at = [&](const std::vector<double>& h, int k) {
+            return h[static_cast<std::size_t>(24 * n + k)];
+        };
+        const auto second = [&](const std::vector<double>& h) {
+            return at(h, x + 1) - 2 * at(h, x) + at(h, x - 1);
+        };
+        EXPECT_NEAR(second(s.height), second(even), 0.02);
+    }
+}
+
 TEST(BadSurfaces, SayWhatIsWrong) {
     const auto message = [](const SurfaceOptions& o) -> std::string {
         try {

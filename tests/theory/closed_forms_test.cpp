@@ -13,6 +13,7 @@
 #include "theory/half_space.hpp"
 #include "theory/jkr.hpp"
 #include "theory/maugis.hpp"
+#include "theory/periodic_sphere.hpp"
 #include "theory/westergaard.hpp"
 
 namespace asperity::theory {
@@ -144,6 +145,65 @@ TEST(Maugis, WithUnitsAndDmt) {
                 jkr::at_force(paper_sphere, 500).radius, 0.05);
     EXPECT_THROW((void)maugis::at_force(paper_sphere, lambda, -2500), NoSolution);
     EXPECT_THROW((void)maugis::pull_off(0), InvalidInput);
+}
+
+// The lattice sums, added up over squares of images; what lies outside is an integral.
+TEST(PeriodicSphere, SumsOverTheImages) {
+    constexpr int far = 400;
+    double first = 0, third = 0;
+    for (int y = -far; y <= far; ++y)
+        for (int x = -far; x <= far; ++x) {
+            if (x == 0 && y == 0) continue;
+            const double r = std::hypot(x, y);
+            first += 1 / r;
+            third += 1 / (r * r * r);
+        }
+    const double edge = far + 0.5;
+    const double outside = 8 * std::sin(pi / 4) / edge; // of 1/r³
+    first -= 8 * edge * std::log(1 + std::sqrt(2));     // the background's
+    first -= outside / 24; // a sum is an integral less 1/24 of the Laplacian
+    third += outside;
+
+    const PeriodicSphere p{paper_sphere, 1331.2, 3.11};
+    const double E = paper_sphere.contact_modulus, L = p.period, force = -1500;
+    EXPECT_NEAR((1 / p.radius_under(force) - 1 / paper_sphere.radius) / force,
+                third / (2 * pi * E * L * L * L), 1e-5 / (E * L * L * L));
+    const PeriodicState s = jkr_at_radius(p, 300);
+    EXPECT_NEAR(s.height, 3.11 - s.contact.approach - first / (pi * E * L) * s.contact.force, 1e-5);
+}
+
+TEST(PeriodicSphere, IsASphereWithoutItsImages) {
+    const PeriodicSphere far{paper_sphere, 1e7, 3};
+    for (const double a : {50.0, 200.0, 361.0}) {
+        const PeriodicState s = jkr_at_radius(far, a);
+        const SphereState alone = jkr::at_radius(paper_sphere, a);
+        EXPECT_NEAR(s.contact.force, alone.force, 1e-4 + 1e-6 * std::abs(alone.force));
+        EXPECT_NEAR(s.height, 3 - alone.approach, 1e-3);
+    }
+    EXPECT_NEAR(jkr_pull_off(far).contact.force, jkr::pull_off(paper_sphere).force, 1e-3);
+    // A wall that gives way at no stress is JKR's.
+    EXPECT_NEAR(maugis_pull_off(far, 100.0).contact.force, jkr::pull_off(paper_sphere).force, 1.0);
+    const double stress = 0.05, lambda = maugis_parameter(paper_sphere, stress);
+    EXPECT_NEAR(maugis_pull_off(far, stress).contact.force,
+                maugis::pull_off(paper_sphere, lambda).force, 1e-3);
+}
+
+TEST(PeriodicSphere, PullOffIsTheCurvesMinimum) {
+    const PeriodicSphere p{paper_sphere, 1331.2, 3.11};
+    const double force = jkr_pull_off(p).contact.force;
+    double lowest = 0;
+    for (double a = 150; a < 300; a += 0.05)
+        lowest = std::min(lowest, jkr_at_radius(p, a).contact.force);
+    EXPECT_NEAR(force, lowest, 1e-6 * std::abs(force));
+    // F = -(3/2)πw / (1/R + kF) by the quadratic formula; model.md: about 1 % more than JKR.
+    const double k = (1 / p.radius_under(-1) - 1 / paper_sphere.radius) / -1;
+    const double b = 1 / paper_sphere.radius, c = 1.5 * pi * paper_sphere.work_of_adhesion;
+    EXPECT_NEAR(force, (-b + std::sqrt(b * b - 4 * k * c)) / (2 * k), 1e-6 * std::abs(force));
+    const double excess = force / jkr::pull_off(paper_sphere).force - 1;
+    EXPECT_GT(excess, 0.007);
+    EXPECT_LT(excess, 0.013);
+    EXPECT_THROW((void)PeriodicSphere({paper_sphere, 200, 3}).radius_under(-3000), NoSolution);
+    EXPECT_THROW((void)PeriodicSphere({paper_sphere, 0, 3}).radius_under(-1), InvalidInput);
 }
 
 // theory.md writes the curve as sin²(πa) - α√tan(πa) and gives its minimum at a = 0.1171. The two
