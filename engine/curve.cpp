@@ -71,10 +71,10 @@ void add_sphere_curves(io::Plot& plot, const Scene& scene, const Setup& setup, d
         ratios.push_back(1.0 + std::exp(x));
     plot.series.push_back(curve("JKR", Style::dotted, 6, widest, radii,
                                 [&](double a) { return theory::jkr_at_radius(alone, a); }));
-    plot.series.push_back(curve("JKR with images", Style::dashed, 4, widest, radii,
+    plot.series.push_back(curve(whose + "JKR with images", Style::dashed, 4, widest, radii,
                                 [&](double a) { return theory::jkr_at_radius(sphere, a); }));
     plot.series.push_back(
-        curve("Maugis-Dugdale with images", Style::line, 4, widest, ratios, [&](double m) {
+        curve(whose + "Maugis-Dugdale with images", Style::line, 4, widest, ratios, [&](double m) {
             return theory::maugis_at_ratio(sphere, largest_tension(setup), m);
         }));
 }
@@ -103,22 +103,11 @@ PathSeries read_path(const std::string& file) {
     const auto column = [&](const char* name) {
         return run.read<double>(std::string("/series/") + name);
     };
-    PathSeries path{.leg = column("leg"),
-                    .time = {},
-                    .height = column("mean_height"),
-                    .force = column("force"),
-                    .contact_fraction = column("contact_fraction"),
-                    .lost = {}};
-    if (!run.exists("/series/time")) { // quasi-static
-        path.lost = column("dissipated");
-        return path;
-    }
-    path.time = column("time");
-    path.lost = column("damped");
-    const std::vector<double> kinetic = column("kinetic_energy");
-    for (std::size_t i = 0; i < kinetic.size(); ++i)
-        path.lost[i] += kinetic[i] - kinetic.front();
-    return path;
+    return {.leg = column("leg"),
+            .time = run.exists("/series/time") ? column("time") : std::vector<double>{},
+            .height = column("mean_height"),
+            .force = column("force"),
+            .contact_fraction = column("contact_fraction")};
 }
 
 void add_path(const PathSeries& path, const Scene& scene, io::ResultRecord& record) {
@@ -130,8 +119,10 @@ void add_path(const PathSeries& path, const Scene& scene, io::ResultRecord& reco
     if (!work.approach || !work.pull_off) return; // not to its end
     const double area = scene.edge() * scene.edge() / units::milli_per_unit;
     record.extra.emplace_back("hysteresis.loop", (*work.pull_off - *work.approach) * area);
-    record.extra.emplace_back("hysteresis.approach", path.lost[turn - 1]);
-    record.extra.emplace_back("hysteresis.pull_off", path.lost.back() - path.lost[turn - 1]);
+    if (const auto state = record.binding_energy) {
+        record.extra.emplace_back("hysteresis.approach", (*state - *work.approach) * area);
+        record.extra.emplace_back("hysteresis.pull_off", (*work.pull_off - *state) * area);
+    }
     if (!scene.surface.radius) return;
     const auto strongest =
         std::min_element(path.force.begin() + static_cast<std::ptrdiff_t>(turn), path.force.end());
@@ -201,6 +192,13 @@ void write_curve(const std::string& directory, const PathSeries& path, const Sce
     if (curved) add_sphere_curves(plot, scene, setup, strongest);
     for (io::PlotSeries* series : {&in, &out})
         if (!series->x.empty()) plot.series.push_back(std::move(*series));
+    if (curved) { // the run has the say, not the curves beside it
+        const auto [least_force, greatest_force] =
+            std::minmax_element(path.force.begin(), path.force.end());
+        const double room = 0.08 * (*greatest_force - *least_force);
+        plot.y_low = (*least_force - room) * scale;
+        plot.y_high = (*greatest_force + room) * scale;
+    }
     if (high > low) {
         const double room = 0.04 * (high - low);
         plot.x_low = low - room;

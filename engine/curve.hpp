@@ -28,15 +28,14 @@ struct PathSeries {
     std::vector<double> height; ///< Å
     std::vector<double> force;  ///< eV/Å, positive pushes
     std::vector<double> contact_fraction;
-    /// Energy in vibrations and damped, or lost in falls, since the first row, eV.
-    std::vector<double> lost;
 };
 /// From run.h5. Throws io::FileError.
 PathSeries read_path(const std::string& file);
 
 /// What the path adds to a record:
-///   hysteresis.loop                the area of the loop, -∮ F dz, eV
-///   hysteresis.approach, pull_off  energy turned into vibrations and heat on the way, eV
+///   hysteresis.loop      the area of the loop, -∮ F dz, eV: what a cycle turns into heat
+///   hysteresis.approach  of it, what the approach fell short of the state at zero load (snap-in)
+///   hysteresis.pull_off  and what the pull-off took beyond it (snap-off, local detachment)
 ///   jkr.in_averaged, out_averaged  from the largest attraction of a running mean over 2 ps,
 ///   without
 ///                                  the vibrations that a snap leaves behind, meV/Å² (curved, and
