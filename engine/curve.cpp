@@ -69,7 +69,8 @@ void add_sphere_curves(io::Plot& plot, const Scene& scene, const Setup& setup, d
     std::vector<double> ratios;
     for (const double x : spaced(-9.0, 5.0, 400))
         ratios.push_back(1.0 + std::exp(x));
-    plot.series.push_back(curve("JKR", Style::dotted, 6, widest, radii,
+    const std::string whose = scene.surface.rms > 0.0 ? "smooth sphere, " : "";
+    plot.series.push_back(curve(whose + "JKR", Style::dotted, 6, widest, radii,
                                 [&](double a) { return theory::jkr_at_radius(alone, a); }));
     plot.series.push_back(curve(whose + "JKR with images", Style::dashed, 4, widest, radii,
                                 [&](double a) { return theory::jkr_at_radius(sphere, a); }));

@@ -243,17 +243,18 @@ private:
     std::string state_text() const {
         const auto over = jobs_.size() - waiting_.size() - children_.size();
         std::string text = fmt::format("{} of {} points", over, jobs_.size());
-        double done = static_cast<double>(concluded_);
+        double done = static_cast<double>(concluded_), longest = 0.0;
         for (const Child& child : children_) {
             const double fraction = fraction_of(jobs_[child.job]);
             done += fraction;
+            const double age = std::chrono::duration<double>(Clock::now() - child.start).count();
+            if (fraction > 0.0) longest = std::max(longest, age * (1.0 - fraction) / fraction);
             text += fmt::format(" | {} {:.0f} %", jobs_[child.job].name, 100.0 * fraction);
         }
         const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-        if (done > 0.02)
-            text += " | " +
-                    io::duration_text(seconds * (static_cast<double>(asked_for_) - done) / done) +
-                    " left";
+        // As the mean so far, but no less than what those under way need.
+        const double by_mean = seconds * (static_cast<double>(asked_for_) - done) / done;
+        if (done > 0.02) text += " | " + io::duration_text(std::max(by_mean, longest)) + " left";
         return text;
     }
 
