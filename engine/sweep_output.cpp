@@ -39,7 +39,8 @@ bool has_seeds(const SweepTable& table) {
 std::string cell_of(const Spread& spread, int digits) {
     if (spread.count == 0) return "-";
     std::string text = fmt::format("{:.{}f}", spread.mean, digits);
-    if (spread.deviation > 0.5 * std::pow(10.0, -digits)) text += fmt::format(" ± {:.{}f}", spread.deviation, digits);
+    if (spread.deviation > 0.5 * std::pow(10.0, -digits))
+        text += fmt::format(" ± {:.{}f}", spread.deviation, digits);
     return text;
 }
 
