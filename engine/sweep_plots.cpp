@@ -108,7 +108,7 @@ void add_traces(io::Plot& plot, const std::vector<Curve>& curves, const std::vec
             plot.series.push_back(std::move(s));
         }
         if (several && any && !(name_curves && &trace == &traces.front()))
-            plot.series.push_back({prefix + trace.label, {}, {}, {}, trace.style, grey});
+            plot.series.push_back({prefix + trace.label, {}, {}, trace.style, grey});
     }
 }
 

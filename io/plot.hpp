@@ -30,10 +30,10 @@ struct PlotSeries {
 
     std::string label; ///< empty: not in the legend
     std::vector<double> x;
-    std::vector<double> y;           ///< as many as x
-    std::vector<double> spread = {}; ///< half lengths of error bars on points; may be empty
+    std::vector<double> y; ///< as many as x
     Style style = Style::line;
-    int colour = -1; ///< number in the palette; -1: the place among the series
+    int colour = -1;                 ///< number in the palette; -1: the place among the series
+    std::vector<double> spread = {}; ///< half lengths of error bars on points; may be empty
 };
 
 struct Plot {

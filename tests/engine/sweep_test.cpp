@@ -192,8 +192,8 @@ TEST(Plot, ShowsSpreadsAsBars) {
     plot.series.push_back({.label = "simulated",
                            .x = {0, 1, 2},
                            .y = {1, 2, 3},
-                           .spread = {0.5, std::nan(""), 0.0},
-                           .style = io::PlotSeries::Style::rings});
+                           .style = io::PlotSeries::Style::rings,
+                           .spread = {0.5, std::nan(""), 0.0}});
     const std::string svg = io::plot_svg(plot);
     std::size_t bars = 0;
     for (std::size_t at = svg.find("h8M"); at != std::string::npos; at = svg.find("h8M", at + 1))
