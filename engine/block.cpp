@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/block.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -87,7 +89,7 @@ std::vector<LevelPlan> plan_levels(const BlockOptions& options) {
 }
 
 std::size_t Block::Level::bytes() const {
-    return u.bytes() + u_next.bytes() + v.bytes() + incoming.bytes() + upper_force.bytes();
+    return u.bytes() + v.bytes() + incoming.bytes() + upper_force.bytes();
 }
 
 double Block::Level::mass(int z) const {
@@ -115,15 +117,10 @@ Block::Block(const BlockOptions& options, const Communicator& communicator, cons
         level.u = VectorField<double>(level.tile, plan.cells + 1);
         level.incoming = VectorField<double>(level.tile, 1);
         level.upper_force = VectorField<double>(level.tile, 1);
-        if (motion == Motion::in_time) {
-            level.u_next = VectorField<double>(level.tile, plan.cells + 1);
-            level.v = VectorField<double>(level.tile, plan.cells);
-        }
+        if (motion == Motion::in_time) level.v = VectorField<double>(level.tile, plan.cells);
         depth += plan.cells * static_cast<double>(1 << plan.level);
         levels_.push_back(std::move(level));
     }
-    constexpr std::size_t cache = std::size_t{32} << 20; // a last-level cache of today
-    stream_ = bytes() > cache;
 }
 
 Block Block::copy_at_rest() const {
@@ -183,23 +180,21 @@ void Block::interpolate() {
     }
 }
 
-KickDrift Block::kick_drift(const Level& level, int z, const StepPlan& plan) const {
+Kick Block::kick(const Level& level, int z, const StepPlan& plan) const {
     const double m = level.mass(z);
     const double depth = level.depth + z * static_cast<double>(1 << level.plan.level);
     const bool damped = plan.damping > 0.0 && depth >= plan.damping_from * options_.thickness;
     const double g = damped ? 0.5 * plan.damping * plan.dt : 0.0;
-    KickDrift kd;
-    kd.keep = (1.0 - g) / (1.0 + g);
-    kd.kick = plan.dt / m / (1.0 + g);
-    kd.drag_z = 2.0 * g * plan.medium_velocity / (1.0 + g);
-    kd.dt = plan.dt;
-    kd.half_mass = 0.5 * m;
-    kd.medium_z = plan.medium_velocity;
-    kd.damped = damped;
-    kd.stream = stream_;
-    kd.observed = plan.observe;
-    kd.drag = m * plan.damping * plan.dt;
-    return kd;
+    Kick kick;
+    kick.keep = (1.0 - g) / (1.0 + g);
+    kick.kick = plan.dt / m / (1.0 + g);
+    kick.drag_z = 2.0 * g * plan.medium_velocity / (1.0 + g);
+    kick.half_mass = 0.5 * m;
+    kick.medium_z = plan.medium_velocity;
+    kick.damped = damped;
+    kick.observed = plan.observe;
+    kick.drag = m * plan.damping * plan.dt;
+    return kick;
 }
 
 namespace {
@@ -212,12 +207,32 @@ constexpr long long worth_threads = 8192;
 
 } // namespace
 
-/// Level by level from below: work(level, z, y0, y1) for all bands of all moving planes; then the
-/// force on the upper plane, which goes to the level above as its incoming force, or is the top
-/// plane's. Planes of a band are done one after the other, while they are in the cache.
+namespace {
+
+/// Rows [begin, end) of a tile.
+struct Rows {
+    int begin, end;
+};
+
+/// The share of this thread: whole bands, next to each other.
+Rows rows_of_thread(int ny) {
+    const int bands = (ny + band - 1) / band;
+    const auto cut = [&](int thread) {
+        return std::min(ny, band * (bands * thread / omp_get_num_threads()));
+    };
+    return {cut(omp_get_thread_num()), cut(omp_get_thread_num() + 1)};
+}
+
+} // namespace
+
+/// Level by level from below: work on all bands of all moving planes; then the force on the upper
+/// plane, which goes to the level above as its incoming force, or is the top plane's. Planes of a
+/// band are done one after the other, while they are in the cache; and passes take the bands to and
+/// fro, so that the next one begins with what the caches still hold.
 template <class Work>
 void Block::sweep(const Work& work) {
     const ElasticKernels& kernels = elastic_kernels();
+    backwards_ = !backwards_;
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         Level& level = levels_[l];
         const auto u = std::as_const(level.u).view();
@@ -226,15 +241,26 @@ void Block::sweep(const Work& work) {
 #pragma omp parallel if (static_cast <long long>(nx) * ny * cells > worth_threads)
         {
             typename Work::Sums mine;
-#pragma omp for schedule(static) nowait
-            for (int y0 = 0; y0 < ny; y0 += band) {
-                const int y1 = std::min(ny, y0 + band);
-                for (int z = 0; z < cells; ++z)
-                    work(level, u, z, y0, y1, mine);
+            const Rows share = rows_of_thread(ny);
+            const int bands = (share.end - share.begin + band - 1) / band;
+            for (int i = 0; i < bands; ++i) {
+                const int y0 = share.begin + band * (backwards_ ? bands - 1 - i : i);
+                const int y1 = std::min(share.end, y0 + band);
+                const bool more = i + 1 < bands;
+                for (int z = 0; z < cells; ++z) {
+                    const Following next = z + 1 < cells ? Following{z + 1, y0}
+                                           : more ? Following{0, backwards_ ? y0 - band : y0 + band}
+                                                  : Following{z, y0};
+                    work(level, u, z, {y0, y1}, next, mine);
+                    if (z > 0) work.leave(level, z - 1, {y0, y1}, share, backwards_);
+                }
                 // One node beyond the tile on each side: the coarse nodes inside reach that far.
                 kernels.force(u, cells, level.upper,
                               {-1, nx + 1, y0 == 0 ? -1 : y0, y1 == ny ? ny + 1 : y1}, upper);
+                work.leave(level, cells - 1, {y0, y1}, share, backwards_);
             }
+#pragma omp barrier
+            work.finish(level, share);
 #pragma omp critical(asperity_block_sums)
             work.merge(level, mine);
         }
@@ -265,26 +291,49 @@ void Block::hand_up(std::size_t l) {
 
 namespace {
 
-/// Kick and drift.
+/// Kick, and drift behind it in place: a row moves on when the forces on the rows and planes around
+/// it are done. The outermost rows of a thread's share are needed by its neighbours and wait for
+/// them.
 template <class Coefficients>
 struct Advance {
     using Sums = KickSums;
     const Block& block;
     const Coefficients& coefficients; ///< of a plane of a level
+    double dt;
     KickSums& total;
 
-    void operator()(Block::Level& level, const VectorVolume<const double>& u, int z, int y0, int y1,
-                    KickSums& sums) const {
-        const KickDrift kd = coefficients(level, z);
-        elastic_kernels().advance(u, z, level.stencil(z), y0, y1,
-                                  std::as_const(level.incoming).plane(0), kd, level.v.view(),
-                                  level.u_next.view(), sums);
-        const long long nodes = static_cast<long long>(level.tile.nx) * (y1 - y0);
+    void operator()(Block::Level& level, const VectorVolume<const double>& u, int z, Rows rows,
+                    Following next, KickSums& sums) const {
+        const Kick kick = coefficients(level, z);
+        elastic_kernels().kick(u, z, level.stencil(z), rows.begin, rows.end,
+                               std::as_const(level.incoming).plane(0), kick, next, level.v.view(),
+                               sums);
+        const long long nodes = static_cast<long long>(level.tile.nx) * (rows.end - rows.begin);
         sums.nodes += nodes;
-        if (kd.damped) sums.damped += nodes;
+        if (kick.damped) sums.damped += nodes;
+    }
+    /// Forces on planes z and z + 1 of a band are done.
+    void leave(Block::Level& level, int z, Rows rows, Rows share, bool backwards) const {
+        const int lag = backwards ? 1 : -1;
+        drift(
+            level, z,
+            {std::max(rows.begin + lag, share.begin + 1), std::min(rows.end + lag, share.end - 1)});
+    }
+    /// Forces of all threads are done.
+    void finish(Block::Level& level, Rows share) const {
+        for (int z = 0; z < level.plan.cells; ++z) {
+            drift(level, z, {share.begin, std::min(share.begin + 1, share.end)});
+            drift(level, z, {std::max(share.end - 1, share.begin + 1), share.end});
+        }
     }
     void merge(const Block::Level& level, const KickSums& sums) const {
         if (block.counts(level)) total.merge(sums);
+    }
+
+private:
+    void drift(Block::Level& level, int z, Rows rows) const {
+        elastic_kernels().drift(std::as_const(level.v).plane(z), dt, rows.begin, rows.end,
+                                level.u.plane(z));
     }
 };
 
@@ -293,29 +342,30 @@ struct Keep {
     struct Sums {};
     std::vector<VectorField<double>>& out;
 
-    void operator()(Block::Level& level, const VectorVolume<const double>& u, int z, int y0, int y1,
-                    Sums&) const {
+    void operator()(Block::Level& level, const VectorVolume<const double>& u, int z, Rows rows,
+                    Following, Sums&) const {
         const auto f = out[static_cast<std::size_t>(level.plan.level)].plane(z);
-        elastic_kernels().force(u, z, level.stencil(z), {0, level.tile.nx, y0, y1}, f);
+        elastic_kernels().force(u, z, level.stencil(z), {0, level.tile.nx, rows.begin, rows.end},
+                                f);
         if (z > 0) return;
         const auto incoming = std::as_const(level.incoming).plane(0);
-        for (int y = y0; y < y1; ++y)
+        for (int y = rows.begin; y < rows.end; ++y)
             for (int x = 0; x < level.tile.nx; ++x) {
                 f.x(x, y) += incoming.x(x, y);
                 f.y(x, y) += incoming.y(x, y);
                 f.z(x, y) += incoming.z(x, y);
             }
     }
+    void leave(Block::Level&, int, Rows, Rows, bool) const {}
+    void finish(Block::Level&, Rows) const {}
     void merge(const Block::Level&, const Sums&) const {}
 };
 
 } // namespace
 
 void Block::advance(const StepPlan& plan, KickSums& sums) {
-    const auto coefficients = [&](const Level& level, int z) { return kick_drift(level, z, plan); };
-    sweep(Advance<decltype(coefficients)>{*this, coefficients, sums});
-    for (Level& level : levels_)
-        std::swap(level.u, level.u_next);
+    const auto coefficients = [&](const Level& level, int z) { return kick(level, z, plan); };
+    sweep(Advance<decltype(coefficients)>{*this, coefficients, plan.dt, sums});
 }
 
 void Block::forces(std::vector<VectorField<double>>& out) { sweep(Keep{out}); }
@@ -379,7 +429,7 @@ std::size_t Block::bytes() const {
 std::size_t Block::motion_bytes() const {
     std::size_t total = 0;
     for (const Level& level : levels_)
-        total += level.u_next.bytes() + level.v.bytes();
+        total += level.v.bytes();
     return total;
 }
 
@@ -389,7 +439,7 @@ Block::Memory Block::memory_for(const BlockOptions& options, const ProcessGrid& 
         const auto planes = [&](int n) {
             return VectorField<double>::bytes_for(grid.tile(plan.level), n);
         };
-        const std::size_t motion = planes(plan.cells + 1) + planes(plan.cells);
+        const std::size_t motion = planes(plan.cells);
         memory.motion += motion;
         const std::size_t level = motion + planes(plan.cells + 1) + 2 * planes(1);
         memory.bytes += level;

@@ -8,15 +8,14 @@
 // lowest plane of level l+1 (bilinear interpolation) or, on the last level, is the rigid driven
 // top. A block of one level is the plain lattice.
 //
-// Data of a level: u (displacement), v (velocity at the half step), u_next, each three arrays; and
+// Data of a level: u (displacement) and v (velocity at the half step), three arrays each; and
 // `incoming`, the forces handed to its lowest plane from below: by the interface on level 0, by the
 // hanging plane of the level below on the others. A step goes
 //
 //   interpolate()  hanging planes follow          needs u with halos
 //   (interface)    fills incoming of level 0      needs u of the lowest plane
-//   advance()      level by level from below: forces, kick and drift u -> u_next; force on the
-//   upper
-//                  plane, handed to the level above; at the end u and u_next change places
+//   advance()      level by level from below: forces and kick; force on the upper plane, handed to
+//                  the level above; drift of u in place, row after row behind the forces
 //   exchange()     halos of u
 //
 // Each node's arithmetic is the same whatever tile or thread does it, so states are the same bits.
@@ -88,7 +87,7 @@ public:
         CellElasticity elasticity;
         Stencil lower, inner, upper;
         VectorField<double> u, incoming;
-        VectorField<double> u_next, v;   ///< in time only
+        VectorField<double> v;           ///< in time only
         VectorField<double> upper_force; ///< on the prescribed plane; one plane
 
         std::size_t bytes() const;
@@ -158,13 +157,13 @@ private:
     HaloExchange halo_;
     std::vector<Level> levels_;
     double top_ = 0.0;
-    bool stream_ = false; ///< the moving state is too large to stay in the caches
+    bool backwards_ = false; ///< the way the next pass takes over the rows
 
     LevelSeam seam(std::size_t fine) const;
     template <class Work>
     void sweep(const Work& work);
     void hand_up(std::size_t fine);
-    KickDrift kick_drift(const Level& level, int z, const StepPlan& plan) const;
+    Kick kick(const Level& level, int z, const StepPlan& plan) const;
 };
 
 } // namespace asperity

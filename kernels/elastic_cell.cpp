@@ -178,18 +178,53 @@ ASPERITY_INLINE void collect(const BasicExactSum<V>& lanes, ExactSum& into) {
             into.bin[k] += lanes.bin[k][i];
 }
 
+/// Calls what a place will need into the second cache, a line of each array at a time.
+class Fetch {
+public:
+    ASPERITY_INLINE Fetch(const VectorVolume<const double>& u, const VectorVolume<double>& v,
+                          std::ptrdiff_t from, std::ptrdiff_t to, bool lowest)
+        : u_(u), v_(v), here_(to - from), above_(here_ + u.x.plane), lowest_(lowest) {}
+
+    /// The counterpart of element `at`: its own velocity and the displacement above; those of its
+    /// own plane are there already, but for the lowest plane of a band.
+    ASPERITY_INLINE void operator()(std::ptrdiff_t at) const {
+        constexpr int line = 64 / sizeof(double);
+        if (V::width < line && at % line != 0) return;
+        line_of(u_.x.origin + at + above_);
+        line_of(u_.y.origin + at + above_);
+        line_of(u_.z.origin + at + above_);
+        line_of(v_.x.origin + at + here_);
+        line_of(v_.y.origin + at + here_);
+        line_of(v_.z.origin + at + here_);
+        if (!lowest_) return;
+        line_of(u_.x.origin + at + here_);
+        line_of(u_.y.origin + at + here_);
+        line_of(u_.z.origin + at + here_);
+    }
+
+private:
+    ASPERITY_INLINE static void line_of(const double* p) { __builtin_prefetch(p, 0, 2); }
+
+    const VectorVolume<const double>& u_;
+    const VectorVolume<double>& v_;
+    std::ptrdiff_t here_, above_;
+    bool lowest_;
+};
+
 template <Face face, bool with_incoming, bool damped, bool observed>
-void advance_rows(const VectorVolume<const double>& u, int z, const Stencil& s, int y0, int y1,
-                  const VectorPlane<const double>& incoming, const KickDrift& kd,
-                  const VectorVolume<double>& v, const VectorVolume<double>& u_next,
-                  KickSums& sums) {
+void kick_rows(const VectorVolume<const double>& u, int z, const Stencil& s, int y0, int y1,
+               const VectorPlane<const double>& incoming, const Kick& plan, Following next,
+               const VectorVolume<double>& v, KickSums& sums) {
     const int nx = u.x.nx;
-    const V keep(kd.keep), kick(kd.kick), dt(kd.dt), drag(kd.drag_z);
+    const auto place = [&](int plane, int y) { return plane * u.x.plane + y * u.x.row; };
+    const Fetch fetch(u, v, place(z, y0), place(next.z, next.y), next.z == 0);
+    const V keep(plan.keep), kick(plan.kick), drag(plan.drag_z);
     [[maybe_unused]] BasicExactSum<V> kinetic, dissipated, dragged;
     for (int y = y0; y < y1; ++y) {
-        const auto line = z * u.x.plane + y * u.x.row;
+        const auto line = place(z, y);
         sweep_row<face>(u, line, 0, nx, s, [&](int x, Force f) {
             const auto at = line + x;
+            fetch(at);
             if constexpr (with_incoming) {
                 f.x = f.x + V::load(incoming.x.line(y) + x);
                 f.y = f.y + V::load(incoming.y.line(y) + x);
@@ -212,33 +247,20 @@ void advance_rows(const VectorVolume<const double>& u, int z, const Stencil& s, 
             new_x.store_first(v.x.origin + at, count);
             new_y.store_first(v.y.origin + at, count);
             new_z.store_first(v.z.origin + at, count);
-            const V moved_x = fma(dt, new_x, V::load(u.x.origin + at));
-            const V moved_y = fma(dt, new_y, V::load(u.y.origin + at));
-            const V moved_z = fma(dt, new_z, V::load(u.z.origin + at));
-            if (kd.stream && count >= V::width) {
-                moved_x.stream(u_next.x.origin + at);
-                moved_y.stream(u_next.y.origin + at);
-                moved_z.stream(u_next.z.origin + at);
-            } else {
-                moved_x.store_first(u_next.x.origin + at, count);
-                moved_y.store_first(u_next.y.origin + at, count);
-                moved_z.store_first(u_next.z.origin + at, count);
-            }
             if constexpr (damped || observed) {
-                const V half(0.5);
-                const V mx = half * (old_x + new_x), my = half * (old_y + new_y),
-                        mz = half * (old_z + new_z);
+                // Twice the velocity at the whole step; factors of two are exact.
+                const V wx = old_x + new_x, wy = old_y + new_y, wz = old_z + new_z;
                 const auto inside = lane_numbers() < V(static_cast<double>(count));
                 const V zero(0.0);
                 if constexpr (observed) {
-                    const V twice = fma(mx, mx, fma(my, my, mz * mz));
-                    kinetic.add(select(inside, V(kd.half_mass) * twice, zero));
+                    const V square = fma(wx, wx, fma(wy, wy, wz * wz));
+                    kinetic.add(select(inside, V(0.25 * plan.half_mass) * square, zero));
                 }
                 if constexpr (damped) {
-                    const V rz = mz - V(kd.medium_z);
-                    const V square = fma(mx, mx, fma(my, my, rz * rz));
-                    dissipated.add(select(inside, V(kd.drag) * square, zero));
-                    dragged.add(select(inside, V(kd.drag) * rz, zero));
+                    const V rz = wz - V(2.0 * plan.medium_z);
+                    const V square = fma(wx, wx, fma(wy, wy, rz * rz));
+                    dissipated.add(select(inside, V(0.25 * plan.drag) * square, zero));
+                    dragged.add(select(inside, V(0.5 * plan.drag) * rz, zero));
                 }
             }
         });
@@ -258,31 +280,38 @@ void force(VectorVolume<const double> u, int z, const Stencil& s, Patch patch,
 }
 
 template <Face face, bool with_incoming>
-void advance_as(const VectorVolume<const double>& u, int z, const Stencil& s, int y0, int y1,
-                const VectorPlane<const double>& incoming, const KickDrift& kd,
-                const VectorVolume<double>& v, const VectorVolume<double>& u_next, KickSums& sums) {
-    if (kd.damped && kd.observed)
-        advance_rows<face, with_incoming, true, true>(u, z, s, y0, y1, incoming, kd, v, u_next,
-                                                      sums);
-    else if (kd.damped)
-        advance_rows<face, with_incoming, true, false>(u, z, s, y0, y1, incoming, kd, v, u_next,
-                                                       sums);
-    else if (kd.observed)
-        advance_rows<face, with_incoming, false, true>(u, z, s, y0, y1, incoming, kd, v, u_next,
-                                                       sums);
-    else
-        advance_rows<face, with_incoming, false, false>(u, z, s, y0, y1, incoming, kd, v, u_next,
-                                                        sums);
+void kick_as(const VectorVolume<const double>& u, int z, const Stencil& s, int y0, int y1,
+             const VectorPlane<const double>& incoming, const Kick& plan, Following next,
+             const VectorVolume<double>& v, KickSums& sums) {
+    const auto rows = plan.damped
+                          ? (plan.observed ? kick_rows<face, with_incoming, true, true>
+                                           : kick_rows<face, with_incoming, true, false>)
+                          : (plan.observed ? kick_rows<face, with_incoming, false, true>
+                                           : kick_rows<face, with_incoming, false, false>);
+    rows(u, z, s, y0, y1, incoming, plan, next, v, sums);
 }
 
-void advance(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,
-             VectorPlane<const double> incoming, const KickDrift& kd, VectorVolume<double> v,
-             VectorVolume<double> u_next, KickSums& sums) {
-    // A level's upper plane is prescribed, so what advances is its lower face or inside.
+void kick(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,
+          VectorPlane<const double> incoming, const Kick& plan, Following next,
+          VectorVolume<double> v, KickSums& sums) {
+    // A level's upper plane is prescribed, so what is kicked is its lower face or inside.
     if (s.below == 0.0)
-        advance_as<Face::lower, true>(u, z, s, y0, y1, incoming, kd, v, u_next, sums);
+        kick_as<Face::lower, true>(u, z, s, y0, y1, incoming, plan, next, v, sums);
     else
-        advance_as<Face::inner, false>(u, z, s, y0, y1, incoming, kd, v, u_next, sums);
+        kick_as<Face::inner, false>(u, z, s, y0, y1, incoming, plan, next, v, sums);
+}
+
+void drift(VectorPlane<const double> v, double dt, int y0, int y1, VectorPlane<double> u) {
+    const V step(dt);
+    const auto move = [&](const double* speed, double* place) {
+        for (int x = 0; x < u.x.nx; x += V::width)
+            fma(step, V::load(speed + x), V::load(place + x)).store_first(place + x, u.x.nx - x);
+    };
+    for (int y = y0; y < y1; ++y) {
+        move(v.x.line(y), u.x.line(y));
+        move(v.y.line(y), u.y.line(y));
+        move(v.z.line(y), u.z.line(y));
+    }
 }
 
 void sum(PlaneView<const double> plane, int y0, int y1, ExactSum& into) {
@@ -344,6 +373,6 @@ void energy(VectorVolume<const double> u, int z, CellElasticity e, int y0, int y
 } // namespace
 
 extern const ElasticKernels elastic_kernels;
-const ElasticKernels elastic_kernels = {force, advance, sum, energy};
+const ElasticKernels elastic_kernels = {force, kick, drift, sum, energy};
 
 } // namespace asperity::ASPERITY_VARIANT

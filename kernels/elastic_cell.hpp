@@ -66,23 +66,27 @@ struct Stencil {
 
 Stencil make_stencil(CellElasticity elasticity, Face face);
 
-/// What the integrator does with a force: v <- keep v + kick F, u <- u + dt v (leapfrog, i.e.
-/// velocity Verlet with its two half kicks merged). Damping against a medium that moves with the
-/// top plane enters through keep < 1 and drag_z (drive.hpp).
-struct KickDrift {
+/// What the integrator does with a force: v <- keep v + kick F; then, when no force needs the old
+/// place any more, u <- u + dt v (leapfrog, i.e. velocity Verlet with its two half kicks merged).
+/// Damping against a medium that moves with the top plane enters through keep < 1 and drag_z
+/// (drive.hpp).
+struct Kick {
     double keep = 1.0;
     double kick = 0.0;      ///< dt/m (over 1 + Gamma dt/2), Å/fs per eV/Å
     double drag_z = 0.0;    ///< added to v_z: Gamma dt V / (1 + Gamma dt/2), Å/fs
-    double dt = 0.0;        ///< fs
     double half_mass = 0.0; ///< m/2, for the kinetic energy, eV fs^2/Å^2
-    double medium_z = 0.0;  ///< V: velocity of the medium, Å/fs
-    bool stream = false;    ///< write u_next past the caches (a level too large for them)
+    double medium_z = 0.0;  ///< V, for the dissipated energy, Å/fs
     bool damped = false;    ///< sum the dissipated energy
     bool observed = false;  ///< sum the kinetic energy at the whole step
     double drag = 0.0;      ///< Gamma m dt, for the dissipated energy, eV fs^2/Å^2
 };
 
-/// What an advancing pass adds up, at the whole step n, v_n = (v_{n-1/2} + v_{n+1/2}) / 2.
+/// Where the work goes on: plane z, from row y. What it needs is fetched from memory meanwhile.
+struct Following {
+    int z, y;
+};
+
+/// What a kick adds up, at the whole step n, v_n = (v_{n-1/2} + v_{n+1/2}) / 2.
 struct KickSums {
     ExactSum kinetic;    ///< sum of m v_n^2 / 2, eV (observed planes)
     ExactSum dissipated; ///< sum of m Gamma dt |v_n - V|^2, eV (damped planes)
@@ -110,11 +114,13 @@ struct ElasticKernels {
     /// Force on the nodes of plane z in the patch; overwrites out.
     void (*force)(VectorVolume<const double> u, int z, const Stencil&, Patch,
                   VectorPlane<double> out);
-    /// One step of the nodes of plane z, rows [y0, y1): v is advanced in place, u_next is written.
+    /// Kick of the nodes of plane z, rows [y0, y1): v is advanced in place.
     /// incoming: forces from below (interface or hanging plane), or null views.
-    void (*advance)(VectorVolume<const double> u, int z, const Stencil&, int y0, int y1,
-                    VectorPlane<const double> incoming, const KickDrift&, VectorVolume<double> v,
-                    VectorVolume<double> u_next, KickSums&);
+    void (*kick)(VectorVolume<const double> u, int z, const Stencil&, int y0, int y1,
+                 VectorPlane<const double> incoming, const Kick&, Following,
+                 VectorVolume<double> v, KickSums&);
+    /// Drift u <- u + dt v of the nodes of rows [y0, y1) of a plane.
+    void (*drift)(VectorPlane<const double> v, double dt, int y0, int y1, VectorPlane<double> u);
     /// Sum over the owned nodes of rows [y0, y1) of a plane.
     void (*sum)(PlaneView<const double> plane, int y0, int y1, ExactSum&);
     /// Elastic energy of the cells between planes z and z+1 with lower corners in rows [y0, y1),

@@ -10,6 +10,8 @@
 #include "engine/scene.hpp"
 #include "engine/setup.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -32,12 +34,11 @@ public:
                                    options.block.sites},
           cells_(options.block.thickness), height_(height),
           interface_(surface, tile_, options.block.spacing, options.interface),
-          u_(tile_, cells_ + 1), next_(tile_, cells_ + 1), v_(tile_, cells_), force_(tile_, 1),
-          top_(tile_, 1), lower_(make_stencil(options.block.elasticity(0), Face::lower)),
+          u_(tile_, cells_ + 1), v_(tile_, cells_), force_(tile_, 1), top_(tile_, 1),
+          lower_(make_stencil(options.block.elasticity(0), Face::lower)),
           inner_(make_stencil(options.block.elasticity(0), Face::inner)),
           upper_(make_stencil(options.block.elasticity(0), Face::upper)) {
-        kick_drift_.kick = options.dt / options.block.atom_mass;
-        kick_drift_.dt = options.dt;
+        kick_.kick = options.dt / options.block.atom_mass;
         for (int z = 0; z < cells_; ++z)
             for (int y = 0; y < tile_.ny; ++y)
                 for (int x = 0; x < tile_.nx; ++x)
@@ -56,21 +57,37 @@ public:
         {
             ExactSum mine;
             KickSums none;
-#pragma omp for schedule(static) nowait
-            for (int y0 = 0; y0 < n; y0 += 8) {
-                const int y1 = std::min(n, y0 + 8);
+            // Rows drift behind the forces; the ends of a thread's share when all are done.
+            const int bands = (n + 7) / 8, thread = omp_get_thread_num(),
+                      threads = omp_get_num_threads();
+            const int begin = std::min(n, 8 * (bands * thread / threads)),
+                      end = std::min(n, 8 * (bands * (thread + 1) / threads));
+            const auto drift = [&](int z, int y0, int y1) {
+                kernels.drift(std::as_const(v_).plane(z), options_.dt, y0, y1, u_.plane(z));
+            };
+            for (int y0 = begin; y0 < end; y0 += 8) {
+                const int y1 = std::min(end, y0 + 8), from = std::max(y0 - 1, begin + 1);
                 kernels.sum(u.z[0], y0, y1, mine);
-                for (int z = 0; z < cells_; ++z)
-                    kernels.advance(u, z, z ? inner_ : lower_, y0, y1,
-                                    std::as_const(force_).plane(0), kick_drift_, v_.view(),
-                                    next_.view(), none);
+                for (int z = 0; z < cells_; ++z) {
+                    const Following next = z + 1 < cells_ ? Following{z + 1, y0}
+                                           : y1 < end     ? Following{0, y1}
+                                                          : Following{z, y0};
+                    kernels.kick(u, z, z ? inner_ : lower_, y0, y1, std::as_const(force_).plane(0),
+                                 kick_, next, v_.view(), none);
+                    if (z > 0) drift(z - 1, from, y1 - 1);
+                }
                 kernels.force(u, cells_, upper_, {0, n, y0, y1}, top_.plane(0));
+                drift(cells_ - 1, from, y1 - 1);
+            }
+#pragma omp barrier
+            for (int z = 0; z < cells_; ++z) {
+                drift(z, begin, std::min(begin + 1, end));
+                drift(z, std::max(end - 1, begin + 1), end);
             }
 #pragma omp critical
             lowest.merge(mine);
         }
         kernels.sum(std::as_const(top_).plane(0).z, 0, n, pulled);
-        std::swap(u_, next_);
         top_displacement_ -= options_.dt * options_.drive.velocity;
         wrap();
         force = sums.force_z.value();
@@ -108,9 +125,9 @@ private:
     int cells_;
     double height_, top_displacement_ = 0.0;
     Interface interface_;
-    VectorField<double> u_, next_, v_, force_, top_;
+    VectorField<double> u_, v_, force_, top_;
     Stencil lower_, inner_, upper_;
-    KickDrift kick_drift_;
+    Kick kick_;
 };
 
 } // namespace
