@@ -9,11 +9,27 @@
 #include "kernels/views.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
 namespace asperity {
+
+/// Asks for pages of 2 MB under a large array: a pass over a block touches a hundred rows at a
+/// time, each on another small page.
+inline void prefer_large_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+    constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
+    const auto at = reinterpret_cast<std::uintptr_t>(data);
+    const auto begin = (at + page - 1) / page * page, end = (at + bytes) / page * page;
+    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+#endif
+}
 
 /// A stack of planes of T over a tile; zero at first. Movable, not copyable by accident.
 template <class T>
@@ -34,6 +50,7 @@ public:
             64,
             static_cast<std::size_t>(round_up(static_cast<std::ptrdiff_t>(size_))) * sizeof(T))));
         if (!data_) throw std::bad_alloc();
+        prefer_large_pages(data_.get(), size_ * sizeof(T));
         view_.origin = data_.get() + halo * view_.row + left;
         // Rows are first touched by the threads that will work on them (static schedule over rows).
         const std::ptrdiff_t rows = (tile.ny + 2 * halo) * static_cast<std::ptrdiff_t>(planes);

@@ -10,11 +10,15 @@ namespace {
 
 constexpr int h = halo_width;
 
-/// Copies columns [from, from + h) of all owned rows to columns [to, to + h), for a level held
-/// whole.
+/// Below this many nodes a halo is filled sooner than threads are woken.
+constexpr std::size_t worth_threads = 8192;
+
+/// Periodic columns of all owned rows, for a level held whole. Called by all threads; each takes
+/// the rows that it works on elsewhere.
 void wrap_x(const HaloField& f) {
     const int nx = f.view.nx;
     for (int z = 0; z < f.planes; ++z)
+#pragma omp for schedule(static) nowait
         for (int y = 0; y < f.view.ny; ++y) {
             double* line = f.view[z].line(y);
             for (int i = 1; i <= h; ++i)
@@ -74,12 +78,13 @@ void HaloExchange::trade(int before, int after, std::size_t size) {
 
 void HaloExchange::along_x(std::span<const HaloField> fields) {
     std::size_t size = 0;
-    for (const HaloField& f : fields) {
-        if (!f.tiled || grid_.px() == 1)
-            wrap_x(f);
-        else
-            size += static_cast<std::size_t>(h) * f.view.ny * f.planes;
-    }
+    std::size_t wrapped = 0;
+    const auto wraps = [&](const HaloField& f) { return !f.tiled || grid_.px() == 1; };
+    for (const HaloField& f : fields)
+        (wraps(f) ? wrapped : size) += static_cast<std::size_t>(h) * f.view.ny * f.planes;
+#pragma omp parallel if (wrapped > worth_threads)
+    for (const HaloField& f : fields)
+        if (wraps(f)) wrap_x(f);
     if (size == 0) return;
     to_before_.resize(size);
     to_after_.resize(size);

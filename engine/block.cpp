@@ -173,9 +173,10 @@ void Block::interpolate() {
         const auto coarse = std::as_const(levels_[l + 1].u).plane(0);
 #pragma omp for schedule(static) nowait
         for (int y = -halo_width; y < fine.x.ny + halo_width; ++y) {
-            asperity::interpolate(seam(l), coarse.x, fine.x, y, halo_width);
-            asperity::interpolate(seam(l), coarse.y, fine.y, y, halo_width);
-            asperity::interpolate(seam(l), coarse.z, fine.z, y, halo_width);
+            const auto& interpolate = transfer_kernels().interpolate;
+            interpolate(seam(l), coarse.x, fine.x, y, halo_width);
+            interpolate(seam(l), coarse.y, fine.y, y, halo_width);
+            interpolate(seam(l), coarse.z, fine.z, y, halo_width);
         }
     }
 }
@@ -227,12 +228,10 @@ Rows rows_of_thread(int ny) {
 
 /// Level by level from below: work on all bands of all moving planes; then the force on the upper
 /// plane, which goes to the level above as its incoming force, or is the top plane's. Planes of a
-/// band are done one after the other, while they are in the cache; and passes take the bands to and
-/// fro, so that the next one begins with what the caches still hold.
+/// band are done one after the other, while they are in the cache.
 template <class Work>
 void Block::sweep(const Work& work) {
     const ElasticKernels& kernels = elastic_kernels();
-    backwards_ = !backwards_;
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         Level& level = levels_[l];
         const auto u = std::as_const(level.u).view();
@@ -242,22 +241,20 @@ void Block::sweep(const Work& work) {
         {
             typename Work::Sums mine;
             const Rows share = rows_of_thread(ny);
-            const int bands = (share.end - share.begin + band - 1) / band;
-            for (int i = 0; i < bands; ++i) {
-                const int y0 = share.begin + band * (backwards_ ? bands - 1 - i : i);
-                const int y1 = std::min(share.end, y0 + band);
-                const bool more = i + 1 < bands;
+            for (int y0 = share.begin; y0 < share.end; y0 += band) {
+                const Rows rows = {y0, std::min(share.end, y0 + band)};
                 for (int z = 0; z < cells; ++z) {
-                    const Following next = z + 1 < cells ? Following{z + 1, y0}
-                                           : more ? Following{0, backwards_ ? y0 - band : y0 + band}
-                                                  : Following{z, y0};
-                    work(level, u, z, {y0, y1}, next, mine);
-                    if (z > 0) work.leave(level, z - 1, {y0, y1}, share, backwards_);
+                    const Following next = z + 1 < cells          ? Following{z + 1, y0}
+                                           : rows.end < share.end ? Following{0, rows.end}
+                                                                  : Following{z, y0};
+                    work(level, u, z, rows, next, mine);
+                    if (z > 0) work.leave(level, z - 1, rows, share);
                 }
                 // One node beyond the tile on each side: the coarse nodes inside reach that far.
                 kernels.force(u, cells, level.upper,
-                              {-1, nx + 1, y0 == 0 ? -1 : y0, y1 == ny ? ny + 1 : y1}, upper);
-                work.leave(level, cells - 1, {y0, y1}, share, backwards_);
+                              {-1, nx + 1, y0 == 0 ? -1 : y0, rows.end == ny ? ny + 1 : rows.end},
+                              upper);
+                work.leave(level, cells - 1, rows, share);
             }
 #pragma omp barrier
             work.finish(level, share);
@@ -279,6 +276,7 @@ void Block::hand_up(std::size_t l) {
 #pragma omp parallel for schedule(static) if (static_cast <long long>(mine.nx) * mine.ny >         \
                                               worth_threads)
     for (int y = y0; y < y0 + mine.ny; ++y) {
+        const auto& restrict_forces = transfer_kernels().restrict_forces;
         restrict_forces(seam(l), force.x, in.x, y, x0, mine.nx);
         restrict_forces(seam(l), force.y, in.y, y, x0, mine.nx);
         restrict_forces(seam(l), force.z, in.z, y, x0, mine.nx);
@@ -312,12 +310,9 @@ struct Advance {
         sums.nodes += nodes;
         if (kick.damped) sums.damped += nodes;
     }
-    /// Forces on planes z and z + 1 of a band are done.
-    void leave(Block::Level& level, int z, Rows rows, Rows share, bool backwards) const {
-        const int lag = backwards ? 1 : -1;
-        drift(
-            level, z,
-            {std::max(rows.begin + lag, share.begin + 1), std::min(rows.end + lag, share.end - 1)});
+    /// Forces on planes z and z + 1 of a band are done: the rows that only they were waiting for.
+    void leave(Block::Level& level, int z, Rows rows, Rows share) const {
+        drift(level, z, {std::max(rows.begin - 1, share.begin + 1), rows.end - 1});
     }
     /// Forces of all threads are done.
     void finish(Block::Level& level, Rows share) const {
@@ -356,7 +351,7 @@ struct Keep {
                 f.z(x, y) += incoming.z(x, y);
             }
     }
-    void leave(Block::Level&, int, Rows, Rows, bool) const {}
+    void leave(Block::Level&, int, Rows, Rows) const {}
     void finish(Block::Level&, Rows) const {}
     void merge(const Block::Level&, const Sums&) const {}
 };

@@ -157,7 +157,6 @@ private:
     HaloExchange halo_;
     std::vector<Level> levels_;
     double top_ = 0.0;
-    bool backwards_ = false; ///< the way the next pass takes over the rows
 
     LevelSeam seam(std::size_t fine) const;
     template <class Work>

@@ -283,11 +283,10 @@ template <Face face, bool with_incoming>
 void kick_as(const VectorVolume<const double>& u, int z, const Stencil& s, int y0, int y1,
              const VectorPlane<const double>& incoming, const Kick& plan, Following next,
              const VectorVolume<double>& v, KickSums& sums) {
-    const auto rows = plan.damped
-                          ? (plan.observed ? kick_rows<face, with_incoming, true, true>
-                                           : kick_rows<face, with_incoming, true, false>)
-                          : (plan.observed ? kick_rows<face, with_incoming, false, true>
-                                           : kick_rows<face, with_incoming, false, false>);
+    const auto rows = plan.damped ? (plan.observed ? kick_rows<face, with_incoming, true, true>
+                                                   : kick_rows<face, with_incoming, true, false>)
+                                  : (plan.observed ? kick_rows<face, with_incoming, false, true>
+                                                   : kick_rows<face, with_incoming, false, false>);
     rows(u, z, s, y0, y1, incoming, plan, next, v, sums);
 }
 

@@ -117,8 +117,8 @@ struct ElasticKernels {
     /// Kick of the nodes of plane z, rows [y0, y1): v is advanced in place.
     /// incoming: forces from below (interface or hanging plane), or null views.
     void (*kick)(VectorVolume<const double> u, int z, const Stencil&, int y0, int y1,
-                 VectorPlane<const double> incoming, const Kick&, Following,
-                 VectorVolume<double> v, KickSums&);
+                 VectorPlane<const double> incoming, const Kick&, Following, VectorVolume<double> v,
+                 KickSums&);
     /// Drift u <- u + dt v of the nodes of rows [y0, y1) of a plane.
     void (*drift)(VectorPlane<const double> v, double dt, int y0, int y1, VectorPlane<double> u);
     /// Sum over the owned nodes of rows [y0, y1) of a plane.

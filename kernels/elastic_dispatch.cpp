@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 #include "kernels/elastic_cell.hpp"
+#include "kernels/level_transfer.hpp"
 #include "kernels/variant.hpp"
 
 namespace asperity {
@@ -8,13 +9,16 @@ namespace asperity {
 #if ASPERITY_HAS_X86_VARIANTS
 namespace v2 {
 extern const ElasticKernels elastic_kernels;
-}
+extern const TransferKernels transfer_kernels;
+} // namespace v2
 namespace v3 {
 extern const ElasticKernels elastic_kernels;
-}
+extern const TransferKernels transfer_kernels;
+} // namespace v3
 namespace v4 {
 extern const ElasticKernels elastic_kernels;
-}
+extern const TransferKernels transfer_kernels;
+} // namespace v4
 const ElasticKernels& elastic_kernels() {
     switch (processor_level()) {
     case ProcessorLevel::v4:
@@ -25,11 +29,23 @@ const ElasticKernels& elastic_kernels() {
         return v2::elastic_kernels;
     }
 }
+const TransferKernels& transfer_kernels() {
+    switch (processor_level()) {
+    case ProcessorLevel::v4:
+        return v4::transfer_kernels;
+    case ProcessorLevel::v3:
+        return v3::transfer_kernels;
+    default:
+        return v2::transfer_kernels;
+    }
+}
 #else
 namespace portable {
 extern const ElasticKernels elastic_kernels;
-}
+extern const TransferKernels transfer_kernels;
+} // namespace portable
 const ElasticKernels& elastic_kernels() { return portable::elastic_kernels; }
+const TransferKernels& transfer_kernels() { return portable::transfer_kernels; }
 #endif
 
 Stencil make_stencil(CellElasticity e, Face face) {

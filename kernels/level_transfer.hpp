@@ -24,13 +24,17 @@ struct LevelSeam {
         coarse_y0 = 0; ///< first node owned of the coarse tile (0 where it is held whole)
 };
 
-/// Fine nodes of row y, columns [-halo, nx + halo), from coarse nodes (halo included).
-void interpolate(LevelSeam seam, PlaneView<const double> coarse, PlaneView<double> fine, int y,
-                 int halo);
+/// The functions compiled for one processor level; all levels give the same bits.
+struct TransferKernels {
+    /// Fine nodes of row y, columns [-halo, nx + halo), from coarse nodes (halo included).
+    void (*interpolate)(LevelSeam seam, PlaneView<const double> coarse, PlaneView<double> fine,
+                        int y, int halo);
+    /// Coarse nodes of row y, columns [x0, x0 + nx), in coarse tile coordinates, from the fine
+    /// forces around them; overwrites.
+    void (*restrict_forces)(LevelSeam seam, PlaneView<const double> fine, PlaneView<double> coarse,
+                            int y, int x0, int nx);
+};
 
-/// Coarse nodes of row y, columns [x0, x0 + nx), in coarse tile coordinates, from the fine forces
-/// around them; overwrites.
-void restrict_forces(LevelSeam seam, PlaneView<const double> fine, PlaneView<double> coarse, int y,
-                     int x0, int nx);
+const TransferKernels& transfer_kernels();
 
 } // namespace asperity

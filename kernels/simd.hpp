@@ -191,6 +191,37 @@ ASPERITY_INLINE Pack<double> exchange(Pack<double> a) {
     return exchange<half>(a, std::make_integer_sequence<int, Pack<double>::width>());
 }
 
+/// Of two packs one after the other: the elements at even places, those at odd ones.
+template <class T>
+ASPERITY_INLINE Pack<T> evens(Pack<T> a, Pack<T> b) {
+    typename Pack<T>::Mask lanes;
+    for (int i = 0; i < Pack<T>::width; ++i)
+        lanes[i] = 2 * i;
+    return __builtin_shuffle(a.r, b.r, lanes);
+}
+template <class T>
+ASPERITY_INLINE Pack<T> odds(Pack<T> a, Pack<T> b) {
+    typename Pack<T>::Mask lanes;
+    for (int i = 0; i < Pack<T>::width; ++i)
+        lanes[i] = 2 * i + 1;
+    return __builtin_shuffle(a.r, b.r, lanes);
+}
+/// The inverse: a0 b0 a1 b1 ..., its first pack and its second.
+template <class T>
+ASPERITY_INLINE Pack<T> interleave_low(Pack<T> a, Pack<T> b) {
+    typename Pack<T>::Mask lanes;
+    for (int i = 0; i < Pack<T>::width; ++i)
+        lanes[i] = i / 2 + (i & 1) * Pack<T>::width;
+    return __builtin_shuffle(a.r, b.r, lanes);
+}
+template <class T>
+ASPERITY_INLINE Pack<T> interleave_high(Pack<T> a, Pack<T> b) {
+    typename Pack<T>::Mask lanes;
+    for (int i = 0; i < Pack<T>::width; ++i)
+        lanes[i] = (Pack<T>::width + i) / 2 + (i & 1) * Pack<T>::width;
+    return __builtin_shuffle(a.r, b.r, lanes);
+}
+
 /// a * b + c, rounded once where the processor level has it.
 template <class T>
 ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {

@@ -48,7 +48,7 @@ private:
 void interpolate_all(LevelSeam seam, const Field<double>& coarse, Field<double>& fine, int ny,
                      int halo) {
     for (int y = -halo; y < ny + halo; ++y)
-        interpolate(seam, coarse.plane(0), fine.plane(0), y, halo);
+        transfer_kernels().interpolate(seam, coarse.plane(0), fine.plane(0), y, halo);
 }
 
 } // namespace
@@ -86,8 +86,8 @@ TEST(LevelTransfer, ForcesGoBackByTheTranspose) {
         for (int x = 0; x < f.nx; ++x)
             left += fine.plane(0)(x, y) * force(x, y), given += force(x, y);
     for (int y = 0; y < c.ny; ++y) {
-        restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0), handed.plane(0), y, 0,
-                        c.nx);
+        transfer_kernels().restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0),
+                                           handed.plane(0), y, 0, c.nx);
         for (int x = 0; x < c.nx; ++x)
             right += u(x, y) * handed.plane(0)(x, y), received += handed.plane(0)(x, y);
     }
@@ -107,8 +107,8 @@ TEST_P(LevelTransferTiles, GiveTheBitsOfTheWholeBox) {
     fill(fine_force, f, force);
     interpolate_all({0, 0, 0, 0}, coarse, fine, f.ny, halo_width);
     for (int y = 0; y < c.ny; ++y)
-        restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0), handed.plane(0), y, 0,
-                        c.nx);
+        transfer_kernels().restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0),
+                                           handed.plane(0), y, 0, c.nx);
 
     // A fine tile anywhere; the coarse level held whole, or cut where the offset is even.
     const Tile mine{x0, y0, 7, 5, fine_sites};
@@ -123,8 +123,8 @@ TEST_P(LevelTransferTiles, GiveTheBitsOfTheWholeBox) {
     const int cx0 = (x0 + 1) / 2, cx1 = (x0 + mine.nx + 1) / 2, cy0 = (y0 + 1) / 2,
               cy1 = (y0 + mine.ny + 1) / 2;
     for (int y = cy0; y < cy1; ++y)
-        restrict_forces({x0, y0, 0, 0}, std::as_const(own_force).plane(0), into.plane(0), y, cx0,
-                        cx1 - cx0);
+        transfer_kernels().restrict_forces({x0, y0, 0, 0}, std::as_const(own_force).plane(0),
+                                           into.plane(0), y, cx0, cx1 - cx0);
     for (int y = cy0; y < cy1; ++y)
         for (int x = cx0; x < cx1; ++x)
             ASSERT_EQ(into.plane(0)(x, y), handed.plane(0)(x, y));
