@@ -11,7 +11,7 @@ namespace {
 constexpr int h = halo_width;
 
 /// Below this many nodes a halo is filled sooner than threads are woken.
-constexpr std::size_t worth_threads = 8192;
+constexpr std::size_t worth_threads = 1024;
 
 /// Periodic columns of all owned rows, for a level held whole. Called by all threads; each takes
 /// the rows that it works on elsewhere.

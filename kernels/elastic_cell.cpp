@@ -250,17 +250,25 @@ void kick_rows(const VectorVolume<const double>& u, int z, const Stencil& s, int
             if constexpr (damped || observed) {
                 // Twice the velocity at the whole step; factors of two are exact.
                 const V wx = old_x + new_x, wy = old_y + new_y, wz = old_z + new_z;
-                const auto inside = lane_numbers() < V(static_cast<double>(count));
                 const V zero(0.0);
-                if constexpr (observed) {
-                    const V square = fma(wx, wx, fma(wy, wy, wz * wz));
-                    kinetic.add(select(inside, V(0.25 * plan.half_mass) * square, zero));
-                }
+                [[maybe_unused]] V energy = zero, loss = zero, given = zero;
+                if constexpr (observed)
+                    energy = V(0.25 * plan.half_mass) * fma(wx, wx, fma(wy, wy, wz * wz));
                 if constexpr (damped) {
                     const V rz = wz - V(2.0 * plan.medium_z);
-                    const V square = fma(wx, wx, fma(wy, wy, rz * rz));
-                    dissipated.add(select(inside, V(0.25 * plan.drag) * square, zero));
-                    dragged.add(select(inside, V(0.5 * plan.drag) * rz, zero));
+                    loss = V(0.25 * plan.drag) * fma(wx, wx, fma(wy, wy, rz * rz));
+                    given = V(0.5 * plan.drag) * rz;
+                }
+                if (count < V::width) {
+                    const auto inside = lane_numbers() < V(static_cast<double>(count));
+                    energy = select(inside, energy, zero);
+                    loss = select(inside, loss, zero);
+                    given = select(inside, given, zero);
+                }
+                if constexpr (observed) kinetic.add(energy);
+                if constexpr (damped) {
+                    dissipated.add(loss);
+                    dragged.add(given);
                 }
             }
         });

@@ -12,8 +12,11 @@
 
 #include <gtest/gtest.h>
 
+#include <omp.h>
+
 #include <cmath>
 #include <cstdio>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -251,6 +254,65 @@ TEST_P(BlockLaws, NoModeIsFasterThanTheBulk) {
     EXPECT_LE(std::sqrt(w2), options.highest_frequency(0.0) * (1.0 + 1e-12));
     EXPECT_GE(std::sqrt(w2), 0.8 * options.highest_frequency(0.0)) << "the bound should be near";
     std::printf("highest frequency / bulk: %.4f\n", std::sqrt(w2) / options.highest_frequency(0.0));
+}
+
+TEST(BlockStep, IsTheForcesThenAKickThenADrift) {
+    // In place, band behind band, on any number of threads: as if all forces had been kept first.
+    // Levels large enough for several threads, a row more than whole bands, fewer bands than
+    // threads.
+    const StepPlan plan{7.0, 0.0, 0.0, 0.0, false};
+    for (const Shape& shape : {Shape{64, 60, 4}, Shape{44, 9, 0}, Shape{41, 7, 0}}) {
+        const BlockOptions options = test::paper_block(shape.sites, shape.thickness, shape.layers);
+        Block start(options, Communicator(), test::serial_grid(options));
+        std::mt19937_64 random(5);
+        std::uniform_real_distribution<double> uniform(-0.1, 0.1);
+        const auto fill = [&](VectorField<double>& field, int planes) {
+            for (auto* f : {&field.x, &field.y, &field.z})
+                for (int z = 0; z < planes; ++z)
+                    for (int y = 0; y < f->view().ny; ++y)
+                        for (int x = 0; x < f->view().nx; ++x)
+                            f->view()(x, y, z) = uniform(random);
+        };
+        std::vector<VectorField<double>> force, speed;
+        for (auto& level : start.levels()) {
+            fill(level.u, level.plan.cells);
+            force.emplace_back(level.tile, level.plan.cells);
+            fill(speed.emplace_back(level.tile, level.plan.cells), level.plan.cells);
+        }
+        start.set_top(0.05);
+        start.exchange();
+        start.interpolate();
+        start.forces(force);
+        const int usual = omp_get_max_threads();
+        for (int threads : {1, 2, 3, 7}) {
+            omp_set_num_threads(threads);
+            Block block = start.copy_at_rest();
+            for (std::size_t l = 0; l < speed.size(); ++l)
+                block.levels()[l].v.copy_from(speed[l]);
+            KickSums sums;
+            block.advance(plan, sums);
+            for (std::size_t l = 0; l < speed.size(); ++l)
+                for (auto c :
+                     {&VectorField<double>::x, &VectorField<double>::y, &VectorField<double>::z}) {
+                    const auto& before = start.levels()[l];
+                    const auto& after = block.levels()[l];
+                    const auto f = (force[l].*c).view(), v = (speed[l].*c).view();
+                    for (int z = 0; z < before.plan.cells; ++z)
+                        for (int y = 0; y < before.tile.ny; ++y)
+                            for (int x = 0; x < before.tile.nx; ++x) {
+                                const double w = v(x, y, z) + plan.dt / before.mass(z) * f(x, y, z);
+                                const double u = (before.u.*c).view()(x, y, z) + plan.dt * w;
+                                ASSERT_NEAR((after.v.*c).view()(x, y, z), w, 1e-16)
+                                    << threads << " threads, level " << l << ", " << x << ' ' << y
+                                    << ' ' << z;
+                                ASSERT_NEAR((after.u.*c).view()(x, y, z), u, 1e-15)
+                                    << threads << " threads, level " << l << ", " << x << ' ' << y
+                                    << ' ' << z;
+                            }
+                }
+        }
+        omp_set_num_threads(usual);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, BlockLaws, testing::ValuesIn(shapes));
