@@ -72,8 +72,7 @@ struct StepPlan {
     bool observe = false;         ///< sum the kinetic energy
 };
 
-/// What a block is for: a path in time needs velocities and the next displacements; a state at rest
-/// has neither.
+/// What a block is for: a path in time needs velocities; a state at rest has none.
 enum class Motion { in_time, at_rest };
 
 class Block {
