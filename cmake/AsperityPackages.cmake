@@ -13,6 +13,10 @@ pkg_check_modules(FFTWF REQUIRED IMPORTED_TARGET fftw3f)
 find_library(FFTW_THREADS_LIBRARY fftw3_omp HINTS ${FFTW_LIBRARY_DIRS})
 find_library(FFTWF_THREADS_LIBRARY fftw3f_omp HINTS ${FFTWF_LIBRARY_DIRS})
 
+# Slabs over the ranks.
+find_library(FFTW_MPI_LIBRARY fftw3_mpi HINTS ${FFTW_LIBRARY_DIRS} REQUIRED)
+find_library(FFTWF_MPI_LIBRARY fftw3f_mpi HINTS ${FFTWF_LIBRARY_DIRS} REQUIRED)
+
 # HDF5: the build that matches Open MPI where there is one. The C API alone is used. pkg-config first:
 # CMake's own search runs h5pcc, which fails where a path has a space in it.
 pkg_check_modules(HDF5_PC IMPORTED_TARGET hdf5-openmpi)

@@ -90,7 +90,7 @@ public:
         return state;
     }
     std::size_t bytes() const override {
-        return block_.bytes() + spectral_relaxation_bytes(block_.options().sites);
+        return block_.bytes() + spectral_relaxation_bytes(block_);
     }
     std::size_t coarse_bytes() const override { return 0; }
 

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/spectral_block.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <utility>
 
 namespace asperity {
 
@@ -14,91 +12,123 @@ namespace {
 
 enum Entry { xx, yy, zz, xy, xz, yz, entries };
 
-/// One row of the table, as seen from a row of waves: with the signs of its q_y.
-struct StiffnessRow {
-    const double* at[entries];
-    double sign; ///< of q_y: on xy and yz
-
-    SurfaceMatrix operator[](int i) const {
-        return {at[xx][i], at[yy][i], at[zz][i], sign * at[xy][i], at[xz][i], sign * at[yz][i]};
-    }
-};
-
-/// m u for u = (x, y, z), where m acts on (x, y, i z); real and imaginary parts.
-struct Product {
-    double x[2], y[2], z[2];
-};
+/// What one row of waves sees of a table over the quadrant: with the signs of its q_y.
 template <class T>
-ASPERITY_INLINE Product times(const SurfaceMatrix& m, const T* x, const T* y, const T* z) {
-    const double w[2] = {-z[1], z[0]};
-    Product p{};
-    double pw[2];
-    for (int k = 0; k < 2; ++k) {
-        p.x[k] = m.xx * x[k] + m.xy * y[k] + m.xz * w[k];
-        p.y[k] = m.xy * x[k] + m.yy * y[k] + m.yz * w[k];
-        pw[k] = m.xz * x[k] + m.yz * y[k] + m.zz * w[k];
+struct MatrixRow {
+    const T* at[entries];
+    T sign; ///< of q_y: on xy and yz
+
+    /// table: [entry][ny][nx], or the one number of a wave; n_y of the row out of N.
+    MatrixRow(const std::vector<T>& table, std::size_t columns, int row, int sites)
+        : sign(2 * row > sites ? T(-1) : T(1)) {
+        const std::size_t size = columns * columns;
+        const T* from =
+            table.data() + static_cast<std::size_t>(std::min(row, sites - row)) * columns;
+        for (std::size_t e = 0; e < entries; ++e)
+            at[e] = from + (table.size() == size ? 0 : e * size);
     }
-    p.z[0] = pw[1];
-    p.z[1] = -pw[0];
-    return p;
+};
+
+/// f <- m u + norm f of wave i, where m acts on (u_x, u_y, i u_z). Real and imaginary parts.
+template <class M, class U, class F>
+ASPERITY_INLINE void multiply(const MatrixRow<M>& m, int i, const U* const u[3], M norm,
+                              F* const f[3]) {
+    const M cross = m.sign * m.at[xy][i], along = m.at[xz][i], across = m.sign * m.at[yz][i];
+    M x[2], y[2], z[2];
+    for (int k = 0; k < 2; ++k) {
+        x[k] = static_cast<M>(u[0][2 * i + k]);
+        y[k] = static_cast<M>(u[1][2 * i + k]);
+        z[k] = static_cast<M>(u[2][2 * i + k]);
+    }
+    const M w[2] = {-z[1], z[0]}; // i u_z
+    for (int k = 0; k < 2; ++k) {
+        const M turned = along * x[1 - k] + across * y[1 - k];
+        const M fx = m.at[xx][i] * x[k] + cross * y[k] + along * w[k];
+        const M fy = cross * x[k] + m.at[yy][i] * y[k] + across * w[k];
+        const M fz = m.at[zz][i] * z[k] + (k == 0 ? turned : -turned);
+        f[0][2 * i + k] = static_cast<F>(fx + norm * static_cast<M>(f[0][2 * i + k]));
+        f[1][2 * i + k] = static_cast<F>(fy + norm * static_cast<M>(f[1][2 * i + k]));
+        f[2][2 * i + k] = static_cast<F>(fz + norm * static_cast<M>(f[2][2 * i + k]));
+    }
 }
 
-} // namespace
+/// The same for a row, of three components or one.
+template <class M, class U, class F>
+void multiply_row(const MatrixRow<M>& m, int y, const Waves<U>& u, M norm, Waves<F>& f) {
+    if (u.components() == 1) {
+        const U* from = u.row(0, y);
+        F* to = f.row(0, y);
+        for (int i = 0; i < u.length(); ++i)
+            to[i] = static_cast<F>(m.at[zz][i / 2] * static_cast<M>(from[i]) +
+                                   norm * static_cast<M>(to[i]));
+        return;
+    }
+    const U* const from[3] = {u.row(0, y), u.row(1, y), u.row(2, y)};
+    F* const to[3] = {f.row(0, y), f.row(1, y), f.row(2, y)};
+    for (int i = 0; i < u.columns(); ++i)
+        multiply(m, i, from, norm, to);
+}
 
-SpectralBlock::SpectralBlock(const BlockOptions& options, const Communicator& communicator)
-    : options_(options),
-      communicator_(communicator), tile_{0, 0, options.sites, options.sites, options.sites},
-      columns_(static_cast<std::size_t>(options.sites / 2 + 1)), layer_(tile_, 1, 0),
-      force_(tile_, 1, 0), waves_(options.sites), scratch_(options.sites),
-      transform_(options.sites, layer_.plane(0).x.row) {
-    if (communicator.size() > 1)
-        throw std::invalid_argument(
-            fmt::format("= \"spectral\" on {} ranks: its Fourier transforms are those of one rank "
-                        "with threads; start one rank (OMP_NUM_THREADS sets its threads), or take "
-                        "block.model = \"multiscale\"",
-                        communicator.size()));
-    table_.resize(entries * columns_ * columns_);
+/// S of every wave, or what is left of it without friction.
+std::vector<double> stiffness_table(const BlockOptions& options, bool frictionless) {
+    const std::size_t columns = static_cast<std::size_t>(options.sites / 2 + 1);
+    const std::size_t size = columns * columns;
+    std::vector<double> table((frictionless ? 1 : entries) * size);
     const CellElasticity elasticity = options.elasticity(0);
     std::vector<WavePhase> phase;
     for (int n = 0; n <= options.sites / 2; ++n)
         phase.push_back(wave_phase(n, options.sites));
 #pragma omp parallel for schedule(dynamic, 4)
-    for (std::size_t i = 0; i < columns_; ++i)
+    for (std::size_t i = 0; i < columns; ++i)
         for (std::size_t j = 0; j <= i; ++j) {
             const SurfaceMatrix s =
                 surface_stiffness(elasticity, phase[i], phase[j], options.thickness);
             const auto put = [&](std::size_t nx, std::size_t ny, const SurfaceMatrix& m) {
+                double* const at = table.data() + ny * columns + nx;
+                if (frictionless) {
+                    *at = 1.0 / inverse(m).zz;
+                    return;
+                }
                 const double values[entries] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
-                for (int e = 0; e < entries; ++e)
-                    table(e, static_cast<int>(ny))[nx] = values[e];
+                for (std::size_t e = 0; e < entries; ++e)
+                    at[e * size] = values[e];
             };
             put(i, j, s);
             put(j, i, {s.yy, s.xx, s.zz, s.xy, s.yz, s.xz});
         }
-    uniform_ = table(zz, 0)[0];
+    return table;
+}
+
+} // namespace
+
+SpectralBlock::SpectralBlock(const BlockOptions& options, const Communicator& communicator,
+                             bool frictionless)
+    : options_(options), slab_(options.sites, communicator), components_(frictionless ? 1 : 3),
+      columns_(static_cast<std::size_t>(slab_.columns())),
+      table_(stiffness_table(options, frictionless)), layer_(tile(), 1, 0), force_(tile(), 1, 0),
+      waves_(slab_, components_), transform_(slab_, layer_.plane(0).x.row),
+      single_(slab_, new_field<float>()[0].plane(0).row) {
+    uniform_ = stiffness(0, 0).zz;
     free_top();
 }
 
-template <class Work>
-void SpectralBlock::each_row(const Work& work) const {
-    const int n = options_.sites;
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < n; ++y) {
-        StiffnessRow s{};
-        for (int e = 0; e < entries; ++e)
-            s.at[e] = table(e, std::min(y, n - y));
-        s.sign = 2 * y > n ? -1.0 : 1.0;
-        work(y, s);
-    }
+double* SpectralBlock::table(int entry, int ny) {
+    return const_cast<double*>(std::as_const(*this).table(entry, ny));
+}
+
+const double* SpectralBlock::table(int entry, int ny) const {
+    const int kept = components_ == 1 ? 0 : entry;
+    return table_.data() +
+           (static_cast<std::size_t>(kept) * columns_ + static_cast<std::size_t>(ny)) * columns_;
 }
 
 void SpectralBlock::set_uniform(double z) {
-    layer_ = new_field();
+    layer_ = VectorField<double>(tile(), 1, 0);
     const PlaneView<double> uz = layer_.z.plane(0);
-    for (int y = 0; y < tile_.ny; ++y)
-        std::fill(uz.line(y), uz.line(y) + tile_.nx, z);
-    waves_ = Waves<double>(options_.sites);
-    waves_.row(2, 0)[0] = z;
+    for (int y = 0; y < uz.ny; ++y)
+        std::fill(uz.line(y), uz.line(y) + uz.nx, z);
+    waves_.clear();
+    if (slab_.holds_uniform()) waves_.row(components_ - 1, 0)[0] = z;
     if (!top_free_) top_ = z;
 }
 
@@ -113,6 +143,12 @@ void SpectralBlock::free_top() {
     table(zz, 0)[0] = 0.0;
 }
 
+double SpectralBlock::mean_height() const {
+    double mean = slab_.holds_uniform() ? waves_.row(components_ - 1, 0)[0] : 0.0;
+    slab_.ranks.broadcast(std::span(&mean, 1)); // the root holds the first row
+    return mean;
+}
+
 double SpectralBlock::top_force() const {
     if (top_free_) return 0.0;
     const double sites = options_.sites;
@@ -120,119 +156,107 @@ double SpectralBlock::top_force() const {
 }
 
 void SpectralBlock::gradient(double load, Waves<double>& g) const {
-    transform_.forward(force_.plane(0), g);
+    for (int c = 0; c < components_; ++c)
+        transform_.forward(moving(force_.plane(0), c), g, c);
     const double sites = options_.sites, norm = 1.0 / (sites * sites);
-    add_stiffness(waves_, -norm, g);
-    double& mean = g.row(2, 0)[0];
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        stiffen_row(y, waves_, -norm, g);
+    if (!slab_.holds_uniform()) return;
+    double& mean = g.row(components_ - 1, 0)[0];
     mean += norm * load;
     if (!top_free_) mean -= uniform_ * top_;
 }
 
 template <class T>
-void SpectralBlock::add_stiffness(const Waves<T>& u, double norm, Waves<T>& f) const {
-    each_row([&](int row, const StiffnessRow& s) {
-        const T *x = u.row(0, row), *y = u.row(1, row), *z = u.row(2, row);
-        T *fx = f.row(0, row), *fy = f.row(1, row), *fz = f.row(2, row);
-        for (int i = 0; i < u.columns(); ++i) {
-            const Product p = times(s[i], x + 2 * i, y + 2 * i, z + 2 * i);
-            for (int k = 2 * i; k < 2 * i + 2; ++k) {
-                fx[k] = static_cast<T>(p.x[k - 2 * i] + norm * fx[k]);
-                fy[k] = static_cast<T>(p.y[k - 2 * i] + norm * fy[k]);
-                fz[k] = static_cast<T>(p.z[k - 2 * i] + norm * fz[k]);
-            }
-        }
-    });
+void SpectralBlock::stiffen_row(int y, const Waves<T>& u, double norm, Waves<T>& f) const {
+    multiply_row(MatrixRow<double>(table_, columns_, slab_.first + y, slab_.sites), y, u, norm, f);
 }
-template void SpectralBlock::add_stiffness(const Waves<float>&, double, Waves<float>&) const;
-
-template <class T>
-void SpectralBlock::precondition(double k, Waves<T>& v) const {
-    each_row([&](int row, const StiffnessRow& s) {
-        T *x = v.row(0, row), *y = v.row(1, row), *z = v.row(2, row);
-        for (int i = 0; i < v.columns(); ++i) {
-            SurfaceMatrix m = s[i];
-            m.xx += k;
-            m.yy += k;
-            m.zz += k;
-            const Product p = times(inverse(m), x + 2 * i, y + 2 * i, z + 2 * i);
-            for (int c = 0; c < 2; ++c) {
-                x[2 * i + c] = static_cast<T>(p.x[c]);
-                y[2 * i + c] = static_cast<T>(p.y[c]);
-                z[2 * i + c] = static_cast<T>(p.z[c]);
-            }
-        }
-    });
-}
-template void SpectralBlock::precondition(double, Waves<float>&) const;
-template void SpectralBlock::precondition(double, Waves<double>&) const;
+template void SpectralBlock::stiffen_row(int, const Waves<float>&, double, Waves<float>&) const;
+template void SpectralBlock::stiffen_row(int, const Waves<double>&, double, Waves<double>&) const;
 
 double SpectralBlock::elastic_energy() const {
-    const int n = options_.sites, columns = waves_.columns();
-    std::vector<double> rows(static_cast<std::size_t>(n));
-    const double top = top_free_ ? 0.0 : top_;
-    each_row([&](int row, const StiffnessRow& s) {
-        const double *x = waves_.row(0, row), *y = waves_.row(1, row), *z = waves_.row(2, row);
-        double sum = 0.0;
-        for (int i = 0; i < columns; ++i) {
-            double u[2] = {z[2 * i], z[2 * i + 1]};
-            if (row == 0 && i == 0) u[0] -= top;
-            const Product p = times(s[i], x + 2 * i, y + 2 * i, u);
-            double e = 0.0;
-            for (int k = 0; k < 2; ++k)
-                e += x[2 * i + k] * p.x[k] + y[2 * i + k] * p.y[k] + u[k] * p.z[k];
-            const bool once = i == 0 || (n % 2 == 0 && i + 1 == columns);
-            sum += once ? e : 2.0 * e;
-        }
-        rows[static_cast<std::size_t>(row)] = sum;
-    });
-    double sum = 0.0;
-    for (double r : rows)
-        sum += r;
-    return 0.5 * sum * n * n;
+    // Half u.(S u), u measured from the top plane where that is held.
+    Waves<double> u = new_waves<double>(), su = new_waves<double>();
+    combine(1.0, waves_, 0.0, u);
+    if (!top_free_ && slab_.holds_uniform()) u.row(components_ - 1, 0)[0] -= top_;
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        stiffen_row(y, u, 0.0, su);
+    return 0.5 * dot(u, su);
 }
 
-void SpectralBlock::at_sites(const Waves<double>& waves, VectorField<double>& field) {
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < waves.sites(); ++y)
-        for (int c = 0; c < 3; ++c)
-            std::copy_n(waves.row(c, y), 2 * waves.columns(), scratch_.row(c, y));
-    transform_.backward(scratch_, field.plane(0));
+void SpectralBlock::at_sites(Waves<float>& waves, SiteField<float>& field) const {
+    for (int c = 0; c < components_; ++c)
+        single_.backward(waves, c, field[static_cast<std::size_t>(c)].plane(0));
 }
 
-void SpectralBlock::displace(double t, const Waves<double>& d,
-                             const VectorField<double>& d_at_sites) {
-    add(t, d, waves_);
-    const VectorPlane<double> u = layer_.plane(0);
-    const VectorPlane<const double> by = d_at_sites.plane(0);
+void SpectralBlock::to_waves(const SiteField<float>& field, Waves<float>& waves) const {
+    for (int c = 0; c < components_; ++c)
+        single_.forward(field[static_cast<std::size_t>(c)].plane(0), waves, c);
+}
+
+void SpectralBlock::displace(double t, const Waves<float>& d, const SiteField<float>& at_sites) {
+    combine(t, d, 1.0, waves_);
 #pragma omp parallel for schedule(static)
-    for (int y = 0; y < tile_.ny; ++y)
-        for (int x = 0; x < tile_.nx; ++x) {
-            u.x(x, y) += t * by.x(x, y);
-            u.y(x, y) += t * by.y(x, y);
-            u.z(x, y) += t * by.z(x, y);
+    for (int y = 0; y < slab_.rows; ++y)
+        for (int c = 0; c < components_; ++c) {
+            double* u = moving(layer_.plane(0), c).line(y);
+            const float* by = at_sites[static_cast<std::size_t>(c)].plane(0).line(y);
+            for (int x = 0; x < slab_.sites; ++x)
+                u[x] += t * static_cast<double>(by[x]);
         }
 }
 
-void SpectralBlock::settle() { to_waves(layer_, waves_); }
-
-void SpectralBlock::to_waves(const VectorField<double>& field, Waves<double>& waves) const {
-    transform_.forward(field.plane(0), waves);
-    const double sites = options_.sites, norm = 1.0 / (sites * sites);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < waves.sites(); ++y)
-        for (int c = 0; c < 3; ++c)
-            for (int i = 0; i < 2 * waves.columns(); ++i)
-                waves.row(c, y)[i] *= norm;
+void SpectralBlock::settle() {
+    const VectorPlane<const double> layer = std::as_const(layer_).plane(0);
+    for (int c = 0; c < components_; ++c)
+        transform_.forward(moving(layer, c), waves_, c);
+    const double sites = options_.sites;
+    combine(0.0, waves_, 1.0 / (sites * sites), waves_);
 }
 
 SurfaceMatrix SpectralBlock::stiffness(int nx, int ny) const {
     const auto at = [&](int e) { return table(e, ny)[nx]; };
+    if (components_ == 1) return {0.0, 0.0, at(zz), 0.0, 0.0, 0.0};
     return {at(xx), at(yy), at(zz), at(xy), at(xz), at(yz)};
 }
 
 std::size_t SpectralBlock::bytes() const {
-    return table_.size() * sizeof(double) + layer_.bytes() + force_.bytes() + waves_.bytes() +
-           scratch_.bytes();
+    return table_.size() * sizeof(double) + layer_.bytes() + force_.bytes() + waves_.bytes();
 }
+
+Preconditioner::Preconditioner(const SpectralBlock& block, double k)
+    : sites_(block.slab().sites), first_(block.slab().first),
+      columns_(static_cast<std::size_t>(block.slab().columns())),
+      entries_(block.components() == 1 ? 1 : entries), table_(entries_ * columns_ * columns_) {
+    const int columns = block.slab().columns();
+    const std::size_t size = columns_ * columns_;
+#pragma omp parallel for schedule(static)
+    for (int ny = 0; ny < columns; ++ny)
+        for (int nx = 0; nx < columns; ++nx) {
+            SurfaceMatrix m = block.stiffness(nx, ny);
+            float* const at = table_.data() + static_cast<std::size_t>(ny) * columns_ +
+                              static_cast<std::size_t>(nx);
+            m.xx += k;
+            m.yy += k;
+            m.zz += k;
+            const SurfaceMatrix i = inverse(m);
+            if (entries_ == 1) {
+                *at = static_cast<float>(i.zz);
+                continue;
+            }
+            const double values[entries] = {i.xx, i.yy, i.zz, i.xy, i.xz, i.yz};
+            for (std::size_t e = 0; e < entries; ++e)
+                at[e * size] = static_cast<float>(values[e]);
+        }
+}
+
+template <class From>
+void Preconditioner::apply_row(int y, const Waves<From>& from, Waves<float>& to) const {
+    multiply_row(MatrixRow<float>(table_, columns_, first_ + y, sites_), y, from, 0.0f, to);
+}
+template void Preconditioner::apply_row(int, const Waves<float>&, Waves<float>&) const;
+template void Preconditioner::apply_row(int, const Waves<double>&, Waves<float>&) const;
 
 } // namespace asperity

@@ -33,6 +33,6 @@ namespace asperity {
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const RelaxOptions& options, Phases& phases);
 /// What it takes beside the block, bytes.
-std::size_t spectral_relaxation_bytes(int sites);
+std::size_t spectral_relaxation_bytes(const SpectralBlock& block);
 
 } // namespace asperity

@@ -31,14 +31,15 @@ namespace {
 
 constexpr double tolerance = 1e-4; // eV/Å
 
-double largest(const VectorPlane<const double>& f) {
-    double longest = 0.0;
+double largest(const SiteField<float>& field) {
+    const PlaneView<const float> x = field[0].plane(0), y = field[1].plane(0),
+                                 z = field[2].plane(0);
+    float longest = 0.0f;
 #pragma omp parallel for schedule(static) reduction(max : longest)
-    for (int y = 0; y < f.x.ny; ++y)
-        for (int x = 0; x < f.x.nx; ++x)
-            longest = std::max(longest, f.x(x, y) * f.x(x, y) + f.y(x, y) * f.y(x, y) +
-                                            f.z(x, y) * f.z(x, y));
-    return std::sqrt(longest);
+    for (int j = 0; j < x.ny; ++j)
+        for (int i = 0; i < x.nx; ++i)
+            longest = std::max(longest, x(i, j) * x(i, j) + y(i, j) * y(i, j) + z(i, j) * z(i, j));
+    return std::sqrt(static_cast<double>(longest));
 }
 
 struct Answer {
@@ -52,27 +53,38 @@ Answer fire(SpectralBlock& block, const Interface& interface, double height, dou
     constexpr double dt_max = 1.0;
     const auto start = std::chrono::steady_clock::now();
     const int n = block.options().sites;
-    // v and its momentum p = (S + k) v; a = (S + k)^-1 F.
-    Waves<double> g(n), v(n), p(n), a(n);
-    VectorField<double> at_sites = block.new_field();
+    const Preconditioner preconditioner(block, k);
+    // v and its momentum p = (S + k) v; a = (S + k)^-1 g.
+    auto g = block.new_waves<double>();
+    auto v = block.new_waves<float>(), p = block.new_waves<float>(), a = block.new_waves<float>();
+    auto work = block.new_waves<float>();
+    auto at_sites = block.new_field<float>();
     double dt = 0.3 * dt_max, mixing = 0.1;
     int downhill = 0;
     Answer answer;
     for (; answer.iterations < 20000; ++answer.iterations) {
         interface.sweep(block.lowest_layer(), block.interface_force(), height, false);
         block.gradient(0.0, g);
-        if (std::sqrt(dot(g, g)) / n <= tolerance) {
-            block.at_sites(g, at_sites);
-            answer.converged = largest(std::as_const(at_sites).plane(0)) <= tolerance;
+        // One pass: the preconditioned force and all inner products.
+        RowSums sums(block.slab(), 4);
+#pragma omp parallel for schedule(static)
+        for (int y = 0; y < n; ++y) {
+            preconditioner.apply_row(y, g, a);
+            for (int c = 0; c < 3; ++c) {
+                sums.row(y)[0] += row_dot(g.row(c, y), g.row(c, y), n);
+                sums.row(y)[1] -= row_dot(g.row(c, y), v.row(c, y), n);
+                sums.row(y)[2] += row_dot(g.row(c, y), a.row(c, y), n);
+                sums.row(y)[3] += row_dot(v.row(c, y), p.row(c, y), n);
+            }
+        }
+        const auto all = sums.total();
+        const double power = all[1], force2 = all[2], speed2 = all[3];
+        if (std::sqrt(all[0]) / n <= tolerance) {
+            combine(1.0, g, 0.0, work);
+            block.at_sites(work, at_sites);
+            answer.converged = largest(at_sites) <= tolerance;
             if (answer.converged) break;
         }
-#pragma omp parallel for schedule(static)
-        for (int y = 0; y < n; ++y)
-            for (int c = 0; c < 3; ++c)
-                for (int i = 0; i < 2 * g.columns(); ++i)
-                    a.row(c, y)[i] = -g.row(c, y)[i];
-        block.precondition(k, a);
-        const double power = -dot(g, v), force2 = -dot(g, a), speed2 = dot(v, p);
         double keep = 0.0, gain = 0.0;
         if (power > 0.0 || answer.iterations == 0) {
             keep = 1.0 - mixing;
@@ -84,16 +96,20 @@ Answer fire(SpectralBlock& block, const Interface& interface, double height, dou
             mixing = 0.1;
             gain = dt;
         }
+        const auto kept = static_cast<float>(keep), gained = static_cast<float>(gain);
 #pragma omp parallel for schedule(static)
         for (int y = 0; y < n; ++y)
             for (int c = 0; c < 3; ++c)
-                for (int i = 0; i < 2 * g.columns(); ++i) {
-                    v.row(c, y)[i] = keep * v.row(c, y)[i] + gain * a.row(c, y)[i];
-                    p.row(c, y)[i] = keep * p.row(c, y)[i] - gain * g.row(c, y)[i];
+                for (int i = 0; i < g.length(); ++i) {
+                    const float speed = kept * v.row(c, y)[i] - gained * a.row(c, y)[i];
+                    v.row(c, y)[i] = work.row(c, y)[i] = speed;
+                    p.row(c, y)[i] =
+                        kept * p.row(c, y)[i] - gained * static_cast<float>(g.row(c, y)[i]);
                 }
-        block.at_sites(v, at_sites);
-        const double move = dt * largest(std::as_const(at_sites).plane(0));
+        block.at_sites(work, at_sites);
+        const double move = dt * largest(at_sites);
         block.displace(move > max_move ? dt * max_move / move : dt, v, at_sites);
+        if (answer.iterations % 16 == 15) block.settle();
     }
     block.settle();
     const auto sums = interface.sweep(block.lowest_layer(), block.interface_force(), height, true);

@@ -33,17 +33,24 @@ double ratio(const BlockOptions& o, int nx, int ny) {
     return normal / (0.5 * o.contact_modulus() * q);
 }
 
-void randomise(SpectralBlock& block, std::mt19937_64& random, double size) {
-    std::normal_distribution<double> normal(0.0, size);
-    VectorField<double> d = block.new_field();
-    Waves<double> waves(block.options().sites);
-    for (Field<double>* f : {&d.x, &d.y, &d.z})
-        for (int y = 0; y < block.tile().ny; ++y)
-            for (int x = 0; x < block.tile().nx; ++x)
-                f->plane(0)(x, y) = normal(random);
-    block.to_waves(d, waves);
-    block.displace(1.0, waves, d);
-}
+/// A random displacement, at the sites and as waves.
+struct Random {
+    SiteField<float> field;
+    Waves<float> waves;
+
+    Random(const SpectralBlock& block, unsigned seed, double size)
+        : field(block.new_field<float>()), waves(block.new_waves<float>()) {
+        std::mt19937_64 random(seed);
+        std::normal_distribution<double> normal(0.0, size);
+        for (Field<float>& f : field)
+            for (int y = 0; y < block.tile().ny; ++y)
+                for (int x = 0; x < block.tile().nx; ++x)
+                    f.plane(0)(x, y) = static_cast<float>(normal(random));
+        const double n = block.options().sites;
+        block.to_waves(field, waves);
+        combine(0.0, waves, 1.0 / (n * n), waves);
+    }
+};
 
 } // namespace
 
@@ -105,27 +112,22 @@ TEST(SpectralBlock, ForceIsTheGradientOfItsEnergy) {
     // The energy is quadratic, so a central difference along any direction is exact; no interface
     // acts.
     for (int sites : {9, 12, 20})
-        for (bool held : {false, true}) {
-            SpectralBlock block(test::paper_block(sites, 7, 0), Communicator());
-            std::mt19937_64 random(3);
-            randomise(block, random, 0.3);
-            if (held) block.hold_top(0.17);
-            Waves<double> g(sites), along(sites);
-            block.gradient(0.0, g);
-            VectorField<double> d = block.new_field();
-            std::normal_distribution<double> normal;
-            for (Field<double>* f : {&d.x, &d.y, &d.z})
-                for (int y = 0; y < sites; ++y)
-                    for (int x = 0; x < sites; ++x)
-                        f->plane(0)(x, y) = normal(random);
-            block.to_waves(d, along);
-            const double slope = dot(g, along);
-            block.displace(1.0, along, d);
-            const double above = block.elastic_energy();
-            block.displace(-2.0, along, d);
-            const double below = block.elastic_energy();
-            EXPECT_NEAR(slope, 0.5 * (above - below), 1e-10 * (above + below)) << sites << held;
-        }
+        for (bool held : {false, true})
+            for (bool frictionless : {false, true}) {
+                SpectralBlock block(test::paper_block(sites, 7, 0), Communicator(), frictionless);
+                const Random there(block, 3, 0.3), d(block, 4, 1.0);
+                block.displace(1.0, there.waves, there.field);
+                if (held) block.hold_top(0.17);
+                auto g = block.new_waves<double>();
+                block.gradient(0.0, g);
+                const double slope = dot(g, d.waves);
+                block.displace(1.0, d.waves, d.field);
+                const double above = block.elastic_energy();
+                block.displace(-2.0, d.waves, d.field);
+                const double below = block.elastic_energy();
+                EXPECT_NEAR(slope, 0.5 * (above - below), 1e-10 * (above + below))
+                    << sites << held << frictionless;
+            }
 }
 
 TEST(SpectralBlock, AHeldTopPullsWithItsSpring) {
@@ -143,20 +145,35 @@ TEST(SpectralBlock, AHeldTopPullsWithItsSpring) {
 
 TEST(SpectralBlock, PreconditionerIsAnInverse) {
     // (S + k) (S + k)^-1 x = x, in the precision of the products.
-    for (int sites : {11, 16}) {
-        SpectralBlock block(test::paper_block(sites, 9, 0), Communicator());
-        std::mt19937_64 random(5);
-        randomise(block, random, 1.0);
-        Waves<double> g(sites);
-        block.gradient(0.0, g);
-        Waves<float> x(sites), y(sites);
-        add(1.0, g, x);
-        add(1.0, x, y);
-        block.precondition(1.5, y);
-        Waves<float> back(sites);
-        add(1.5, y, back);
-        block.add_stiffness(y, 1.0, back);
-        add(-1.0, x, back);
-        EXPECT_LT(dot(back, back), 1e-12 * dot(x, x));
+    for (int sites : {11, 16})
+        for (bool frictionless : {false, true}) {
+            const SpectralBlock block(test::paper_block(sites, 9, 0), Communicator(), frictionless);
+            const Preconditioner preconditioner(block, 1.5);
+            const Random x(block, 5, 1.0);
+            auto y = block.new_waves<float>(), back = block.new_waves<float>();
+            for (int row = 0; row < sites; ++row)
+                preconditioner.apply_row(row, x.waves, y);
+            combine(1.5, y, 0.0, back);
+            for (int row = 0; row < sites; ++row)
+                block.stiffen_row(row, y, 1.0, back);
+            combine(-1.0, x.waves, 1.0, back);
+            EXPECT_LT(dot(back, back), 1e-12 * dot(x.waves, x.waves));
+        }
+}
+
+TEST(SpectralBlock, WithoutFrictionAWaveIsTheHalfSpace) {
+    // Normal forces alone: E* q/2 for long waves on a thick block, and what the whole matrix says
+    // of a displacement whose lateral components are free.
+    const BlockOptions o = test::paper_block(64, 512, 0);
+    const SpectralBlock block(o, Communicator(), true), with_friction(o, Communicator());
+    const double area = o.spacing * o.spacing;
+    for (int n : {1, 2, 3}) {
+        const double q = 2.0 * pi * n / (64 * o.spacing);
+        const double long_wave = 0.5 * o.contact_modulus() * q * area;
+        EXPECT_NEAR(block.stiffness(n, 0).zz, long_wave, 2.5e-4 * n * n * long_wave) << n;
     }
+    for (int nx : {1, 7, 32})
+        for (int ny : {0, 5, 32})
+            EXPECT_NEAR(block.stiffness(nx, ny).zz,
+                        1.0 / inverse(with_friction.stiffness(nx, ny)).zz, 1e-14);
 }
