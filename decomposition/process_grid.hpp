@@ -6,6 +6,8 @@
 // Cuts run along nodes of the cut level c, the coarsest level that is tiled, so that each of its
 // cells is whole on one rank; finer levels inherit the cut (their nodes double). Levels coarser
 // than c are too small to cut and every rank holds them whole, computing the same numbers.
+//
+// Where the surface is transformed (waves.hpp), the box is cut into slabs of rows instead.
 #pragma once
 
 #include "decomposition/tile.hpp"
@@ -21,6 +23,10 @@ public:
     /// which level l has sites / 2^l nodes across. Throws std::invalid_argument if there are more
     /// ranks than tiles of at least two nodes.
     ProcessGrid(int ranks, int rank, int sites, int levels);
+    /// One level cut into slabs of whole rows, as equal as FFTW-MPI wants them: all have the same
+    /// number of rows but the last, which has the rest. Throws std::invalid_argument if that is
+    /// none.
+    static ProcessGrid slabs(int ranks, int rank, int sites);
 
     int ranks() const { return px_ * py_; }
     int rank() const { return rank_; }
@@ -41,6 +47,7 @@ public:
     std::string describe() const;
 
 private:
+    ProcessGrid() = default;
     int px_ = 1, py_ = 1, rank_ = 0, sites_ = 0, cut_level_ = 0;
     std::vector<int> cut_x_, cut_y_; // boundaries in nodes of the cut level
 };

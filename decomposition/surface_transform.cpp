@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "decomposition/surface_transform.hpp"
 
+#include "decomposition/process_grid.hpp"
+
 #include <fftw3-mpi.h>
 #include <omp.h>
 
@@ -73,22 +75,18 @@ void start_ranks() {
 
 } // namespace
 
-Slab::Slab(int n, const Communicator& communicator) : ranks(communicator), sites(n), rows(n) {
-    capacity = static_cast<std::size_t>(sites) * static_cast<std::size_t>(columns());
+Slab::Slab(int n, const Communicator& communicator) : ranks(communicator), sites(n) {
+    const Tile mine = ProcessGrid::slabs(ranks.size(), ranks.rank(), sites).tile(0);
+    first = mine.y0;
+    rows = mine.ny;
+    capacity = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns());
     if (ranks.size() == 1) return;
-    // FFTW's own cut: as many rows on each rank as make the blocks equal, the rest on the last.
-    const int block = (sites + ranks.size() - 1) / ranks.size();
-    if (block * (ranks.size() - 1) >= sites)
-        throw std::invalid_argument("= \"spectral\" on " + std::to_string(ranks.size()) +
-                                    " ranks: in slabs of " + std::to_string(block) +
-                                    " rows, the last rank has none of the " +
-                                    std::to_string(sites) + "; use fewer ranks");
     start_ranks<double>();
-    std::ptrdiff_t local_rows = 0, local_first = 0;
+    std::ptrdiff_t its_rows = 0, its_first = 0;
     capacity = static_cast<std::size_t>(
-        fftw_mpi_local_size_2d(sites, columns(), MPI_COMM_WORLD, &local_rows, &local_first));
-    rows = static_cast<int>(local_rows);
-    first = static_cast<int>(local_first);
+        fftw_mpi_local_size_2d(sites, columns(), MPI_COMM_WORLD, &its_rows, &its_first));
+    if (its_rows != rows || its_first != first)
+        throw std::logic_error("FFTW-MPI cuts the surface into other slabs than the process grid");
 }
 
 std::vector<double> RowSums::total() const {

@@ -59,7 +59,8 @@ private:
 
 class WavesAtRest final : public Equilibrium {
 public:
-    WavesAtRest(const BlockOptions& options, const Communicator& ranks) : block_(options, ranks) {}
+    WavesAtRest(const BlockOptions& options, const Communicator& ranks, bool frictionless)
+        : block_(options, ranks, frictionless) {}
     VectorPlane<const double> lowest_layer() const override { return block_.lowest_layer(); }
     VectorPlane<double> interface_force() override { return block_.interface_force(); }
     const Communicator& communicator() const override { return block_.communicator(); }
@@ -105,14 +106,14 @@ std::unique_ptr<Equilibrium> at_rest(Block block) {
 }
 
 std::unique_ptr<Equilibrium> spectral_at_rest(const BlockOptions& options,
-                                              const Communicator& ranks) {
-    return std::make_unique<WavesAtRest>(options, ranks);
+                                              const Communicator& ranks, bool frictionless) {
+    return std::make_unique<WavesAtRest>(options, ranks, frictionless);
 }
 
 std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& setup,
                                               const Communicator& ranks, const ProcessGrid& grid) {
     if (scene.block.model == BlockModel::spectral)
-        return spectral_at_rest(setup.simulation.block, ranks);
+        return spectral_at_rest(setup.simulation.block, ranks, scene.interface.frictionless);
     return at_rest(Block(setup.simulation.block, ranks, grid, Motion::at_rest));
 }
 

@@ -52,7 +52,7 @@ public:
 std::unique_ptr<Equilibrium> at_rest(Block block);
 /// The spectral block.
 std::unique_ptr<Equilibrium> spectral_at_rest(const BlockOptions& options,
-                                              const Communicator& ranks);
+                                              const Communicator& ranks, bool frictionless = false);
 /// The scene's block.
 std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& setup,
                                               const Communicator& ranks, const ProcessGrid& grid);

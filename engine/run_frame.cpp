@@ -27,8 +27,7 @@ extern "C" void on_stop_signal(int) { asked_to_stop = 1; }
 
 RunFrame::RunFrame(const Scene& scene, const RunOptions& options, const Communicator& ranks)
     : scene_(scene), options_(options), ranks_(ranks), setup_(make_setup(scene, ranks.size())),
-      surface_(scene_surface(scene)), grid_(ranks.size(), ranks.rank(), scene.surface.sites,
-                                            static_cast<int>(setup_.levels.size())),
+      surface_(scene_surface(scene)), grid_(make_grid(scene, setup_, ranks.size(), ranks.rank())),
       progress_(options.progress, !ranks.root()) {
     ranks_.on_root([&] { choose_directory(); });
     fingerprint_ = fingerprint();

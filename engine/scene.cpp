@@ -93,6 +93,8 @@ io::Schema bind(Scene& scene) {
     schema.number("cutoff", interface.cutoff, "Å", positive(),
                   "no interaction beyond; half the box at most");
     schema.boolean("tail", interface.tail, "continuum correction beyond the cutoff");
+    schema.boolean("frictionless", interface.frictionless,
+                   "spectral block: no lateral tractions, normal displacements only");
 
     auto& drive = scene.drive;
     schema.section("drive", "What is done to the top plane, and how time passes.");
@@ -295,6 +297,12 @@ void check_scene(const Scene& scene, io::Problems& problems) {
             fmt::format("the cap would not reach the corners, {:.6g} Å from the centre",
                         scene.edge() * std::numbers::sqrt2 / 2.0),
             "give a larger radius or fewer sites");
+
+    if (interface.frictionless && scene.block.model != BlockModel::spectral)
+        problems.add("interface.frictionless", "= true with a block that is not spectral",
+                     "only the spectral block can leave lateral displacements out: its stiffness "
+                     "for normal forces alone is known wave by wave",
+                     "take block.model = \"spectral\", or frictionless = false");
 
     const auto& path = drive.path;
     if (path.empty())

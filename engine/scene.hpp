@@ -70,6 +70,7 @@ struct Scene {
         double r0 = 3.28;       ///< Å
         double cutoff = 13.12;  ///< Å
         bool tail = false;
+        bool frictionless = false; ///< spectral block: normal displacements only
     } interface;
 
     struct Drive {

@@ -76,11 +76,6 @@ Setup make_setup(const Scene& scene, int ranks) {
     block.layers_per_level = scene.block.layers_per_level;
     block.multiscale = on(Effect::coarse_levels);
     setup.levels = plan_levels(block);
-    if (scene.block.model == BlockModel::spectral && ranks > 1)
-        problems.add("block.model", fmt::format("= \"spectral\" on {} ranks", ranks),
-                     "its Fourier transforms are those of one rank, shared by threads",
-                     "start one rank (OMP_NUM_THREADS sets its threads), or take block.model = "
-                     "\"multiscale\"");
 
     InterfaceOptions& interface = setup.simulation.interface;
     interface.potential = {scene.interface.epsilon, scene.interface.r0, scene.interface.cutoff};
@@ -124,7 +119,7 @@ Setup make_setup(const Scene& scene, int ranks) {
                         "fraction of a percent",
                         0.314159 * setup.longest_timestep));
     try {
-        const ProcessGrid grid(ranks, 0, block.sites, static_cast<int>(setup.levels.size()));
+        const ProcessGrid grid = make_grid(scene, setup, ranks, 0);
         if (grid.imbalance() > 0.1)
             setup.notes.push_back(
                 fmt::format("{} ranks share {} sites unevenly: the largest tile has {:.0f} % "
@@ -157,6 +152,12 @@ Setup examine(const Scene& scene, int ranks) {
     }
     problems.throw_if_any();
     return setup;
+}
+
+ProcessGrid make_grid(const Scene& scene, const Setup& setup, int ranks, int rank) {
+    if (scene.block.model == BlockModel::spectral)
+        return ProcessGrid::slabs(ranks, rank, scene.surface.sites);
+    return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(setup.levels.size()));
 }
 
 } // namespace asperity

@@ -31,6 +31,9 @@ struct Setup {
 };
 /// Throws io::SceneError with all that is wrong, for this number of ranks.
 Setup make_setup(const Scene& scene, int ranks);
+/// How the scene's box is cut: slabs of rows for the spectral block, tiles for the others. Throws
+/// std::invalid_argument if it cannot be.
+ProcessGrid make_grid(const Scene& scene, const Setup& setup, int ranks, int rank);
 
 /// Everything that a run would refuse, found without running: contradictions, what is not available
 /// yet, stability, ranks, the map. Throws io::SceneError with all of it.

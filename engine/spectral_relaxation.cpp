@@ -81,6 +81,7 @@ public:
     double conclude() {
         block_.settle();
         evaluate(true);
+        note(memory_.look(g_));
         return largest_residual();
     }
     const InterfaceSums& sums() const { return sums_; }
@@ -199,20 +200,19 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
                    const RelaxOptions& options, Phases& phases) {
     Descent descent(block, interface, reference_height, options, phases);
     RelaxedState state;
-    for (;; ++state.iterations) {
+    for (bool stuck = false;; ++state.iterations) {
         state.residual = descent.residual();
-        if (state.residual <= options.tolerance || !std::isfinite(state.residual) ||
-            state.iterations >= options.max_iterations)
-            break;
-        if (options.report && state.iterations % 10 == 0 &&
-            options.report(state.iterations, state.residual)) {
-            state.interrupted = true;
-            break;
+        const bool over =
+            stuck || !std::isfinite(state.residual) || state.iterations >= options.max_iterations;
+        state.interrupted = options.report && state.iterations % 10 == 0 &&
+                            options.report(state.iterations, state.residual);
+        if (over || state.interrupted || state.residual <= options.tolerance) {
+            state.residual = descent.conclude();
+            state.converged = state.residual <= options.tolerance;
+            if (over || state.interrupted || state.converged) break;
         }
-        if (!descent.step(state.iterations)) break;
+        stuck = !descent.step(state.iterations);
     }
-    state.residual = descent.conclude();
-    state.converged = state.residual <= options.tolerance;
     const InterfaceSums& sums = descent.sums();
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
     state.interface_energy = values[0];

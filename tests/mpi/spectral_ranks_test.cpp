@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The spectral block in slabs over the ranks against the same on one: every rank holds both, the
+// slab it shares and a whole surface of its own. Sizes that the ranks divide, and that they do not.
+#include "engine/spectral_relaxation.hpp"
+#include "support/cases.hpp"
+#include "support/parallel_main.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+using namespace asperity;
+
+namespace {
+
+/// Something without symmetry, known at every site.
+double value(int x, int y, int component) {
+    return std::sin(0.7 * x + 1.3 * y * y + component) + 0.1 * std::cos(2.1 * x * y);
+}
+
+template <class T>
+SiteField<T> field_on(const Slab& slab, int components) {
+    auto field = site_field<T>(slab, components);
+    for (int c = 0; c < components; ++c)
+        for (int y = 0; y < slab.rows; ++y)
+            for (int x = 0; x < slab.sites; ++x)
+                field[static_cast<std::size_t>(c)].plane(0)(x, y) =
+                    static_cast<T>(value(x, slab.first + y, c));
+    return field;
+}
+
+struct State {
+    RelaxedState relaxed;
+    double top = 0.0, top_force = 0.0;
+};
+
+/// Pressed down on a rough map by a held top plane, or let go.
+State relax_on(const Communicator& ranks, const BlockOptions& options, const Surface& surface,
+               bool held, bool frictionless) {
+    SpectralBlock block(options, ranks, frictionless);
+    const Interface interface(surface, block.tile(), options.spacing, test::paper_interface());
+    if (held) block.hold_top(-0.3);
+    RelaxOptions relaxation;
+    relaxation.tolerance = 1e-7;
+    relaxation.max_move = 0.2;
+    Phases phases;
+    State state;
+    state.relaxed = relax(block, interface, surface.statistics.highest + 2.5, relaxation, phases);
+    state.top = block.top();
+    state.top_force = block.top_force();
+    return state;
+}
+
+} // namespace
+
+TEST(Slabs, HoldEveryRowOnce) {
+    const Communicator& world = test::world();
+    for (int sites : {8, 15, 16, 49}) {
+        const Slab slab(sites, world);
+        std::array<std::int64_t, 2> sums = {slab.rows, 0};
+        for (int y = slab.first; y < slab.first + slab.rows; ++y)
+            sums[1] += static_cast<std::int64_t>(y) * y;
+        world.sum(sums);
+        EXPECT_EQ(sums[0], sites);
+        EXPECT_EQ(sums[1], static_cast<std::int64_t>(sites - 1) * sites * (2 * sites - 1) / 6);
+    }
+}
+
+template <class T>
+void transform_like_one_rank(double tolerance) {
+    for (int sites : {8, 15, 16, 49}) {
+        const Slab slab(sites, test::world()), whole(sites, Communicator());
+        auto mine = field_on<T>(slab, 3), all = field_on<T>(whole, 3);
+        const SurfaceTransform<T> shared(slab, mine[0].plane(0).row),
+            alone(whole, all[0].plane(0).row);
+        Waves<T> part(slab, 3), waves(whole, 3);
+        for (int c = 0; c < 3; ++c) {
+            const auto at = static_cast<std::size_t>(c);
+            shared.forward(mine[at].plane(0), part, c);
+            alone.forward(all[at].plane(0), waves, c);
+        }
+        for (int c = 0; c < 3; ++c)
+            for (int y = 0; y < slab.rows; ++y)
+                for (int i = 0; i < part.length(); ++i)
+                    ASSERT_NEAR(part.row(c, y)[i], waves.row(c, slab.first + y)[i],
+                                tolerance * sites * sites)
+                        << sites;
+        EXPECT_NEAR(dot(part, part), dot(waves, waves), tolerance * dot(waves, waves));
+        shared.backward(part, 1, mine[1].plane(0));
+        for (int y = 0; y < slab.rows; ++y)
+            for (int x = 0; x < sites; ++x)
+                ASSERT_NEAR(mine[1].plane(0)(x, y) / (1.0 * sites * sites),
+                            value(x, slab.first + y, 1), 10.0 * tolerance);
+    }
+}
+
+TEST(Slabs, TransformLikeOneRankInDouble) { transform_like_one_rank<double>(1e-14); }
+TEST(Slabs, TransformLikeOneRankInSingle) { transform_like_one_rank<float>(1e-6); }
+
+TEST(SpectralBlock, RelaxesLikeOneRank) {
+    struct Map {
+        const char* name;
+        int sites, thickness;
+    };
+    for (const Map& map : {Map{"n8_b_rms1.0", 8, 6}, Map{"c2_N16_T8_rms1.5", 16, 8}})
+        for (bool held : {false, true})
+            for (bool frictionless : {false, true}) {
+                const BlockOptions options = test::paper_block(map.sites, map.thickness, 0);
+                const Surface surface = test::reference_surface(map.name);
+                const State shared = relax_on(test::world(), options, surface, held, frictionless);
+                const State alone = relax_on(Communicator(), options, surface, held, frictionless);
+                ASSERT_TRUE(shared.relaxed.converged && alone.relaxed.converged);
+                const double size = std::abs(alone.relaxed.interface_energy);
+                EXPECT_NEAR(shared.relaxed.interface_energy + shared.relaxed.elastic_energy,
+                            alone.relaxed.interface_energy + alone.relaxed.elastic_energy,
+                            1e-9 * size);
+                EXPECT_EQ(shared.relaxed.in_contact, alone.relaxed.in_contact);
+                EXPECT_EQ(shared.relaxed.pushed, alone.relaxed.pushed);
+                EXPECT_NEAR(shared.top, alone.top, 1e-6);
+                EXPECT_NEAR(shared.relaxed.force, alone.relaxed.force,
+                            1e-7 * map.sites * map.sites);
+                // What the top feels is what the substrate exerts.
+                EXPECT_NEAR(shared.top_force, shared.relaxed.force, 1e-7 * map.sites * map.sites);
+            }
+}
