@@ -5,21 +5,17 @@
 // the same block, sweep, transforms and preconditioner (S(q) + k)^-1, and end at the same largest
 // force of 1e-4 eV/Å.
 //
-//     spectral_fire SITES RMS [k of FIRE = 6.6] [its largest move = 1.0 Å] [own = both]
+//     spectral_fire SITES RMS [k of FIRE = 3] [its largest move = 1.0 Å] [own = both]
 //
-// FIRE (Bitzek et al. 2006) in the metric of the preconditioner, settings tuned for it at 256
-// sites: of k = 2.2, 6.6, ... eV/Å^2 and time steps 0.5 to 1.4, see docs/relaxation.md. It is a
-// baseline, no part of the product. Give "own" as fifth argument to leave it out (peak memory is
+// FIRE (Bitzek et al. 2006) in the metric of the preconditioner, its vectors in single precision as
+// own's are, with settings tuned for it (docs/relaxation.md). It is a baseline, no part of the
+// product. Give "own" as fifth argument to leave it out (peak memory is
 // then the product's).
-#include "engine/spectral_relaxation.hpp"
-#include "engine/surface.hpp"
-#include "engine/units.hpp"
+#include "rough_contact.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -114,77 +110,41 @@ Answer fire(SpectralBlock& block, const Interface& interface, double height, dou
     block.settle();
     const auto sums = interface.sweep(block.lowest_layer(), block.interface_force(), height, true);
     answer.energy = sums.energy.value() + block.elastic_energy();
-    answer.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    answer.seconds = seconds_since(start);
     return answer;
 }
 
 Answer own(SpectralBlock& block, const Interface& interface, double height) {
     const auto start = std::chrono::steady_clock::now();
-    RelaxOptions options;
-    options.tolerance = tolerance;
-    options.max_move = 0.2;
     Phases phases;
-    const RelaxedState s = relax(block, interface, height, options, phases);
+    const RelaxedState s = relax(block, interface, height, spectral_options(tolerance), phases);
     for (std::size_t i = 0; i < phase_names.size(); ++i)
         if (const PhaseClock& c = phases[static_cast<Phase>(i)]; c.calls > 0)
             fmt::print("         {:10} {:7.3f} s in {} calls\n", phase_names[i], c.seconds,
                        c.calls);
-    return {s.iterations,
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-            s.interface_energy + s.elastic_energy, s.converged};
+    return {s.iterations, seconds_since(start), s.interface_energy + s.elastic_energy, s.converged};
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
     const int sites = argc > 1 ? std::atoi(argv[1]) : 256;
-    SurfaceOptions s;
-    s.kind = SurfaceKind::self_affine;
-    s.sites = sites;
-    s.length = 2.6 * sites;
-    s.rms = argc > 2 ? std::atof(argv[2]) : 3.0;
-    s.cutoff = 0.5 * sites;
-    const double k = argc > 3 ? std::atof(argv[3]) : 6.6;
+    const double rms = argc > 2 ? std::atof(argv[2]) : 3.0;
+    const double k = argc > 3 ? std::atof(argv[3]) : 3.0;
     const double max_move = argc > 4 ? std::atof(argv[4]) : 1.0;
     const bool both = argc <= 5 || std::string(argv[5]) != "own";
-    const Surface surface = make_surface(s);
-
-    BlockOptions b;
-    b.sites = sites;
-    b.thickness = sites;
-    b.young = 77.2 * units::gigapascal;
-    b.atom_mass = 197.0 * units::atomic_mass;
-    b.multiscale = false;
-    const auto begin = std::chrono::steady_clock::now();
-    SpectralBlock block(b, Communicator());
-    const double made =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const Interface interface(surface, block.tile(), b.spacing, {});
-    block.set_uniform(0.0);
-    double height = interface.start_height(), strongest = 0.0;
-    for (double z = height; z > surface.statistics.lowest; z -= 0.1) {
-        const double force =
-            interface.sweep(block.lowest_layer(), block.interface_force(), z, false)
-                .force_z.value();
-        if (force < strongest) strongest = force, height = z;
-        if (force > 0.0) break;
-    }
-    const double area = 6.76 * sites * sites;
+    RoughContact contact(sites, rms);
     const auto say = [&](const char* what, const Answer& a) {
         fmt::print("{:8} {} sites, rms {} Å: {:5} iterations, {:8.2f} s, {:.10f} meV/Å²{}\n", what,
-                   sites, s.rms, a.iterations, a.seconds, -1e3 * a.energy / area,
+                   sites, rms, a.iterations, a.seconds, contact.binding(a.energy),
                    a.converged ? "" : "  NOT CONVERGED");
     };
-    const Answer mine = own(block, interface, height);
+    const Answer mine = own(contact.block, contact.interface, contact.height);
     say("own", mine);
-    rusage use{};
-    getrusage(RUSAGE_SELF, &use);
-    fmt::print("         S(q) {:.3f} s; peak memory {:.0f} MB\n", made,
-               static_cast<double>(use.ru_maxrss) / 1024.0);
+    fmt::print("         S(q) {:.3f} s; peak memory {:.0f} MB\n", contact.making, peak_megabytes());
     if (!both) return 0;
-    block.set_uniform(0.0);
-    const Answer baseline = fire(block, interface, height, k, max_move);
+    contact.block.set_uniform(0.0);
+    const Answer baseline = fire(contact.block, contact.interface, contact.height, k, max_move);
     say("FIRE", baseline);
     fmt::print("         own is {:.1f} times faster\n", baseline.seconds / mine.seconds);
     return 0;

@@ -81,6 +81,18 @@ TEST(ZeroLoad, FlatOnFlatBindsAsTheTableSays) {
     }
 }
 
+TEST(ZeroLoad, FlatOnFlatBindsWithoutFrictionAsWithIt) {
+    for (bool frictionless : {false, true}) {
+        const auto relaxed =
+            test::relax_spectral(test::paper_block(8, 6, 0), test::paper_interface(4.0),
+                                 test::flat_surface(8), 1e-7, frictionless);
+        ASSERT_TRUE(relaxed.state.converged);
+        EXPECT_NEAR(relaxed.binding_energy, flats[0].binding, 2e-7) << frictionless;
+        EXPECT_NEAR(relaxed.mean_height, flats[0].separation, 1e-6);
+        EXPECT_EQ(relaxed.state.in_contact, 64);
+    }
+}
+
 TEST(ZeroLoad, TheTailMakesUpForTheCutoff) {
     // Infinite range: 100.530767. The continuum beyond 4 r0 gives all but the corrugation of what
     // was cut off.

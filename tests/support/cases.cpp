@@ -102,8 +102,8 @@ Relaxed relax_from_attraction(const BlockOptions& options,
 }
 
 Relaxed relax_spectral(const BlockOptions& options, const InterfaceOptions& interface_options,
-                       const Surface& surface, double tolerance) {
-    SpectralBlock block(options, Communicator());
+                       const Surface& surface, double tolerance, bool frictionless) {
+    SpectralBlock block(options, Communicator(), frictionless);
     const Interface interface(surface, block.tile(), options.spacing, interface_options);
     double height = interface.start_height(), strongest = 0.0;
     for (double z = height;; z -= 0.1) {

@@ -44,7 +44,7 @@ Relaxed relax_from_attraction(const BlockOptions& block, const InterfaceOptions&
 
 /// The same with the spectral block.
 Relaxed relax_spectral(const BlockOptions& block, const InterfaceOptions& interface,
-                       const Surface& surface, double tolerance);
+                       const Surface& surface, double tolerance, bool frictionless = false);
 
 /// 64 bits that differ if any bit of any displacement, velocity or the top differs. Collective; the
 /// same on every rank, and for any number of them.
