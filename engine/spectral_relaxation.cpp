@@ -154,7 +154,7 @@ private:
         const auto t = phases_.time(Phase::relax);
         // The nearer the end, the more exact: what is left of the gradient, by then quadratically
         // small.
-        const double forcing = std::clamp(std::sqrt(rms_), 0.03, 0.3);
+        const double forcing = std::clamp(std::sqrt(rms_), 0.1, 0.3);
         if (newton_.direction(interface_, height_, forcing, g_, d_)) {
             combine(1.0, d_, 0.0, work_);
             block_.at_sites(work_, at_sites_);
