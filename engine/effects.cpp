@@ -68,7 +68,9 @@ Effects::Effects(const Scene& scene) {
     const std::string timeless = "no time passes: " + equilibria;
 
     decide(Effect::inertia, in_time, in_time ? "drive.path is followed in time" : timeless);
-    decide(Effect::lateral, true, "always: three components a node");
+    decide(Effect::lateral, !scene.interface.frictionless,
+           scene.interface.frictionless ? "interface.frictionless = true"
+                                        : "three components a node");
     const bool damped = in_time && drive.damping > 0.0 && drive.damping_from < 1.0;
     decide(Effect::damping, damped,
            !in_time ? timeless

@@ -286,9 +286,7 @@ Plan make_plan(const Scene& scene, int ranks, int threads) {
 
     // What the slowest rank has to do, in units of what this process does in the same time.
     const double measured_threads = omp_get_max_threads();
-    const double uneven =
-        1.0 + ProcessGrid(ranks, 0, scene.surface.sites, static_cast<int>(setup.levels.size()))
-                  .imbalance();
+    const double uneven = 1.0 + make_grid(scene, setup, ranks, 0).imbalance();
     const double share = uneven / ranks * measured_threads / threads;
     const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
     const double nodes = spectral ? sites : nodes_of(setup.levels);
@@ -345,7 +343,7 @@ Plan make_plan(const Scene& scene, int ranks, int threads) {
     }
     if (!on(Effect::inertia)) { // all there is is the relaxation
         const EffectCost& all = cost(Effect::relaxation);
-        cost(Effect::lateral).bytes = 2.0 * all.bytes / 3.0;
+        if (on(Effect::lateral)) cost(Effect::lateral).bytes = 2.0 * all.bytes / 3.0;
         if (on(Effect::coarse_levels))
             cost(Effect::coarse_levels).seconds = all.seconds * coarse / nodes;
     }

@@ -33,25 +33,6 @@ double ratio(const BlockOptions& o, int nx, int ny) {
     return normal / (0.5 * o.contact_modulus() * q);
 }
 
-/// A random displacement, at the sites and as waves.
-struct Random {
-    SiteField<float> field;
-    Waves<float> waves;
-
-    Random(const SpectralBlock& block, unsigned seed, double size)
-        : field(block.new_field<float>()), waves(block.new_waves<float>()) {
-        std::mt19937_64 random(seed);
-        std::normal_distribution<double> normal(0.0, size);
-        for (Field<float>& f : field)
-            for (int y = 0; y < block.tile().ny; ++y)
-                for (int x = 0; x < block.tile().nx; ++x)
-                    f.plane(0)(x, y) = static_cast<float>(normal(random));
-        const double n = block.options().sites;
-        block.to_waves(field, waves);
-        combine(0.0, waves, 1.0 / (n * n), waves);
-    }
-};
-
 } // namespace
 
 TEST(SurfaceMatrix, IsTheElimination) {
@@ -115,15 +96,17 @@ TEST(SpectralBlock, ForceIsTheGradientOfItsEnergy) {
         for (bool held : {false, true})
             for (bool frictionless : {false, true}) {
                 SpectralBlock block(test::paper_block(sites, 7, 0), Communicator(), frictionless);
-                const Random there(block, 3, 0.3), d(block, 4, 1.0);
-                block.displace(1.0, there.waves, there.field);
+                std::mt19937_64 random(3);
+                const auto there = test::random_displacement(block, random, 0.3);
+                const auto d = test::random_displacement(block, random, 1.0);
+                block.displace(1.0, there.waves, there.sites);
                 if (held) block.hold_top(0.17);
                 auto g = block.new_waves<double>();
                 block.gradient(0.0, g);
                 const double slope = dot(g, d.waves);
-                block.displace(1.0, d.waves, d.field);
+                block.displace(1.0, d.waves, d.sites);
                 const double above = block.elastic_energy();
-                block.displace(-2.0, d.waves, d.field);
+                block.displace(-2.0, d.waves, d.sites);
                 const double below = block.elastic_energy();
                 EXPECT_NEAR(slope, 0.5 * (above - below), 1e-10 * (above + below))
                     << sites << held << frictionless;
@@ -149,7 +132,8 @@ TEST(SpectralBlock, PreconditionerIsAnInverse) {
         for (bool frictionless : {false, true}) {
             const SpectralBlock block(test::paper_block(sites, 9, 0), Communicator(), frictionless);
             const Preconditioner preconditioner(block, 1.5);
-            const Random x(block, 5, 1.0);
+            std::mt19937_64 random(5);
+            const auto x = test::random_displacement(block, random, 1.0);
             auto y = block.new_waves<float>(), back = block.new_waves<float>();
             for (int row = 0; row < sites; ++row)
                 preconditioner.apply_row(row, x.waves, y);

@@ -258,43 +258,36 @@ TEST(Gradient, TheSpectralBlockAndInterfaceHaveOneEnergy) {
     const Surface surface = test::reference_surface("c1_N16_T16_rms0.5");
     for (auto method : {InterfaceMethod::lattice, InterfaceMethod::rows})
         for (bool tail : {false, true})
-            for (bool held : {false, true}) {
-                SpectralBlock block(test::paper_block(16, 8, 0), Communicator());
-                const Interface interface(surface, block.tile(), 2.6, interface_with(method, tail));
-                std::mt19937_64 random(5);
-                std::normal_distribution<double> normal;
-                const auto draw = [&](Waves<double>& waves, VectorField<double>& sites) {
-                    for (Field<double>* f : {&sites.x, &sites.y, &sites.z})
-                        for (int y = 0; y < 16; ++y)
-                            for (int x = 0; x < 16; ++x)
-                                f->plane(0)(x, y) = normal(random);
-                    block.to_waves(sites, waves);
-                };
-                Waves<double> start(16), along(16), g(16);
-                VectorField<double> start_sites = block.new_field(), sites = block.new_field();
-                draw(start, start_sites);
-                block.displace(0.1, start, start_sites);
-                if (held) block.hold_top(0.2);
-                draw(along, sites);
-                const auto energy =
-                    [&] {
+            for (bool held : {false, true})
+                for (bool frictionless : {false, true}) {
+                    SpectralBlock block(test::paper_block(16, 8, 0), Communicator(), frictionless);
+                    const Interface interface(surface, block.tile(), 2.6,
+                                              interface_with(method, tail));
+                    std::mt19937_64 random(5);
+                    const auto start = test::random_displacement(block, random, 0.1);
+                    const auto along = test::random_displacement(block, random, 1.0);
+                    block.displace(1.0, start.waves, start.sites);
+                    if (held) block.hold_top(0.2);
+                    auto g = block.new_waves<double>();
+                    const auto energy = [&] {
                         return block.elastic_energy() +
                            interface.sweep(block.lowest_layer(), block.interface_force(), 3.6, true)
                                .energy.value();
                     };
-                const double step = h / 16.0; // the direction has a length of about 28
-                energy();
-                block.gradient(0.0, g);
-                const double slope = dot(g, along);
-                block.displace(step, along, sites);
-                const double above = energy();
-                block.displace(-2.0 * step, along, sites);
-                const double below = energy();
-                EXPECT_GT(std::abs(slope), 0.01);
-                EXPECT_NEAR(slope, (above - below) / (2.0 * step), 2e-6 * (10.0 + std::abs(slope)))
-                    << "method " << static_cast<int>(method) << " tail " << tail << " held "
-                    << held;
-            }
+                    const double step = h / 16.0; // the direction has a length of about 28
+                    energy();
+                    block.gradient(0.0, g);
+                    const double slope = dot(g, along.waves);
+                    block.displace(step, along.waves, along.sites);
+                    const double above = energy();
+                    block.displace(-2.0 * step, along.waves, along.sites);
+                    const double below = energy();
+                    EXPECT_GT(std::abs(slope), 0.01);
+                    EXPECT_NEAR(slope, (above - below) / (2.0 * step),
+                                2e-6 * (10.0 + std::abs(slope)))
+                        << "method " << static_cast<int>(method) << " tail " << tail << " held "
+                        << held << " frictionless " << frictionless;
+                }
 }
 
 TEST(Momentum, ChangesByTheForcesAlone) {

@@ -127,6 +127,20 @@ Relaxed relax_spectral(const BlockOptions& options, const InterfaceOptions& inte
     return relaxed;
 }
 
+SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt19937_64& random,
+                                         double size) {
+    SpectralDisplacement d{block.new_field<float>(), block.new_waves<float>()};
+    std::normal_distribution<double> normal(0.0, size);
+    for (Field<float>& f : d.sites)
+        for (int y = 0; y < block.tile().ny; ++y)
+            for (int x = 0; x < block.tile().nx; ++x)
+                f.plane(0)(x, y) = static_cast<float>(normal(random));
+    const double n = block.options().sites;
+    block.to_waves(d.sites, d.waves);
+    combine(0.0, d.waves, 1.0 / (n * n), d.waves);
+    return d;
+}
+
 std::uint64_t mix(std::uint64_t hash, double value) {
     return (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u + (hash >> 29);
 }

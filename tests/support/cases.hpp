@@ -6,8 +6,10 @@
 
 #include "engine/relaxation.hpp"
 #include "engine/simulation.hpp"
+#include "engine/spectral_block.hpp"
 
 #include <cstdint>
+#include <random>
 #include <string>
 
 namespace asperity::test {
@@ -45,6 +47,15 @@ Relaxed relax_from_attraction(const BlockOptions& block, const InterfaceOptions&
 /// The same with the spectral block.
 Relaxed relax_spectral(const BlockOptions& block, const InterfaceOptions& interface,
                        const Surface& surface, double tolerance, bool frictionless = false);
+
+/// A displacement of a spectral block, at the sites and as waves.
+struct SpectralDisplacement {
+    SiteField<float> sites;
+    Waves<float> waves;
+};
+/// Normally distributed, independent at each site and along each component it has.
+SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt19937_64& random,
+                                         double size);
 
 /// 64 bits that differ if any bit of any displacement, velocity or the top differs. Collective; the
 /// same on every rank, and for any number of them.
