@@ -175,7 +175,7 @@ private:
         done[Effect::relaxation].calls += path_.iterations();
         done[Effect::relaxation].bytes = block_->bytes() + path_.bytes();
         const long long iterations = done[Effect::relaxation].calls;
-        if (setup_.effects.on(Effect::lateral))
+        if (!scene_.interface.frictionless)
             done[Effect::lateral] = {iterations, 2 * block_->bytes() / 3};
         done[Effect::coarse_levels] = {block_->coarse_bytes() > 0 ? iterations : 0,
                                        block_->coarse_bytes()};

@@ -7,7 +7,8 @@
 // energy is anything but a bowl. Here the direction is that of limited-memory BFGS (Nocedal, Math.
 // Comp. 35, 773, 1980) preconditioned with (S(q) + k)^-1, k about the interface's stiffness of a
 // site: with it long and short waves relax alike. Each site is moved by max_move at most, whatever
-// the others do. An iteration costs one sweep of the interface and six to nine real transforms.
+// the others do. An iteration costs one sweep of the interface and six real transforms, three
+// more where a site was held back.
 //
 // Then the contacts are made, and what is left is to solve a smooth problem with soft spots. Here
 // the direction is Newton's. The substrate is rigid, so the interface's Hessian is a map of 3 x 3
