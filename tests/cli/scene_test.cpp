@@ -62,6 +62,7 @@ TEST(Scene, DefaultsAreThePapers) {
         {"interface.r0", "3.28"},
         {"interface.cutoff", "13.12"},
         {"interface.tail", "false"},
+        {"interface.frictionless", "false"},
         {"drive.mode", "\"dynamic\""},
         {"drive.path", "[\"approach\", \"pull-off\"]"},
         {"drive.velocity", "5.0"},
