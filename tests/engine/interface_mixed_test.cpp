@@ -44,7 +44,8 @@ Surface rough(int sites, double length, double amplitude, double level, unsigned
 }
 
 struct Compared {
-    double force = 0.0;  ///< worst error of a component, of the site's largest pair force
+    double force =
+        0.0; ///< worst error of a component, of the nearest pair's force and the scale below
     double energy = 0.0; ///< error of the total, of the sum of the sizes of the sites' energies
     bool same_counts = true;
 };
