@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -321,6 +322,14 @@ int registries(int sites, int substrate_sites) {
 }
 
 } // namespace
+
+ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks) {
+    std::array<std::int64_t, 2> counts = {sums.in_contact, sums.pushed};
+    ranks.sum(counts);
+    std::array<double, 1> nearest = {-sums.closest_r2};
+    ranks.max(nearest);
+    return {counts[0], counts[1], std::sqrt(-nearest[0])};
+}
 
 PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
                       int substrate_sites, double gap) {

@@ -16,6 +16,7 @@
 // no pair is ever missed and no table is ever rebuilt.
 #pragma once
 
+#include "decomposition/communicator.hpp"
 #include "decomposition/field.hpp"
 #include "decomposition/tile.hpp"
 #include "engine/surface.hpp"
@@ -45,6 +46,14 @@ struct FlatReference {
     double tension_separation = 0.0; ///< where the tension is largest, Å
     double stiffness = 0.0;          ///< U'' / A at the minimum, eV/Å^4
 };
+
+/// Contacts over all tiles.
+struct ContactCount {
+    long long in_contact = 0, pushed = 0; ///< sites
+    double closest = 0.0;                 ///< smallest pair distance, Å; infinite out of reach
+};
+/// From the sums of this rank's tile. Collective.
+ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks);
 
 /// Maps over the tile's sites, [y * nx + x].
 struct InterfaceMaps {

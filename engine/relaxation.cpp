@@ -242,13 +242,10 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
     state.elastic_energy = values[2];
     state.mean_height =
         values[3] / (static_cast<double>(block.options().sites) * block.options().sites);
-    std::array<std::int64_t, 2> counts = {sums.in_contact, sums.pushed};
-    block.communicator().sum(counts);
-    state.in_contact = counts[0];
-    state.pushed = counts[1];
-    std::array<double, 1> closest = {-sums.closest_r2};
-    block.communicator().max(closest);
-    state.closest = std::sqrt(-closest[0]);
+    const ContactCount contacts = count_contacts(sums, block.communicator());
+    state.in_contact = contacts.in_contact;
+    state.pushed = contacts.pushed;
+    state.closest = contacts.closest;
     return state;
 }
 

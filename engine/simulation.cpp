@@ -114,16 +114,13 @@ void Simulation::keep_books() {
     record_.top_force = top_force;
     if (!record_.observed) return;
 
-    std::array<std::int64_t, 2> counts = {interface_sums_.in_contact, interface_sums_.pushed};
-    communicator().sum(counts);
-    std::array<double, 1> closest = {-interface_sums_.closest_r2};
-    communicator().max(closest);
+    const ContactCount contacts = count_contacts(interface_sums_, communicator());
     record_.interface_energy = lj;
     record_.elastic_energy = elastic;
     record_.kinetic_energy = kinetic;
-    record_.in_contact = counts[0];
-    record_.pushed = counts[1];
-    record_.closest = std::sqrt(-closest[0]);
+    record_.in_contact = contacts.in_contact;
+    record_.pushed = contacts.pushed;
+    record_.closest = contacts.closest;
     if (!energy_at_start_) {
         energy_at_start_ = lj + elastic + kinetic;
         work_at_start_ = ledger_.work();

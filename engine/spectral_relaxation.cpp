@@ -220,13 +220,10 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     state.top_force = block.top_force();
     state.elastic_energy = block.elastic_energy();
     state.mean_height = block.mean_height();
-    std::array<std::int64_t, 2> counts = {sums.in_contact, sums.pushed};
-    block.communicator().sum(counts);
-    state.in_contact = counts[0];
-    state.pushed = counts[1];
-    std::array<double, 1> closest = {-sums.closest_r2};
-    block.communicator().max(closest);
-    state.closest = std::sqrt(-closest[0]);
+    const ContactCount contacts = count_contacts(sums, block.communicator());
+    state.in_contact = contacts.in_contact;
+    state.pushed = contacts.pushed;
+    state.closest = contacts.closest;
     return state;
 }
 

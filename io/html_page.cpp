@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/html_page.hpp"
 
+#include "io/markup.hpp"
+
 #include <fmt/format.h>
 
 namespace asperity::io {
@@ -140,26 +142,9 @@ for (const svg of document.querySelectorAll('svg.plot')) {
 }
 )js";
 
-std::string escape(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
-
 /// Escaped, with its subscripts.
 std::string set(const std::string& text) {
-    std::string out = escape(text);
+    std::string out = escape_markup(text);
     for (std::size_t open = 0; (open = out.find("_{", open)) != std::string::npos;) {
         const std::size_t close = out.find('}', open);
         if (close == std::string::npos) break;
@@ -188,7 +173,7 @@ void HtmlPage::paragraph(const std::string& text) {
 
 void HtmlPage::notice(const std::string& heading, const std::string& text) {
     body_ += fmt::format("<div class=\"notice\"><h3>{}</h3><p>{}</p></div>\n", set(heading),
-                         escape(text));
+                         escape_markup(text));
 }
 
 void HtmlPage::key_numbers(const std::vector<KeyNumber>& numbers) {
@@ -212,7 +197,7 @@ void HtmlPage::list(const std::string& heading, const std::vector<std::string>& 
 void HtmlPage::figure(const std::string& svg, const std::string& caption,
                       const std::string& files) {
     body_ += fmt::format("<figure>{}<figcaption>{}{}</figcaption></figure>\n", svg, set(caption),
-                         files.empty() ? "" : fmt::format(" <i>[{}]</i>", escape(files)));
+                         files.empty() ? "" : fmt::format(" <i>[{}]</i>", escape_markup(files)));
 }
 
 void HtmlPage::table(const std::vector<std::string>& heads,
@@ -241,7 +226,7 @@ void HtmlPage::bars(const std::vector<Bar>& bars) {
 }
 
 void HtmlPage::preformatted(const std::string& text) {
-    body_ += fmt::format("<pre>{}</pre>\n", escape(text));
+    body_ += fmt::format("<pre>{}</pre>\n", escape_markup(text));
 }
 
 std::string HtmlPage::text() const {
@@ -255,8 +240,8 @@ std::string HtmlPage::text() const {
         "<style>{}</style>\n</head>\n<body>\n<main>\n"
         "<header><p class=\"kicker\">{}</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n"
         "<nav>\n{}</nav></header>\n{}</main>\n<script>{}</script>\n</body>\n</html>\n",
-        escape(title_ + " · " + kicker_), style, set(kicker_), set(title_), set(lead_), contents,
-        body_, script);
+        escape_markup(title_ + " · " + kicker_), style, set(kicker_), set(title_), set(lead_),
+        contents, body_, script);
 }
 
 } // namespace asperity::io

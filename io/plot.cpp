@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/plot.hpp"
 
+#include "io/markup.hpp"
 #include "io/result.hpp"
 #include "io/table.hpp"
 
@@ -26,23 +27,6 @@ constexpr double letter = 0.56;      // mean width of one, in font sizes
 constexpr double legend_line = 20.0; // pixels
 constexpr double sample = 30.0;      // length of the line shown in the legend
 
-std::string escape(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
-
 /// "h_{rms} (Å)" with its subscripts.
 std::string marked_up(const std::string& text) {
     std::string out;
@@ -50,7 +34,8 @@ std::string marked_up(const std::string& text) {
     bool lowered = false; // the baseline is still that of a subscript
     const auto body = [&](const std::string& part) {
         if (part.empty()) return;
-        out += lowered ? "<tspan dy=\"-4\">" + escape(part) + "</tspan>" : escape(part);
+        out +=
+            lowered ? "<tspan dy=\"-4\">" + escape_markup(part) + "</tspan>" : escape_markup(part);
         lowered = false;
     };
     for (;;) {
@@ -62,7 +47,7 @@ std::string marked_up(const std::string& text) {
         }
         body(text.substr(at, open - at));
         out += fmt::format("<tspan dy=\"{}\" font-size=\"{}\">{}</tspan>", lowered ? 0 : 4,
-                           font - 3, escape(text.substr(open + 2, close - open - 2)));
+                           font - 3, escape_markup(text.substr(open + 2, close - open - 2)));
         lowered = true;
         at = close + 1;
     }
@@ -188,7 +173,7 @@ public:
             fmt::format("<title>{3}</title>\n"
                         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\" class=\"paper\"/>\n",
                         plot_.width, height_, font,
-                        escape(plain(plot_.title.empty() ? plot_.y_label : plot_.title)));
+                        escape_markup(plain(plot_.title.empty() ? plot_.y_label : plot_.title)));
         axes();
         out_ += fmt::format("<clipPath id=\"{}\"><rect x=\"{:.1f}\" y=\"{:.1f}\" "
                             "width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n",
@@ -287,7 +272,8 @@ private:
     void marker(double x, double y, const PlotSeries& s, std::size_t tint, bool in_legend) {
         const bool ring = s.style == PlotSeries::Style::rings;
         const std::string more =
-            in_legend ? " sample\"" : fmt::format("\" data-label=\"{}\"", escape(plain(s.label)));
+            in_legend ? " sample\""
+                      : fmt::format("\" data-label=\"{}\"", escape_markup(plain(s.label)));
         out_ +=
             fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"{}\" "
                         "stroke=\"{}\" stroke-width=\"{}\" class=\"{}{}{}/>\n",
@@ -321,9 +307,9 @@ private:
             drawing = there;
         }
         if (!path.empty())
-            out_ +=
-                fmt::format("<path d=\"{}\" stroke=\"{}\" class=\"c{}\" data-label=\"{}\"{}/>\n",
-                            path, palette[tint], tint, escape(plain(s.label)), dashes(s.style));
+            out_ += fmt::format(
+                "<path d=\"{}\" stroke=\"{}\" class=\"c{}\" data-label=\"{}\"{}/>\n", path,
+                palette[tint], tint, escape_markup(plain(s.label)), dashes(s.style));
     }
 
     /// Whether a curve passes through the box: its samples, and its lines every few pixels.
