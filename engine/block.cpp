@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/block.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -181,190 +179,6 @@ void Block::interpolate() {
     }
 }
 
-Kick Block::kick(const Level& level, int z, const StepPlan& plan) const {
-    const double m = level.mass(z);
-    const double depth = level.depth + z * static_cast<double>(1 << level.plan.level);
-    const bool damped = plan.damping > 0.0 && depth >= plan.damping_from * options_.thickness;
-    const double g = damped ? 0.5 * plan.damping * plan.dt : 0.0;
-    Kick kick;
-    kick.keep = (1.0 - g) / (1.0 + g);
-    kick.kick = plan.dt / m / (1.0 + g);
-    kick.drag_z = 2.0 * g * plan.medium_velocity / (1.0 + g);
-    kick.half_mass = 0.5 * m;
-    kick.medium_z = plan.medium_velocity;
-    kick.damped = damped;
-    kick.observed = plan.observe;
-    kick.drag = m * plan.damping * plan.dt;
-    return kick;
-}
-
-namespace {
-
-/// Rows are handed to threads in bands.
-constexpr int band = 8;
-
-/// Below this many nodes a level's work is done sooner than threads are woken.
-constexpr long long worth_threads = 8192;
-
-} // namespace
-
-namespace {
-
-/// Rows [begin, end) of a tile.
-struct Rows {
-    int begin, end;
-};
-
-/// The share of this thread: whole bands, next to each other.
-Rows rows_of_thread(int ny) {
-    const int bands = (ny + band - 1) / band;
-    const auto cut = [&](int thread) {
-        return std::min(ny, band * (bands * thread / omp_get_num_threads()));
-    };
-    return {cut(omp_get_thread_num()), cut(omp_get_thread_num() + 1)};
-}
-
-} // namespace
-
-/// Level by level from below: work on all bands of all moving planes; then the force on the upper
-/// plane, which goes to the level above as its incoming force, or is the top plane's. Planes of a
-/// band are done one after the other, while they are in the cache.
-template <class Work>
-void Block::sweep(const Work& work) {
-    const ElasticKernels& kernels = elastic_kernels();
-    for (std::size_t l = 0; l < levels_.size(); ++l) {
-        Level& level = levels_[l];
-        const auto u = std::as_const(level.u).view();
-        const auto upper = level.upper_force.plane(0);
-        const int cells = level.plan.cells, nx = level.tile.nx, ny = level.tile.ny;
-#pragma omp parallel if (static_cast <long long>(nx) * ny * cells > worth_threads)
-        {
-            typename Work::Sums mine;
-            const Rows share = rows_of_thread(ny);
-            for (int y0 = share.begin; y0 < share.end; y0 += band) {
-                const Rows rows = {y0, std::min(share.end, y0 + band)};
-                for (int z = 0; z < cells; ++z) {
-                    const Following next = z + 1 < cells          ? Following{z + 1, y0}
-                                           : rows.end < share.end ? Following{0, rows.end}
-                                                                  : Following{z, y0};
-                    work(level, u, z, rows, next, mine);
-                    if (z > 0) work.leave(level, z - 1, rows, share);
-                }
-                // One node beyond the tile on each side: the coarse nodes inside reach that far.
-                kernels.force(u, cells, level.upper,
-                              {-1, nx + 1, y0 == 0 ? -1 : y0, rows.end == ny ? ny + 1 : rows.end},
-                              upper);
-                work.leave(level, cells - 1, rows, share);
-            }
-#pragma omp barrier
-            work.finish(level, share);
-#pragma omp critical(asperity_block_sums)
-            work.merge(level, mine);
-        }
-        if (l + 1 < levels_.size()) hand_up(l);
-    }
-}
-
-void Block::hand_up(std::size_t l) {
-    const auto force = std::as_const(levels_[l].upper_force).plane(0);
-    const Level& coarse = levels_[l + 1];
-    const auto in = levels_[l + 1].incoming.plane(0);
-    // A fine level held whole feeds the whole coarse one on every rank alike.
-    const Tile mine =
-        levels_[l].tiled ? grid_.footprint(coarse.plan.level, grid_.rank()) : coarse.tile;
-    const int x0 = mine.x0 - coarse.tile.x0, y0 = mine.y0 - coarse.tile.y0;
-#pragma omp parallel for schedule(static) if (static_cast <long long>(mine.nx) * mine.ny >         \
-                                              worth_threads)
-    for (int y = y0; y < y0 + mine.ny; ++y) {
-        const auto& restrict_forces = transfer_kernels().restrict_forces;
-        restrict_forces(seam(l), force.x, in.x, y, x0, mine.nx);
-        restrict_forces(seam(l), force.y, in.y, y, x0, mine.nx);
-        restrict_forces(seam(l), force.z, in.z, y, x0, mine.nx);
-    }
-    if (levels_[l].tiled && !coarse.tiled) {
-        const std::array planes = {in.x, in.y, in.z};
-        gather_footprints(communicator_, grid_, coarse.plan.level, planes);
-    }
-}
-
-namespace {
-
-/// Kick, and drift behind it in place: a row moves on when the forces on the rows and planes around
-/// it are done. The outermost rows of a thread's share are needed by its neighbours and wait for
-/// them.
-template <class Coefficients>
-struct Advance {
-    using Sums = KickSums;
-    const Block& block;
-    const Coefficients& coefficients; ///< of a plane of a level
-    double dt;
-    KickSums& total;
-
-    void operator()(Block::Level& level, const VectorVolume<const double>& u, int z, Rows rows,
-                    Following next, KickSums& sums) const {
-        const Kick kick = coefficients(level, z);
-        elastic_kernels().kick(u, z, level.stencil(z), rows.begin, rows.end,
-                               std::as_const(level.incoming).plane(0), kick, next, level.v.view(),
-                               sums);
-        const long long nodes = static_cast<long long>(level.tile.nx) * (rows.end - rows.begin);
-        sums.nodes += nodes;
-        if (kick.damped) sums.damped += nodes;
-    }
-    /// Forces on planes z and z + 1 of a band are done: the rows that only they were waiting for.
-    void leave(Block::Level& level, int z, Rows rows, Rows share) const {
-        drift(level, z, {std::max(rows.begin - 1, share.begin + 1), rows.end - 1});
-    }
-    /// Forces of all threads are done.
-    void finish(Block::Level& level, Rows share) const {
-        for (int z = 0; z < level.plan.cells; ++z) {
-            drift(level, z, {share.begin, std::min(share.begin + 1, share.end)});
-            drift(level, z, {std::max(share.end - 1, share.begin + 1), share.end});
-        }
-    }
-    void merge(const Block::Level& level, const KickSums& sums) const {
-        if (block.counts(level)) total.merge(sums);
-    }
-
-private:
-    void drift(Block::Level& level, int z, Rows rows) const {
-        elastic_kernels().drift(std::as_const(level.v).plane(z), dt, rows.begin, rows.end,
-                                level.u.plane(z));
-    }
-};
-
-/// Forces kept.
-struct Keep {
-    struct Sums {};
-    std::vector<VectorField<double>>& out;
-
-    void operator()(Block::Level& level, const VectorVolume<const double>& u, int z, Rows rows,
-                    Following, Sums&) const {
-        const auto f = out[static_cast<std::size_t>(level.plan.level)].plane(z);
-        elastic_kernels().force(u, z, level.stencil(z), {0, level.tile.nx, rows.begin, rows.end},
-                                f);
-        if (z > 0) return;
-        const auto incoming = std::as_const(level.incoming).plane(0);
-        for (int y = rows.begin; y < rows.end; ++y)
-            for (int x = 0; x < level.tile.nx; ++x) {
-                f.x(x, y) += incoming.x(x, y);
-                f.y(x, y) += incoming.y(x, y);
-                f.z(x, y) += incoming.z(x, y);
-            }
-    }
-    void leave(Block::Level&, int, Rows, Rows) const {}
-    void finish(Block::Level&, Rows) const {}
-    void merge(const Block::Level&, const Sums&) const {}
-};
-
-} // namespace
-
-void Block::advance(const StepPlan& plan, KickSums& sums) {
-    const auto coefficients = [&](const Level& level, int z) { return kick(level, z, plan); };
-    sweep(Advance<decltype(coefficients)>{*this, coefficients, plan.dt, sums});
-}
-
-void Block::forces(std::vector<VectorField<double>>& out) { sweep(Keep{out}); }
-
 void Block::exchange() {
     std::vector<HaloField> fields;
     fields.reserve(3 * levels_.size());
@@ -392,9 +206,14 @@ void Block::add_elastic_energy(ExactSum& sum) const {
             const int ny = level.tile.ny;
 #pragma omp for schedule(static) nowait
             for (int y0 = 0; y0 < ny; y0 += band)
-                for (int z = 0; z < level.plan.cells; ++z)
-                    kernels.energy(level.u.view(), z, level.elasticity, y0, std::min(ny, y0 + band),
-                                   mine);
+                for (int z = 0; z < level.plan.cells; ++z) {
+                    const int y1 = std::min(ny, y0 + band);
+                    if (options_.finite_strain)
+                        finite_kernels().energy(level.u.view(), z,
+                                                level.finite_cell(options_.spacing), y0, y1, mine);
+                    else
+                        kernels.energy(level.u.view(), z, level.elasticity, y0, y1, mine);
+                }
         }
 #pragma omp critical(asperity_block_sums)
         sum.merge(mine);
@@ -414,8 +233,15 @@ void Block::add_lowest_z(ExactSum& sum) const {
     }
 }
 
-std::size_t Block::bytes() const {
+std::size_t Block::finite_bytes() const {
     std::size_t total = 0;
+    for (const VectorField<double>& planes : scratch_)
+        total += planes.bytes();
+    return total;
+}
+
+std::size_t Block::bytes() const {
+    std::size_t total = finite_bytes();
     for (const Level& level : levels_)
         total += level.bytes();
     return total;

@@ -25,7 +25,7 @@
 #include "decomposition/field.hpp"
 #include "decomposition/halo_exchange.hpp"
 #include "decomposition/process_grid.hpp"
-#include "kernels/elastic_cell.hpp"
+#include "kernels/elastic_finite.hpp"
 #include "kernels/level_transfer.hpp"
 
 #include <vector>
@@ -41,6 +41,7 @@ struct BlockOptions {
     int thickness = 512;    ///< cells of edge a
     int layers_per_level = 4;
     bool multiscale = true;
+    bool finite_strain = false;
 
     double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
     double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
@@ -77,6 +78,13 @@ enum class Motion { in_time, at_rest };
 
 class Block {
 public:
+    /// Rows [begin, end) of a tile.
+    struct Rows {
+        int begin, end;
+    };
+    /// Rows are handed to threads in bands of so many.
+    static constexpr int band = 8;
+
     struct Level {
         LevelPlan plan;
         Tile tile;
@@ -91,6 +99,7 @@ public:
 
         std::size_t bytes() const;
         double edge(double a) const { return a * (1 << plan.level); }
+        FiniteCell finite_cell(double a) const { return {edge(a), elasticity}; }
         /// Mass of a node of plane z, eV fs^2/Å^2.
         double mass(int z) const;
         const Stencil& stencil(int z) const {
@@ -138,8 +147,13 @@ public:
     /// Of these, what only a path in time needs.
     std::size_t motion_bytes() const;
     /// Of these, what lies in levels coarser than the first.
-    std::size_t coarse_bytes() const { return bytes() - levels_.front().bytes(); }
-    /// The same three numbers, without making the block.
+    std::size_t coarse_bytes() const { return bytes() - levels_.front().bytes() - finite_bytes(); }
+    /// Of these, what a path in time at finite strain needs: nothing before its first step.
+    std::size_t finite_bytes() const;
+    static std::size_t finite_bytes_for(const BlockOptions&, const ProcessGrid&, int threads);
+    /// Forces at finite strain so far, counted in nodes.
+    long long finite_nodes() const { return finite_nodes_; }
+    /// The first three numbers, without making the block.
     struct Memory {
         std::size_t bytes = 0, motion = 0, coarse = 0;
     };
@@ -156,10 +170,20 @@ private:
     HaloExchange halo_;
     std::vector<Level> levels_;
     double top_ = 0.0;
+    /// Forces at finite strain: of each thread, two planes of a band of rows.
+    std::vector<VectorField<double>> scratch_;
+    long long finite_nodes_ = 0;
 
+    static Tile scratch_tile(const ProcessGrid& grid, int levels);
     LevelSeam seam(std::size_t fine) const;
     template <class Work>
     void sweep(const Work& work);
+    template <class Work>
+    void sweep_band(Level& level, Rows rows, Rows share, const Work& work,
+                    typename Work::Sums& sums);
+    template <class Work>
+    void sweep_finite_band(Level& level, Rows rows, Rows share, const Work& work,
+                           typename Work::Sums& sums);
     void hand_up(std::size_t fine);
     Kick kick(const Level& level, int z, const StepPlan& plan) const;
 };

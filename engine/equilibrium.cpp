@@ -51,6 +51,7 @@ public:
     }
     std::size_t bytes() const override { return block_.bytes(); }
     std::size_t coarse_bytes() const override { return block_.coarse_bytes(); }
+    long long finite_nodes() const override { return block_.finite_nodes(); }
 
 private:
     Block block_;
@@ -94,6 +95,7 @@ public:
         return block_.bytes() + spectral_relaxation_bytes(block_);
     }
     std::size_t coarse_bytes() const override { return 0; }
+    long long finite_nodes() const override { return 0; }
 
 private:
     SpectralBlock block_;

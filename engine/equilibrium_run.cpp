@@ -177,6 +177,7 @@ private:
         const long long iterations = done[Effect::relaxation].calls;
         if (!scene_.interface.frictionless)
             done[Effect::lateral] = {iterations, 2 * block_->bytes() / 3};
+        done[Effect::finite_strain] = {block_->finite_nodes(), 0};
         done[Effect::coarse_levels] = {block_->coarse_bytes() > 0 ? iterations : 0,
                                        block_->coarse_bytes()};
         done[Effect::observation] = {static_cast<long long>(recorder_->rows()), 0};

@@ -59,6 +59,8 @@ private:
         done[Effect::lateral] = {work.steps, 2 * simulation_.block().bytes() / 3};
         done[Effect::damping] = {work.damped, 0};
         done[Effect::temperature] = {phases[Phase::thermostat].calls, 0};
+        done[Effect::finite_strain] = {simulation_.block().finite_nodes(),
+                                       simulation_.block().finite_bytes()};
         done[Effect::coarse_levels] = {phases[Phase::interpolate].calls,
                                        simulation_.block().coarse_bytes()};
         done[Effect::relaxation].bytes = relaxation_bytes_;

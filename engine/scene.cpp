@@ -328,6 +328,10 @@ void check_scene(const Scene& scene, io::Problems& problems) {
     if (surface.kind == SurfaceKind::file && surface.rms_given && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
+    if (scene.block.strain == Strain::finite && scene.block.model == BlockModel::spectral)
+        problems.add("block.strain", "= \"finite\" with block.model = \"spectral\"",
+                     "the spectral block adds up waves, and at finite strain waves do not add up",
+                     "take block.model = \"multiscale\" or \"lattice\", or strain = \"linear\"");
     if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
         problems.add("drive.damping_from",
                      fmt::format("= {:.6g} with a temperature", drive.damping_from),
@@ -367,8 +371,6 @@ void not_yet(const Scene& scene, io::Problems& problems) {
         refuse("block.model", "\"spectral\" on a path in time",
                "use drive.mode = \"quasistatic\", or \"multiscale\" (\"lattice\" is the "
                "reference)");
-    if (scene.block.strain == Strain::finite)
-        refuse("block.strain", "\"finite\"", "use \"linear\"");
     const auto parts = static_cast<std::size_t>(
         std::count(scene.drive.path.begin(), scene.drive.path.end(), PathPart::approach));
     if (parts > 1 && !scene.without_time())

@@ -75,6 +75,7 @@ Setup make_setup(const Scene& scene, int ranks) {
     block.thickness = scene.block.thickness;
     block.layers_per_level = scene.block.layers_per_level;
     block.multiscale = on(Effect::coarse_levels);
+    block.finite_strain = on(Effect::finite_strain);
     setup.levels = plan_levels(block);
 
     InterfaceOptions& interface = setup.simulation.interface;

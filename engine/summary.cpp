@@ -16,14 +16,16 @@ std::string levels_text(const Scene& scene, const Setup& setup) {
     if (scene.block.model == BlockModel::spectral)
         return "the lattice's static answer, wave by wave";
     const auto& levels = setup.levels;
-    if (levels.size() == 1) return fmt::format("one lattice of {} layers", levels.front().cells);
+    const char* strain = scene.block.strain == Strain::finite ? "; finite strain" : "";
+    if (levels.size() == 1)
+        return fmt::format("one lattice of {} layers{}", levels.front().cells, strain);
     long long nodes = 0;
     for (const LevelPlan& l : levels)
         nodes += static_cast<long long>(l.sites) * l.sites * l.cells;
     const auto& block = setup.simulation.block;
     const double all = static_cast<double>(block.sites) * block.sites * block.thickness;
-    return fmt::format("{} levels, {:.3g} nodes stand for {:.3g} atoms", levels.size(),
-                       static_cast<double>(nodes), all);
+    return fmt::format("{} levels, {:.3g} nodes stand for {:.3g} atoms{}", levels.size(),
+                       static_cast<double>(nodes), all, strain);
 }
 
 std::string surface_text(const Scene& scene, const Surface& surface) {

@@ -1,13 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The springs and signs of one cubic cell, shared by the energy kernels.
+// The springs and signs of one cubic cell, shared by the energy kernels and the scalar cells.
 #pragma once
+
+#include "kernels/annotations.hpp"
 
 namespace asperity {
 
 /// Corner p of a cell: bit 0 is x, bit 1 is y, bit 2 is z.
-constexpr int corner_sign(int corner, int axis) { return (corner >> axis & 1) ? 1 : -1; }
+ASPERITY_HOST_DEVICE constexpr int corner_sign(int corner, int axis) {
+    return (corner >> axis & 1) ? 1 : -1;
+}
+/// Along how many axes two corners differ: 1 edge, 2 face diagonal, 3 body diagonal.
+ASPERITY_HOST_DEVICE constexpr int axes_between(int a, int b) {
+    const int bits = a ^ b;
+    return (bits & 1) + (bits >> 1 & 1) + (bits >> 2 & 1);
+}
 
 struct Spring {
     int from, to;   ///< corners
@@ -24,9 +33,9 @@ struct CellSprings {
             for (int b = a + 1; b < 8; ++b) {
                 const int d[3] = {(b & 1) - (a & 1), (b >> 1 & 1) - (a >> 1 & 1),
                                   (b >> 2 & 1) - (a >> 2 & 1)};
-                const int length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-                if (length2 == 3) continue;
-                spring[n++] = {a, b, d[0], d[1], d[2], length2 == 2};
+                const int axes = axes_between(a, b);
+                if (axes == 3) continue;
+                spring[n++] = {a, b, d[0], d[1], d[2], axes == 2};
             }
     }
 };

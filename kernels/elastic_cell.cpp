@@ -3,6 +3,7 @@
 #include "kernels/elastic_cell.hpp"
 
 #include "kernels/cell_geometry.hpp"
+#include "kernels/kick.hpp"
 #include "kernels/simd.hpp"
 
 namespace asperity::ASPERITY_VARIANT {
@@ -127,10 +128,6 @@ ASPERITY_INLINE ColumnParts column_parts(const VectorVolume<const double>& u, st
     return {parts(cx, ex, ox), parts(cy, ey, oy), parts(cz, ez, oz)};
 }
 
-struct Force {
-    V x, y, z;
-};
-
 /// Calls use(x, force) for the packs that cover [x0, x1) of a row; packs start at multiples of the
 /// width, so lanes outside may come along.
 template <Face face, class Use>
@@ -145,8 +142,8 @@ ASPERITY_INLINE void sweep_row(const VectorVolume<const double>& u, std::ptrdiff
     };
     for (; x < x1; x += V::width) {
         const ColumnParts behind = column_parts<face>(u, line + x + V::width, s);
-        use(x, Force{join(before.x, here.x, behind.x), join(before.y, here.y, behind.y),
-                     join(before.z, here.z, behind.z)});
+        use(x, PackVector{join(before.x, here.x, behind.x), join(before.y, here.y, behind.y),
+                          join(before.z, here.z, behind.z)});
         before = here;
         here = behind;
     }
@@ -157,25 +154,11 @@ void force_patch(const VectorVolume<const double>& u, int z, const Stencil& s, P
                  const VectorPlane<double>& out) {
     for (int y = patch.y0; y < patch.y1; ++y)
         sweep_row<face>(u, z * u.x.plane + y * u.x.row, patch.x0, patch.x1, s,
-                        [&](int x, const Force& f) {
+                        [&](int x, const PackVector& f) {
                             f.x.store_lanes(out.x.line(y) + x, patch.x0 - x, patch.x1 - x);
                             f.y.store_lanes(out.y.line(y) + x, patch.x0 - x, patch.x1 - x);
                             f.z.store_lanes(out.z.line(y) + x, patch.x0 - x, patch.x1 - x);
                         });
-}
-
-/// 0, 1, 2, ... as a pack: to switch off lanes behind the end of a row.
-ASPERITY_INLINE V lane_numbers() {
-    double lane[V::width];
-    for (int i = 0; i < V::width; ++i)
-        lane[i] = i;
-    return V::load(lane);
-}
-
-ASPERITY_INLINE void collect(const BasicExactSum<V>& lanes, ExactSum& into) {
-    for (int k = 0; k < ExactSum::bins; ++k)
-        for (int i = 0; i < V::width; ++i)
-            into.bin[k] += lanes.bin[k][i];
 }
 
 /// Calls what a place will need into the second cache, a line of each array at a time.
@@ -218,11 +201,10 @@ void kick_rows(const VectorVolume<const double>& u, int z, const Stencil& s, int
     const int nx = u.x.nx;
     const auto place = [&](int plane, int y) { return plane * u.x.plane + y * u.x.row; };
     const Fetch fetch(u, v, place(z, y0), place(next.z, next.y), next.z == 0);
-    const V keep(plan.keep), kick(plan.kick), drag(plan.drag_z);
-    [[maybe_unused]] BasicExactSum<V> kinetic, dissipated, dragged;
+    Kicker<damped, observed> kicker(plan, v);
     for (int y = y0; y < y1; ++y) {
         const auto line = place(z, y);
-        sweep_row<face>(u, line, 0, nx, s, [&](int x, Force f) {
+        sweep_row<face>(u, line, 0, nx, s, [&](int x, PackVector f) {
             const auto at = line + x;
             fetch(at);
             if constexpr (with_incoming) {
@@ -230,54 +212,10 @@ void kick_rows(const VectorVolume<const double>& u, int z, const Stencil& s, int
                 f.y = f.y + V::load(incoming.y.line(y) + x);
                 f.z = f.z + V::load(incoming.z.line(y) + x);
             }
-            const V old_x = V::load(v.x.origin + at);
-            const V old_y = V::load(v.y.origin + at);
-            const V old_z = V::load(v.z.origin + at);
-            V new_x, new_y, new_z;
-            if constexpr (damped) {
-                new_x = fma(kick, f.x, keep * old_x);
-                new_y = fma(kick, f.y, keep * old_y);
-                new_z = fma(kick, f.z, fma(keep, old_z, drag));
-            } else {
-                new_x = fma(kick, f.x, old_x);
-                new_y = fma(kick, f.y, old_y);
-                new_z = fma(kick, f.z, old_z);
-            }
-            const int count = nx - x;
-            new_x.store_first(v.x.origin + at, count);
-            new_y.store_first(v.y.origin + at, count);
-            new_z.store_first(v.z.origin + at, count);
-            if constexpr (damped || observed) {
-                // Twice the velocity at the whole step; factors of two are exact.
-                const V wx = old_x + new_x, wy = old_y + new_y, wz = old_z + new_z;
-                const V zero(0.0);
-                [[maybe_unused]] V energy = zero, loss = zero, given = zero;
-                if constexpr (observed)
-                    energy = V(0.25 * plan.half_mass) * fma(wx, wx, fma(wy, wy, wz * wz));
-                if constexpr (damped) {
-                    const V rz = wz - V(2.0 * plan.medium_z);
-                    loss = V(0.25 * plan.drag) * fma(wx, wx, fma(wy, wy, rz * rz));
-                    given = V(0.5 * plan.drag) * rz;
-                }
-                if (count < V::width) {
-                    const auto inside = lane_numbers() < V(static_cast<double>(count));
-                    energy = select(inside, energy, zero);
-                    loss = select(inside, loss, zero);
-                    given = select(inside, given, zero);
-                }
-                if constexpr (observed) kinetic.add(energy);
-                if constexpr (damped) {
-                    dissipated.add(loss);
-                    dragged.add(given);
-                }
-            }
+            kicker(at, nx - x, f);
         });
     }
-    if constexpr (observed) collect(kinetic, sums.kinetic);
-    if constexpr (damped) {
-        collect(dissipated, sums.dissipated);
-        collect(dragged, sums.dragged);
-    }
+    kicker.add_to(sums);
 }
 
 void force(VectorVolume<const double> u, int z, const Stencil& s, Patch patch,

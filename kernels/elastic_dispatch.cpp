@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "kernels/elastic_cell.hpp"
+#include "kernels/elastic_finite.hpp"
 #include "kernels/level_transfer.hpp"
 #include "kernels/variant.hpp"
 
@@ -9,14 +9,17 @@ namespace asperity {
 #if ASPERITY_HAS_X86_VARIANTS
 namespace v2 {
 extern const ElasticKernels elastic_kernels;
+extern const FiniteKernels finite_kernels;
 extern const TransferKernels transfer_kernels;
 } // namespace v2
 namespace v3 {
 extern const ElasticKernels elastic_kernels;
+extern const FiniteKernels finite_kernels;
 extern const TransferKernels transfer_kernels;
 } // namespace v3
 namespace v4 {
 extern const ElasticKernels elastic_kernels;
+extern const FiniteKernels finite_kernels;
 extern const TransferKernels transfer_kernels;
 } // namespace v4
 const ElasticKernels& elastic_kernels() {
@@ -27,6 +30,16 @@ const ElasticKernels& elastic_kernels() {
         return v3::elastic_kernels;
     default:
         return v2::elastic_kernels;
+    }
+}
+const FiniteKernels& finite_kernels() {
+    switch (processor_level()) {
+    case ProcessorLevel::v4:
+        return v4::finite_kernels;
+    case ProcessorLevel::v3:
+        return v3::finite_kernels;
+    default:
+        return v2::finite_kernels;
     }
 }
 const TransferKernels& transfer_kernels() {
@@ -42,9 +55,11 @@ const TransferKernels& transfer_kernels() {
 #else
 namespace portable {
 extern const ElasticKernels elastic_kernels;
+extern const FiniteKernels finite_kernels;
 extern const TransferKernels transfer_kernels;
 } // namespace portable
 const ElasticKernels& elastic_kernels() { return portable::elastic_kernels; }
+const FiniteKernels& finite_kernels() { return portable::finite_kernels; }
 const TransferKernels& transfer_kernels() { return portable::transfer_kernels; }
 #endif
 

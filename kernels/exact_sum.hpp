@@ -22,14 +22,14 @@ namespace asperity {
 template <class V>
 struct BasicExactSum {
     static constexpr int bins = 2;
-    /// 1.5 * 2^(52 + exponent of the quantum).
-    static constexpr double shifter[bins] = {0x1.8p30, 0x1.8p2};
+    /// 1.5 * 2^(52 + exponent of the quantum). A function, for device code has no constant arrays.
+    ASPERITY_HOST_DEVICE static constexpr double shifter(int k) { return k ? 0x1.8p2 : 0x1.8p30; }
 
     V bin[bins] = {V(0.0), V(0.0)};
 
     ASPERITY_INLINE void add(V term) {
         for (int k = 0; k < bins; ++k) {
-            const V part = (term + V(shifter[k])) - V(shifter[k]);
+            const V part = (term + V(shifter(k))) - V(shifter(k));
             bin[k] = bin[k] + part;
             term = term - part;
         }

@@ -13,6 +13,7 @@
 #include "kernels/annotations.hpp"
 
 #include <cstddef>
+#include <type_traits>
 
 namespace asperity {
 
@@ -58,7 +59,7 @@ struct Vector3 {
     View x, y, z;
 
     template <class Other>
-    ASPERITY_HOST_DEVICE operator Vector3<Other>() const requires(!__is_same(Other, View)) {
+    ASPERITY_HOST_DEVICE operator Vector3<Other>() const requires(!std::is_same_v<Other, View>) {
         return {x, y, z};
     }
     ASPERITY_HOST_DEVICE auto operator[](int plane) const { // of a volume: the plane's components

@@ -85,6 +85,31 @@ BENCHMARK(kick_and_drift)
     ->ArgsProduct({{32, 64, 128, 256, 512}, {0, 1}})
     ->UseRealTime();
 
+/// The same at finite strain, with and without a dilatation term.
+void kick_and_drift_finite(benchmark::State& state) {
+    const int n = static_cast<int>(state.range(0)), layers = 4, band = Block::band;
+    const Tile tile{0, 0, n, n, n};
+    VectorField<double> u(tile, layers + 1), v(tile, layers), forces(tile, 2);
+    const FiniteCell cell{2.6, {0.441, state.range(1) != 0 ? 0.117 : 0.0}};
+    Kick kick;
+    kick.kick = 1e-6;
+    KickSums sums;
+    for (auto _ : state)
+        for (int y = 0; y < n; y += band)
+            for (int z = 0; z < layers; ++z) {
+                const Patch rows = {0, n, y, y + band};
+                const auto lower = forces.plane(z & 1), upper = forces.plane((z + 1) & 1);
+                finite_kernels().cells(std::as_const(u).view(), z, cell, rows, lower, rows, upper);
+                finite_kernels().kick(lower, z, y, y + band, kick, v.view(), sums);
+                elastic_kernels().drift(std::as_const(v).plane(z), 1e-3, y, y + band, u.plane(z));
+            }
+    count(state, static_cast<double>(n) * n * layers, 1);
+}
+BENCHMARK(kick_and_drift_finite)
+    ->ArgNames({"sites", "dilatation"})
+    ->ArgsProduct({{32, 64, 128, 256, 512}, {0, 1}})
+    ->UseRealTime();
+
 /// The paper's block: hanging planes, all levels, halos.
 void block_step(benchmark::State& state) {
     const int n = static_cast<int>(state.range(0)), threads = static_cast<int>(state.range(1));

@@ -5,7 +5,8 @@
 // that a relaxation finds. The run on one rank, in the same process, is the judge; so a wrong tile,
 // a stale halo or a sum that depends on its order shows at its first bit.
 //
-// Two stacks on 32 x 32 sites. Shallow: 4 + 4 + 5 cells; three ranks cut its lowest level alone (10
+// Two stacks on 32 x 32 sites, and their kin: warm, at finite strain, a plain lattice. Shallow: 4 +
+// 4 + 5 cells; three ranks cut its lowest level alone (10
 // + 11 + 11 rows, odd offsets) and hold the other two whole. Deep: five levels down to 2 x 2 nodes;
 // two and four ranks cut four of them and hold the last one whole.
 #include "support/cases.hpp"
@@ -31,14 +32,22 @@ struct Stack {
     const char* name;
     int thickness, layers;
     double temperature;
+    bool finite = false; ///< strain
 };
-constexpr Stack stacks[] = {
-    {"shallow", 32, 3, 0.0}, {"deep", 62, 2, 0.0}, {"warm", 32, 3, 300.0}, {"lattice", 6, 0, 0.0}};
+constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},      {"deep", 62, 2, 0.0},
+                            {"warm", 32, 3, 300.0},       {"lattice", 6, 0, 0.0},
+                            {"finite", 32, 3, 0.0, true}, {"finite lattice", 6, 0, 0.0, true}};
 void PrintTo(const Stack& s, std::ostream* out) { *out << s.name; }
+
+BlockOptions block_of(const Stack& stack) {
+    BlockOptions options = test::paper_block(32, stack.thickness, stack.layers);
+    options.finite_strain = stack.finite;
+    return options;
+}
 
 SimulationOptions options_of(const Stack& stack) {
     SimulationOptions options;
-    options.block = test::paper_block(32, stack.thickness, stack.layers);
+    options.block = block_of(stack);
     options.interface = test::paper_interface();
     options.drive.velocity = 1e-3; // 100 m/s: into contact within 300 steps
     options.drive.ramp = 500.0;
@@ -83,9 +92,9 @@ Trace run(const Stack& stack, const Communicator& ranks) {
 }
 
 Trace relaxation(const Stack& stack, const Communicator& ranks) {
-    const auto r = test::relax_from_attraction(
-        test::paper_block(32, stack.thickness, stack.layers), test::paper_interface(),
-        test::reference_surface("c4_N32_T16_rms3"), 1e-3, ranks);
+    const auto r =
+        test::relax_from_attraction(block_of(stack), test::paper_interface(),
+                                    test::reference_surface("c4_N32_T16_rms3"), 1e-3, ranks);
     Trace trace;
     trace.numbers = {r.binding_energy,
                      r.pairwise,

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Energy and forces of one cubic cell, straight from the definition (model.md section 5): scalar
+// functions for host and device. The reference loops call them on the host; on an accelerator a
+// thread a cell can.
+//
+// u[p][i] is component i of the displacement of corner p (bit 0 of p is x, bit 1 y, bit 2 z), Å;
+// f[p][i] the force on it, eV/Å, overwritten; what is returned is the cell's energy, eV.
+#pragma once
+
+#include "kernels/cell_geometry.hpp"
+#include "kernels/elastic_finite.hpp"
+
+#include <cmath>
+
+namespace asperity {
+
+/// Small strain: springs feel e.du, the dilatation term the trace of the mean gradient.
+ASPERITY_HOST_DEVICE inline double linear_cell(const double (&u)[8][3], const CellElasticity& c,
+                                               double (&f)[8][3]) {
+    double energy = 0.0, dilatation = 0.0; // 4 s theta
+    for (int p = 0; p < 8; ++p)
+        for (int i = 0; i < 3; ++i)
+            dilatation += corner_sign(p, i) * u[p][i];
+    energy += 0.5 * c.kappa * dilatation * dilatation;
+    for (int p = 0; p < 8; ++p)
+        for (int i = 0; i < 3; ++i)
+            f[p][i] = -c.kappa * dilatation * corner_sign(p, i);
+    for (int a = 0; a < 8; ++a)
+        for (int b = a + 1; b < 8; ++b) {
+            const int axes = axes_between(a, b);
+            if (axes == 3) continue; // no spring across the body
+            const double k = axes == 1 ? 0.25 * c.k : 0.5 * c.k;
+            double e[3], stretch = 0.0;
+            for (int i = 0; i < 3; ++i) {
+                e[i] = 0.5 * (corner_sign(b, i) - corner_sign(a, i)) / std::sqrt(double(axes));
+                stretch += e[i] * (u[b][i] - u[a][i]);
+            }
+            energy += 0.5 * k * stretch * stretch;
+            for (int i = 0; i < 3; ++i) {
+                f[a][i] += k * stretch * e[i];
+                f[b][i] -= k * stretch * e[i];
+            }
+        }
+    return energy;
+}
+
+/// Finite strain: springs feel their true length, the dilatation term det F - 1.
+ASPERITY_HOST_DEVICE inline double finite_cell(const double (&u)[8][3], const FiniteCell& c,
+                                               double (&f)[8][3]) {
+    double F[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    for (int p = 0; p < 8; ++p)
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                F[i][j] += corner_sign(p, j) * u[p][i] / (4.0 * c.edge);
+    double cofactor[3][3], det = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const int k = (i + 1) % 3, l = (i + 2) % 3, m = (j + 1) % 3, n = (j + 2) % 3;
+            cofactor[i][j] = F[k][m] * F[l][n] - F[k][n] * F[l][m];
+        }
+    for (int j = 0; j < 3; ++j)
+        det += F[0][j] * cofactor[0][j];
+    const double theta = det - 1.0;
+    // (lambda - mu) s^3 = 16 s^2 kappa; d theta / du_pi = sum_j cof_ij sigma_pj / (4s).
+    double energy = 8.0 * c.edge * c.edge * c.elasticity.kappa * theta * theta;
+    for (int p = 0; p < 8; ++p)
+        for (int i = 0; i < 3; ++i) {
+            double slope = 0.0;
+            for (int j = 0; j < 3; ++j)
+                slope += cofactor[i][j] * corner_sign(p, j);
+            f[p][i] = -4.0 * c.edge * c.elasticity.kappa * theta * slope;
+        }
+    for (int a = 0; a < 8; ++a)
+        for (int b = a + 1; b < 8; ++b) {
+            const int axes = axes_between(a, b);
+            if (axes == 3) continue;
+            const double k = axes == 1 ? 0.25 * c.elasticity.k : 0.5 * c.elasticity.k;
+            double r[3], square = 0.0;
+            for (int i = 0; i < 3; ++i) {
+                r[i] = 0.5 * c.edge * (corner_sign(b, i) - corner_sign(a, i)) + u[b][i] - u[a][i];
+                square += r[i] * r[i];
+            }
+            const double length = std::sqrt(square);
+            const double stretch = length - c.edge * std::sqrt(double(axes));
+            energy += 0.5 * k * stretch * stretch;
+            for (int i = 0; i < 3; ++i) {
+                f[a][i] += k * stretch * r[i] / length;
+                f[b][i] -= k * stretch * r[i] / length;
+            }
+        }
+    return energy;
+}
+
+} // namespace asperity

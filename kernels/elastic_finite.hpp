@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The elastic block at finite strain (model.md section 5): the same cells as elastic_cell.hpp, with
+// the springs' true lengths and the true volume,
+//
+//   U_cell = sum_edges 1/2 (k/4) (|r| - s)^2 + sum_face-diagonals 1/2 (k/2) (|r| - sqrt(2) s)^2
+//            + 1/2 (lambda - mu) s^3 theta^2,
+//   theta  = det F - 1,   F_ij = delta_ij + (1/4s) sum_corners sigma_pj u_pi,
+//
+// r the vector between a spring's ends. To second order in u this is the energy of
+// elastic_cell.hpp.
+//
+// A node pulled along r feels t r with t = k (1 - r0/|r|); a corner p feels
+//
+//   F_p = -4 s kappa theta cof(F) sigma_p,   kappa = (lambda - mu) s / 16.
+//
+// Each spring inside is shared by four cells (edges) or two (diagonals) and is computed once, at
+// full strength; those in a surface belong to half as many cells and have half the strength. A
+// cell owns the nine springs that leave its lower corner and cross the three faces there, so the
+// work goes cell row by cell row: of one row of cells, the forces on the four rows of nodes
+// around it, added to what the rows before gave. A node's force is therefore a sum in one order:
+// incoming force; cells below, then above; in each of these, cells at smaller y, then larger y.
+//
+// Forces on a plane are complete when the cells above it are done: the work goes plane by plane up
+// through a band of rows, and hands the forces begun on the plane above from one to the next. Rows
+// of cells on the border of two bands are done twice.
+#pragma once
+
+#include "kernels/elastic_cell.hpp"
+
+namespace asperity {
+
+/// A level's cell at finite strain.
+struct FiniteCell {
+    double edge = 0.0;         ///< s, Å
+    CellElasticity elasticity; ///< as for small strain
+};
+
+/// The functions compiled for one processor level.
+struct FiniteKernels {
+    /// The cells between planes z and z + 1: adds to the forces on nodes of plane z, and begins
+    /// (overwrites) those on nodes of plane z + 1.
+    void (*cells)(VectorVolume<const double> u, int z, const FiniteCell&, Patch lower_nodes,
+                  VectorPlane<double> lower, Patch upper_nodes, VectorPlane<double> upper);
+    /// Adds the springs within a level's upper plane z, after the cells below it.
+    void (*surface)(VectorVolume<const double> u, int z, const FiniteCell&, Patch nodes,
+                    VectorPlane<double> force);
+    /// Kick of the nodes of plane z, rows [y0, y1), by these forces: v is advanced in place. The
+    /// drift is that of elastic_cell.hpp.
+    void (*kick)(VectorPlane<const double> force, int z, int y0, int y1, const Kick&,
+                 VectorVolume<double> v, KickSums&);
+    /// Elastic energy of the cells between planes z and z + 1 with lower corners in rows [y0, y1),
+    /// eV.
+    void (*energy)(VectorVolume<const double> u, int z, const FiniteCell&, int y0, int y1,
+                   ExactSum&);
+};
+
+const FiniteKernels& finite_kernels();
+
+/// The slow obvious twin, as elastic_reference() of elastic_cell.hpp.
+double finite_reference(VectorVolume<const double> u, const FiniteCell&, VectorVolume<double> out);
+
+} // namespace asperity

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What kernels are handed can be copied to a device byte by byte.
+#include "kernels/elastic_finite.hpp"
+#include "kernels/exact_sum.hpp"
+#include "kernels/interface_sweep.hpp"
+#include "kernels/level_transfer.hpp"
+#include "kernels/views.hpp"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+using namespace asperity;
+
+template <class T>
+class GoesToADevice : public testing::Test {};
+
+using Types = testing::Types<PlaneView<double>, VolumeView<const float>, VectorPlane<const double>,
+                             VectorVolume<double>, CellElasticity, FiniteCell, Stencil, Patch, Kick,
+                             Following, KickSums, ExactSum, LennardJones, InterfaceSites,
+                             InterfaceSums, SubstrateMap, ReachBounds, LatticeSubstrate,
+                             RowSubstrate, TailCorrection, LevelSeam>;
+TYPED_TEST_SUITE(GoesToADevice, Types);
+
+TYPED_TEST(GoesToADevice, ByteByByte) {
+    static_assert(std::is_trivially_copyable_v<TypeParam>);
+    EXPECT_FALSE(std::is_polymorphic_v<TypeParam>);
+}

@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The cell at finite strain: against its definition cell by cell, and by the laws that single it
+// out: invariance under rotation, closed forms of uniform deformations, small strain as its limit.
+#include "decomposition/field.hpp"
+#include "kernels/elastic_finite.hpp"
+#include "support/rotation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <utility>
+
+using namespace asperity;
+using test::Matrix;
+
+namespace {
+
+constexpr double s = 2.6, mu = 0.17, lame = 0.89; // Å, eV/Å^3: near the paper's
+
+/// A stack of n * m nodes and cells + 1 planes, with forces of all planes, the last one apart.
+struct Stack {
+    Tile tile;
+    int cells;
+    VectorField<double> u, force, incoming, upper;
+    FiniteCell cell{s, {mu * s, (lame - mu) * s / 16.0}};
+
+    Stack(int n, int m, int layers)
+        : tile{0, 0, n, m, n}, cells(layers), u(tile, layers + 1), force(tile, layers),
+          incoming(tile, 1), upper(tile, 1) {}
+
+    using Place = std::array<double, 3>;
+    /// u(node) on every node, those of the halo too.
+    void fill(const std::function<Place(int, int, int)>& displacement) {
+        for (int z = 0; z <= cells; ++z)
+            for (int y = -2; y < tile.ny + 2; ++y)
+                for (int x = -2; x < tile.nx + 2; ++x) {
+                    const Place at = displacement(x, y, z);
+                    u.x.view()(x, y, z) = at[0];
+                    u.y.view()(x, y, z) = at[1];
+                    u.z.view()(x, y, z) = at[2];
+                }
+    }
+    /// Random displacements of up to `amplitude` that fit the periodic box.
+    void shake(double amplitude, unsigned seed) {
+        std::mt19937_64 random(seed);
+        std::uniform_real_distribution<double> uniform(-amplitude, amplitude);
+        for (auto* f : {&u.x, &u.y, &u.z})
+            for (int z = 0; z <= cells; ++z)
+                for (int y = 0; y < tile.ny; ++y)
+                    for (int x = 0; x < tile.nx; ++x)
+                        f->view()(x, y, z) = uniform(random);
+        wrap();
+    }
+    void wrap() {
+        for (auto* f : {&u.x, &u.y, &u.z}) {
+            const auto v = f->view();
+            for (int z = 0; z <= cells; ++z)
+                for (int y = -2; y < tile.ny + 2; ++y)
+                    for (int x = -2; x < tile.nx + 2; ++x)
+                        v(x, y, z) = v(periodic(x, tile.nx), periodic(y, tile.ny), z);
+        }
+    }
+    /// Band by band; of the upper plane also the frame around the tile.
+    void evaluate(int band = 8) {
+        const int nx = tile.nx, ny = tile.ny;
+        for (int y = 0; y < ny; y += band) {
+            const int end = std::min(ny, y + band);
+            const Patch nodes = {0, nx, y, end};
+            const Patch frame = {-1, nx + 1, y == 0 ? -1 : y, end == ny ? ny + 1 : end};
+            for (int row = y; row < end; ++row)
+                for (int x = 0; x < nx; ++x)
+                    for (auto component : {&VectorField<double>::x, &VectorField<double>::y,
+                                           &VectorField<double>::z})
+                        (force.*component).view()(x, row, 0) =
+                            (incoming.*component).view()(x, row, 0);
+            for (int z = 0; z < cells; ++z) {
+                const bool last = z + 1 == cells;
+                finite_kernels().cells(std::as_const(u).view(), z, cell, nodes, force.plane(z),
+                                       last ? frame : nodes,
+                                       last ? upper.plane(0) : force.plane(z + 1));
+            }
+            finite_kernels().surface(std::as_const(u).view(), cells, cell, frame, upper.plane(0));
+        }
+    }
+    Place force_at(int x, int y, int z) const {
+        if (z == cells)
+            return {upper.x.view()(x, y, 0), upper.y.view()(x, y, 0), upper.z.view()(x, y, 0)};
+        return {force.x.view()(x, y, z), force.y.view()(x, y, z), force.z.view()(x, y, z)};
+    }
+    double energy() const {
+        ExactSum sum;
+        for (int z = 0; z < cells; ++z)
+            finite_kernels().energy(u.view(), z, cell, 0, tile.ny, sum);
+        return sum.value();
+    }
+    /// Forces of the definition, their halo folded back onto the owners, and the energy.
+    double reference(VectorField<double>& out) const {
+        out = VectorField<double>(tile, cells + 1);
+        const double energy = finite_reference(u.view(), cell, out.view());
+        for (auto* f : {&out.x, &out.y, &out.z}) {
+            const auto v = f->view();
+            for (int z = 0; z <= cells; ++z)
+                for (int y = 0; y <= tile.ny; ++y)
+                    for (int x = 0; x <= tile.nx; ++x)
+                        if (x == tile.nx || y == tile.ny)
+                            v(periodic(x, tile.nx), periodic(y, tile.ny), z) += v(x, y, z);
+        }
+        return energy;
+    }
+    double density() const { return energy() / (tile.nx * tile.ny * cells * s * s * s); }
+};
+
+/// Every node of the stack at F X.
+void deform(Stack& stack, const Matrix& F) {
+    stack.fill([&](int x, int y, int z) {
+        const std::array<double, 3> at = {s * x, s * y, s * z};
+        std::array<double, 3> u = test::apply(F, at);
+        for (std::size_t i = 0; i < 3; ++i)
+            u[i] -= at[i];
+        return u;
+    });
+}
+
+class FiniteCells : public testing::TestWithParam<std::pair<int, int>> {};
+
+} // namespace
+
+TEST_P(FiniteCells, EqualTheDefinitionCellByCell) {
+    const auto [n, m] = GetParam();
+    for (double kappa :
+         {(lame - mu) * s / 16.0, 0.0}) // with dilatation, and the plain bond crystal
+        for (int layers : {1, 2, 4}) {
+            Stack stack(n, m, layers);
+            stack.cell.elasticity.kappa = kappa;
+            stack.shake(0.4, 7u + static_cast<unsigned>(n));
+            stack.incoming.x.view()(1, 2, 0) = 0.3;
+            VectorField<double> expected;
+            const double energy = stack.reference(expected);
+            expected.x.view()(1, 2, 0) += 0.3;
+            stack.evaluate();
+            EXPECT_NEAR(stack.energy(), energy, 1e-13 * energy);
+            // A force sums some 18 springs of k |r| each, below 2 eV/Å, and as many pressures.
+            const double rounding = 1e-14;
+            for (int z = 0; z <= layers; ++z)
+                for (int y = 0; y < m; ++y)
+                    for (int x = 0; x < n; ++x) {
+                        const auto f = stack.force_at(x, y, z);
+                        ASSERT_NEAR(f[0], expected.view().x(x, y, z), rounding) << x << y << z;
+                        ASSERT_NEAR(f[1], expected.view().y(x, y, z), rounding) << x << y << z;
+                        ASSERT_NEAR(f[2], expected.view().z(x, y, z), rounding) << x << y << z;
+                    }
+        }
+}
+
+TEST_P(FiniteCells, GiveTheSameBitsInBandsOfAnyHeight) {
+    const auto [n, m] = GetParam();
+    Stack whole(n, m, 3), cut(n, m, 3);
+    whole.shake(0.4, 5);
+    cut.shake(0.4, 5);
+    whole.evaluate(m);
+    for (int band : {1, 2, 3, 8}) {
+        cut.evaluate(band);
+        for (int z = 0; z <= 3; ++z)
+            for (int y = z == 3 ? -1 : 0; y < (z == 3 ? m + 1 : m); ++y) // the upper plane's frame
+                for (int x = z == 3 ? -1 : 0; x < (z == 3 ? n + 1 : n); ++x)
+                    ASSERT_EQ(cut.force_at(x, y, z), whole.force_at(x, y, z)) << x << y << z;
+    }
+    // The frame is what the nodes inside are, seen through the periodic border.
+    for (int x = -1; x <= n; ++x)
+        EXPECT_EQ(whole.force_at(x, m, 3), whole.force_at(periodic(x, n), 0, 3));
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, FiniteCells,
+                         testing::Values(std::pair{8, 8}, std::pair{5, 7}, std::pair{17, 3},
+                                         std::pair{32, 4}, std::pair{24, 17}));
+
+TEST(FiniteStrain, ForceIsMinusTheGradientOfTheEnergy) {
+    Stack stack(6, 6, 3);
+    for (unsigned seed : {3u, 4u}) {
+        stack.shake(0.5, seed);
+        stack.evaluate();
+        for (const auto& [x, y, z] : {std::tuple{0, 0, 0}, {5, 2, 1}, {3, 5, 3}, {2, 2, 2}})
+            for (std::size_t i = 0; i < 3; ++i) {
+                auto& component = i == 0 ? stack.u.x : i == 1 ? stack.u.y : stack.u.z;
+                double& u = component.view()(x, y, z);
+                const double at = u;
+                const auto energy_at = [&](double moved) {
+                    u = moved;
+                    stack.wrap();
+                    return stack.energy();
+                };
+                // Central differences of two widths: what is left is of fourth order.
+                const double h = 2e-3;
+                const auto slope = [&](double d) {
+                    return (energy_at(at + d) - energy_at(at - d)) / (2 * d);
+                };
+                const double gradient = (4.0 * slope(h) - slope(2 * h)) / 3.0;
+                energy_at(at);
+                EXPECT_NEAR(stack.force_at(x, y, z)[i], -gradient, 1e-10);
+            }
+    }
+}
+
+TEST(FiniteStrain, IsInvariantUnderRotation) {
+    // A deformed stack and the same stack turned as a whole about a slanted axis: same energy,
+    // forces turned along. The displacements, random everywhere, do not fit the box and need not.
+    const auto wobble = [](int x, int y, int z) {
+        const double phase = 1.3 * x + 71.7 * y + 0.7 * z;
+        return std::array{0.3 * std::sin(phase), 0.3 * std::sin(1.7 * phase),
+                          0.3 * std::sin(2.3 * phase)};
+    };
+    Stack straight(8, 8, 3);
+    straight.fill(wobble);
+    straight.evaluate();
+    const double energy = straight.energy();
+    for (double degrees : {10.0, 90.0, 180.0}) {
+        const Matrix Q = test::rotation({1.0, -2.0, 0.5}, degrees);
+        Stack turned(8, 8, 3);
+        turned.fill([&](int x, int y, int z) {
+            const std::array<double, 3> at = {s * x, s * y, s * z};
+            auto u = wobble(x, y, z);
+            for (std::size_t i = 0; i < 3; ++i)
+                u[i] += at[i];
+            u = test::apply(Q, u);
+            for (std::size_t i = 0; i < 3; ++i)
+                u[i] -= at[i];
+            return u;
+        });
+        turned.evaluate();
+        EXPECT_NEAR(turned.energy(), energy, 1e-13 * energy) << degrees;
+        // Displacements of up to 45 Å are rounded to 7e-15 Å; stiffnesses are some 10 eV/Å^2.
+        const double rounding = 7e-14;
+        double largest = 0.0;
+        for (int z = 0; z <= 3; ++z)
+            for (int y = 0; y < 8; ++y)
+                for (int x = 0; x < 8; ++x) {
+                    const auto expected = test::apply(Q, straight.force_at(x, y, z));
+                    const auto f = turned.force_at(x, y, z);
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        ASSERT_NEAR(f[i], expected[i], rounding) << degrees;
+                        largest = std::max(largest, std::abs(f[i]));
+                    }
+                }
+        EXPECT_GT(largest, 0.1);
+    }
+}
+
+TEST(FiniteStrain, UniformDeformationsHaveTheirClosedForms) {
+    const double k = mu; // spring constant over s: k s^2 / s^3
+    const auto square = [](double x) { return x * x; };
+    Stack stack(8, 8, 2);
+    for (double stretch : {0.8, 0.95, 1.0, 1.1, 1.5}) {
+        // Along z: one edge in three, four face diagonals of six.
+        deform(stack, {{{1, 0, 0}, {0, 1, 0}, {0, 0, stretch}}});
+        const double diagonal = std::sqrt(0.5 * (1 + stretch * stretch)) - 1;
+        double expected = 0.5 * k * square(stretch - 1) + k * 4 * square(diagonal) +
+                          0.5 * (lame - mu) * square(stretch - 1);
+        EXPECT_NEAR(stack.density(), expected, 1e-14) << stretch;
+        // On all sides.
+        deform(stack, {{{stretch, 0, 0}, {0, stretch, 0}, {0, 0, stretch}}});
+        expected = (1.5 + 6) * k * square(stretch - 1) +
+                   0.5 * (lame - mu) * square(stretch * stretch * stretch - 1);
+        EXPECT_NEAR(stack.density(), expected, 1e-14) << stretch;
+    }
+    for (double shear : {-0.7, 0.01, 0.3, 1.0}) {
+        // Planes of constant z slide along x: the volume stays.
+        deform(stack, {{{1, 0, shear}, {0, 1, 0}, {0, 0, 1}}});
+        const double edge = std::sqrt(1 + shear * shear) - 1;
+        const double xz_long = std::sqrt(0.5 * (square(1 + shear) + 1)) - 1;
+        const double xz_short = std::sqrt(0.5 * (square(1 - shear) + 1)) - 1;
+        const double yz = std::sqrt(0.5 * (shear * shear + 2)) - 1;
+        const double expected =
+            0.5 * k * square(edge) + k * (square(xz_long) + square(xz_short) + 2 * square(yz));
+        EXPECT_NEAR(stack.density(), expected, 1e-14) << shear;
+    }
+}
+
+TEST(FiniteStrain, HasTheModuliOfSmallStrain) {
+    const double e = 1e-5; // energies to relative order e
+    Stack stack(8, 8, 1);
+    const auto density = [&](const Matrix& F) {
+        deform(stack, F);
+        return stack.density() / (e * e);
+    };
+    EXPECT_NEAR(density({{{1 + e, 0, 0}, {0, 1, 0}, {0, 0, 1}}}), 0.5 * (lame + 2 * mu), 1e-4);
+    EXPECT_NEAR(density({{{1 + e, 0, 0}, {0, 1 + e, 0}, {0, 0, 1}}}), 2 * lame + 2 * mu, 1e-4);
+    EXPECT_NEAR(density({{{1, e, 0}, {0, 1, 0}, {0, 0, 1}}}), 0.5 * mu, 1e-4);
+    EXPECT_NEAR(density({{{1, 0, e}, {0, 1, 0}, {0, 0, 1}}}), 0.5 * mu, 1e-4);
+}
+
+TEST(FiniteStrain, ApproachesSmallStrainAsTheSquareOfTheAmplitude) {
+    Stack stack(8, 8, 3);
+    const auto difference = [&](double amplitude) {
+        stack.shake(amplitude, 11);
+        stack.evaluate();
+        VectorField<double> linear(stack.tile, 1);
+        double sum = 0.0;
+        for (int z = 0; z <= stack.cells; ++z) {
+            const Face face = z == 0 ? Face::lower : z == stack.cells ? Face::upper : Face::inner;
+            elastic_kernels().force(std::as_const(stack.u).view(), z,
+                                    make_stencil(stack.cell.elasticity, face), {0, 8, 0, 8},
+                                    linear.plane(0));
+            for (int y = 0; y < 8; ++y)
+                for (int x = 0; x < 8; ++x) {
+                    const auto f = stack.force_at(x, y, z);
+                    sum += std::pow(f[0] - linear.view().x(x, y, 0), 2) +
+                           std::pow(f[1] - linear.view().y(x, y, 0), 2) +
+                           std::pow(f[2] - linear.view().z(x, y, 0), 2);
+                }
+        }
+        return std::sqrt(sum);
+    };
+    const double coarse = difference(4e-3), middle = difference(2e-3), fine = difference(1e-3);
+    EXPECT_GT(fine, 1e-7) << "there is a difference";
+    EXPECT_NEAR(coarse / middle, 4.0, 0.01); // the next order is that of amplitude / s
+    EXPECT_NEAR(middle / fine, 4.0, 0.005);
+}
