@@ -27,6 +27,7 @@ double since(Clock::time_point start) {
 struct Rates {
     double node = 0.0;        ///< a node's step: forces, kick, drift
     double damping = 0.0;     ///< what damping adds to it
+    double finite = 0.0;      ///< what finite strain adds to a node's forces
     double noise = 0.0;       ///< of a node and step
     double far = 0.0;         ///< a site out of reach
     double near = 0.0;        ///< a site in contact
@@ -168,6 +169,23 @@ void measure_steps(const Piece& piece, Rates& rates) {
     rates.node -= rates.damping;
 }
 
+/// Forces of the piece's block, against those of its twin at small strain.
+void measure_strain(const Piece& piece, Rates& rates) {
+    const auto forces_take = [&](bool finite) {
+        BlockOptions options = piece.options.block;
+        options.finite_strain = finite;
+        Block block(options, Communicator(), one_rank(options), Motion::at_rest);
+        std::vector<VectorField<double>> out;
+        double nodes = 0.0;
+        for (const Block::Level& level : block.levels()) {
+            out.emplace_back(level.tile, level.plan.cells);
+            nodes += static_cast<double>(level.tile.nx) * level.tile.ny * level.plan.cells;
+        }
+        return shortest(0.04, [&] { block.forces(out); }) / nodes;
+    };
+    rates.finite = std::max(0.0, forces_take(true) - forces_take(false));
+}
+
 /// The first iterations of a relaxation of the piece.
 void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& piece,
                         const Interface& interface, double nodes, Rates& rates) {
@@ -273,6 +291,7 @@ Plan make_plan(const Scene& scene, int ranks, int threads) {
         rates.near = bare.near;
         rates.far = bare.far;
     }
+    if (on(Effect::finite_strain)) measure_strain(piece, rates);
     if (on(Effect::inertia)) measure_steps(piece, rates);
     if (on(Effect::relaxation))
         measure_relaxation(scene, setup, piece, interface,
@@ -347,13 +366,24 @@ Plan make_plan(const Scene& scene, int ranks, int threads) {
         if (on(Effect::coarse_levels))
             cost(Effect::coarse_levels).seconds = all.seconds * coarse / nodes;
     }
+    if (on(Effect::finite_strain)) {
+        cost(Effect::finite_strain).seconds =
+            share * (steps + static_cast<double>(plan.iterations)) * nodes * rates.finite;
+        for (int rank = 0; rank < ranks && on(Effect::inertia); ++rank)
+            cost(Effect::finite_strain).bytes += static_cast<double>(
+                Block::finite_bytes_for(setup.simulation.block,
+                                        ProcessGrid(ranks, rank, scene.surface.sites,
+                                                    static_cast<int>(setup.levels.size())),
+                                        threads));
+    }
     if (on(Effect::maps)) cost(Effect::maps) = {56.0 * sites, 56.0 * sites / disk};
     plan.making = {16.0 * static_cast<double>(surface.height.size()) * ranks,
                    surface_seconds + share * sites * rates.making};
     if (on(Effect::theory)) cost(Effect::theory).seconds = theory_seconds;
 
-    // Those that are part of another line (coarse levels, skipping, lateral) do not count twice.
-    plan.bytes = plan.making.bytes + plan.interface.bytes;
+    // Those that are part of another line (coarse levels, skipping, lateral, the time of finite
+    // strain) do not count twice.
+    plan.bytes = plan.making.bytes + plan.interface.bytes + cost(Effect::finite_strain).bytes;
     plan.seconds = plan.making.seconds + plan.interface.seconds;
     for (Effect e : {Effect::inertia, Effect::damping, Effect::temperature, Effect::tail,
                      Effect::relaxation, Effect::observation, Effect::maps, Effect::theory}) {
@@ -408,11 +438,11 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
     fmt::print(to, "memory      {}, the most held at once\n", memory_text(plan.bytes));
     fmt::print(to, "wall time   {}, without messages between machines; {}\n",
                time_text(plan.seconds), plan.rates);
-    fmt::print(to,
-               "Coarse levels and lateral displacements are parts of inertia or relaxation; what "
-               "skipping saves is\nnot in the interface's line. Nothing was run, nothing was "
-               "written. A run says afterwards whether it\nkept to this list: run.effects in "
-               "result.json.\n");
+    fmt::print(
+        to, "Coarse levels, lateral displacements and what finite strain takes longer are parts of "
+            "inertia or\nrelaxation; what skipping saves is not in the interface's line. Nothing "
+            "was run, nothing was written.\nA run says afterwards whether it kept to this list: "
+            "run.effects in result.json.\n");
 }
 
 } // namespace asperity

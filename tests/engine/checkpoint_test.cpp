@@ -148,6 +148,27 @@ TEST(Checkpoint, WrittenByOneAndTakenUpByAllRanks) {
     EXPECT_EQ(trace(after), expected);
 }
 
+TEST(Checkpoint, AtFiniteStrain) {
+    const Scratch scratch("finite");
+    const auto finite = [] {
+        SimulationOptions o = options();
+        o.block.finite_strain = true;
+        return Simulation(o, test::reference_surface("c3_N32_T32_rms1.5"), world(),
+                          test::grid_for(o.block, world()));
+    };
+    Simulation before = finite();
+    before.start(5.0);
+    advance(before, 30);
+    write_checkpoint(scratch.path, before, {}, "scene A");
+    world().barrier();
+    Simulation after = finite();
+    read_checkpoint(scratch.path, after, "scene A");
+    advance(before, 30);
+    advance(after, 30);
+    EXPECT_GT(before.now().elastic_energy, 0.0);
+    EXPECT_EQ(trace(after), trace(before));
+}
+
 TEST(Checkpoint, OfAnotherSceneIsRefused) {
     const Scratch scratch("other_scene");
     Simulation s = make(world());

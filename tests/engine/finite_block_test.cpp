@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Laws of the block at finite strain, hanging planes included; its motion; its relaxed contact.
+#include "engine/quasistatic.hpp"
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
 #include "support/rotation.hpp"
@@ -253,4 +254,40 @@ TEST(FiniteRelaxation, ReleasesTheWorkOfTheLoad) {
     std::printf("finite %.6f, linear %.6f eV\n", energy, other);
     EXPECT_GT(std::abs(energy - other), 1e-5 * std::abs(other));
     EXPECT_LT(std::abs(energy - other), 0.05 * std::abs(other));
+}
+
+TEST(FiniteQuasistatic, WorkIsEnergyPlusLossOnLevels) {
+    const BlockOptions options = finite_block(16, 24, 3);
+    const ProcessGrid grid = test::serial_grid(options);
+    Interface interface(test::reference_surface("c1_N16_T16_rms0.5"), grid.tile(0), options.spacing,
+                        test::paper_interface());
+    const auto block = at_rest(Block(options, Communicator(), grid, Motion::at_rest));
+    ASSERT_GT(block->coarse_bytes(), 0u);
+    PathOptions p;
+    p.tolerance = 1e-4;
+    p.reference_height = interface.start_height();
+    QuasistaticPath path(*block, interface, p);
+    path.start();
+    // Each leg's books hold to what the tolerance allows on its way.
+    const auto allowed = [&](double way) { return p.tolerance * 16 * 16 * (way + 1.0); };
+    const auto follow = [&](Leg leg) {
+        const double from = path.now().top;
+        int points = 0;
+        while (path.advance(leg) == QuasistaticPath::Outcome::point && points < 5000)
+            ++points;
+        EXPECT_LT(points, 5000);
+        return allowed(std::abs(path.now().top - from));
+    };
+    const double in = follow(Leg::approach);
+    const double state = -(path.now().interface_energy + path.now().elastic_energy);
+    const double out = follow(Leg::pull_off);
+    const Dissipation& lost = path.dissipation();
+    std::printf("state %.4f eV, lost %.4f in, %.4f out; approach %+.1e, pull-off %+.1e\n", state,
+                lost.approach, lost.pull_off, path.approach_work() + lost.approach - state,
+                path.pull_off_work() + lost.pull_off + state);
+    EXPECT_GT(state, 1.0);
+    EXPECT_NEAR(path.approach_work() + lost.approach, state, in);
+    EXPECT_NEAR(-path.pull_off_work() - lost.pull_off, state, out);
+    EXPECT_GT(block->finite_nodes(), 0);
+    EXPECT_EQ(block->bytes(), Block(options, Communicator(), grid, Motion::at_rest).bytes());
 }

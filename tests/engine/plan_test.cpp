@@ -7,6 +7,7 @@
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <algorithm>
 
@@ -48,6 +49,8 @@ TEST(Effects, ThePlainestSceneTouchesNothingElse) {
     EXPECT_EQ(s.phases()[Phase::thermostat].calls, 0);
     EXPECT_EQ(s.phases()[Phase::interpolate].calls, 0);
     EXPECT_EQ(s.block().coarse_bytes(), 0u);
+    EXPECT_EQ(s.block().finite_nodes(), 0);
+    EXPECT_EQ(s.block().finite_bytes(), 0u);
     EXPECT_EQ(s.interface().work().tails, 0);
     EXPECT_EQ(s.interface().tail_bytes(), 0u);
     EXPECT_EQ(s.interface().work().sites, 20ll * 32 * 32);
@@ -55,12 +58,12 @@ TEST(Effects, ThePlainestSceneTouchesNothingElse) {
 }
 
 TEST(Effects, WhatIsAskedForTakesPlace) {
-    const Scene scene =
-        scene_with({"drive.damping=0.2", "drive.damping_from=0.4", "drive.temperature=100",
-                    "interface.tail=true", "surface.radius=200", "block.thickness=32"});
+    const Scene scene = scene_with(
+        {"drive.damping=0.2", "drive.damping_from=0.4", "drive.temperature=100",
+         "interface.tail=true", "surface.radius=200", "block.thickness=32", "block.strain=finite"});
     const Effects effects(scene);
-    for (Effect on : {Effect::damping, Effect::temperature, Effect::coarse_levels, Effect::tail,
-                      Effect::curvature})
+    for (Effect on : {Effect::damping, Effect::temperature, Effect::finite_strain,
+                      Effect::coarse_levels, Effect::tail, Effect::curvature})
         EXPECT_TRUE(effects.on(on)) << name(on);
     const Simulation s = follow(scene, 20);
     EXPECT_GT(s.work().damped, 0);
@@ -68,6 +71,7 @@ TEST(Effects, WhatIsAskedForTakesPlace) {
     EXPECT_EQ(s.phases()[Phase::thermostat].calls, 20);
     EXPECT_EQ(s.phases()[Phase::interpolate].calls, 20);
     EXPECT_GT(s.block().coarse_bytes(), 0u);
+    EXPECT_EQ(s.block().finite_nodes(), s.work().nodes);
     EXPECT_EQ(s.interface().work().tails, 20ll * 32 * 32);
     EXPECT_GT(s.interface().tail_bytes(), 0u);
     EXPECT_EQ(scene_surface(scene).radius, 200.0);
@@ -130,6 +134,24 @@ TEST(Plan, MemoryIsThatOfTheBlock) {
         EXPECT_EQ(planned.motion, block.motion_bytes());
         EXPECT_EQ(planned.coarse, block.coarse_bytes());
     }
+}
+
+TEST(Plan, FiniteStrainHasItsLine) {
+    const Scene scene = scene_with({"block.thickness=32", "block.strain=finite"});
+    const int threads = omp_get_max_threads();
+    const Plan plan = make_plan(scene, 1, threads);
+    EXPECT_GT(plan.cost(Effect::finite_strain).seconds, 0.0);
+    EXPECT_LT(plan.cost(Effect::finite_strain).seconds, plan.seconds);
+    EXPECT_EQ(plan.cost(Effect::finite_strain).bytes,
+              static_cast<double>(follow(scene, 1).block().finite_bytes()));
+    // A path without time keeps its forces anyway, and needs no memory more.
+    const Plan timeless =
+        make_plan(scene_with({"drive.path=zero-load", "block.strain=finite"}), 1, threads);
+    EXPECT_GT(timeless.cost(Effect::finite_strain).seconds, 0.0);
+    EXPECT_EQ(timeless.cost(Effect::finite_strain).bytes, 0.0);
+    const Plan linear = make_plan(scene_with({"block.thickness=32"}), 1, threads);
+    EXPECT_EQ(linear.cost(Effect::finite_strain).seconds, 0.0);
+    EXPECT_EQ(linear.cost(Effect::finite_strain).bytes, 0.0);
 }
 
 TEST(Plan, StepsAndCostsFollowTheScene) {
