@@ -157,14 +157,14 @@ TEST(Checkpoint, AtFiniteStrain) {
                           test::grid_for(o.block, world()));
     };
     Simulation before = finite();
-    before.start(5.0);
-    advance(before, 30);
+    before.start(start_height);
+    advance(before, first_leg);
     write_checkpoint(scratch.path, before, {}, "scene A");
     world().barrier();
     Simulation after = finite();
     read_checkpoint(scratch.path, after, "scene A");
-    advance(before, 30);
-    advance(after, 30);
+    advance(before, second_leg);
+    advance(after, second_leg);
     EXPECT_GT(before.now().elastic_energy, 0.0);
     EXPECT_EQ(trace(after), trace(before));
 }
