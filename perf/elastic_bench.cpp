@@ -2,47 +2,23 @@
 // SPDX-License-Identifier: MIT
 //
 // How long does a node's step take, in cache and out of it, and what share of the memory's speed is
-// that? The memory's speed is measured in the same run, by a stream triad on as many threads.
+// that? The memory's speed is measured in the same run, by a stream triad on as many threads, and
+// the processor's by a loop of fused multiply-adds (limits.hpp).
 #include "engine/block.hpp"
+#include "limits.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <omp.h>
 
-#include <algorithm>
-#include <array>
-#include <chrono>
 #include <utility>
-#include <vector>
 
 using namespace asperity;
 
 namespace {
 
-/// GB/s of a = b + s c on arrays three times the size of a large cache, counted as two reads and
-/// one write; best of ten.
-double stream_rate(int threads) {
-    static std::array<double, 256> known{};
-    double& best = known.at(static_cast<std::size_t>(threads));
-    if (best > 0.0) return best;
-    const Tile tile{0, 0, 1 << 12, 1 << 10, 1 << 12};
-    VectorField<double> field(tile, 1);
-    const auto plane = field.plane(0);
-    for (int repeat = 0; repeat < 10; ++repeat) {
-        const auto start = std::chrono::steady_clock::now();
-#pragma omp parallel for schedule(static) num_threads(threads)
-        for (int y = 0; y < tile.ny; ++y) {
-            double* a = plane.x.line(y);
-            const double *b = plane.y.line(y), *c = plane.z.line(y);
-#pragma omp simd
-            for (int x = 0; x < tile.nx; ++x)
-                a[x] = b[x] + 1e-9 * c[x];
-        }
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        best = std::max(best, 24e-9 * tile.nx * tile.ny / took.count());
-    }
-    return best;
-}
+/// Undamped, inside a level: 43 additions, 9 multiplications, 33 fused ones of both.
+constexpr double flops = 118.0;
 
 /// u and v each read and written: 12 doubles a node's step is the least of a pass of one step.
 void count(benchmark::State& state, double nodes, int threads) {
@@ -53,6 +29,10 @@ void count(benchmark::State& state, double nodes, int threads) {
     state.counters["GB/s"] = Counter(rate * 96e-9, Counter::kIsRate);
     state.counters["of_stream"] = Counter(rate * 96e-9 / stream_rate(threads), Counter::kIsRate);
     state.counters["stream_GB/s"] = stream_rate(threads);
+    state.counters["GFLOP/s"] = Counter(rate * flops * 1e-9, Counter::kIsRate);
+    state.counters["of_fused"] =
+        Counter(rate * flops * 1e-9 / (threads * fused_rate(false)), Counter::kIsRate);
+    state.counters["fused_GFLOP/s"] = threads * fused_rate(false);
 }
 
 /// Kernels alone: kick and drift of four planes, on one core.
@@ -108,6 +88,40 @@ void kick_and_drift_finite(benchmark::State& state) {
 BENCHMARK(kick_and_drift_finite)
     ->ArgNames({"sites", "dilatation"})
     ->ArgsProduct({{32, 64, 128, 256, 512}, {0, 1}})
+    ->UseRealTime();
+
+/// Between two levels, on one core: a fine plane of three components follows the coarse one, or
+/// hands its forces back. Rates count fine nodes; three doubles are moved for each, and three for
+/// each coarse one.
+void level_transfer(benchmark::State& state) {
+    const int n = static_cast<int>(state.range(0)), half = n / 2;
+    VectorField<double> fine({0, 0, n, n, n}, 1), coarse({0, 0, half, half, half}, 1);
+    const auto f = fine.plane(0), c = coarse.plane(0);
+    const auto seen_f = std::as_const(fine).plane(0), seen_c = std::as_const(coarse).plane(0);
+    const TransferKernels& kernels = transfer_kernels();
+    const LevelSeam seam;
+    for (auto _ : state)
+        if (state.range(1) != 0)
+            for (int y = 0; y < half; ++y) {
+                kernels.restrict_forces(seam, seen_f.x, c.x, y, 0, half);
+                kernels.restrict_forces(seam, seen_f.y, c.y, y, 0, half);
+                kernels.restrict_forces(seam, seen_f.z, c.z, y, 0, half);
+            }
+        else
+            for (int y = 0; y < n; ++y) {
+                kernels.interpolate(seam, seen_c.x, f.x, y, 0);
+                kernels.interpolate(seam, seen_c.y, f.y, y, 0);
+                kernels.interpolate(seam, seen_c.z, f.z, y, 0);
+            }
+    using benchmark::Counter;
+    const double nodes = static_cast<double>(state.iterations()) * n * n;
+    state.counters["ns/node/core"] = Counter(nodes * 1e-9, Counter::kIsRate | Counter::kInvert);
+    state.counters["GB/s"] = Counter(nodes * 30e-9, Counter::kIsRate);
+    state.counters["of_stream"] = Counter(nodes * 30e-9 / stream_rate(1), Counter::kIsRate);
+}
+BENCHMARK(level_transfer)
+    ->ArgNames({"sites", "up"})
+    ->ArgsProduct({{128, 512}, {0, 1}})
     ->UseRealTime();
 
 /// The paper's block: hanging planes, all levels, halos.

@@ -10,8 +10,11 @@
 //                  else, measured in the same run
 //   share          limit / (s/pair)
 //   div_limit      the same where the loop holds a pair's part of a division, too; div_share
+//   GFLOP/s        of a pair's force (the energies of an observed sweep are not counted), and their
+//                  share of what a loop of fused multiply-adds reaches (limits.hpp)
 #include "engine/interface.hpp"
 #include "kernels/variant.hpp"
+#include "limits.hpp"
 
 #include <benchmark/benchmark.h>
 #include <omp.h>
@@ -33,6 +36,8 @@ constexpr int n = 128;
 /// the force, 4 for its z component, 1 for the lateral ones. The sweep over rows takes one more.
 constexpr int multiplications = 31;
 constexpr int divisions = 2;
+/// Of these multiplications 13 are fused with an addition; 16 more additions stand alone.
+constexpr double flops = (multiplications + 13 + 16 + divisions) / 4.0;
 
 /// One function for each processor level and precision: the seconds that the multiplications of
 /// four pairs take, with their divisions or without, in independent chains on the level's
@@ -152,6 +157,9 @@ void contact(benchmark::State& state, int sites, bool mixed, bool observe) {
     state.counters["share"] = product / pair;
     state.counters["div_limit"] = with_division;
     state.counters["div_share"] = with_division / pair;
+    state.counters["GFLOP/s"] = 1e-9 * flops / pair;
+    state.counters["of_fused"] = 1e-9 * flops / pair / fused_rate(mixed);
+    state.counters["fused_GFLOP/s"] = fused_rate(mixed);
 }
 
 void lattice(benchmark::State& state) { contact(state, n, state.range(0), state.range(1)); }
