@@ -6,12 +6,12 @@
 // and what skipping gains over a rough one in partial contact. One thread.
 //
 //   s/pair         time by pairs within the cutoff, so lanes spent on others show
-//   limit          what the multiplications of a pair (fused or not) take in a loop of nothing
-//                  else, measured in the same run
+//   limit          what the multiplications of a pair (fused or not) take in a loop of nothing but
+//                  fused ones, measured in the same run (limits.hpp)
 //   share          limit / (s/pair)
-//   div_limit      the same where the loop holds a pair's part of a division, too; div_share
+//   div_limit      the same in a loop that holds a pair's part of a division, too; div_share
 //   GFLOP/s        of a pair's force (the energies of an observed sweep are not counted), and their
-//                  share of what a loop of fused multiply-adds reaches (limits.hpp)
+//                  share of those of the fused loop
 #include "engine/interface.hpp"
 #include "kernels/variant.hpp"
 #include "limits.hpp"
@@ -40,11 +40,10 @@ constexpr int divisions = 2;
 constexpr double flops = (multiplications + 13 + 16 + divisions) / 4.0;
 
 /// One function for each processor level and precision: the seconds that the multiplications of
-/// four pairs take, with their divisions or without, in independent chains on the level's
-/// registers.
+/// four pairs take with their divisions, in independent chains on the level's registers.
 #if defined(__x86_64__)
 #define ASPERITY_LIMIT(NAME, TARGET, REAL, BYTES)                                                  \
-    __attribute__((target(TARGET), noinline)) double NAME(bool divide) {                           \
+    __attribute__((target(TARGET), noinline)) double NAME() {                                      \
         typedef REAL Register __attribute__((vector_size(BYTES)));                                 \
         constexpr int rounds = 2000;                                                               \
         Register chain[10], quotient[divisions];                                                   \
@@ -56,11 +55,10 @@ constexpr double flops = (multiplications + 13 + 16 + divisions) / 4.0;
         asm volatile("" : "+v"(one));                                                              \
         const auto begin = std::chrono::steady_clock::now();                                       \
         for (int r = 0; r < rounds; ++r) {                                                         \
-            if (divide)                                                                            \
-                for (Register & q : quotient) {                                                    \
-                    q = one / q;                                                                   \
-                    asm volatile("" : "+v"(q));                                                    \
-                }                                                                                  \
+            for (Register & q : quotient) {                                                        \
+                q = one / q;                                                                       \
+                asm volatile("" : "+v"(q));                                                        \
+            }                                                                                      \
             _Pragma("GCC unroll 31") for (int k = 0; k < multiplications; ++k) {                   \
                 chain[k % 10] = chain[k % 10] * one;                                               \
                 asm volatile("" : "+v"(chain[k % 10]));                                            \
@@ -77,27 +75,30 @@ ASPERITY_LIMIT(float_v3, "arch=x86-64-v3", float, 32)
 ASPERITY_LIMIT(float_v4, "arch=x86-64-v4", float, 64)
 #endif
 
-/// Seconds for one pair, the best of many trials; 0 where no loop has been written.
-double limit(bool mixed, bool divide) {
+/// Seconds for one pair's multiplications.
+double limit(bool mixed) { return 1e-9 * 2.0 * multiplications / 4.0 / fused_rate(mixed); }
+
+/// And with its divisions, the best of many trials; 0 where no loop has been written.
+double limit_with_division(bool mixed) {
 #if defined(__x86_64__)
     double best = 1.0;
     for (int trial = 0; trial < 50; ++trial) {
         double four = 0.0;
         switch (processor_level()) {
         case ProcessorLevel::v4:
-            four = mixed ? float_v4(divide) : double_v4(divide);
+            four = mixed ? float_v4() : double_v4();
             break;
         case ProcessorLevel::v3:
-            four = mixed ? float_v3(divide) : double_v3(divide);
+            four = mixed ? float_v3() : double_v3();
             break;
         default:
-            four = mixed ? float_v2(divide) : double_v2(divide);
+            four = mixed ? float_v2() : double_v2();
         }
         best = std::min(best, four / 4.0);
     }
     return best;
 #else
-    static_cast<void>(mixed && divide);
+    static_cast<void>(mixed);
     return 0.0;
 #endif
 }
@@ -150,7 +151,7 @@ void contact(benchmark::State& state, int sites, bool mixed, bool observe) {
     InterfaceOptions options;
     options.mixed = mixed;
     const double pairs = pairs_in_reach(n * a / sites, options.potential.cutoff, height);
-    const double product = limit(mixed, false), with_division = limit(mixed, true);
+    const double product = limit(mixed), with_division = limit_with_division(mixed);
     const double pair = time_sweeps(state, nearly_flat(sites), options, height, observe) / pairs;
     state.counters["s/pair"] = pair;
     state.counters["limit"] = product;
