@@ -10,8 +10,7 @@
 //                  fused ones, measured in the same run (limits.hpp)
 //   share          limit / (s/pair)
 //   div_limit      the same in a loop that holds a pair's part of a division, too; div_share
-//   GFLOP/s        of a pair's force (the energies of an observed sweep are not counted), and their
-//                  share of those of the fused loop
+//   GFLOP/s        of a pair's force (the energies of an observed sweep are not counted)
 #include "engine/interface.hpp"
 #include "kernels/variant.hpp"
 #include "limits.hpp"
@@ -159,7 +158,6 @@ void contact(benchmark::State& state, int sites, bool mixed, bool observe) {
     state.counters["div_limit"] = with_division;
     state.counters["div_share"] = with_division / pair;
     state.counters["GFLOP/s"] = 1e-9 * flops / pair;
-    state.counters["of_fused"] = 1e-9 * flops / pair / fused_rate(mixed);
     state.counters["fused_GFLOP/s"] = fused_rate(mixed);
 }
 

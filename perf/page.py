@@ -1,0 +1,277 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The suite's numbers for people: tables for the terminal, docs/performance.md and its plots."""
+import math
+import os
+
+import machine
+
+COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#999999")
+
+
+def _number(x):
+    """Three digits."""
+    if x == 0.0 or not math.isfinite(x):
+        return "0" if x == 0.0 else "-"
+    digits = 2 - math.floor(math.log10(abs(x)))
+    return f"{round(x, digits):.{max(0, digits)}f}"
+
+
+def _percent(x):
+    return f"{100.0 * x:.0f} %"
+
+
+def _against(time, known):
+    """How many times the baseline's speed; what is more than 10 % off is marked."""
+    if not known:
+        return "-"
+    ratio = known / time
+    return f"{ratio:.2f}" + (" SLOWER" if ratio < 1.0 / 1.1 else " faster" if ratio > 1.1 else "")
+
+
+def _table(title, note, header, rows):
+    return {"title": title, "note": note, "header": header, "rows": rows}
+
+
+def tables(results, baseline, phases):
+    """All tables of the suite, in the order in which they are read."""
+    known = baseline.get("ns", {})
+    out = []
+    rows = [[name, _number(value), "GB/s" if "stream" in name else "GFLOP/s a core"]
+            for name, value in results["limits"].items()]
+    out.append(_table("What can this machine do at best?",
+                      "A loop of fused multiply-adds in registers, and a stream triad a = b + s c from memory.",
+                      ["loop", "rate", ""], rows))
+    units = ("GB/s", "of stream", "GFLOP/s", "of fused")
+    for group in results["kernels"]:
+        used = [u for u in units if any(u in r for r in group["rows"])]
+        header = ["kernel", f"ns/{group['item']}", f"M {group['item']}s/s"] + used + ["against baseline"]
+        rows = [[r["label"], _number(r["ns"]), _number(r["rate"])] +
+                [_percent(r[u]) if u.startswith("of") else _number(r[u]) for u in used] +
+                [_against(r["ns"], known.get(r["key"]))] for r in group["rows"]]
+        out.append(_table(group["question"], group["note"], header, rows))
+    threads = results["steps"][0]["threads"]
+    rows = [[s["label"], _number(1e3 * s["seconds"]), _number(1.0 / s["seconds"])] +
+            [_percent(s["phases"].get(p, 0.0) / s["seconds"]) for p in phases] +
+            [_against(1e9 * s["seconds"], known.get(s["key"]))] for s in results["steps"]]
+    out.append(_table("How fast is a step of a scene, and where does it go?",
+                      f"Multiscale block, one rank of {threads} threads; in contact every site has all of its pairs.",
+                      ["scene", "ms/step", "steps/s", *phases, "against baseline"], rows))
+    if "scaling" in results:
+        out += _scaling_tables(results["scaling"], phases)
+    return out
+
+
+def _scaling_tables(scaling, phases):
+    out = []
+    def cells(e):
+        return [f"{e['sites']}", e["place"], f"{e['ranks']} x {e['threads']}", _number(1e3 * e["seconds"])] + \
+            [_number(1e3 * e["phases"].get(p, 0.0)) for p in phases] + \
+            [_percent(e["communication"]), f"{e['efficiency']:.2f}"]
+    header = ["sites", "place", "ranks x threads", "ms/step", *phases, "exchange and sums", "efficiency"]
+    out.append(_table("What do two cores gain on the same block?",
+                      "Phases in ms a step, of rank 0. Waiting for the other rank is part of exchange and sums.",
+                      header, [cells(e) for e in scaling["strong"]]))
+    out.append(_table("And on a block twice as large?",
+                      f"{scaling['weak'][0]['layers']} layers; efficiency by node.",
+                      header, [cells(e) for e in scaling["weak"]]))
+    m = scaling["messages"]
+    out.append(_table("What does a message between two ranks cost?",
+                      f"Within this machine. Swap: two messages each way at once, as halos go. The step's reduction: "
+                      f"{_number(1e6 * m['sum'])} µs.",
+                      ["bytes", "one way, µs", "GB/s", "swap, µs"],
+                      [[str(p["bytes"]), _number(1e6 * p["seconds"]), _number(1e-9 * p["bytes"] / p["seconds"]),
+                        _number(1e6 * s["seconds"])] for p, s in zip(m["ping"], m["swap"])]))
+    out.append(_table("Does the model tell the truth about two ranks?",
+                      "In contact. The model knows one core and the messages, no run on two.",
+                      ["sites", "ms/step", "model", "model / measured", "communication, ms", "model", "halo, kB a step", "model"],
+                      [[str(c["sites"]), _number(1e3 * c["measured"]), _number(1e3 * c["predicted"]),
+                        f"{c['predicted'] / c['measured']:.2f}", _number(1e3 * c["measured_communication"]),
+                        _number(1e3 * c["predicted_communication"]), _number(1e-3 * c["halo_bytes"]),
+                        _number(1e-3 * c["predicted_halo_bytes"])] for c in scaling["check"]]))
+    network = scaling["network"]
+    by = {(e["sites"], e["ranks"], e["messages"]): e for e in scaling["larger"]}
+    rows = [[str(n), str(r), _number(1.0 / by[n, r, "measured"]["seconds"]), f"{by[n, r, 'measured']['efficiency']:.2f}",
+             _percent(by[n, r, "measured"]["communication"]), _number(1.0 / by[n, r, "network"]["seconds"]),
+             f"{by[n, r, 'network']['efficiency']:.2f}", _percent(by[n, r, "network"]["communication"]),
+             _percent(by[n, r, "measured"]["held"])]
+            for n, r, kind in by if kind == "measured"]
+    out.append(_table("What does the model expect of larger machines?",
+                      "In contact, as many layers as sites, ranks of one thread. First with messages as measured here, then over a "
+                      f"network of {1e6 * network['latency']:g} µs and {1e-9 * network['bandwidth']:g} GB/s a rank (assumed, "
+                      "not measured). Held by all: share of a rank's nodes that every rank computes alike.",
+                      ["sites", "ranks", "steps/s", "efficiency", "communication", "network: steps/s", "efficiency",
+                       "communication", "held by all"], rows))
+    return out
+
+
+def terminal(table):
+    widths = [max(len(r[i]) for r in [table["header"]] + table["rows"]) for i in range(len(table["header"]))]
+    def line(cells):
+        return "  " + "  ".join(c.ljust(w) if i == 0 else c.rjust(w) for i, (c, w) in enumerate(zip(cells, widths))).rstrip()
+    return "\n".join([table["title"], "  " + table["note"], "", line(table["header"]),
+                      "  " + "─" * (sum(widths) + 2 * (len(widths) - 1))] + [line(r) for r in table["rows"]] + [""])
+
+
+def markdown(table):
+    line = "| " + " | ".join(table["header"]) + " |"
+    rule = "|---|" + "---:|" * (len(table["header"]) - 1)
+    return "\n".join(["### " + table["title"], "", table["note"], "", line, rule] +
+                     ["| " + " | ".join(r) + " |" for r in table["rows"]] + [""])
+
+
+# --- plots -----------------------------------------------------------------------------------------------------
+
+
+def _svg(width, height, title, body):
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="12">\n'
+            f'<title>{title}</title>\n<rect width="{width}" height="{height}" fill="white"/>\n'
+            f'<text x="12" y="20" font-size="14">{title}</text>\n' + "\n".join(body) + "\n</svg>\n")
+
+
+def _text(x, y, words, anchor="start", colour="#222"):
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" fill="{colour}">{words}</text>'
+
+
+def _bar(x, y, width, height, colour):
+    return f'<rect x="{x:.1f}" y="{y:.1f}" width="{max(0.0, width):.1f}" height="{height}" fill="{colour}"/>'
+
+
+def limits_plot(results):
+    """Each kernel's share of the nearer of its limits."""
+    rows = [(g["rows"], r) for g in results["kernels"] for r in g["rows"] if "of fused" in r or "of stream" in r]
+    body, y, left, scale = [], 46, 250, 3.6
+    for mark in (0, 25, 50, 75, 100):
+        x = left + scale * mark
+        body.append(f'<line x1="{x}" y1="34" x2="{x}" y2="{46 + 20 * len(rows)}" stroke="#ccc"/>')
+        body.append(_text(x, 46 + 20 * len(rows) + 14, f"{mark} %", "middle"))
+    for _, r in rows:
+        shares = [(r[k], c) for k, c in (("of fused", COLOURS[0]), ("of stream", COLOURS[1])) if k in r]
+        body.append(_text(left - 8, y + 9, r["label"], "end"))
+        for i, (share, colour) in enumerate(shares):
+            body.append(_bar(left, y + 6.5 * i - (3 if len(shares) > 1 else 0), 100 * scale * share, 6 if len(shares) > 1 else 12, colour))
+        y += 20
+    y += 34
+    body += [_bar(left, y - 10, 12, 12, COLOURS[0]), _text(left + 18, y, "of the fused multiply-add loop"),
+             _bar(left + 210, y - 10, 12, 12, COLOURS[1]), _text(left + 228, y, "of the memory's stream")]
+    return _svg(left + 100 * scale + 40, y + 14, "Share of the limit measured in the same run", body)
+
+
+def phases_plot(strong, phases):
+    """Stacked bars: where a step's time goes on one and two cores."""
+    largest = max(e["sites"] for e in strong)
+    chosen = [e for e in strong if e["sites"] == largest]
+    top = max(e["seconds"] for e in chosen)
+    body, y, left, width = [], 40, 160, 460
+    for e in chosen:
+        body.append(_text(left - 8, y + 15, f"{e['place']}, {e['ranks']} x {e['threads']}", "end"))
+        x = left
+        for p, colour in zip(phases, COLOURS):
+            wide = width * e["phases"].get(p, 0.0) / top
+            body.append(_bar(x, y, wide, 20, colour))
+            x += wide
+        body.append(_text(x + 6, y + 15, f"{1e3 * e['seconds']:.2f} ms"))
+        y += 28
+    x = left
+    for p, colour in zip(phases, COLOURS):
+        body += [_bar(x, y + 6, 12, 12, colour), _text(x + 16, y + 16, p)]
+        x += 90
+    return _svg(left + width + 90, y + 34, f"A step at {largest} sites and layers, by ranks x threads", body)
+
+
+def predicted_plot(larger, network):
+    """Steps a second against ranks, both kinds of messages."""
+    left, bottom, width, height = 70, 330, 430, 280
+    ranks = sorted({e["ranks"] for e in larger})
+    speeds = [1.0 / e["seconds"] for e in larger]
+    low, high = math.floor(math.log10(min(speeds))), math.ceil(math.log10(max(speeds)))
+    def place(r, speed):
+        return (left + width * math.log(r / ranks[0]) / math.log(ranks[-1] / ranks[0]),
+                bottom - height * (math.log10(speed) - low) / (high - low))
+    body = []
+    for d in range(low, high + 1):
+        _, y = place(ranks[0], 10.0 ** d)
+        body += [f'<line x1="{left}" y1="{y:.1f}" x2="{left + width}" y2="{y:.1f}" stroke="#ccc"/>',
+                 _text(left - 6, y + 4, f"{10.0 ** d:g}", "end")]
+    for r in ranks:
+        body.append(_text(place(r, 10.0 ** low)[0], bottom + 18, str(r), "middle"))
+    body += [_text(left + width / 2, bottom + 38, "ranks of one thread", "middle"), _text(12, 40, "steps/s")]
+    for n, colour in zip(sorted({e["sites"] for e in larger}), COLOURS):
+        for kind, dash in (("measured", ""), ("network", ' stroke-dasharray="5 4"')):
+            points = [place(e["ranks"], 1.0 / e["seconds"]) for e in larger if e["sites"] == n and e["messages"] == kind]
+            line = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+            body.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="1.8"{dash}/>')
+            if kind == "measured":
+                body.append(_text(points[-1][0] + 8, points[-1][1] + 4, f"N = {n}", colour=colour))
+    body += [_text(left, bottom + 58, "solid: messages as measured within this machine; dashed: an assumed network of "
+                   f"{1e6 * network['latency']:g} µs, {1e-9 * network['bandwidth']:g} GB/s")]
+    return _svg(left + width + 90, bottom + 72, "What the model expects of larger machines", body)
+
+
+# --- the page --------------------------------------------------------------------------------------------------
+
+
+def write(results, baseline, phases, folder):
+    """performance.md in the folder, its plots in gallery/perf there."""
+    plots = os.path.join(folder, "gallery", "perf")
+    os.makedirs(plots, exist_ok=True)
+    scaling, m = results["scaling"], results["machine"]
+    for name, svg in (("limits", limits_plot(results)), ("phases", phases_plot(scaling["strong"], phases)),
+                      ("larger", predicted_plot(scaling["larger"], scaling["network"]))):
+        with open(os.path.join(plots, name + ".svg"), "w") as file:
+            file.write(svg)
+    all_tables = tables(results, baseline, phases)
+    first = next(i for i, t in enumerate(all_tables) if t["title"].startswith("What do two cores"))
+    c = scaling["coefficients"]
+    nodes = ", ".join(f"{_number(t)} at {n}" for n, t in c["ns a node, by nodes"].items())
+    text = f"""# Performance
+
+Written by `./asperity bench --page`; do not edit.
+
+Measured on {results['date']}, {m['processor']} (family {m['family']}, model {m['model']}), {m['cores']} cores, kernels {m['kernels']}.
+{machine.words(results['load'])}
+
+How to read it: every time is the least of repeats that take turns; every share is of a limit measured in the same run. *Of fused* is the
+share of a loop of fused multiply-adds, *of stream* that of a stream triad on as many threads; a kernel is near the machine when one of the
+two is near 100 % (in cache the stream of memory is no limit). *Against baseline* is a speed relative to
+`perf/baselines/` for the same processor, marked where it is more than 10 % off. Numbers taken on a busy machine say little.
+
+    ./asperity bench                    # the kernels and the steps, a minute
+    ./asperity bench --scaling          # and the scaling study
+    ./asperity bench --save-baseline    # on a quiet machine: what later runs are compared with
+
+![share of the limits](gallery/perf/limits.svg)
+
+## Kernels and steps
+
+"""
+    text += "\n".join(markdown(t) for t in all_tables[:first])
+    text += """
+## Scaling
+
+![a step by phase](gallery/perf/phases.svg)
+
+"""
+    text += "\n".join(markdown(t) for t in all_tables[first:first + 2])
+    text += f"""
+## Larger machines: a model
+
+A step of the most loaded rank takes
+
+    nodes x t_node(nodes) + sites x t_site + hanging nodes x t_hanging      work
+    + (bytes wrapped + 2 x bytes sent) x t_byte                             copies into and out of halos
+    + swap(x) + swap(y)                                                     messages to neighbours
+    + log2(ranks) x (t_sum + latency) + bytes gathered x t_gathered         the reduction, and the level held by all
+
+with volumes counted by the decomposition itself (`perf/volumes.cpp`: halos two nodes wide, all levels in one message a neighbour) and times
+measured here: a node {nodes} nodes, ns; a site in contact {_number(c['ns a site'])} ns; a hanging node {_number(c['ns a hanging node'])} ns; a byte copied
+{_number(c['ns a byte copied'])} ns; a reduction {_number(c['us a reduction'])} µs; a short message {_number(c['us a short message'])} µs, a long one {_number(c['GB/s of a long message'])} GB/s.
+A node costs less where a rank's block fits into its cache, so efficiencies above 1 occur. Left out: waiting for ranks that are late, memory
+shared by more cores than here, and anything a network does besides latency and bandwidth.
+
+![larger machines](gallery/perf/larger.svg)
+
+"""
+    text += "\n".join(markdown(t) for t in all_tables[first + 2:])
+    with open(os.path.join(folder, "performance.md"), "w") as file:
+        file.write(text)

@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""What do two cores gain, and what would many more? The scaling study, and a model for larger machines.
+
+The model of a step, for the most loaded rank (volumes.cpp says what it holds and sends):
+
+    nodes x t_node(nodes) + sites x t_site + hanging x t_hanging       work
+    (wrapped + 2 x sent) x t_byte                                      copies into and out of halos
+    swap(x) + swap(y)                                                  messages to neighbours, in two goes
+    log2(ranks) x t_sum                                                the step's one reduction
+    log2(ranks) x latency + gathered x t_gathered                      the level that every rank holds
+
+The times are measured: those of work and copies on one core, at several sizes (t_node depends on what
+fits into the cache), those of messages between two ranks by message_bench. It leaves out waiting for
+ranks that are late, and takes it that each rank has as much of the memory's speed as here.
+"""
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+
+PREDICTED_SITES, PREDICTED_RANKS = (512, 2048, 8192), (1, 4, 16, 64, 256, 1024)
+# A network, assumed, not measured here: seconds, bytes a second for each rank.
+NETWORK = {"latency": 2e-6, "bandwidth": 5e9}
+
+
+def _run(command, threads, ranks=1):
+    environment = {**os.environ, "OMP_NUM_THREADS": str(threads)}
+    if ranks > 1:
+        enough = len(os.sched_getaffinity(0)) >= ranks * threads
+        binding = ["--bind-to", "core", "--map-by", f"slot:PE={threads}"] if enough else \
+            ["--oversubscribe", "--bind-to", "none"]
+        command = ["mpirun", "-n", str(ranks)] + binding + command
+        environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+    if run.returncode != 0:
+        sys.exit(f"bench: {' '.join(command)} failed:\n{run.stderr}")
+    return json.loads(run.stdout)
+
+
+def step(folder, place, sites, thickness, ranks, threads, seconds, precision="double"):
+    """A measured step (step_bench)."""
+    return _run([os.path.join(folder, "step_bench"), place, str(seconds), f"surface.sites={sites}",
+                 f"block.thickness={thickness}", f"numerics.precision={precision}"], threads, ranks)
+
+
+def volumes(folder, cases):
+    """What ranks hold and send, for (sites, thickness, ranks) each."""
+    return dict(zip(cases, _run([os.path.join(folder, "volumes")] + [":".join(map(str, c)) for c in cases], 1)))
+
+
+def _between(points, x):
+    """Straight lines through (x, y) points; constant before the first, the last line goes on."""
+    points = sorted(points)
+    if x <= points[0][0]:
+        return points[0][1]
+    for (x0, y0), (x1, y1) in zip(points, points[1:]):
+        if x <= x1 or x1 == points[-1][0]:
+            return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+    return points[-1][1]
+
+
+class Model:
+    """Seconds of a step from volumes."""
+
+    def __init__(self, singles, volume_of, messages):
+        """singles: measured steps in contact on one core, by sites."""
+        self.node = []
+        for n, s in sorted(singles.items()):
+            v = volume_of(n)
+            self.node.append((math.log(v["nodes"]), s["phases"]["advance"] / v["nodes"]))
+        largest = singles[max(singles)]
+        v = volume_of(max(singles))
+        self.site = (largest["phases"]["interface"] + largest["phases"]["observe"]) / v["sites"]
+        self.hanging = largest["phases"].get("interpolate", 0.0) / max(v["hanging"], 1.0)
+        self.byte = largest["phases"]["exchange"] / v["wrapped"]
+        self.swap = [(m["bytes"], m["seconds"]) for m in messages["swap"]]
+        ping = messages["ping"]
+        self.latency, self.sum = ping[0]["seconds"], messages["sum"]
+        self.gathered = ping[-1]["seconds"] / ping[-1]["bytes"]
+
+    def over_network(self):
+        """The same work, with messages over NETWORK."""
+        other = Model.__new__(Model)
+        other.__dict__.update(self.__dict__)
+        latency, per_byte = NETWORK["latency"], 1.0 / NETWORK["bandwidth"]
+        # Two messages leave and two arrive; the link goes both ways at once.
+        other.swap = [(0.0, latency), (1e6, latency + 2e6 * per_byte)]
+        other.latency = other.sum = latency
+        other.gathered = per_byte
+        return other
+
+    def predict(self, v):
+        """Seconds of the parts of a step."""
+        # Beyond the largest block measured a node takes what it takes there.
+        size = min(math.log(v["nodes"]), self.node[-1][0])
+        doublings = math.ceil(math.log2(v["ranks"]))
+        sent = 2.0 * (v["x"] + v["y"])
+        messages = sum(_between(self.swap, v[way]) for way in "xy" if v[way] > 0.0)
+        if v["gathered"] > 0.0:
+            messages += doublings * self.latency + v["gathered"] * self.gathered
+        return {"work": v["nodes"] * _between(self.node, size) + v["sites"] * self.site + v["hanging"] * self.hanging,
+                "copies": (v["wrapped"] + 2.0 * sent) * self.byte, "messages": messages,
+                "sums": doublings * self.sum}
+
+
+def study(folder, quick):
+    """Strong and weak scaling on two cores, the messages, the model and its check."""
+    if not shutil.which("mpirun"):
+        sys.exit("bench: the scaling study needs mpirun\n    fix: apt-get install openmpi-bin")
+    strong = (32, 64) if quick else (256, 512)
+    single = (32, 64) if quick else (64, 128, 256, 512)
+    weak = (32, 46, 32) if quick else (272, 384, 256)  # one core, two cores: twice the sites; layers
+    layouts = ((1, 1), (1, 2), (2, 1))
+    cases = [(place, n, n, *layout) for n in strong for place in ("contact", "away") for layout in layouts]
+    cases += [("contact", n, n, 1, 1) for n in single if n not in strong]
+    cases += [("contact", weak[0] if r * t == 1 else weak[1], weak[2], r, t) for r, t in layouts]
+    best = {}
+    for _ in range(1 if quick else 3):
+        for case in cases:
+            result = step(folder, *case, seconds=0.05 if quick else 1.0)
+            if case not in best or result["seconds"] < best[case]["seconds"]:
+                best[case] = result
+    messages = _run([os.path.join(folder, "message_bench")], 1, 2)
+
+    def entry(case, alone):
+        s, a = best[case], best[alone]
+        cores = case[3] * case[4]
+        # Per node of the whole block, for the weak study's sizes are not twice each other to the node.
+        work = volume[(case[1], case[2], 1)]["nodes"] / volume[(alone[1], alone[2], 1)]["nodes"]
+        return {"place": case[0], "sites": case[1], "layers": case[2], "ranks": case[3], "threads": case[4],
+                "seconds": s["seconds"], "phases": s["phases"], "halo_bytes": s["halo_bytes"],
+                "communication": (s["phases"]["exchange"] + s["phases"]["sums"]) / s["seconds"],
+                "efficiency": work * a["seconds"] / (cores * s["seconds"])}
+
+    sizes = {(c[1], c[2]) for c in cases}
+    predicted = [(n, n, r) for n in PREDICTED_SITES for r in PREDICTED_RANKS]
+    volume = volumes(folder, sorted({(n, d, r) for n, d in sizes for r in (1, 2)}) + predicted)
+    model = Model({n: best[("contact", n, n, 1, 1)] for n in single}, lambda n: volume[(n, n, 1)], messages)
+    check = []
+    for n in strong:
+        measured, parts = best[("contact", n, n, 2, 1)], model.predict(volume[(n, n, 2)])
+        check.append({"sites": n, "measured": measured["seconds"], "predicted": sum(parts.values()),
+                      "halo_bytes": measured["halo_bytes"], "predicted_halo_bytes":
+                      2.0 * (volume[(n, n, 2)]["x"] + volume[(n, n, 2)]["y"]),
+                      "measured_communication": measured["phases"]["exchange"] + measured["phases"]["sums"],
+                      "predicted_communication": sum(parts.values()) - parts["work"]})
+    larger = []
+    for n in PREDICTED_SITES:
+        for kind, m in (("measured", model), ("network", model.over_network())):
+            alone = sum(m.predict(volume[(n, n, 1)]).values())
+            for r in PREDICTED_RANKS[1:]:
+                parts = m.predict(volume[(n, n, r)])
+                total = sum(parts.values())
+                larger.append({"sites": n, "ranks": r, "messages": kind, "seconds": total,
+                               "efficiency": alone / (r * total), "communication": 1.0 - parts["work"] / total,
+                               "held": volume[(n, n, r)]["held"] / volume[(n, n, r)]["nodes"]})
+    return {"strong": [entry(c, (*c[:3], 1, 1)) for c in cases[:len(strong) * 6]],
+            "weak": [entry(c, ("contact", weak[0], weak[2], 1, 1)) for c in cases[-3:]],
+            "messages": messages, "network": NETWORK, "check": check, "larger": larger,
+            "coefficients": {"ns a node, by nodes": {str(round(math.exp(x))): 1e9 * y for x, y in model.node},
+                             "ns a site": 1e9 * model.site, "ns a hanging node": 1e9 * model.hanging,
+                             "ns a byte copied": 1e9 * model.byte, "us a reduction": 1e6 * model.sum,
+                             "us a short message": 1e6 * model.latency, "GB/s of a long message": 1e-9 / model.gathered}}
