@@ -140,7 +140,7 @@ def _bar(x, y, width, height, colour):
 def limits_plot(results):
     """Each kernel's share of the nearer of its limits."""
     rows = [(g["rows"], r) for g in results["kernels"] for r in g["rows"] if "of fused" in r or "of stream" in r]
-    body, y, left, scale = [], 46, 250, 3.6
+    body, y, left, scale = [], 46, 280, 3.6
     for mark in (0, 25, 50, 75, 100):
         x = left + scale * mark
         body.append(f'<line x1="{x}" y1="34" x2="{x}" y2="{46 + 20 * len(rows)}" stroke="#ccc"/>')
@@ -203,9 +203,10 @@ def predicted_plot(larger, network):
             body.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="1.8"{dash}/>')
             if kind == "measured":
                 body.append(_text(points[-1][0] + 8, points[-1][1] + 4, f"N = {n}", colour=colour))
-    body += [_text(left, bottom + 58, "solid: messages as measured within this machine; dashed: an assumed network of "
-                   f"{1e6 * network['latency']:g} µs, {1e-9 * network['bandwidth']:g} GB/s")]
-    return _svg(left + width + 90, bottom + 72, "What the model expects of larger machines", body)
+    body += [_text(left, bottom + 58, "solid: messages as measured within this machine"),
+             _text(left, bottom + 74, f"dashed: an assumed network of {1e6 * network['latency']:g} µs and "
+                   f"{1e-9 * network['bandwidth']:g} GB/s a rank")]
+    return _svg(left + width + 90, bottom + 88, "What the model expects of larger machines", body)
 
 
 # --- the page --------------------------------------------------------------------------------------------------

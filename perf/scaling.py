@@ -110,7 +110,7 @@ def study(folder, quick):
     """Strong and weak scaling on two cores, the messages, the model and its check."""
     if not shutil.which("mpirun"):
         sys.exit("bench: the scaling study needs mpirun\n    fix: apt-get install openmpi-bin")
-    strong = (32, 64) if quick else (256, 512)
+    strong = (32,) if quick else (256, 512)
     single = (32, 64) if quick else (64, 128, 256, 512)
     weak = (32, 46, 32) if quick else (272, 384, 256)  # one core, two cores: twice the sites; layers
     layouts = ((1, 1), (1, 2), (2, 1))
