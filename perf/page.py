@@ -58,19 +58,20 @@ def tables(results, baseline, phases):
                       f"Multiscale block, one rank of {threads} threads; in contact every site has all of its pairs.",
                       ["scene", "ms/step", "steps/s", *phases, "against baseline"], rows))
     if "scaling" in results:
-        out += _scaling_tables(results["scaling"], phases)
+        out += _scaling_tables(results["scaling"], results["limits"], phases)
     return out
 
 
-def _scaling_tables(scaling, phases):
+def _scaling_tables(scaling, limits, phases):
     out = []
+    stream = ", ".join(f"{_number(rate)} GB/s on {name[8:]}" for name, rate in limits.items() if name.startswith("stream"))
     def cells(e):
         return [f"{e['sites']}", e["place"], f"{e['ranks']} x {e['threads']}", _number(1e3 * e["seconds"])] + \
             [_number(1e3 * e["phases"].get(p, 0.0)) for p in phases] + \
             [_percent(e["communication"]), f"{e['efficiency']:.2f}"]
     header = ["sites", "place", "ranks x threads", "ms/step", *phases, "exchange and sums", "efficiency"]
     out.append(_table("What do two cores gain on the same block?",
-                      "Phases in ms a step, of rank 0. Waiting for the other rank is part of exchange and sums.",
+                      f"Phases in ms a step, of rank 0; waiting for the other rank is part of exchange and sums. Stream: {stream}.",
                       header, [cells(e) for e in scaling["strong"]]))
     out.append(_table("And on a block twice as large?",
                       f"{scaling['weak'][0]['layers']} layers; efficiency by node.",
@@ -103,6 +104,12 @@ def _scaling_tables(scaling, phases):
                       ["sites", "ranks", "steps/s", "efficiency", "communication", "network: steps/s", "efficiency",
                        "communication", "held by all"], rows))
     return out
+
+
+def baseline_words(baseline):
+    if not baseline:
+        return "There is no baseline for this processor; --save-baseline makes one."
+    return f"Baseline of {baseline['date']}: " + machine.words(baseline["load"])
 
 
 def terminal(table):
@@ -230,16 +237,16 @@ def write(results, baseline, phases, folder):
 Written by `./asperity bench --page`; do not edit.
 
 Measured on {results['date']}, {m['processor']} (family {m['family']}, model {m['model']}), {m['cores']} cores, kernels {m['kernels']}.
-{machine.words(results['load'])}
+{machine.words(results['load'])} {baseline_words(baseline)}
 
 How to read it: every time is the least of repeats that take turns; every share is of a limit measured in the same run. *Of fused* is the
 share of a loop of fused multiply-adds, *of stream* that of a stream triad on as many threads; a kernel is near the machine when one of the
 two is near 100 % (in cache the stream of memory is no limit). *Against baseline* is a speed relative to
 `perf/baselines/` for the same processor, marked where it is more than 10 % off. Numbers taken on a busy machine say little.
 
-    ./asperity bench                    # the kernels and the steps, a minute
-    ./asperity bench --scaling          # and the scaling study
-    ./asperity bench --save-baseline    # on a quiet machine: what later runs are compared with
+    ./asperity bench                           # the kernels and the steps, a minute
+    ./asperity bench --scaling                 # and the scaling study
+    ./asperity bench --page --save-baseline    # on a quiet machine: this page, and what later runs are compared with
 
 ![share of the limits](gallery/perf/limits.svg)
 
@@ -262,7 +269,8 @@ A step of the most loaded rank takes
     nodes x t_node(nodes) + sites x t_site + hanging nodes x t_hanging      work
     + (bytes wrapped + 2 x bytes sent) x t_byte                             copies into and out of halos
     + swap(x) + swap(y)                                                     messages to neighbours
-    + log2(ranks) x (t_sum + latency) + bytes gathered x t_gathered         the reduction, and the level held by all
+    + log2(ranks) x t_sum                                                   the reduction
+    + log2(ranks) x latency + bytes gathered x t_gathered                   where coarse levels are held by all
 
 with volumes counted by the decomposition itself (`perf/volumes.cpp`: halos two nodes wide, all levels in one message a neighbour) and times
 measured here: a node {nodes} nodes, ns; a site in contact {_number(c['ns a site'])} ns; a hanging node {_number(c['ns a hanging node'])} ns; a byte copied

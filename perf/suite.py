@@ -199,8 +199,8 @@ def main():
     for table in page.tables(results, baseline, PHASES):
         say(page.terminal(table))
     say(machine.words(results["load"]))
-    if not baseline:
-        say("No baseline for this processor; --save-baseline makes one.")
+    if not args.quick:
+        say(page.baseline_words(baseline))
     if args.save_baseline:
         os.makedirs(os.path.dirname(stored), exist_ok=True)
         with open(stored, "w") as file:
