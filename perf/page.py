@@ -36,6 +36,9 @@ def _table(title, note, header, rows):
 def tables(results, baseline, phases):
     """All tables of the suite, in the order in which they are read."""
     known = baseline.get("ns", {})
+    compare = ["against baseline"] if known else []
+    def against(time, key):
+        return [_against(time, known.get(key))] if known else []
     out = []
     rows = [[name, _number(value), "GB/s" if "stream" in name else "GFLOP/s a core"]
             for name, value in results["limits"].items()]
@@ -45,18 +48,18 @@ def tables(results, baseline, phases):
     units = ("GB/s", "of stream", "GFLOP/s", "of fused")
     for group in results["kernels"]:
         used = [u for u in units if any(u in r for r in group["rows"])]
-        header = ["kernel", f"ns/{group['item']}", f"M {group['item']}s/s"] + used + ["against baseline"]
+        header = ["kernel", f"ns/{group['item']}", f"M {group['item']}s/s"] + used + compare
         rows = [[r["label"], _number(r["ns"]), _number(r["rate"])] +
                 [_percent(r[u]) if u.startswith("of") else _number(r[u]) for u in used] +
-                [_against(r["ns"], known.get(r["key"]))] for r in group["rows"]]
+                against(r["ns"], r["key"]) for r in group["rows"]]
         out.append(_table(group["question"], group["note"], header, rows))
     threads = results["steps"][0]["threads"]
     rows = [[s["label"], _number(1e3 * s["seconds"]), _number(1.0 / s["seconds"])] +
             [_percent(s["phases"].get(p, 0.0) / s["seconds"]) for p in phases] +
-            [_against(1e9 * s["seconds"], known.get(s["key"]))] for s in results["steps"]]
+            against(1e9 * s["seconds"], s["key"]) for s in results["steps"]]
     out.append(_table("How fast is a step of a scene, and where does it go?",
                       f"Multiscale block, one rank of {threads} threads; in contact every site has all of its pairs.",
-                      ["scene", "ms/step", "steps/s", *phases, "against baseline"], rows))
+                      ["scene", "ms/step", "steps/s", *phases, *compare], rows))
     if "scaling" in results:
         out += _scaling_tables(results["scaling"], results["limits"], phases)
     return out
@@ -107,6 +110,7 @@ def _scaling_tables(scaling, limits, phases):
 
 
 def baseline_words(baseline):
+    """What the numbers are compared with."""
     if not baseline:
         return "There is no baseline for this processor; --save-baseline makes one."
     return f"Baseline of {baseline['date']}: " + machine.words(baseline["load"])
@@ -231,7 +235,9 @@ def write(results, baseline, phases, folder):
     all_tables = tables(results, baseline, phases)
     first = next(i for i, t in enumerate(all_tables) if t["title"].startswith("What do two cores"))
     c = scaling["coefficients"]
-    nodes = ", ".join(f"{_number(t)} at {n}" for n, t in c["ns a node, by nodes"].items())
+    costs = "\n".join(["| nodes of a rank | " + " | ".join(map(str, c["nodes"])) + " |", "|---|" + "---:|" * len(c["nodes"])] +
+                      [f"| ns a {name} | " + " | ".join(map(_number, c["ns"][key])) + " |" for key, name in
+                       (("node", "node"), ("site", "site in contact"), ("hanging", "hanging node"), ("byte", "byte copied"))])
     text = f"""# Performance
 
 Written by `./asperity bench --page`; do not edit.
@@ -266,16 +272,19 @@ two is near 100 % (in cache the stream of memory is no limit). *Against baseline
 
 A step of the most loaded rank takes
 
-    nodes x t_node(nodes) + sites x t_site + hanging nodes x t_hanging      work
+    nodes x t_node + sites x t_site + hanging nodes x t_hanging             work
     + (bytes wrapped + 2 x bytes sent) x t_byte                             copies into and out of halos
     + swap(x) + swap(y)                                                     messages to neighbours
     + log2(ranks) x t_sum                                                   the reduction
     + log2(ranks) x latency + bytes gathered x t_gathered                   where coarse levels are held by all
 
 with volumes counted by the decomposition itself (`perf/volumes.cpp`: halos two nodes wide, all levels in one message a neighbour) and times
-measured here: a node {nodes} nodes, ns; a site in contact {_number(c['ns a site'])} ns; a hanging node {_number(c['ns a hanging node'])} ns; a byte copied
-{_number(c['ns a byte copied'])} ns; a reduction {_number(c['us a reduction'])} µs; a short message {_number(c['us a short message'])} µs, a long one {_number(c['GB/s of a long message'])} GB/s.
-A node costs less where a rank's block fits into its cache, so efficiencies above 1 occur. Left out: waiting for ranks that are late, memory
+measured here: those of work and copies on one core, interpolated by the number of nodes of a rank; a reduction {_number(c['us a reduction'])} µs, a short
+message {_number(c['us a short message'])} µs, a long one {_number(c['GB/s of a long message'])} GB/s.
+
+{costs}
+
+A node costs less where a rank's block fits into its cache, so efficiencies above 1 can occur. Left out: waiting for ranks that are late, memory
 shared by more cores than here, and anything a network does besides latency and bandwidth.
 
 ![larger machines](gallery/perf/larger.svg)

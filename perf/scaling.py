@@ -4,14 +4,14 @@
 
 The model of a step, for the most loaded rank (volumes.cpp says what it holds and sends):
 
-    nodes x t_node(nodes) + sites x t_site + hanging x t_hanging       work
+    nodes x t_node + sites x t_site + hanging x t_hanging              work
     (wrapped + 2 x sent) x t_byte                                      copies into and out of halos
     swap(x) + swap(y)                                                  messages to neighbours, in two goes
     log2(ranks) x t_sum                                                the step's one reduction
     log2(ranks) x latency + gathered x t_gathered                      the level that every rank holds
 
-The times are measured: those of work and copies on one core, at several sizes (t_node depends on what
-fits into the cache), those of messages between two ranks by message_bench. It leaves out waiting for
+The times are measured: those of work and copies on one core, at several sizes (they depend on what fits
+into the cache; in between they are interpolated by the number of nodes, outside they are constant), those of messages between two ranks by message_bench. It leaves out waiting for
 ranks that are late, and takes it that each rank has as much of the memory's speed as here.
 """
 import json
@@ -67,15 +67,13 @@ class Model:
 
     def __init__(self, singles, volume_of, messages):
         """singles: measured steps in contact on one core, by sites."""
-        self.node = []
+        self.cost = {"node": [], "site": [], "hanging": [], "byte": []}
         for n, s in sorted(singles.items()):
-            v = volume_of(n)
-            self.node.append((math.log(v["nodes"]), s["phases"]["advance"] / v["nodes"]))
-        largest = singles[max(singles)]
-        v = volume_of(max(singles))
-        self.site = (largest["phases"]["interface"] + largest["phases"]["observe"]) / v["sites"]
-        self.hanging = largest["phases"].get("interpolate", 0.0) / max(v["hanging"], 1.0)
-        self.byte = largest["phases"]["exchange"] / v["wrapped"]
+            v, p = volume_of(n), s["phases"]
+            for name, seconds, many in (("node", p["advance"], v["nodes"]), ("byte", p["exchange"], v["wrapped"]),
+                                        ("site", p["interface"] + p["observe"], v["sites"]),
+                                        ("hanging", p.get("interpolate", 0.0), max(v["hanging"], 1.0))):
+                self.cost[name].append((math.log(v["nodes"]), seconds / many))
         self.swap = [(m["bytes"], m["seconds"]) for m in messages["swap"]]
         ping = messages["ping"]
         self.latency, self.sum = ping[0]["seconds"], messages["sum"]
@@ -94,15 +92,16 @@ class Model:
 
     def predict(self, v):
         """Seconds of the parts of a step."""
-        # Beyond the largest block measured a node takes what it takes there.
-        size = min(math.log(v["nodes"]), self.node[-1][0])
+        # Beyond the largest block measured everything takes what it takes there.
+        size = min(math.log(v["nodes"]), self.cost["node"][-1][0])
+        t = {name: _between(points, size) for name, points in self.cost.items()}
         doublings = math.ceil(math.log2(v["ranks"]))
         sent = 2.0 * (v["x"] + v["y"])
         messages = sum(_between(self.swap, v[way]) for way in "xy" if v[way] > 0.0)
         if v["gathered"] > 0.0:
             messages += doublings * self.latency + v["gathered"] * self.gathered
-        return {"work": v["nodes"] * _between(self.node, size) + v["sites"] * self.site + v["hanging"] * self.hanging,
-                "copies": (v["wrapped"] + 2.0 * sent) * self.byte, "messages": messages,
+        return {"work": v["nodes"] * t["node"] + v["sites"] * t["site"] + v["hanging"] * t["hanging"],
+                "copies": (v["wrapped"] + 2.0 * sent) * t["byte"], "messages": messages,
                 "sums": doublings * self.sum}
 
 
@@ -160,7 +159,7 @@ def study(folder, quick):
     return {"strong": [entry(c, (*c[:3], 1, 1)) for c in cases[:len(strong) * 6]],
             "weak": [entry(c, ("contact", weak[0], weak[2], 1, 1)) for c in cases[-3:]],
             "messages": messages, "network": NETWORK, "check": check, "larger": larger,
-            "coefficients": {"ns a node, by nodes": {str(round(math.exp(x))): 1e9 * y for x, y in model.node},
-                             "ns a site": 1e9 * model.site, "ns a hanging node": 1e9 * model.hanging,
-                             "ns a byte copied": 1e9 * model.byte, "us a reduction": 1e6 * model.sum,
-                             "us a short message": 1e6 * model.latency, "GB/s of a long message": 1e-9 / model.gathered}}
+            "coefficients": {"nodes": [round(math.exp(x)) for x, _ in model.cost["node"]],
+                             "ns": {name: [1e9 * t for _, t in points] for name, points in model.cost.items()},
+                             "us a reduction": 1e6 * model.sum, "us a short message": 1e6 * model.latency,
+                             "GB/s of a long message": 1e-9 / model.gathered}}
