@@ -113,6 +113,8 @@ def baseline_words(baseline):
     """What the numbers are compared with."""
     if not baseline:
         return "There is no baseline for this processor; --save-baseline makes one."
+    if "ns" not in baseline:
+        return "These numbers are the baseline of this processor."
     return f"Baseline of {baseline['date']}: " + machine.words(baseline["load"])
 
 
