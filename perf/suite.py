@@ -178,7 +178,8 @@ def main():
     else:
         folder = programs(args)
         watch = machine.Watch()
-        say("Measuring; the numbers are worth something only while nothing else runs here.")
+        say("Measuring; the numbers are worth something only while nothing else runs here." +
+            (f" The load is {watch.load:.1f}: something does." if watch.load > 0.5 else ""))
         groups, limits, variant = kernels(folder, args.quick)
         results = {"date": datetime.date.today().isoformat(), "machine": {**machine.describe(), "kernels": variant},
                    "quick": args.quick, "limits": limits, "kernels": groups, "steps": steps(folder, args.quick)}
@@ -223,3 +224,5 @@ if __name__ == "__main__":
         main()
     except (OSError, ValueError) as error: # files that cannot be read or written, or hold no JSON
         sys.exit(f"bench: {error}")
+    except KeyboardInterrupt:
+        sys.exit(130)
