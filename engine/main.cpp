@@ -7,6 +7,7 @@
 // Under mpirun every rank runs this; rank 0 alone speaks. A scene that is wrong is met by all ranks
 // alike, or by rank 0 for all of them: they agree on the code and end in order. Any other error
 // ends them all at once (abort), because the others may be waiting for this one.
+#include "engine/cost.hpp"
 #include "engine/export.hpp"
 #include "engine/plan.hpp"
 #include "engine/report.hpp"
@@ -60,6 +61,7 @@ struct SceneArguments {
     bool theory_only = false;
     int jobs = 1;
     std::string launch;
+    std::vector<std::string> knobs;
 };
 
 void add_scene(CLI::App& command, SceneArguments& arguments) {
@@ -240,6 +242,18 @@ int command_sweep(const SceneArguments& arguments, const Communicator& world) {
     return code;
 }
 
+int command_cost(const SceneArguments& arguments, const Communicator& world) {
+    CostOptions options;
+    options.scene = scene_file(arguments, options.overrides);
+    options.knobs = arguments.knobs;
+    options.jobs = arguments.jobs;
+    options.progress = run_options(arguments).progress;
+    options.out = arguments.out;
+    int code = io::exit_code::done;
+    world.on_root([&] { code = cost_command(options); });
+    return code;
+}
+
 int command_report(const std::string& directory, const Communicator& world) {
     int code = io::exit_code::done;
     world.on_root([&] { code = report_command(directory); });
@@ -399,6 +413,20 @@ int command_line(int argc, char** argv, const Communicator& world) {
         "--set key=v1,v2,... or key=start:stop:step sweeps a key, beside those of the "
         "scene's [sweep]; with several, every combination.\nThe same command goes on where "
         "a sweep stopped. Several scenes share one set of plots.");
+    CLI::App& cost =
+        *app.add_subcommand("cost", "what accuracy costs in time: a scene with each of its "
+                                    "numerical settings varied");
+    add_scene(cost, arguments);
+    cost.add_option("--knobs", arguments.knobs, "only these: timestep,cutoff,layers,...")
+        ->delimiter(',')
+        ->type_name("NAMES");
+    cost.add_option("--jobs", arguments.jobs, "runs side by side, one thread each")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    cost.add_option("--progress", arguments.progress, "auto, bar, lines or off")->type_name("MODE");
+    cost.add_option("--out", arguments.out, "result directory (default: results/<scene>-cost)")
+        ->type_name("DIR");
+    cost.footer("The same command goes on where it stopped.");
     std::string directory, format;
     CLI::App& report =
         *app.add_subcommand("report", "a run or a sweep as one self-contained HTML page");
@@ -441,6 +469,7 @@ int command_line(int argc, char** argv, const Communicator& world) {
     if (surface.parsed()) return command_surface(arguments, world);
     if (theory.parsed()) return command_theory(arguments, world);
     if (sweep.parsed()) return command_sweep(arguments, world);
+    if (cost.parsed()) return command_cost(arguments, world);
     if (report.parsed()) return command_report(directory, world);
     if (to_others.parsed()) return command_export(directory, format, world);
     if (defaults.parsed()) return command_defaults(arguments, world);

@@ -16,6 +16,8 @@
 #include <span>
 #include <utility>
 
+#include <sys/resource.h>
+
 namespace asperity {
 
 namespace {
@@ -189,6 +191,7 @@ RunScalars RunFrame::run_scalars() {
     CollectScalars collect;
     collect.values.emplace_back("rows", static_cast<double>(recorder_->rows()));
     collect("strongest", strongest_.attraction);
+    collect.values.emplace_back("processor_seconds", processor_seconds());
     findings_.visit(collect);
     return collect.values;
 }
@@ -197,7 +200,17 @@ void RunFrame::restore_run(const RunScalars& scalars) {
     RestoreScalars restore{scalars};
     restore("rows", rows_at_start_);
     restore("strongest", strongest_.attraction);
+    restore("processor_seconds", processor_before_);
     findings_.visit(restore);
+}
+
+double RunFrame::processor_seconds() const {
+    rusage used{};
+    ::getrusage(RUSAGE_SELF, &used);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return processor_before_ + seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
 /// The physics of the scene, as text: what may not change between a checkpoint and its resumption.
@@ -231,6 +244,7 @@ void RunFrame::write_record(const io::ResultRecord::Failure& failure) {
     io::ResultRecord r = run_record(scene_, surface_, setup_, findings_, ranks_.size());
     complete(r);
     r.run.wall_seconds = seconds();
+    r.extra.emplace_back("run.processor_seconds", processor_seconds());
     add_phases(phases(), r);
     const bool whole = stopped_.empty() && failure.exit_code == 0 && !options_.resuming();
     if (recorder_) {

@@ -92,6 +92,8 @@ protected:
     std::string directory_, fingerprint_, stopped_;
 
 private:
+    /// Of this rank with all its threads, from the first start of the run on.
+    double processor_seconds() const;
     void choose_directory();
     std::string fingerprint() const;
     void bring_series(const std::string& checkpoint) const;
@@ -109,6 +111,7 @@ private:
     std::vector<std::string> differences_; ///< between the effects planned and done
     PathSeries curve_;                     ///< read back at the end, on the root
     std::uint64_t rows_at_start_ = 0;
+    double processor_before_ = 0.0; ///< s, before the checkpoint that was taken up
     double last_checkpoint_ = 0.0;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

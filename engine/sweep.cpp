@@ -259,9 +259,12 @@ int simulate(std::vector<Part>& parts, const SweepOptions& options, const std::s
             write_tables(part.directory, part.table);
         }
     };
-    const bool all = run_points(
-        jobs, outcomes, {options.jobs, options.launcher, options.wall_limit, options.progress},
-        [&](std::size_t) { fill_in(); });
+    SweepRunOptions how;
+    how.at_once = options.jobs;
+    how.launcher = options.launcher;
+    how.wall_limit = options.wall_limit;
+    how.progress = options.progress;
+    const bool all = run_points(jobs, outcomes, how, [&](std::size_t) { fill_in(); });
     fill_in();
 
     std::vector<SweepTable> tables;

@@ -146,9 +146,11 @@ private:
         std::vector<std::string> variables;
         for (char** v = environ; *v; ++v)
             variables.emplace_back(*v);
-        if (!std::getenv("OMP_NUM_THREADS") && options_.launcher.empty())
-            variables.push_back(fmt::format("OMP_NUM_THREADS={}",
-                                            std::max(1, omp_get_max_threads() / options_.at_once)));
+        if (!std::getenv("OMP_NUM_THREADS") && options_.launcher.empty()) {
+            const int share = std::max(1, omp_get_max_threads() / options_.at_once);
+            variables.push_back(
+                fmt::format("OMP_NUM_THREADS={}", options_.threads > 0 ? options_.threads : share));
+        }
         const std::vector<char*> argv = pointers(words), environment = pointers(variables);
         const std::string log = log_of(job);
         const pid_t parent = ::getpid(), pid = ::fork();
