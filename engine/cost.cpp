@@ -37,11 +37,12 @@ Setting joined(const Setting& first, const Setting& then) {
     return all;
 }
 
-CostRow row_of(const std::string& knob, const KnobValue& value) {
+CostRow row_of(const std::string& knob, const KnobValue& value, const Setting& base = {}) {
     CostRow row;
     row.knob = knob;
     row.label = value.label;
-    row.setting = value.setting;
+    row.own = value.setting;
+    row.setting = joined(base, value.setting);
     row.x = value.x;
     return row;
 }
@@ -73,7 +74,7 @@ void choose_knobs(CostCase& what, const std::vector<std::string>& names) {
 /// Of a knob the row of its twin, or none.
 const CostRow* twin_of(const CostTable& table, const Knob& knob) {
     for (const CostRow& row : table.rows)
-        if (knob.twin && row.knob == knob.name && row.setting == knob.twin->setting) return &row;
+        if (knob.twin && row.knob == knob.name && row.own == knob.twin->setting) return &row;
     return nullptr;
 }
 
@@ -154,8 +155,8 @@ private:
 void add_knobs(CostTable& table) {
     for (const Knob& knob : table.what.knobs) {
         for (const KnobValue& value : knob.values)
-            table.rows.push_back(row_of(knob.name, value));
-        if (knob.twin) table.rows.push_back(row_of(knob.name, *knob.twin));
+            table.rows.push_back(row_of(knob.name, value, knob.base));
+        if (knob.twin) table.rows.push_back(row_of(knob.name, *knob.twin, knob.base));
     }
     for (CostRow& row : table.rows)
         if (row.knob == "thickness") row.judged = false; // another solid
@@ -202,7 +203,7 @@ void add_combinations(CostTable& table) {
                         possible = false;
                         break;
                     }
-                    row.setting = joined(row.setting, chosen->setting);
+                    row.setting = joined(row.setting, chosen->own);
                     row.label += ", " + chosen->label;
                 }
                 const bool there = std::any_of(found.begin(), found.end(), [&](const CostRow& r) {
@@ -246,7 +247,7 @@ void judge(CostTable& table) {
     }
     table.orders.clear();
     for (CostRow& row : table.rows)
-        row.own.fill(nothing);
+        row.own_error.fill(nothing);
     for (const Knob& knob : table.what.knobs) {
         const CostRow* twin = twin_of(table, knob);
         if (!twin) continue;
@@ -254,10 +255,10 @@ void judge(CostTable& table) {
         std::array<std::vector<double>, cost_quantities> errors;
         for (CostRow& row : table.rows) {
             if (row.knob != knob.name || &row == twin) continue;
-            row.own = cost_errors(row.numbers, twin->numbers);
+            row.own_error = cost_errors(row.numbers, twin->numbers);
             x.push_back(row.x);
             for (std::size_t q = 0; q < cost_quantities; ++q)
-                errors[q].push_back(row.own[q]);
+                errors[q].push_back(row.own_error[q]);
         }
         CostOrder order{&knob, {}};
         const std::optional<double> x0 =

@@ -41,12 +41,13 @@ inline constexpr std::array<Question, 2> questions = {Question::state, Question:
 struct CostRow {
     std::string knob;  ///< name; "reference", "scene" or "combination" for those that are none
     std::string label; ///< its value
-    Setting setting;
+    Setting setting;   ///< in full
+    Setting own;       ///< the part of it that is the knob's value
     double x = 0.0;
     bool judged = true; ///< its error is one of settings: not the reference, not another solid
     PointOutcome outcome;
     CostNumbers numbers{};
-    CostNumbers own{};                ///< errors against the twin; NaN: none
+    CostNumbers own_error{};          ///< errors against the twin; NaN: none
     std::array<double, 2> error = {}; ///< against the reference, by question; NaN: not answered
     std::array<bool, 2> front = {};
     double seconds = std::numeric_limits<double>::quiet_NaN(); ///< of the processor

@@ -141,12 +141,6 @@ Knob damping(const Scene& scene) {
     return knob;
 }
 
-void add_to_all(Knob& knob, const Setting& setting) {
-    for (KnobValue& v : knob.values)
-        v.setting.insert(v.setting.end(), setting.begin(), setting.end());
-    knob.twin->setting.insert(knob.twin->setting.end(), setting.begin(), setting.end());
-}
-
 /// base: what a scene in time takes to be followed without.
 Knob tolerance(const Scene& scene, const Setting& base) {
     Knob knob{"tolerance",
@@ -158,7 +152,7 @@ Knob tolerance(const Scene& scene, const Setting& base) {
               "up to 2: a minimum is flat",
               "tolerance"};
     knob.values = scaled("drive.tolerance", scene.drive.tolerance, "eV/Å", {100.0, 10.0, 1.0});
-    add_to_all(knob, base);
+    knob.base = base;
     return knob;
 }
 
@@ -172,7 +166,7 @@ Knob step(const Scene& scene, const Setting& base) {
               "none: steps are cut where needed",
               "step"};
     knob.values = scaled("drive.step", scene.drive.step, "Å", {4.0, 2.0, 1.0, 0.5});
-    add_to_all(knob, base);
+    knob.base = base;
     return knob;
 }
 

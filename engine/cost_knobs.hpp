@@ -27,8 +27,8 @@ struct KnobValue {
 };
 
 struct Knob {
-    std::string name; ///< behind --knobs
-    std::string about;
+    std::string name;              ///< behind --knobs
+    std::string about;             ///< for people
     std::vector<KnobValue> values; ///< from coarse to fine
     std::optional<KnobValue> twin; ///< what they are compared with; none: with the reference alone
     bool twin_is_exact = false;    ///< nothing of the knob's error is left in its twin
@@ -36,6 +36,7 @@ struct Knob {
     std::string expected;          ///< in words
     std::string
         part; ///< knobs of one part exclude each other in a combination; empty: never in one
+    Setting base = {}; ///< of all its runs, where it has no effect on the scene as it is
 };
 
 /// Where a combination starts: how the path is followed.

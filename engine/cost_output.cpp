@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace asperity {
 
@@ -73,13 +75,21 @@ void write_plot_of(const std::string& path, const CostTable& table, std::size_t 
             }
         if (!series.x.empty()) plot.series.push_back(std::move(series));
     };
-    for (const Knob& knob : table.what.knobs)
-        add(knob.about, io::PlotSeries::Style::points,
-            [&](const CostRow& row) { return row.knob == knob.name; });
+    // A colour for each group, so that there are no more than can be told apart.
+    using Group = std::pair<const char*, std::vector<std::string>>;
+    for (const auto& [label, knobs] :
+         {Group{"cutoff, tail, precision", {"cutoff", "tail", "precision"}},
+          Group{"layers, block model", {"layers", "model"}}, Group{"time step", {"timestep"}},
+          Group{"velocity, damping", {"velocity", "damping"}},
+          Group{"tolerance and step, quasi-static", {"tolerance", "step"}}})
+        add(label, io::PlotSeries::Style::points, [&](const CostRow& row) {
+            return std::find(knobs.begin(), knobs.end(), row.knob) != knobs.end();
+        });
     add("combinations", io::PlotSeries::Style::rings,
         [](const CostRow& row) { return row.knob == "combination"; });
     io::PlotSeries front;
     front.label = "nothing is better in both";
+    front.style = io::PlotSeries::Style::dashed;
     std::vector<const CostRow*> rows;
     for (const CostRow& row : table.rows)
         if (row.front[question] && row.error[question] > 0.0) rows.push_back(&row);
@@ -112,7 +122,7 @@ std::string cost_csv(const CostTable& table) {
             text += csv_number(v);
         for (const double v : row.error)
             text += csv_number(v);
-        for (const double v : row.own)
+        for (const double v : row.own_error)
             text += csv_number(v);
         text += fmt::format(",{:d},{:d}\n", row.front[0], row.front[1]);
     }
@@ -147,7 +157,7 @@ io::JsonValue cost_json(const CostTable& table) {
         one["wall_seconds"] = row.wall;
         one["measured"] = by_quantity(row.numbers);
         one["error"] = by_question(row.error);
-        one["own_error"] = by_quantity(row.own);
+        one["own_error"] = by_quantity(row.own_error);
         one["pareto"] = by_question(row.front);
         if (row.outcome.state == PointState::failed) one["failed"] = row.outcome.reason;
         all["settings"].push_back(std::move(one));

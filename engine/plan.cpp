@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/plan.hpp"
 
+#include "engine/accuracy.hpp"
 #include "engine/equilibrium.hpp"
 #include "engine/units.hpp"
 #include "io/table.hpp"
@@ -429,6 +430,9 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
                      plan.threads, plan.threads == 1 ? "" : "s"));
     table.print(to);
     fmt::print(to, "\n");
+    if (scene.choice)
+        for (const std::string& said : accuracy_lines(*scene.choice))
+            fmt::print(to, "accuracy    {}\n", said);
     if (plan.steps > 0)
         fmt::print(to, "steps       {} of {:.4g} fs{}\n", plan.steps, setup.simulation.dt,
                    plan.steps == scene.drive.max_steps ? " (drive.max_steps)" : "");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run_record.hpp"
 
+#include "engine/accuracy.hpp"
 #include "engine/curve.hpp"
 #include "engine/theory_command.hpp"
 #include "engine/units.hpp"
@@ -74,6 +75,7 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
     }
     add_theory(scene, surface, setup.flat.work_of_adhesion, r);
     r.extra.emplace_back("run.kernels", std::string(name(processor_level())));
+    if (scene.choice) r.extra.emplace_back("accuracy", accuracy_json(*scene.choice));
     r.run.ranks = ranks;
     r.run.threads = omp_get_max_threads();
     return r;

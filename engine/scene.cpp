@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene.hpp"
 
+#include "engine/accuracy.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -237,6 +239,12 @@ Scene read_scene_text(const std::string& text, const std::string& file,
     scene.surface.rms_given = scene.positions.is_set("surface.rms");
     if (!scene.positions.is_set("block.thickness")) scene.block.thickness = scene.surface.sites;
 
+    if (wrong.empty()) {
+        io::Problems uncovered = scene.problems();
+        choose_accuracy(scene, uncovered);
+        for (const io::Problem& problem : uncovered.list())
+            wrong.add(problem);
+    }
     // Keys that could not be read still have their defaults, so the checks between keys can go on;
     // what they find about such a key is left out, it has been complained about already.
     io::Problems contradictions = scene.problems();
@@ -380,9 +388,6 @@ void not_yet(const Scene& scene, io::Problems& problems) {
         scene.drive.path.front() == PathPart::zero_load)
         refuse("drive.path", "a pull-off from \"zero-load\" in time",
                "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
-    if (scene.numerics.accuracy)
-        refuse("numerics.accuracy", fmt::format("{:.6g}", *scene.numerics.accuracy),
-               "use \"none\" and choose layers_per_level, timestep and velocity yourself");
 }
 
 std::vector<std::string> notes(const Scene& scene) {

@@ -33,6 +33,15 @@ enum class Precision { double_precision, mixed };
 /// Of output.fields: "after-zero-load:140", 140 ps after the approach has ended.
 inline constexpr std::string_view after_zero_load = "after-zero-load:";
 
+/// What numerics.accuracy made of the keys that the scene leaves open (accuracy.hpp).
+struct AccuracyChoice {
+    double target = 0.0;
+    std::vector<std::pair<std::string, std::string>> settings; ///< key and value
+    std::vector<std::string> kept;                             ///< keys that the scene sets itself
+    double expected_error = 0.0;                               ///< of what was chosen, relative
+    std::string calibration;                                   ///< where that is known from
+};
+
 struct Scene {
     struct Surface {
         SurfaceKind kind = SurfaceKind::self_affine;
@@ -111,6 +120,8 @@ struct Scene {
     } output;
 
     std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only
+
+    std::optional<AccuracyChoice> choice;
 
     // Where it came from.
     std::string file;           ///< as given on the command line

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/summary.hpp"
 
+#include "engine/accuracy.hpp"
 #include "io/table.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace asperity {
 
@@ -55,6 +57,11 @@ void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const 
                "{} precision\n",
                setup.flat.work_of_adhesion, setup.flat.separation, scene.interface.cutoff,
                setup.simulation.interface.mixed ? "single" : "double");
+    if (scene.choice) {
+        const char* head = "accuracy";
+        for (const std::string& line : accuracy_lines(*scene.choice))
+            fmt::print(to, "  {:<11} {}\n", std::exchange(head, ""), line);
+    }
     fmt::print(to, "  machine     {}, {} thread{} each, {:.0f} MB a rank\n", grid.describe(),
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6);
     fmt::print(to, "  results     {}\n", directory);

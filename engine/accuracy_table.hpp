@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The calibration behind numerics.accuracy. Its rows are what scenes/cost/calibrate.sh prints; its
+// limits are those of the scenes measured there.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace asperity::calibration {
+
+inline constexpr std::string_view source =
+    "scenes/cost/calibrate.sh: N = 32 and 48, rms 0.5 to 2 Å, 10 m/s";
+
+/// What is chosen.
+enum class Dial { layers, precision, timestep };
+
+struct Row {
+    Dial dial;
+    double value; ///< layers a level (0: the lattice), fs; of precision 0: mixed
+    double state; ///< largest relative error of gamma and contact at zero load
+    double path;  ///< the same with works of adhesion and pull-off force
+    double time;  ///< of the time with 4 layers a level, double precision and 10 fs
+};
+
+inline constexpr std::array rows = {
+    Row{Dial::layers, 2, 0.012, 0.016, 0.87},
+    Row{Dial::layers, 3, 0.0032, 0.011, 1.01},
+    Row{Dial::layers, 4, 0.0032, 0.011, 1.03},
+    Row{Dial::layers, 6, 0.001, 0.0021, 1.28},
+    Row{Dial::layers, 8, 0.0019, 0.0021, 1.56},
+    Row{Dial::layers, 0, 0, 0, 4.76},
+    Row{Dial::precision, 0, 1.1e-07, 1.7e-07, 0.93},
+    Row{Dial::timestep, 60, 8.7e-08, 0.00045, 0.20},
+    Row{Dial::timestep, 50, 7.7e-08, 0.00057, 0.22},
+    Row{Dial::timestep, 40, 4.2e-07, 0.00024, 0.27},
+    Row{Dial::timestep, 30, 4.2e-07, 0.00041, 0.35},
+    Row{Dial::timestep, 20, 4.3e-07, 0.00026, 0.52},
+    Row{Dial::timestep, 10, 2.2e-07, 7.3e-05, 1.00},
+};
+
+inline constexpr int fewest_sites = 32;
+inline constexpr double most_bending = 178.0; ///< bending_energy() of rms 2 Å at N = 32, meV/Å²
+inline constexpr double fastest = 10.0;       ///< m/s
+
+} // namespace asperity::calibration
