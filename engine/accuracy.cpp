@@ -234,9 +234,9 @@ io::JsonValue accuracy_json(const AccuracyChoice& choice) {
     io::JsonValue all = io::JsonValue::object();
     all["target"] = choice.target;
     all["expected_error"] = choice.expected_error;
-    all["chosen"] = io::JsonValue::object();
+    all["chosen"] = io::JsonValue::array();
     for (const auto& [key, value] : choice.settings)
-        all["chosen"][key] = value;
+        all["chosen"].push_back(key + " = " + value);
     all["kept"] = io::JsonValue::array();
     for (const std::string& key : choice.kept)
         all["kept"].push_back(key);

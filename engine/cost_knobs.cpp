@@ -234,8 +234,9 @@ CostCase cost_case(const Scene& scene) {
         model.values.push_back({block + ", " + label, setting, 0.0});
     };
     if (ways.dynamic) also("lattice", "in time", {});
-    for (const char* block : {"lattice", "multiscale", "spectral"}) {
-        if (std::string(block) == "spectral" && !spectral) continue;
+    for (const std::string block : {"lattice", "multiscale", "spectral"}) {
+        // Finite strain has no spectral block, and only that one can leave friction out.
+        if (block == "spectral" ? !spectral : scene.interface.frictionless) continue;
         if (ways.legs) also(block, "quasi-static", at_rest);
         also(block, "zero load alone", {"drive.path=zero-load"});
     }

@@ -175,11 +175,12 @@ io::JsonValue cost_json(const CostTable& table) {
     for (std::size_t q = 0; q < questions.size(); ++q)
         for (std::size_t t = 0; t < cost_targets.size(); ++t)
             if (const auto row = table.cheapest[q][t]) {
-                io::JsonValue& one =
-                    all["cheapest"][question_names[q]][fmt::format("{:g}", cost_targets[t])];
+                io::JsonValue one = io::JsonValue::object();
+                one["target"] = cost_targets[t];
                 one["set"] = setting_text(table.rows[*row]);
                 one["error"] = table.rows[*row].error[q];
                 one["processor_seconds"] = table.rows[*row].seconds;
+                all["cheapest"][question_names[q]].push_back(std::move(one));
             }
     return all;
 }

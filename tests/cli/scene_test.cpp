@@ -119,8 +119,6 @@ load = "1 kPa"
 ramp = "20 ps"
 [theory]
 delta_gamma = "0.1 eV/Å^2"
-[numerics]
-accuracy = "1%"
 [output]
 checkpoint = "5 min"
 trajectory = 1000
@@ -137,7 +135,7 @@ trajectory = 1000
     EXPECT_EQ(s.drive.load, 0.001);
     EXPECT_EQ(s.drive.ramp, 20.0);
     EXPECT_EQ(s.theory.delta_gamma, 100.0);
-    EXPECT_EQ(s.numerics.accuracy, 0.01);
+    EXPECT_EQ(read_scene_text("numerics.accuracy = \"1%\"", "s.toml").numerics.accuracy, 0.01);
     EXPECT_EQ(s.output.checkpoint, 300.0);
     EXPECT_EQ(s.output.trajectory, 1000);
     EXPECT_EQ(s.name, "my.scene");

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// numerics.accuracy on scenes that its calibration has not seen: the error is within the target,
+// and the work, counted in node-steps or iterations of nodes, a third of the default's or less.
+#include "engine/accuracy.hpp"
+#include "engine/cost_judge.hpp"
+#include "engine/run.hpp"
+#include "engine/setup.hpp"
+#include "io/error.hpp"
+#include "io/scratch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace asperity {
+namespace {
+
+io::JsonValue result_of(const std::string& text, const std::vector<std::string>& overrides) {
+    const io::Scratch scratch;
+    const Scene scene = read_scene_text(text, "held-out.toml", overrides);
+    RunOptions options;
+    options.out = scratch / "run";
+    options.progress = io::ProgressMode::off;
+    EXPECT_EQ(run(scene, options, Communicator()), io::exit_code::done);
+    std::ifstream stream(options.out + "/result.json");
+    const std::string json{std::istreambuf_iterator<char>(stream), {}};
+    return io::JsonValue::parse(json, "result.json");
+}
+
+/// Node-steps of the path in time, or nodes times iterations without.
+double work_of(const std::string& text, const std::vector<std::string>& overrides,
+               const io::JsonValue& result) {
+    const double steps = result.find("run.effects.inertia.calls")->number();
+    if (steps > 0.0) return steps;
+    const Scene scene = read_scene_text(text, "held-out.toml", overrides);
+    const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
+    double nodes = 0.0;
+    for (const LevelPlan& level : make_setup(scene, 1).levels)
+        nodes += static_cast<double>(level.sites) * level.sites * level.cells;
+    if (scene.block.model == BlockModel::spectral) nodes = sites;
+    return nodes * result.find("run.effects.relaxation.calls")->number();
+}
+
+/// reference: what makes every dial that accuracy turns exact.
+void expect_accuracy(const std::string& text, const std::vector<std::string>& reference,
+                     const std::string& target, Question question) {
+    const std::vector<std::string> chosen = {"numerics.accuracy=" + target};
+    const io::JsonValue fast = result_of(text, chosen), plain = result_of(text, {}),
+                        best = result_of(text, reference);
+    const double error = largest_error(cost_numbers(fast), cost_numbers(best), question);
+    EXPECT_LE(error, fast.find("accuracy.target")->number()) << text;
+    EXPECT_LE(fast.find("accuracy.expected_error")->number(),
+              fast.find("accuracy.target")->number());
+    const double saved = work_of(text, {}, plain) / work_of(text, chosen, fast);
+    EXPECT_GE(saved, 3.0) << text;
+    ::testing::Test::RecordProperty("error", std::to_string(error));
+    ::testing::Test::RecordProperty("saved", std::to_string(saved));
+}
+
+const std::string thin = "[block]\nthickness = 32\n[drive]\nvelocity = 10\n";
+
+TEST(HeldOut, PathInTime) {
+    expect_accuracy("[surface]\nsites = 32\nrms = 0.8\nseed = 11\nhurst = 0.7\n" + thin,
+                    {"block.model=lattice", "drive.timestep=20"}, "1%", Question::path);
+}
+
+TEST(HeldOut, StatesAtZeroLoad) {
+    for (const char* surface :
+         {"sites = 48\nrms = 1.2\nseed = 5\n", "sites = 40\nrms = 1.7\nseed = 3\n"})
+        expect_accuracy("[surface]\n" + std::string(surface) + "[drive]\npath = [\"zero-load\"]\n",
+                        {"block.model=lattice", "drive.tolerance=1e-5"}, "0.1%", Question::state);
+}
+
+TEST(HeldOut, AtLength) {
+    if (!std::getenv("ASPERITY_LONG")) GTEST_SKIP() << "part of ctest -L long";
+    for (const char* surface :
+         {"sites = 64\nrms = 1.2\nseed = 4\n", "sites = 64\nrms = 2\nseed = 9\n"})
+        expect_accuracy("[surface]\n" + std::string(surface) + "[drive]\nvelocity = 10\n",
+                        {"block.model=lattice", "drive.timestep=20"}, "1%", Question::path);
+}
+
+TEST(Choice, LeavesAloneWhatTheSceneSays) {
+    const std::string text = "[numerics]\naccuracy = \"1%\"\n";
+    const Scene free = read_scene_text(text, "s.toml");
+    ASSERT_TRUE(free.choice);
+    EXPECT_EQ(free.choice->settings.size(), 3u);
+    EXPECT_TRUE(free.choice->kept.empty());
+    const Scene held =
+        read_scene_text(text, "s.toml", {"drive.timestep=7", "block.layers_per_level=9"});
+    EXPECT_EQ(held.drive.timestep, 7.0);
+    EXPECT_EQ(held.block.layers_per_level, 9);
+    EXPECT_EQ(held.choice->kept,
+              (std::vector<std::string>{"block.layers_per_level", "drive.timestep"}));
+    // The interaction and the experiment are not its to choose.
+    EXPECT_EQ(free.interface.cutoff, Scene{}.interface.cutoff);
+    EXPECT_EQ(free.drive.velocity, Scene{}.drive.velocity);
+    EXPECT_FALSE(read_scene_text("", "s.toml").choice);
+}
+
+TEST(Choice, IsCheaperForALooserTarget) {
+    const auto layers = [](const char* target) {
+        return read_scene_text("", "s.toml", {std::string("numerics.accuracy=") + target});
+    };
+    EXPECT_LT(layers("5%").block.layers_per_level, layers("1%").block.layers_per_level);
+    EXPECT_EQ(layers("0.1%").block.model, BlockModel::lattice);
+    EXPECT_EQ(
+        read_scene_text("[drive]\nmode = \"quasistatic\"", "s.toml", {"numerics.accuracy=0.1%"})
+            .block.model,
+        BlockModel::spectral);
+}
+
+TEST(Choice, RefusesWhatWasNotMeasured) {
+    for (const char* outside : {"block.young=50", "interface.epsilon=0.2", "surface.rms=12",
+                                "surface.sites=16", "surface.radius=4410", "drive.velocity=40",
+                                "drive.temperature=300", "numerics.accuracy=1e-6"})
+        EXPECT_THROW(read_scene_text("", "s.toml", {"numerics.accuracy=1%", outside}),
+                     io::SceneError)
+            << outside;
+}
+
+TEST(BendingEnergy, OfOneWave) {
+    // All of it in the longest wave: (E*/4) q h², E* = E / (1 - ν²).
+    Scene scene;
+    scene.surface.rolloff = scene.surface.cutoff = 1.0;
+    scene.surface.rms = 2.0;
+    const double q = 2.0 * 3.14159265358979 / scene.edge();
+    const double modulus = 77.2 / 160.21766 / (1.0 - 0.42 * 0.42);
+    EXPECT_NEAR(bending_energy(scene), 1000.0 * modulus * q, 1e-3);
+}
+
+} // namespace
+} // namespace asperity
