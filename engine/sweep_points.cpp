@@ -146,7 +146,10 @@ private:
         std::vector<std::string> variables;
         for (char** v = environ; *v; ++v)
             variables.emplace_back(*v);
-        if (!std::getenv("OMP_NUM_THREADS") && options_.launcher.empty()) {
+        const bool shared = !std::getenv("OMP_NUM_THREADS") && options_.launcher.empty();
+        if (options_.threads > 0 || shared) {
+            std::erase_if(variables,
+                          [](const std::string& v) { return v.starts_with("OMP_NUM_THREADS="); });
             const int share = std::max(1, omp_get_max_threads() / options_.at_once);
             variables.push_back(
                 fmt::format("OMP_NUM_THREADS={}", options_.threads > 0 ? options_.threads : share));

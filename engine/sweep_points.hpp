@@ -50,8 +50,8 @@ struct PointOutcome {
 PointOutcome look_at(const SweepJob& job);
 
 struct SweepRunOptions {
-    int at_once = 1;                   ///< --jobs
-    int threads = 0;                   ///< of each; 0: they share the machine
+    int at_once = 1; ///< --jobs
+    int threads = 0; ///< of each, whatever the environment says; 0: they share the machine
     std::vector<std::string> launcher; ///< words to put before the program
     std::optional<double> wall_limit;  ///< s
     io::ProgressMode progress = io::ProgressMode::automatic;
