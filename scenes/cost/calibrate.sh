@@ -4,7 +4,7 @@
 #
 # Measures what numerics.accuracy goes by, and prints the rows of engine/accuracy_table.hpp: for each
 # setting the largest own error in the family, of the state (gamma, contact) and of all (works and
-# force too), and the largest share of the time of the scene as it is. Some seven minutes; started
+# force too), and the largest share of the time of the scene as it is. A quarter of an hour or less; started
 # again, it goes on.
 #
 #     scenes/cost/calibrate.sh results/calibration
