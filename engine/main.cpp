@@ -7,15 +7,15 @@
 // Under mpirun every rank runs this; rank 0 alone speaks. A scene that is wrong is met by all ranks
 // alike, or by rank 0 for all of them: they agree on the code and end in order. Any other error
 // ends them all at once (abort), because the others may be waiting for this one.
-#include "engine/cost.hpp"
-#include "engine/export.hpp"
-#include "engine/plan.hpp"
-#include "engine/report.hpp"
-#include "engine/run.hpp"
-#include "engine/scene.hpp"
-#include "engine/setup.hpp"
-#include "engine/sweep.hpp"
-#include "engine/theory_command.hpp"
+#include "engine/commands/cost.hpp"
+#include "engine/commands/export.hpp"
+#include "engine/commands/report.hpp"
+#include "engine/commands/sweep.hpp"
+#include "engine/run/plan.hpp"
+#include "engine/run/run.hpp"
+#include "engine/run/theory_command.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/setup/setup.hpp"
 
 #include "decomposition/communicator.hpp"
 #include "io/build_info.hpp"

@@ -4,7 +4,7 @@
 // How long does a node's step take, in cache and out of it, and what share of the memory's speed is
 // that? The memory's speed is measured in the same run, by a stream triad on as many threads, and
 // the processor's by a loop of fused multiply-adds (limits.hpp).
-#include "engine/block.hpp"
+#include "engine/block/block.hpp"
 #include "limits.hpp"
 
 #include <benchmark/benchmark.h>

@@ -11,7 +11,7 @@
 //   share          limit / (s/pair)
 //   div_limit      the same in a loop that holds a pair's part of a division, too; div_share
 //   GFLOP/s        of a pair's force (the energies of an observed sweep are not counted)
-#include "engine/interface.hpp"
+#include "engine/block/interface.hpp"
 #include "kernels/variant.hpp"
 #include "limits.hpp"
 

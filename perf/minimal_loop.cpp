@@ -7,8 +7,8 @@
 // timed by turns; the ratio is that of the shortest.
 //
 //     build/release/perf/minimal_loop [sites] [layers] [seconds]
-#include "engine/scene.hpp"
-#include "engine/setup.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/setup/setup.hpp"
 
 #include <omp.h>
 

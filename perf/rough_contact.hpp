@@ -5,8 +5,8 @@
 // block as thick as wide, and the height where a relaxation starts.
 #pragma once
 
-#include "engine/spectral_relaxation.hpp"
-#include "engine/surface.hpp"
+#include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/scene/surface.hpp"
 #include "engine/units.hpp"
 
 #include <sys/resource.h>

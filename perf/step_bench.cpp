@@ -13,8 +13,8 @@
 // Prints JSON: the fastest of many short stretches of steps, its time by phase (of rank 0, seconds
 // a step; waiting for other ranks is in exchange, sums, and advance where a level is gathered), and
 // what the most loaded rank holds and sends.
-#include "engine/scene.hpp"
-#include "engine/setup.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/setup/setup.hpp"
 
 #include <nlohmann/json.hpp>
 #include <omp.h>

@@ -14,7 +14,7 @@
 //   copied within the rank gathered      bytes of the plane that is put together where the levels
 //   held whole begin
 #include "decomposition/process_grid.hpp"
-#include "engine/block.hpp"
+#include "engine/block/block.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -12,7 +12,7 @@
 // (up to 0.05 Å, by a formula) above a rough rigid substrate in reach; the top plane comes down.
 // LAMMPS gets our units (Å, eV, fs, and masses in eV fs^2/Å^2) as its "lj" units, where every
 // constant of nature is 1.
-#include "engine/simulation.hpp"
+#include "engine/dynamics/simulation.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>

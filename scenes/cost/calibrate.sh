@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 #
-# Measures what numerics.accuracy goes by, and prints the rows of engine/accuracy_table.hpp: for each
+# Measures what numerics.accuracy goes by, and prints the rows of engine/scene/accuracy_table.hpp: for each
 # setting the largest own error in the family, of the state (gamma, contact) and of all (works and
 # force too), and the largest share of the time of the scene as it is. A quarter of an hour or less; started
 # again, it goes on.

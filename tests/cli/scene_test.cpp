@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The scene against its contract: names, defaults, contradictions.
-#include "engine/scene.hpp"
+#include "engine/scene/scene.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -3,7 +3,7 @@
 //
 // A run that was interrupted goes on as if it had not been: the same bits, whatever number of ranks
 // wrote the checkpoint and whatever number reads it. Judge: the uninterrupted run on one rank.
-#include "engine/checkpoint.hpp"
+#include "engine/run/checkpoint.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
 #include "support/parallel_main.hpp"

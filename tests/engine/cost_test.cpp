@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What a setting is worth, on made-up runs: errors, fronts, orders, and which knobs a scene has.
-#include "engine/cost.hpp"
-#include "engine/cost_output.hpp"
+#include "engine/commands/cost.hpp"
+#include "engine/commands/cost_output.hpp"
 #include "io/error.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Laws of the block at finite strain, hanging planes included; its motion; its relaxed contact.
-#include "engine/quasistatic.hpp"
+#include "engine/equilibrium/quasistatic.hpp"
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
 #include "support/rotation.hpp"

@@ -3,7 +3,7 @@
 //
 // The fast sweeps against the reference, forces against energies, and the same bits whatever the
 // decomposition. States are rough and displaced at random, some far beyond what a run allows.
-#include "engine/interface.hpp"
+#include "engine/block/interface.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

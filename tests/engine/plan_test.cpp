@@ -3,7 +3,7 @@
 //
 // Effects: decided from the scene, off means no call and no byte, and a run that strays from its
 // plan is found out. The plan's memory is that of the objects it stands for.
-#include "engine/plan.hpp"
+#include "engine/run/plan.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>

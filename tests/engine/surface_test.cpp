@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Surfaces: what was asked for is what is there (model.md section 3).
-#include "engine/surface.hpp"
+#include "engine/scene/surface.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,10 @@
 //
 // Sweeps without their processes: where axes come from, what a point's directory says, means over
 // seeds, and what a path says of its hysteresis.
-#include "engine/curve.hpp"
-#include "engine/sweep_output.hpp"
-#include "engine/sweep_points.hpp"
-#include "engine/sweep_table.hpp"
+#include "engine/commands/sweep_output.hpp"
+#include "engine/commands/sweep_points.hpp"
+#include "engine/commands/sweep_table.hpp"
+#include "engine/run/curve.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/plot.hpp"

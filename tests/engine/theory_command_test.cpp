@@ -3,10 +3,10 @@
 //
 // The theory of a scene: the scene's keys reach the solver, its numbers reach the result. The
 // expected numbers are those of theory.md (tests/theory judges the solver itself).
-#include "engine/theory_command.hpp"
+#include "engine/run/theory_command.hpp"
 
-#include "engine/setup.hpp"
-#include "engine/sweep_grid.hpp"
+#include "engine/commands/sweep_grid.hpp"
+#include "engine/setup/setup.hpp"
 #include "io/error.hpp"
 #include "io/plot.hpp"
 #include "theory/error.hpp"

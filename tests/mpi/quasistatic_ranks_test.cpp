@@ -4,8 +4,8 @@
 // A quasi-static path of a block of levels is the same bits on any number of ranks, and one that is
 // taken up from a checkpoint, on whatever number of ranks, ends in the same state. Judge: the
 // uninterrupted path on one rank.
-#include "engine/checkpoint.hpp"
-#include "engine/quasistatic.hpp"
+#include "engine/equilibrium/quasistatic.hpp"
+#include "engine/run/checkpoint.hpp"
 #include "support/cases.hpp"
 #include "support/parallel_main.hpp"
 

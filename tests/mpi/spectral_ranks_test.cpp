@@ -3,7 +3,7 @@
 //
 // The spectral block in slabs over the ranks against the same on one: every rank holds both, the
 // slab it shares and a whole surface of its own. Sizes that the ranks divide, and that they do not.
-#include "engine/spectral_relaxation.hpp"
+#include "engine/equilibrium/spectral_relaxation.hpp"
 #include "support/cases.hpp"
 #include "support/parallel_main.hpp"
 

@@ -3,10 +3,10 @@
 //
 // numerics.accuracy on scenes that its calibration has not seen: the error is within the target,
 // and the work, counted in node-steps or iterations of nodes, a third of the default's or less.
-#include "engine/accuracy.hpp"
-#include "engine/cost_judge.hpp"
-#include "engine/run.hpp"
-#include "engine/setup.hpp"
+#include "engine/commands/cost_judge.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/accuracy.hpp"
+#include "engine/setup/setup.hpp"
 #include "io/error.hpp"
 #include "io/scratch.hpp"
 

@@ -12,7 +12,7 @@
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
 
-#include "engine/spectral_block.hpp"
+#include "engine/block/spectral_block.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // The scenes of scenes/hard, run as a user runs them. Each file says in its head what stable means
 // for it; here it is held to that. With ASPERITY_LONG set they are followed at a tenth of the
 // speed.
-#include "engine/run.hpp"
+#include "engine/run/run.hpp"
 #include "io/json_value.hpp"
 #include "support/cases.hpp"
 

@@ -4,10 +4,10 @@
 // Hard cases that need the engine itself: where a path cannot start, or where a limit is sharp.
 // Each test says first what stable means for it. With ASPERITY_LONG set, long paths are as long as
 // in the issue (10^6 steps).
-#include "engine/checkpoint.hpp"
-#include "engine/setup.hpp"
-#include "engine/spectral_relaxation.hpp"
-#include "engine/theory_command.hpp"
+#include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/run/checkpoint.hpp"
+#include "engine/run/theory_command.hpp"
+#include "engine/setup/setup.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"

@@ -3,7 +3,7 @@
 #include "support/cases.hpp"
 
 #include "decomposition/halo_exchange.hpp"
-#include "engine/spectral_relaxation.hpp"
+#include "engine/equilibrium/spectral_relaxation.hpp"
 #include "engine/units.hpp"
 
 #include <algorithm>

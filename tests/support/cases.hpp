@@ -4,9 +4,9 @@
 // The paper's material and small scenes, in the engine's units, without going through a scene file.
 #pragma once
 
-#include "engine/relaxation.hpp"
-#include "engine/simulation.hpp"
-#include "engine/spectral_block.hpp"
+#include "engine/block/spectral_block.hpp"
+#include "engine/dynamics/simulation.hpp"
+#include "engine/equilibrium/relaxation.hpp"
 
 #include <cstdint>
 #include <random>

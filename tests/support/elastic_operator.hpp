@@ -9,7 +9,7 @@
 // static response) then read as algebra.
 #pragma once
 
-#include "engine/block.hpp"
+#include "engine/block/block.hpp"
 
 #include <array>
 #include <functional>

@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/block/block.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace asperity {
+
+double BlockOptions::sound_speed() const {
+    const double density = atom_mass / (spacing * spacing * spacing);
+    return std::sqrt((lame() + 2.0 * shear_modulus()) / density);
+}
+
+CellElasticity BlockOptions::elasticity(int level) const {
+    const double s = spacing * (1 << level);
+    return {shear_modulus() * s, (lame() - shear_modulus()) * s / 16.0};
+}
+
+double BlockOptions::highest_frequency(double site_stiffness) const {
+    // Dispersion of the bulk stencil: w = 2 inside, so the dynamical matrix follows from the
+    // filters of elastic_cell.hpp at a plane wave (phases p, q, r). Its largest eigenvalue, over a
+    // mesh of the Brillouin zone that holds all symmetry points, is bounded by power iteration at
+    // each of them.
+    const CellElasticity e = elasticity(0);
+    double highest = 0.0;
+    constexpr int mesh = 12;
+    for (int i = 0; i <= mesh; ++i)
+        for (int j = 0; j <= i; ++j)
+            for (int k = 0; k <= j; ++k) {
+                const double pi = std::numbers::pi;
+                const std::array<double, 3> phase = {pi * i / mesh, pi * j / mesh, pi * k / mesh};
+                std::array<double, 3> c{}, s{};
+                for (std::size_t n = 0; n < 3; ++n)
+                    c[n] = std::cos(phase[n]), s[n] = std::sin(phase[n]);
+                double d[3][3];
+                for (std::size_t a = 0; a < 3; ++a)
+                    for (std::size_t b = 0; b < 3; ++b) {
+                        const std::size_t o = (a + 1) % 3, p = (a + 2) % 3;
+                        if (a == b) {
+                            const double theta = (2 - 2 * c[a]) * (2 + 2 * c[o]) * (2 + 2 * c[p]);
+                            const double springs =
+                                2 * (1 - c[a]) + 2 * (1 - c[a] * c[o]) + 2 * (1 - c[a] * c[p]);
+                            d[a][b] = e.kappa * theta + e.k * springs;
+                        } else {
+                            const std::size_t t = 3 - a - b;
+                            d[a][b] =
+                                e.kappa * 4 * s[a] * s[b] * (2 + 2 * c[t]) + 2 * e.k * s[a] * s[b];
+                        }
+                    }
+                std::array<double, 3> x = {1.0, 0.7, 0.4};
+                double value = 0.0;
+                for (int iteration = 0; iteration < 60; ++iteration) {
+                    std::array<double, 3> y{};
+                    double norm = 0.0;
+                    for (std::size_t a = 0; a < 3; ++a) {
+                        for (std::size_t b = 0; b < 3; ++b)
+                            y[a] += d[a][b] * x[b];
+                        norm += y[a] * y[a];
+                    }
+                    value = std::sqrt(norm);
+                    if (value == 0.0) break;
+                    for (std::size_t a = 0; a < 3; ++a)
+                        x[a] = y[a] / value;
+                }
+                highest = std::max(highest, value);
+            }
+    return std::sqrt((highest + site_stiffness) / atom_mass);
+}
+
+std::vector<LevelPlan> plan_levels(const BlockOptions& options) {
+    std::vector<LevelPlan> plan;
+    int rest = options.thickness, sites = options.sites;
+    for (int level = 0;; ++level) {
+        const int least = options.layers_per_level;
+        // One cell more where the rest would not divide by two.
+        const int cells = least + ((rest - least) & 1);
+        const bool coarsen = options.multiscale && sites % 2 == 0 && (rest - cells) / 2 >= least;
+        plan.push_back({level, sites, coarsen ? cells : rest});
+        if (!coarsen) return plan;
+        rest = (rest - cells) / 2;
+        sites /= 2;
+    }
+}
+
+std::size_t Block::Level::bytes() const {
+    return u.bytes() + v.bytes() + incoming.bytes() + upper_force.bytes();
+}
+
+double Block::Level::mass(int z) const {
+    if (z > 0 || plan.level == 0) return node_mass; // the lowest layer's atoms are full atoms
+    // Half a coarse cell above, and from below the hanging plane's half cells: 4 (m/8)/2 = m/4.
+    return 0.75 * node_mass;
+}
+
+Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid,
+             Motion motion)
+    : options_(options), communicator_(communicator), grid_(grid), halo_(communicator, grid) {
+    const auto plans = plan_levels(options);
+    double depth = 0.0;
+    for (const LevelPlan& plan : plans) {
+        Level level;
+        level.plan = plan;
+        level.tile = grid.tile(plan.level);
+        level.tiled = grid.tiled(plan.level);
+        level.node_mass = options.atom_mass * std::pow(8.0, plan.level);
+        level.depth = depth;
+        level.elasticity = options.elasticity(plan.level);
+        level.lower = make_stencil(level.elasticity, Face::lower);
+        level.inner = make_stencil(level.elasticity, Face::inner);
+        level.upper = make_stencil(level.elasticity, Face::upper);
+        level.u = VectorField<double>(level.tile, plan.cells + 1);
+        level.incoming = VectorField<double>(level.tile, 1);
+        level.upper_force = VectorField<double>(level.tile, 1);
+        if (motion == Motion::in_time) level.v = VectorField<double>(level.tile, plan.cells);
+        depth += plan.cells * static_cast<double>(1 << plan.level);
+        levels_.push_back(std::move(level));
+    }
+}
+
+Block Block::copy_at_rest() const {
+    Block copy(options_, communicator_, grid_, Motion::at_rest);
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        copy.levels_[l].u.copy_from(levels_[l].u);
+        copy.levels_[l].incoming.copy_from(levels_[l].incoming);
+    }
+    copy.top_ = top_;
+    return copy;
+}
+
+void Block::set_uniform(double z, double w) {
+    for (Level& level : levels_) {
+        const VectorVolume<double> u = level.u.view(), v = level.v.view();
+        const int h = halo_width;
+        for (int k = 0; k <= level.plan.cells; ++k)
+            for (int y = -h; y < level.tile.ny + h; ++y)
+                for (int x = -h; x < level.tile.nx + h; ++x) {
+                    u.x(x, y, k) = u.y(x, y, k) = 0.0;
+                    u.z(x, y, k) = z;
+                    if (!level.v.empty() && k < level.plan.cells && x >= 0 && x < level.tile.nx &&
+                        y >= 0 && y < level.tile.ny) {
+                        v.x(x, y, k) = v.y(x, y, k) = 0.0;
+                        v.z(x, y, k) = w;
+                    }
+                }
+    }
+    set_top(z);
+}
+
+void Block::set_top(double z) {
+    top_ = z;
+    Level& last = levels_.back();
+    const PlaneView<double> plane = last.u.z.plane(last.plan.cells);
+    for (int y = -halo_width; y < plane.ny + halo_width; ++y)
+        std::fill(plane.line(y) - halo_width, plane.line(y) + plane.nx + halo_width, z);
+}
+
+LevelSeam Block::seam(std::size_t fine) const {
+    const Tile& f = levels_[fine].tile;
+    const Tile& c = levels_[fine + 1].tile;
+    return {f.x0, f.y0, c.x0, c.y0};
+}
+
+void Block::interpolate() {
+#pragma omp parallel
+    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+        const auto fine = levels_[l].u.plane(levels_[l].plan.cells);
+        const auto coarse = std::as_const(levels_[l + 1].u).plane(0);
+#pragma omp for schedule(static) nowait
+        for (int y = -halo_width; y < fine.x.ny + halo_width; ++y) {
+            const auto& interpolate = transfer_kernels().interpolate;
+            interpolate(seam(l), coarse.x, fine.x, y, halo_width);
+            interpolate(seam(l), coarse.y, fine.y, y, halo_width);
+            interpolate(seam(l), coarse.z, fine.z, y, halo_width);
+        }
+    }
+}
+
+void Block::exchange() {
+    std::vector<HaloField> fields;
+    fields.reserve(3 * levels_.size());
+    for (Level& level : levels_) {
+        const auto u = level.u.view();
+        for (const auto& component : {u.x, u.y, u.z})
+            fields.push_back({component, level.plan.cells, level.tiled});
+    }
+    halo_.exchange(fields);
+}
+
+void Block::add_top_force(ExactSum& sum) const {
+    const Level& last = levels_.back();
+    if (!counts(last)) return;
+    elastic_kernels().sum(last.upper_force.plane(0).z, 0, last.tile.ny, sum);
+}
+
+void Block::add_elastic_energy(ExactSum& sum) const {
+    const ElasticKernels& kernels = elastic_kernels();
+#pragma omp parallel
+    {
+        ExactSum mine;
+        for (const Level& level : levels_) {
+            if (!counts(level)) continue;
+            const int ny = level.tile.ny;
+#pragma omp for schedule(static) nowait
+            for (int y0 = 0; y0 < ny; y0 += band)
+                for (int z = 0; z < level.plan.cells; ++z) {
+                    const int y1 = std::min(ny, y0 + band);
+                    if (options_.finite_strain)
+                        finite_kernels().energy(level.u.view(), z,
+                                                level.finite_cell(options_.spacing), y0, y1, mine);
+                    else
+                        kernels.energy(level.u.view(), z, level.elasticity, y0, y1, mine);
+                }
+        }
+#pragma omp critical(asperity_block_sums)
+        sum.merge(mine);
+    }
+}
+
+void Block::add_lowest_z(ExactSum& sum) const {
+    const auto z = lowest_layer().z;
+#pragma omp parallel
+    {
+        ExactSum mine;
+#pragma omp for schedule(static) nowait
+        for (int y0 = 0; y0 < z.ny; y0 += band)
+            elastic_kernels().sum(z, y0, std::min(z.ny, y0 + band), mine);
+#pragma omp critical(asperity_block_sums)
+        sum.merge(mine);
+    }
+}
+
+std::size_t Block::finite_bytes() const {
+    std::size_t total = 0;
+    for (const VectorField<double>& planes : scratch_)
+        total += planes.bytes();
+    return total;
+}
+
+std::size_t Block::bytes() const {
+    std::size_t total = finite_bytes();
+    for (const Level& level : levels_)
+        total += level.bytes();
+    return total;
+}
+
+std::size_t Block::motion_bytes() const {
+    std::size_t total = 0;
+    for (const Level& level : levels_)
+        total += level.v.bytes();
+    return total;
+}
+
+Block::Memory Block::memory_for(const BlockOptions& options, const ProcessGrid& grid) {
+    Memory memory;
+    for (const LevelPlan& plan : plan_levels(options)) {
+        const auto planes = [&](int n) {
+            return VectorField<double>::bytes_for(grid.tile(plan.level), n);
+        };
+        const std::size_t motion = planes(plan.cells);
+        memory.motion += motion;
+        const std::size_t level = motion + planes(plan.cells + 1) + 2 * planes(1);
+        memory.bytes += level;
+        if (plan.level > 0) memory.coarse += level;
+    }
+    return memory;
+}
+
+} // namespace asperity

@@ -1,0 +1,395 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/block/interface.hpp"
+
+#include "kernels/variant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <type_traits>
+
+namespace asperity {
+
+namespace {
+
+constexpr double gpa_per_ev_per_cubic_angstrom = 160.21766;
+constexpr double nothing_there = -1e30;
+
+/// Calls visit(ring, height) for every atom within `reach` sideways of (x, y).
+template <class Visit>
+void for_atoms_around(const SubstrateMap& map, double x, double y, double reach, Visit visit) {
+    const int j_first = static_cast<int>(std::floor((y - reach) / map.spacing));
+    const int j_last = static_cast<int>(std::ceil((y + reach) / map.spacing));
+    const int i_first = static_cast<int>(std::floor((x - reach) / map.spacing));
+    const int i_last = static_cast<int>(std::ceil((x + reach) / map.spacing));
+    for (int j = j_first; j <= j_last; ++j) {
+        const double* row =
+            map.height + static_cast<std::ptrdiff_t>(periodic(j, map.sites)) * map.sites;
+        const double dy = y - j * map.spacing;
+        for (int i = i_first; i <= i_last; ++i) {
+            const double dx = x - i * map.spacing;
+            const double lateral = std::sqrt(dx * dx + dy * dy);
+            if (lateral <= reach) visit(lateral, row[periodic(i, map.sites)]);
+        }
+    }
+}
+
+} // namespace
+
+Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
+                     const InterfaceOptions& options)
+    : options_(options), tile_(tile), spacing_(spacing), margin_(2.0 * spacing),
+      map_height_(substrate.height) {
+    const double cutoff = options.potential.cutoff;
+    if (!(cutoff > 0.0) || !(options.potential.r0 > 0.0) || !(options.potential.epsilon >= 0.0))
+        throw std::invalid_argument(fmt::format(
+            "interface: epsilon = {} eV, r0 = {} Å and cutoff = {} Å must be positive numbers",
+            options.potential.epsilon, options.potential.r0, cutoff));
+    if ((cutoff + margin_) / spacing + 2.0 > max_half_offsets)
+        throw std::invalid_argument(fmt::format(
+            "interface: a cutoff of {} Å reaches over more than {} sites of {} Å; choose a smaller "
+            "cutoff "
+            "(4 r0 = {} Å keeps 98 % of the work of adhesion) and set interface.tail = true",
+            cutoff, max_half_offsets - 4, spacing, 4.0 * options.potential.r0));
+    if (static_cast<std::size_t>(substrate.sites) * static_cast<std::size_t>(substrate.sites) !=
+        substrate.height.size())
+        throw std::invalid_argument(
+            fmt::format("interface: a substrate of {} x {} atoms has {} heights", substrate.sites,
+                        substrate.sites, substrate.height.size()));
+    map_ = {map_height_.data(), substrate.sites, tile.sites * spacing / substrate.sites};
+    highest_ = *std::max_element(map_height_.begin(), map_height_.end());
+
+    const bool same_lattice = substrate.sites == tile.sites;
+    if (same_lattice) map_.spacing = spacing;
+    method_ = options.method;
+    if (method_ == InterfaceMethod::automatic)
+        method_ = same_lattice ? InterfaceMethod::lattice : InterfaceMethod::rows;
+    if (method_ == InterfaceMethod::lattice && !same_lattice)
+        throw std::invalid_argument(fmt::format(
+            "interface: the lattice sweep needs as many atoms ({}) as sites ({}) across the box; "
+            "use the sweep over rows",
+            substrate.sites, tile.sites));
+    if (method_ != InterfaceMethod::reference) build_reach();
+    if (method_ == InterfaceMethod::lattice) build_lattice();
+    if (method_ == InterfaceMethod::rows) build_rows();
+    if (options.tail) {
+        tail_ = {options.potential, 1.0 / (map_.spacing * map_.spacing)};
+        mean_height_ = Field<double>(tile, 1);
+        auto mean = mean_height_.plane(0);
+#pragma omp parallel for schedule(static)
+        for (int y = 0; y < tile_.ny; ++y)
+            for (int x = 0; x < tile_.nx; ++x) {
+                double sum = 0.0;
+                int atoms = 0;
+                for_atoms_around(map_, (tile_.x0 + x + 0.5) * spacing_,
+                                 (tile_.y0 + y + 0.5) * spacing_, cutoff, [&](double, double h) {
+                                     sum += h;
+                                     ++atoms;
+                                 });
+                mean(x, y) = atoms ? sum / atoms : 0.0;
+            }
+    }
+}
+
+/// For each block of sites and each ring of lateral distance: the greatest and least height in it.
+void Interface::build_reach() {
+    const double widest = options_.potential.cutoff + margin_;
+    reach_.offset_margin = margin_;
+    reach_.ring_width = widest / interface_rings;
+    reach_.blocks = (tile_.nx + interface_block - 1) / interface_block;
+    const std::size_t rings = static_cast<std::size_t>(reach_.blocks) *
+                              static_cast<std::size_t>(tile_.ny) * interface_rings;
+    reach_highest_.assign(rings, nothing_there);
+    reach_lowest_.assign(rings, -nothing_there);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x) {
+            const std::size_t block =
+                (static_cast<std::size_t>(y) * static_cast<std::size_t>(reach_.blocks) +
+                 static_cast<std::size_t>(x / interface_block)) *
+                interface_rings;
+            // Slightly beyond the widest reach, so that rounding leaves no atom out.
+            for_atoms_around(
+                map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_,
+                widest + 1e-3, [&](double lateral, double h) {
+                    // An atom on the border of two rings counts in both.
+                    const double scaled = lateral / reach_.ring_width;
+                    for (double edge : {scaled - 1e-9, scaled + 1e-9}) {
+                        const auto ring = static_cast<std::size_t>(
+                            std::clamp(static_cast<int>(edge), 0, interface_rings - 1));
+                        reach_highest_[block + ring] = std::max(reach_highest_[block + ring], h);
+                        reach_lowest_[block + ring] = std::min(reach_lowest_[block + ring], h);
+                    }
+                });
+        }
+    if (!options_.skip) {
+        reach_highest_.assign(rings, -nothing_there);
+        reach_lowest_.assign(rings, nothing_there);
+    }
+    reach_.highest = reach_highest_.data();
+    reach_.lowest = reach_lowest_.data();
+}
+
+SubstrateHeights Interface::heights_on(const Tile& atoms, int halo) {
+    const auto fill = [&](auto& field, auto as) {
+        field = std::remove_reference_t<decltype(field)>(atoms, 1, halo);
+        auto height = field.plane(0);
+#pragma omp parallel for schedule(static)
+        for (int y = -halo; y < atoms.ny + halo; ++y)
+            for (int x = -halo; x < atoms.nx + halo; ++x)
+                height(x, y) =
+                    as(map_height_[static_cast<std::size_t>(periodic(atoms.y0 + y, map_.sites)) *
+                                       static_cast<std::size_t>(map_.sites) +
+                                   static_cast<std::size_t>(periodic(atoms.x0 + x, map_.sites))] -
+                       highest_);
+    };
+    SubstrateHeights heights;
+    heights.datum = highest_;
+    if (options_.mixed) {
+        fill(fixed_height_, [](double h) {
+            return static_cast<std::int32_t>(
+                std::nearbyint(std::max(h, -fixed_depth) / fixed_quantum));
+        });
+        heights.fixed = fixed_height_.plane(0);
+    } else {
+        fill(height_, [](double h) { return h; });
+        heights.height = height_.plane(0);
+    }
+    return heights;
+}
+
+/// The tile's heights with their halo, and how many offsets lie within each lateral distance.
+void Interface::build_lattice() {
+    const double widest = options_.potential.cutoff + margin_;
+    const int half = static_cast<int>(std::ceil(widest / spacing_ + 0.5));
+    lattice_.heights = heights_on(tile_, half + 1);
+    // A sixteenth of a spacing is fine enough a cut and keeps the table in the nearest cache.
+    lattice_.cuts_per_length = 16.0 / spacing_;
+    lattice_.cut_count = static_cast<int>(widest * lattice_.cuts_per_length) + 2;
+    lattice_.half_offsets = half;
+    for (int k = 0; k < lattice_.cut_count; ++k) {
+        const double lateral = k / lattice_.cuts_per_length + 1e-9;
+        for (int n = 1; n <= half; ++n) {
+            const auto within = [&](int m) {
+                return std::hypot((m - 0.5) * spacing_, (n - 0.5) * spacing_) < lateral;
+            };
+            int m = 0;
+            while (m < half && within(m + 1))
+                ++m;
+            columns_.push_back(m);
+        }
+    }
+    lattice_.columns = columns_.data();
+    lattice_.reach = reach_;
+    lattice_.map = map_;
+}
+
+/// The heights of the atoms around the tile, on the substrate's own lattice.
+void Interface::build_rows() {
+    const double b = map_.spacing;
+    const double widest = options_.potential.cutoff + margin_;
+    const auto first = [&](int begin) {
+        return static_cast<int>(std::floor(((begin + 0.5) * spacing_ - widest) / b));
+    };
+    const auto count = [&](int begin, int sites) {
+        const double end = (begin + sites - 0.5) * spacing_ + widest;
+        return static_cast<int>(std::ceil(end / b)) + 1 - first(begin);
+    };
+    rows_.i0 = first(tile_.x0);
+    rows_.j0 = first(tile_.y0);
+    const Tile atoms{rows_.i0, rows_.j0, count(tile_.x0, tile_.nx), count(tile_.y0, tile_.ny),
+                     map_.sites};
+    rows_.heights = heights_on(atoms, interface_block);
+    rows_.reach = reach_;
+    rows_.map = map_;
+}
+
+InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
+                               const VectorPlane<double>& force, double reference_height,
+                               bool observe) const {
+    return sweep_sites({displacement, force, spacing_, reference_height, tile_.x0, tile_.y0, {}},
+                       observe);
+}
+
+InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe) const {
+    const auto pick = [&](const auto& sweeps) {
+        return (options_.mixed ? sweeps.in_mixed : sweeps.plain)[observe];
+    };
+    const auto lattice = pick(interface_kernels().lattice);
+    const auto rows = pick(interface_kernels().rows);
+    const LennardJones& potential = options_.potential;
+    InterfaceSums total;
+#pragma omp parallel
+    {
+        InterfaceSums mine;
+#pragma omp for schedule(static) nowait
+        for (int y = 0; y < tile_.ny; ++y) {
+            switch (method_) {
+            case InterfaceMethod::lattice:
+                lattice(sites, lattice_, potential, y, y + 1, mine);
+                break;
+            case InterfaceMethod::rows:
+                rows(sites, rows_, potential, y, y + 1, mine);
+                break;
+            default:
+                reference_sweep(sites, map_, potential, y, y + 1, mine);
+            }
+            if (options_.tail)
+                tail_sweep(sites, tail_, mean_height_.plane(0), y, y + 1, observe, mine);
+        }
+#pragma omp critical(asperity_interface_sums)
+        total.merge(mine);
+    }
+    const long long swept = static_cast<long long>(tile_.nx) * tile_.ny;
+    work_.sites += swept;
+    work_.in_reach += total.in_reach;
+    if (options_.tail) work_.tails += swept;
+    return total;
+}
+
+InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
+                              double reference_height) const {
+    VectorField<double> force(tile_, 1);
+    Field<double> nearest(tile_, 1);
+    InterfaceSites sites{displacement, force.plane(0), spacing_,        reference_height,
+                         tile_.x0,     tile_.y0,       nearest.plane(0)};
+    sweep_sites(sites, true);
+
+    InterfaceMaps maps;
+    maps.nx = tile_.nx;
+    maps.ny = tile_.ny;
+    const std::size_t count =
+        static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
+    maps.contact.reserve(count);
+    maps.distance.reserve(count);
+    maps.gap.reserve(count);
+    maps.pressure.reserve(count);
+    const double contact = options_.potential.contact_distance();
+    const double to_gpa = gpa_per_ev_per_cubic_angstrom / (spacing_ * spacing_);
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x) {
+            const double r2 = sites.nearest_r2(x, y);
+            maps.contact.push_back(r2 < contact * contact);
+            maps.distance.push_back(r2 < no_pair ? std::sqrt(r2)
+                                                 : std::numeric_limits<double>::infinity());
+            maps.pressure.push_back(sites.force.z(x, y) * to_gpa);
+            // Bilinear between the four atoms around the point below the site.
+            const double px =
+                ((tile_.x0 + x + 0.5) * spacing_ + displacement.x(x, y)) / map_.spacing;
+            const double py =
+                ((tile_.y0 + y + 0.5) * spacing_ + displacement.y(x, y)) / map_.spacing;
+            const double fx = px - std::floor(px), fy = py - std::floor(py);
+            const auto h = [&](int i, int j) {
+                return map_height_[static_cast<std::size_t>(
+                                       periodic(static_cast<int>(std::floor(py)) + j, map_.sites)) *
+                                       static_cast<std::size_t>(map_.sites) +
+                                   static_cast<std::size_t>(
+                                       periodic(static_cast<int>(std::floor(px)) + i, map_.sites))];
+            };
+            const double below = (1.0 - fy) * ((1.0 - fx) * h(0, 0) + fx * h(1, 0)) +
+                                 fy * ((1.0 - fx) * h(0, 1) + fx * h(1, 1));
+            maps.gap.push_back(reference_height + displacement.z(x, y) - below);
+        }
+    return maps;
+}
+
+double Interface::start_height() const {
+    return highest_ + (options_.tail ? 4.0 : 1.0) * options_.potential.cutoff;
+}
+
+std::size_t Interface::bytes() const {
+    const std::size_t doubles = map_height_.size() + reach_highest_.size() + reach_lowest_.size();
+    return doubles * sizeof(double) + columns_.size() * sizeof(std::int32_t) +
+           (height_.empty() ? 0 : height_.bytes()) +
+           (fixed_height_.empty() ? 0 : fixed_height_.bytes()) + tail_bytes();
+}
+
+// Flat on flat.
+
+namespace {
+
+/// Registries sampled along an axis: all that occur, or enough that the average is exact to
+/// rounding (the corrugation's harmonics die out exponentially; beyond 24 points they are below
+/// 1e-16).
+int registries(int sites, int substrate_sites) {
+    return std::min(sites / std::gcd(sites, substrate_sites), 24);
+}
+
+} // namespace
+
+ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks) {
+    std::array<std::int64_t, 2> counts = {sums.in_contact, sums.pushed};
+    ranks.sum(counts);
+    std::array<double, 1> nearest = {-sums.closest_r2};
+    ranks.max(nearest);
+    return {counts[0], counts[1], std::sqrt(-nearest[0])};
+}
+
+PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
+                      int substrate_sites, double gap) {
+    const double level = 0.0; // a single atom, repeated
+    const double b = spacing * sites / substrate_sites;
+    const SubstrateMap map{&level, 1, b};
+    const int count = registries(sites, substrate_sites);
+    PairSum mean;
+    for (int j = 0; j < count; ++j)
+        for (int i = 0; i < count; ++i) {
+            const PairSum p = pair_sum(map, options.potential, 0.5 * spacing + i * b / count,
+                                       0.5 * spacing + j * b / count, gap);
+            mean.force[2] += p.force[2] / (count * count);
+            mean.energy += p.energy / (count * count);
+            mean.nearest_r2 = std::min(mean.nearest_r2, p.nearest_r2);
+        }
+    if (options.tail) {
+        const TailCorrection tail{options.potential, 1.0 / (b * b)};
+        mean.force[2] += tail.force(gap);
+        mean.energy += tail.energy(gap);
+    }
+    return mean;
+}
+
+FlatReference flat_reference(const InterfaceOptions& options, double spacing, int sites,
+                             int substrate_sites) {
+    const auto force = [&](double gap) {
+        return flat_pair_sum(options, spacing, sites, substrate_sites, gap).force[2];
+    };
+    const double r0 = options.potential.r0;
+    // The minimum: where the force turns from pushing to pulling, by bisection.
+    double low = 0.4 * r0, high = 1.2 * r0;
+    if (!(force(low) > 0.0 && force(high) < 0.0))
+        throw std::invalid_argument(fmt::format(
+            "interface: flat on flat has no minimum of energy between {:.3f} and {:.3f} Å for "
+            "r0 = {} Å, cutoff = {} Å, spacing = {} Å; choose r0 not far from the spacing and a "
+            "cutoff of at least 1.5 r0",
+            low, high, r0, options.potential.cutoff, spacing));
+    while (high - low > 1e-12 * r0) {
+        const double middle = 0.5 * (low + high);
+        (force(middle) > 0.0 ? low : high) = middle;
+    }
+    FlatReference flat;
+    flat.separation = 0.5 * (low + high);
+    const double area = spacing * spacing;
+    const PairSum there = flat_pair_sum(options, spacing, sites, substrate_sites, flat.separation);
+    flat.work_of_adhesion = -1e3 * there.energy / area;
+    const double h = 1e-4 * r0;
+    flat.stiffness = -(force(flat.separation + h) - force(flat.separation - h)) / (2.0 * h * area);
+    // The largest tension: golden-section search outwards of the minimum.
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    double left = flat.separation, right = flat.separation + 0.5 * r0;
+    while (right - left > 1e-9 * r0) {
+        const double inner = right - golden * (right - left),
+                     outer = left + golden * (right - left);
+        (force(inner) < force(outer) ? right : left) = force(inner) < force(outer) ? outer : inner;
+    }
+    flat.tension_separation = 0.5 * (left + right);
+    flat.largest_tension = -force(flat.tension_separation) * gpa_per_ev_per_cubic_angstrom / area;
+    return flat;
+}
+
+} // namespace asperity

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The interface: one tile of the block's lowest layer over the rigid substrate (model.md section
+// 4).
+//
+// Built once per run. It keeps what the sweeps need of the substrate around the tile (heights with
+// a halo as wide as the reach), the table of neighbour offsets, and for each block of sites how
+// high and low the substrate gets around it. Every rank knows the whole height map, so nothing is
+// communicated here: the sweep is local to the tile, and its sums are exact (ExactSum), to be
+// merged over ranks in any order.
+//
+// Which sweep runs is decided at construction: lattice if the substrate has the block's lattice,
+// rows otherwise; in double, or mixed. The tables allow for sideways displacements up to two
+// spacings; sites that go beyond are summed by the reference loop (kernels/interface_sweep.hpp), so
+// no pair is ever missed and no table is ever rebuilt.
+#pragma once
+
+#include "decomposition/communicator.hpp"
+#include "decomposition/field.hpp"
+#include "decomposition/tile.hpp"
+#include "engine/scene/surface.hpp"
+#include "kernels/interface_sweep.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace asperity {
+
+enum class InterfaceMethod { automatic, reference, lattice, rows };
+
+struct InterfaceOptions {
+    LennardJones potential;
+    bool tail = false; ///< continuum correction beyond the cutoff
+    bool mixed =
+        false; ///< pairs in single precision, sums in double; the reference knows only double
+    InterfaceMethod method = InterfaceMethod::automatic;
+    bool skip = true; ///< false: visit all offsets or atoms everywhere (same bits; for tests)
+};
+
+/// Flat block on flat substrate: what gamma_eff is divided by.
+struct FlatReference {
+    double work_of_adhesion = 0.0;   ///< -U / A at its minimum, meV/Å^2
+    double separation = 0.0;         ///< there, Å
+    double largest_tension = 0.0;    ///< GPa
+    double tension_separation = 0.0; ///< where the tension is largest, Å
+    double stiffness = 0.0;          ///< U'' / A at the minimum, eV/Å^4
+};
+
+/// Contacts over all tiles.
+struct ContactCount {
+    long long in_contact = 0, pushed = 0; ///< sites
+    double closest = 0.0;                 ///< smallest pair distance, Å; infinite out of reach
+};
+/// From the sums of this rank's tile. Collective.
+ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks);
+
+/// Maps over the tile's sites, [y * nx + x].
+struct InterfaceMaps {
+    int nx = 0, ny = 0;
+    std::vector<std::uint8_t> contact; ///< 1 where the nearest atom is within contact distance
+    std::vector<double> distance;      ///< to the nearest atom, Å; infinite where none is in reach
+    std::vector<double> gap; ///< height above the substrate below (bilinear between its atoms), Å
+    std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
+};
+
+/// Work of an interface since it was made: of its own tile.
+struct InterfaceWork {
+    long long sites = 0;    ///< swept
+    long long in_reach = 0; ///< of these, those that were not skipped
+    long long tails = 0;    ///< continuum corrections added
+};
+
+class Interface {
+public:
+    /// spacing: a, the block's lattice constant, Å. The surface is copied as far as it is needed.
+    Interface(const Surface& substrate, const Tile& tile, double spacing,
+              const InterfaceOptions& options);
+
+    /// Forces of the substrate on the tile's sites (overwritten) and their sums over the tile.
+    /// Energy, contacts and nearest distances only if observed.
+    InterfaceSums sweep(const VectorPlane<const double>& displacement,
+                        const VectorPlane<double>& force, double reference_height,
+                        bool observe) const;
+
+    /// Per-site maps of the state; makes a sweep of its own.
+    InterfaceMaps maps(const VectorPlane<const double>& displacement,
+                       double reference_height) const;
+
+    /// The reference height from which nothing is in reach of undisplaced sites: highest atom +
+    /// cutoff. With the tail, which ends nowhere, + 4 cutoffs: 1/256 of its energy is left there.
+    double start_height() const;
+
+    const Tile& tile() const { return tile_; }
+    InterfaceMethod method() const { return method_; }
+    const InterfaceOptions& options() const { return options_; }
+    std::size_t bytes() const;
+    std::size_t tail_bytes() const { return mean_height_.empty() ? 0 : mean_height_.bytes(); }
+    std::size_t reach_bytes() const { return reach_highest_.size() * sizeof(double); }
+    const InterfaceWork& work() const { return work_; }
+
+private:
+    InterfaceSums sweep_sites(const InterfaceSites& sites, bool observe) const;
+    void build_reach();
+    void build_lattice();
+    void build_rows();
+    /// The heights of atoms (i, j) of a tile of the substrate's lattice and a halo.
+    SubstrateHeights heights_on(const Tile& atoms, int halo);
+
+    InterfaceOptions options_;
+    InterfaceMethod method_ = InterfaceMethod::reference;
+    Tile tile_;
+    double spacing_ = 0.0;
+    double margin_ = 0.0; ///< sideways displacement the tables allow for, Å
+    double highest_ = 0.0;
+    std::vector<double> map_height_;
+    SubstrateMap map_;
+    std::vector<double> reach_highest_, reach_lowest_;
+    ReachBounds reach_;
+    Field<double> height_;             ///< in double
+    Field<std::int32_t> fixed_height_; ///< mixed
+    std::vector<std::int32_t> columns_;
+    LatticeSubstrate lattice_;
+    RowSubstrate rows_;
+    Field<double> mean_height_; ///< tail: of the atoms within the cutoff sideways
+    TailCorrection tail_;
+    mutable InterfaceWork work_; ///< counted between sweeps, by one thread
+
+public:
+    // The views point into the object's own arrays.
+    Interface(const Interface&) = delete;
+    Interface& operator=(const Interface&) = delete;
+    Interface(Interface&&) = default; ///< vectors keep their storage when moved
+    Interface& operator=(Interface&&) = default;
+};
+
+/// Energy (eV) and normal force (eV/Å) of one block site at a uniform gap over a flat substrate of
+/// spacing b, averaged over the registries that the two lattices take (one for equal spacings:
+/// hollow sites).
+PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
+                      int substrate_sites, double gap);
+
+/// Flat on flat with this potential, cutoff and lattices. Throws std::invalid_argument if they do
+/// not bind.
+FlatReference flat_reference(const InterfaceOptions& options, double spacing, int sites,
+                             int substrate_sites);
+
+} // namespace asperity

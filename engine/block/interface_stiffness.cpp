@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/block/interface_stiffness.hpp"
+
+#include <utility>
+
+namespace asperity {
+
+InterfaceStiffness::InterfaceStiffness(const Tile& tile, int components) : force_(tile, 1, 0) {
+    for (int e = 0; e < (components == 1 ? 1 : 6); ++e)
+        map_.emplace_back(tile, 1, 0);
+    if (components > 1) displaced_ = VectorField<double>(tile, 1, 0);
+}
+
+void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<const double>& u,
+                                 const VectorPlane<const double>& force, double reference_height) {
+    constexpr double step = 1e-3; // Å
+    const VectorPlane<const double> moved = std::as_const(force_).plane(0);
+    const auto stiffness = [](const PlaneView<const double>& there,
+                              const PlaneView<const double>& here, int x, int y) {
+        return static_cast<float>((here(x, y) - there(x, y)) / step);
+    };
+    // Along z all sites go with the block.
+    interface.sweep(u, force_.plane(0), reference_height + step, false);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < u.x.ny; ++y)
+        for (int x = 0; x < u.x.nx; ++x) {
+            map_[zz].plane(0)(x, y) = stiffness(moved.z, force.z, x, y);
+            if (displaced_.empty()) continue;
+            map_[xz].plane(0)(x, y) = stiffness(moved.x, force.x, x, y);
+            map_[yz].plane(0)(x, y) = stiffness(moved.y, force.y, x, y);
+        }
+    if (displaced_.empty()) return;
+
+    const VectorPlane<double> d = displaced_.plane(0);
+    // Mixed derivatives come twice: the mean of both.
+    const auto second = [](float& first, float other) { first = 0.5f * (first + other); };
+    for (const bool along_x : {true, false}) {
+#pragma omp parallel for schedule(static)
+        for (int y = 0; y < u.x.ny; ++y)
+            for (int x = 0; x < u.x.nx; ++x) {
+                d.x(x, y) = u.x(x, y) + (along_x ? step : 0.0);
+                d.y(x, y) = u.y(x, y) + (along_x ? 0.0 : step);
+                d.z(x, y) = u.z(x, y);
+            }
+        interface.sweep(std::as_const(displaced_).plane(0), force_.plane(0), reference_height,
+                        false);
+#pragma omp parallel for schedule(static)
+        for (int y = 0; y < u.x.ny; ++y)
+            for (int x = 0; x < u.x.nx; ++x) {
+                const float kx = stiffness(moved.x, force.x, x, y);
+                const float ky = stiffness(moved.y, force.y, x, y);
+                const float kz = stiffness(moved.z, force.z, x, y);
+                if (along_x) {
+                    map_[xx].plane(0)(x, y) = kx;
+                    map_[xy].plane(0)(x, y) = ky;
+                    second(map_[xz].plane(0)(x, y), kz);
+                } else {
+                    map_[yy].plane(0)(x, y) = ky;
+                    second(map_[xy].plane(0)(x, y), kx);
+                    second(map_[yz].plane(0)(x, y), kz);
+                }
+            }
+    }
+}
+
+void InterfaceStiffness::apply(SiteField<float>& v) const {
+    const int ny = v[0].plane(0).ny, nx = v[0].plane(0).nx;
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < ny; ++y) {
+        const float* kzz = entry(zz).line(y);
+        float* vz = v.back().plane(0).line(y);
+        if (v.size() == 1) {
+            for (int x = 0; x < nx; ++x)
+                vz[x] *= kzz[x];
+            continue;
+        }
+        float *vx = v[0].plane(0).line(y), *vy = v[1].plane(0).line(y);
+        const float *kxx = entry(xx).line(y), *kyy = entry(yy).line(y), *kxy = entry(xy).line(y);
+        const float *kxz = entry(xz).line(y), *kyz = entry(yz).line(y);
+        for (int x = 0; x < nx; ++x) {
+            const float a = vx[x], b = vy[x], c = vz[x];
+            vx[x] = kxx[x] * a + kxy[x] * b + kxz[x] * c;
+            vy[x] = kxy[x] * a + kyy[x] * b + kyz[x] * c;
+            vz[x] = kxz[x] * a + kyz[x] * b + kzz[x] * c;
+        }
+    }
+}
+
+std::size_t InterfaceStiffness::bytes() const {
+    return map_.size() * map_[0].bytes() + displaced_.bytes() + force_.bytes();
+}
+
+} // namespace asperity

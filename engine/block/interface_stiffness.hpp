@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// How stiff the interface holds each site: -dF/du, six numbers a site, or -dF_z/du_z alone.
+//
+// The substrate is rigid, so the force on a site depends on its own position alone, and the
+// interface's whole Hessian is this map of 3 x 3 matrices. Three sweeps, all sites displaced by a
+// little along x, y and z, give it by differences; the normal component alone takes one. The
+// displacement is a compromise: the force's own curvature asks for a small one, its steps at the
+// cutoff (4.5e-5 eV/Å a pair at 4 r0) for a large one.
+#pragma once
+
+#include "decomposition/field.hpp"
+#include "decomposition/surface_transform.hpp"
+#include "engine/block/interface.hpp"
+
+namespace asperity {
+
+class InterfaceStiffness {
+public:
+    /// components: three, or one: the normal.
+    InterfaceStiffness(const Tile& tile, int components);
+
+    /// At these displacements, where the force is as given.
+    void measure(const Interface& interface, const VectorPlane<const double>& u,
+                 const VectorPlane<const double>& force, double reference_height);
+    /// v <- H v at every site; v has as many components.
+    void apply(SiteField<float>& v) const;
+    std::size_t bytes() const;
+
+private:
+    enum Entry { zz, xx, yy, xy, xz, yz };
+    PlaneView<const float> entry(Entry e) const { return map_[e].plane(0); }
+
+    SiteField<float> map_;                  ///< eV/Å^2, by Entry
+    VectorField<double> displaced_, force_; ///< displaced_: of three components
+};
+
+} // namespace asperity

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/block/spectral_block.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+enum Entry { xx, yy, zz, xy, xz, yz, entries };
+
+/// What one row of waves sees of a table over the quadrant: with the signs of its q_y.
+template <class T>
+struct MatrixRow {
+    const T* at[entries];
+    T sign; ///< of q_y: on xy and yz
+
+    /// table: [entry][ny][nx], or the one number of a wave; n_y of the row out of N.
+    MatrixRow(const std::vector<T>& table, std::size_t columns, int row, int sites)
+        : sign(2 * row > sites ? T(-1) : T(1)) {
+        const std::size_t size = columns * columns;
+        const T* from =
+            table.data() + static_cast<std::size_t>(std::min(row, sites - row)) * columns;
+        for (std::size_t e = 0; e < entries; ++e)
+            at[e] = from + (table.size() == size ? 0 : e * size);
+    }
+};
+
+/// f <- m u + norm f of wave i, where m acts on (u_x, u_y, i u_z). Real and imaginary parts.
+template <class M, class U, class F>
+ASPERITY_INLINE void multiply(const MatrixRow<M>& m, int i, const U* const u[3], M norm,
+                              F* const f[3]) {
+    const M cross = m.sign * m.at[xy][i], along = m.at[xz][i], across = m.sign * m.at[yz][i];
+    M x[2], y[2], z[2];
+    for (int k = 0; k < 2; ++k) {
+        x[k] = static_cast<M>(u[0][2 * i + k]);
+        y[k] = static_cast<M>(u[1][2 * i + k]);
+        z[k] = static_cast<M>(u[2][2 * i + k]);
+    }
+    const M w[2] = {-z[1], z[0]}; // i u_z
+    for (int k = 0; k < 2; ++k) {
+        const M turned = along * x[1 - k] + across * y[1 - k];
+        const M fx = m.at[xx][i] * x[k] + cross * y[k] + along * w[k];
+        const M fy = cross * x[k] + m.at[yy][i] * y[k] + across * w[k];
+        const M fz = m.at[zz][i] * z[k] + (k == 0 ? turned : -turned);
+        f[0][2 * i + k] = static_cast<F>(fx + norm * static_cast<M>(f[0][2 * i + k]));
+        f[1][2 * i + k] = static_cast<F>(fy + norm * static_cast<M>(f[1][2 * i + k]));
+        f[2][2 * i + k] = static_cast<F>(fz + norm * static_cast<M>(f[2][2 * i + k]));
+    }
+}
+
+/// The same for a row, of three components or one.
+template <class M, class U, class F>
+void multiply_row(const MatrixRow<M>& m, int y, const Waves<U>& u, M norm, Waves<F>& f) {
+    if (u.components() == 1) {
+        const U* from = u.row(0, y);
+        F* to = f.row(0, y);
+        for (int i = 0; i < u.length(); ++i)
+            to[i] = static_cast<F>(m.at[zz][i / 2] * static_cast<M>(from[i]) +
+                                   norm * static_cast<M>(to[i]));
+        return;
+    }
+    const U* const from[3] = {u.row(0, y), u.row(1, y), u.row(2, y)};
+    F* const to[3] = {f.row(0, y), f.row(1, y), f.row(2, y)};
+    for (int i = 0; i < u.columns(); ++i)
+        multiply(m, i, from, norm, to);
+}
+
+/// S of every wave, or what is left of it without friction.
+std::vector<double> stiffness_table(const BlockOptions& options, bool frictionless) {
+    const std::size_t columns = static_cast<std::size_t>(options.sites / 2 + 1);
+    const std::size_t size = columns * columns;
+    std::vector<double> table((frictionless ? 1 : entries) * size);
+    const CellElasticity elasticity = options.elasticity(0);
+    std::vector<WavePhase> phase;
+    for (int n = 0; n <= options.sites / 2; ++n)
+        phase.push_back(wave_phase(n, options.sites));
+#pragma omp parallel for schedule(dynamic, 4)
+    for (std::size_t i = 0; i < columns; ++i)
+        for (std::size_t j = 0; j <= i; ++j) {
+            const SurfaceMatrix s =
+                surface_stiffness(elasticity, phase[i], phase[j], options.thickness);
+            const auto put = [&](std::size_t nx, std::size_t ny, const SurfaceMatrix& m) {
+                double* const at = table.data() + ny * columns + nx;
+                if (frictionless) {
+                    *at = 1.0 / inverse(m).zz;
+                    return;
+                }
+                const double values[entries] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+                for (std::size_t e = 0; e < entries; ++e)
+                    at[e * size] = values[e];
+            };
+            put(i, j, s);
+            put(j, i, {s.yy, s.xx, s.zz, s.xy, s.yz, s.xz});
+        }
+    return table;
+}
+
+} // namespace
+
+SpectralBlock::SpectralBlock(const BlockOptions& options, const Communicator& communicator,
+                             bool frictionless)
+    : options_(options), slab_(options.sites, communicator), components_(frictionless ? 1 : 3),
+      columns_(static_cast<std::size_t>(slab_.columns())),
+      table_(stiffness_table(options, frictionless)), layer_(tile(), 1, 0), force_(tile(), 1, 0),
+      waves_(slab_, components_), transform_(slab_, layer_.plane(0).x.row),
+      single_(slab_, new_field<float>()[0].plane(0).row) {
+    uniform_ = stiffness(0, 0).zz;
+    free_top();
+}
+
+double* SpectralBlock::table(int entry, int ny) {
+    return const_cast<double*>(std::as_const(*this).table(entry, ny));
+}
+
+const double* SpectralBlock::table(int entry, int ny) const {
+    const int kept = components_ == 1 ? 0 : entry;
+    return table_.data() +
+           (static_cast<std::size_t>(kept) * columns_ + static_cast<std::size_t>(ny)) * columns_;
+}
+
+void SpectralBlock::set_uniform(double z) {
+    layer_ = VectorField<double>(tile(), 1, 0);
+    const PlaneView<double> uz = layer_.z.plane(0);
+    for (int y = 0; y < uz.ny; ++y)
+        std::fill(uz.line(y), uz.line(y) + uz.nx, z);
+    waves_.clear();
+    if (slab_.holds_uniform()) waves_.row(components_ - 1, 0)[0] = z;
+    if (!top_free_) top_ = z;
+}
+
+void SpectralBlock::hold_top(double z) {
+    top_ = z;
+    top_free_ = false;
+    table(zz, 0)[0] = uniform_;
+}
+
+void SpectralBlock::free_top() {
+    top_free_ = true;
+    table(zz, 0)[0] = 0.0;
+}
+
+double SpectralBlock::mean_height() const {
+    double mean = slab_.holds_uniform() ? waves_.row(components_ - 1, 0)[0] : 0.0;
+    slab_.ranks.broadcast(std::span(&mean, 1)); // the root holds the first row
+    return mean;
+}
+
+double SpectralBlock::top_force() const {
+    if (top_free_) return 0.0;
+    const double sites = options_.sites;
+    return sites * sites * uniform_ * (mean_height() - top_);
+}
+
+void SpectralBlock::gradient(double load, Waves<double>& g) const {
+    for (int c = 0; c < components_; ++c)
+        transform_.forward(moving(force_.plane(0), c), g, c);
+    const double sites = options_.sites, norm = 1.0 / (sites * sites);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        stiffen_row(y, waves_, -norm, g);
+    if (!slab_.holds_uniform()) return;
+    double& mean = g.row(components_ - 1, 0)[0];
+    mean += norm * load;
+    if (!top_free_) mean -= uniform_ * top_;
+}
+
+template <class T>
+void SpectralBlock::stiffen_row(int y, const Waves<T>& u, double norm, Waves<T>& f) const {
+    multiply_row(MatrixRow<double>(table_, columns_, slab_.first + y, slab_.sites), y, u, norm, f);
+}
+template void SpectralBlock::stiffen_row(int, const Waves<float>&, double, Waves<float>&) const;
+template void SpectralBlock::stiffen_row(int, const Waves<double>&, double, Waves<double>&) const;
+
+double SpectralBlock::elastic_energy() const {
+    // Half u.(S u), u measured from the top plane where that is held.
+    Waves<double> u = new_waves<double>(), su = new_waves<double>();
+    combine(1.0, waves_, 0.0, u);
+    if (!top_free_ && slab_.holds_uniform()) u.row(components_ - 1, 0)[0] -= top_;
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        stiffen_row(y, u, 0.0, su);
+    return 0.5 * dot(u, su);
+}
+
+void SpectralBlock::at_sites(Waves<float>& waves, SiteField<float>& field) const {
+    for (int c = 0; c < components_; ++c)
+        single_.backward(waves, c, field[static_cast<std::size_t>(c)].plane(0));
+}
+
+void SpectralBlock::to_waves(const SiteField<float>& field, Waves<float>& waves) const {
+    for (int c = 0; c < components_; ++c)
+        single_.forward(field[static_cast<std::size_t>(c)].plane(0), waves, c);
+}
+
+void SpectralBlock::displace(double t, const Waves<float>& d, const SiteField<float>& at_sites) {
+    combine(t, d, 1.0, waves_);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        for (int c = 0; c < components_; ++c) {
+            double* u = moving(layer_.plane(0), c).line(y);
+            const float* by = at_sites[static_cast<std::size_t>(c)].plane(0).line(y);
+            for (int x = 0; x < slab_.sites; ++x)
+                u[x] += t * static_cast<double>(by[x]);
+        }
+}
+
+void SpectralBlock::settle() {
+    const VectorPlane<const double> layer = std::as_const(layer_).plane(0);
+    for (int c = 0; c < components_; ++c)
+        transform_.forward(moving(layer, c), waves_, c);
+    const double sites = options_.sites;
+    combine(0.0, waves_, 1.0 / (sites * sites), waves_);
+}
+
+SurfaceMatrix SpectralBlock::stiffness(int nx, int ny) const {
+    const auto at = [&](int e) { return table(e, ny)[nx]; };
+    if (components_ == 1) return {0.0, 0.0, at(zz), 0.0, 0.0, 0.0};
+    return {at(xx), at(yy), at(zz), at(xy), at(xz), at(yz)};
+}
+
+std::size_t SpectralBlock::bytes() const {
+    return table_.size() * sizeof(double) + layer_.bytes() + force_.bytes() + waves_.bytes();
+}
+
+Preconditioner::Preconditioner(const SpectralBlock& block, double k)
+    : sites_(block.slab().sites), first_(block.slab().first),
+      columns_(static_cast<std::size_t>(block.slab().columns())),
+      entries_(block.components() == 1 ? 1 : entries), table_(entries_ * columns_ * columns_) {
+    const int columns = block.slab().columns();
+    const std::size_t size = columns_ * columns_;
+#pragma omp parallel for schedule(static)
+    for (int ny = 0; ny < columns; ++ny)
+        for (int nx = 0; nx < columns; ++nx) {
+            SurfaceMatrix m = block.stiffness(nx, ny);
+            float* const at = table_.data() + static_cast<std::size_t>(ny) * columns_ +
+                              static_cast<std::size_t>(nx);
+            m.xx += k;
+            m.yy += k;
+            m.zz += k;
+            const SurfaceMatrix i = inverse(m);
+            if (entries_ == 1) {
+                *at = static_cast<float>(i.zz);
+                continue;
+            }
+            const double values[entries] = {i.xx, i.yy, i.zz, i.xy, i.xz, i.yz};
+            for (std::size_t e = 0; e < entries; ++e)
+                at[e * size] = static_cast<float>(values[e]);
+        }
+}
+
+template <class From>
+void Preconditioner::apply_row(int y, const Waves<From>& from, Waves<float>& to) const {
+    multiply_row(MatrixRow<float>(table_, columns_, first_ + y, sites_), y, from, 0.0f, to);
+}
+template void Preconditioner::apply_row(int, const Waves<float>&, Waves<float>&) const;
+template void Preconditioner::apply_row(int, const Waves<double>&, Waves<float>&) const;
+
+} // namespace asperity

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The elastic block without its inside (model.md section 5, "spectral").
+//
+// All that is left of a lattice of `thickness` layers whose inside is at rest is its lowest layer
+// and the stiffness S(q) that the rest gives to it, one 3 x 3 matrix a wave
+// (kernels/surface_stiffness.hpp):
+//
+//     U_el = 1/2 sum_r u.(S u),      force on the layer = -S u,      S u by Fourier transform.
+//
+// No depth is discretised, so this is the lattice's static answer to the last digit, at the cost of
+// a surface. There is no inertia in it: it serves relaxation and quasi-static paths only.
+//
+// Frictionless (scene: interface.frictionless), the substrate takes no lateral traction: what is
+// left of each matrix is its answer to normal forces, 1 / (S^-1)_zz, one number a wave and one
+// component of displacement. Lateral displacements of the layer are then not followed, and the
+// interface acts on its sites where they stood.
+//
+// The rigid top plane is clamped sideways. Along z it is held at `top` (its displacement), or free:
+// then it follows the mean height of the layer, the uniform normal wave costs nothing, and no force
+// is on it.
+//
+// The displacement of the layer is kept both at the sites (for the interface) and as waves (for
+// everything else), in slabs of rows over the ranks; displace() changes both. What says so is
+// collective.
+#pragma once
+
+#include "decomposition/communicator.hpp"
+#include "decomposition/field.hpp"
+#include "decomposition/surface_transform.hpp"
+#include "engine/block/block.hpp"
+#include "kernels/surface_stiffness.hpp"
+
+#include <vector>
+
+namespace asperity {
+
+class SpectralBlock {
+public:
+    /// Collective. Throws std::invalid_argument where there are more ranks than slabs.
+    SpectralBlock(const BlockOptions& options, const Communicator& communicator,
+                  bool frictionless = false);
+
+    const BlockOptions& options() const { return options_; }
+    const Slab& slab() const { return slab_; }
+    Tile tile() const { return slab_.tile(); }
+    const Communicator& communicator() const { return slab_.ranks; }
+    /// Of the displacement: three, or the normal one alone where there is no friction.
+    int components() const { return components_; }
+    template <class T>
+    Waves<T> new_waves() const {
+        return Waves<T>(slab_, components_);
+    }
+    template <class T>
+    SiteField<T> new_field() const {
+        return site_field<T>(slab_, components_);
+    }
+
+    VectorPlane<const double> lowest_layer() const { return layer_.plane(0); }
+    /// The displacement at the sites, to be written from outside; settle() makes the waves follow.
+    VectorField<double>& layer() { return layer_; }
+    VectorPlane<double> interface_force() { return force_.plane(0); }
+    VectorPlane<const double> interface_force() const { return force_.plane(0); }
+
+    /// The whole block displaced by (0, 0, z).
+    void set_uniform(double z);
+    /// The top plane's displacement along z, Å; it is held there.
+    void hold_top(double z);
+    /// From now on the top plane follows the layer.
+    void free_top();
+    bool top_is_free() const { return top_free_; }
+    /// Collective, as are the next two.
+    double top() const { return top_free_ ? mean_height() : top_; }
+    /// Mean of u_z over the layer, Å.
+    double mean_height() const;
+    /// Elastic force on the held top plane along z, eV/Å (zero on a free one).
+    double top_force() const;
+
+    /// Gradient of the energy with respect to each site, as waves: S u - F - load, with F what
+    /// interface_force() holds and the load (eV/Å, pressing down) spread over the top plane.
+    /// Collective.
+    void gradient(double load, Waves<double>& g) const;
+    /// f <- S u + norm f for row y of the slab: u and f are its components.
+    template <class T>
+    void stiffen_row(int y, const Waves<T>& u, double norm, Waves<T>& f) const;
+    /// U_el, eV. Collective.
+    double elastic_energy() const;
+
+    /// The field of some waves, which are lost. Collective.
+    void at_sites(Waves<float>& waves, SiteField<float>& field) const;
+    /// The waves of a field, times a factor N^2. Collective.
+    void to_waves(const SiteField<float>& field, Waves<float>& waves) const;
+    /// u <- u + t d, given both as waves and at the sites.
+    void displace(double t, const Waves<float>& d, const SiteField<float>& at_sites);
+    /// Makes the waves those of the sites: after a state from outside, or after many displacements,
+    /// which in single precision leave 1e-7 of what has been moved between them. Collective.
+    void settle();
+
+    /// S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2. Frictionless: its one number, as zz.
+    SurfaceMatrix stiffness(int nx, int ny) const;
+    std::size_t bytes() const;
+
+private:
+    double* table(int entry, int ny);
+    const double* table(int entry, int ny) const;
+    /// The components that move of a field of three.
+    template <class T>
+    PlaneView<T> moving(const VectorPlane<T>& field, int component) const {
+        const PlaneView<T> all[3] = {field.x, field.y, field.z};
+        return all[component + 3 - components_];
+    }
+
+    BlockOptions options_;
+    Slab slab_;
+    int components_ = 3;
+    std::size_t columns_ = 0;
+    std::vector<double> table_; ///< S of the quadrant: [zz, or xx yy zz xy xz yz][ny][nx], eV/Å^2
+    double uniform_ = 0.0;      ///< S_zz of the uniform wave with the top held, eV/Å^2
+    double top_ = 0.0;
+    bool top_free_ = true;
+    VectorField<double> layer_, force_;
+    Waves<double> waves_;
+    SurfaceTransform<double> transform_;
+    SurfaceTransform<float> single_;
+};
+
+/// (S + k)^-1, in single precision, of a block as it is (its top held or free): k > 0, eV/Å^2,
+/// stands for the interface's stiffness of a site.
+class Preconditioner {
+public:
+    Preconditioner(const SpectralBlock& block, double k);
+    /// to <- (S + k)^-1 from, row y of the slab; the two may be the same.
+    template <class From>
+    void apply_row(int y, const Waves<From>& from, Waves<float>& to) const;
+
+private:
+    int sites_, first_;
+    std::size_t columns_, entries_;
+    std::vector<float> table_;
+};
+
+} // namespace asperity

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/dynamics/simulation.hpp"
+
+#include "decomposition/global_sum.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace asperity {
+
+Simulation::Simulation(const SimulationOptions& options, const Surface& substrate,
+                       const Communicator& communicator, const ProcessGrid& grid)
+    : options_(options), block_(options.block, communicator, grid),
+      interface_(substrate, grid.tile(0), options.block.spacing, options.interface),
+      drive_(options.drive) {
+    if (options.temperature > 0.0)
+        thermostat_.emplace(options.temperature, options.damping, options.seed);
+}
+
+void Simulation::start(double height) {
+    reference_height_ = height;
+    step_ = 0;
+    block_.set_uniform(0.0, drive_.velocity(0.0));
+}
+
+// A step, and what must be current when:
+//   interpolate   hanging planes of u(n), from coarse planes with current halos, if there are any
+//   interface     forces of the substrate at u(n)          -> incoming of level 0
+//   observe       energies of u(n), if this step is observed
+//   advance       all forces at u(n), level by level; v(n-1/2) -> v(n+1/2); u(n) -> u(n+1)
+//   thermostat    noise on v(n+1/2) and u(n+1), if the scene has a temperature
+//   exchange      halos of u(n+1)
+//   sums          what the ranks summed at n, added up; work and dissipation booked
+// The top plane's displacement at n is set at the end of the step before.
+const StepRecord& Simulation::step(bool observe) {
+    if (block_.hangs()) phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
+    phases_.during(Phase::interface, [&] { sweep_interface(observe); });
+    phases_.during(Phase::observe, [&] { collect(observe); });
+    phases_.during(Phase::advance, [&] { kick_and_drift(observe); });
+    if (thermostat_) phases_.during(Phase::thermostat, [&] { add_noise(); });
+    phases_.during(Phase::exchange, [&] { block_.exchange(); });
+    phases_.during(Phase::sums, [&] { keep_books(); });
+    ++step_;
+    ++work_.steps;
+    return record_;
+}
+
+void Simulation::sweep_interface(bool observe) {
+    interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
+                                       reference_height_, observe);
+}
+
+void Simulation::add_noise() {
+    heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_);
+}
+
+void Simulation::kick_and_drift(bool observe) {
+    const double middle = (static_cast<double>(step_) + 0.5) * options_.dt;
+    const double velocity = drive_.velocity(middle);
+    kick_sums_ = {};
+    block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
+                   kick_sums_);
+    work_.nodes += kick_sums_.nodes;
+    work_.damped += kick_sums_.damped;
+    if (observe) ++work_.observed;
+    top_force_ = {};
+    block_.add_top_force(top_force_);
+    block_.set_top(block_.top() + options_.dt * velocity);
+}
+
+/// Sums over u(n), before it moves on.
+void Simulation::collect(bool observe) {
+    lowest_z_ = {};
+    elastic_ = {};
+    block_.add_lowest_z(lowest_z_);
+    record_.observed = observe;
+    if (observe) block_.add_elastic_energy(elastic_);
+    record_.step = step_;
+    record_.time = time();
+}
+
+void Simulation::keep_books() {
+    // One reduction a step (and one for the counts of an observed one).
+    const auto sums = global_sums(communicator(),
+                                  std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                                             kick_sums_.dissipated, kick_sums_.dragged, heat_,
+                                             interface_sums_.energy, elastic_, kick_sums_.kinetic});
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic] = sums;
+
+    const double sites = static_cast<double>(options_.block.sites);
+    const double mean_height = reference_height_ + lowest / (sites * sites);
+    const double velocity = drive_.velocity((static_cast<double>(step_) + 0.5) * options_.dt);
+    const double top = block_.top() - options_.dt * velocity; // at n; the block is at n + 1 already
+    if (booked_) {
+        // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
+        ledger_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
+        double& done = drive_.leg() == Leg::approach ? ledger_.approach : ledger_.pull_off;
+        done += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
+        // What the medium takes and gives likewise, half of it at each end; noise given after n-1
+        // was observed is part of n's energy, that of n is not yet.
+        ledger_.damped += 0.5 * (dissipated + pending_.dissipated);
+        ledger_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
+        ledger_.heat += pending_.heat;
+    }
+
+    booked_ = true;
+    pending_ = {dissipated, velocity * dragged, heat};
+
+    record_.top = top;
+    record_.mean_height = mean_height;
+    record_.force = force;
+    record_.top_force = top_force;
+    if (!record_.observed) return;
+
+    const ContactCount contacts = count_contacts(interface_sums_, communicator());
+    record_.interface_energy = lj;
+    record_.elastic_energy = elastic;
+    record_.kinetic_energy = kinetic;
+    record_.in_contact = contacts.in_contact;
+    record_.pushed = contacts.pushed;
+    record_.closest = contacts.closest;
+    if (!energy_at_start_) {
+        energy_at_start_ = lj + elastic + kinetic;
+        work_at_start_ = ledger_.work();
+        damped_at_start_ = ledger_.damped;
+    }
+    scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(ledger_.work())});
+    const double change = lj + elastic + kinetic - *energy_at_start_;
+    record_.work = ledger_.work();
+    record_.damped = ledger_.damped;
+    const double balance =
+        (record_.work - work_at_start_) - change - (record_.damped - damped_at_start_);
+    record_.residual = scale_ > 0.0 ? balance / scale_ : 0.0;
+}
+
+} // namespace asperity

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The simulation: a block, an interface, a drive, and the loop over time.
+//
+// Velocity Verlet in its leapfrog form: positions at whole steps n, velocities at half steps. At
+// the start of step n the state is u(n), v(n-1/2), halos of u current.
+#pragma once
+
+#include "engine/block/block.hpp"
+#include "engine/block/interface.hpp"
+#include "engine/dynamics/drive.hpp"
+#include "engine/dynamics/thermostat.hpp"
+#include "engine/phases.hpp"
+
+#include <optional>
+
+namespace asperity {
+
+struct SimulationOptions {
+    BlockOptions block;
+    InterfaceOptions interface;
+    DriveOptions drive;
+    double dt = 10.0;          ///< fs
+    double damping = 0.0;      ///< 1/fs
+    double damping_from = 0.0; ///< fraction of the thickness
+    double temperature = 0.0;  ///< K
+    std::uint64_t seed = 1;    ///< of the noise
+};
+
+/// Global values of one step, the same bits on every rank. Energies in eV.
+struct StepRecord {
+    long long step = 0;
+    double time = 0.0;        ///< fs
+    double top = 0.0;         ///< displacement of the top plane, Å
+    double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
+    double force = 0.0;       ///< total normal force of the substrate on the lowest layer, eV/Å
+    double top_force = 0.0;   ///< elastic force on the top plane along z, eV/Å
+    // Only where the step was observed:
+    bool observed = false;
+    double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
+    long long in_contact = 0, pushed = 0; ///< sites
+    double closest = 0.0;                 ///< smallest pair distance, Å
+    double work = 0.0, damped = 0.0;      ///< since the start, at that step
+    double residual = 0.0; ///< of the energy balance, over the largest term met so far
+};
+
+/// Work and dissipation since the start, eV.
+struct Ledger {
+    double top_work = 0.0;  ///< done on the block by the top plane
+    double drag_work = 0.0; ///< done on the block by the moving damping medium
+    double damped = 0.0;    ///< dissipated against the medium
+    double heat = 0.0;      ///< given by the thermostat's noise
+    double approach = 0.0;  ///< int F dz of the mean height over the approach
+    double pull_off = 0.0;  ///< the same over the pull-off (negative: attraction is overcome)
+    double work() const { return top_work + drag_work + heat; }
+};
+
+/// Work of a simulation since it was made, on this rank.
+struct StepWork {
+    long long steps = 0;
+    long long nodes = 0;    ///< advanced
+    long long damped = 0;   ///< of these, against the medium
+    long long observed = 0; ///< steps whose energies were summed
+};
+
+class Simulation {
+public:
+    Simulation(const SimulationOptions& options, const Surface& substrate,
+               const Communicator& communicator, const ProcessGrid& grid);
+
+    /// The undeformed block at this height of its lowest layer, moving with the drive.
+    void start(double height);
+    /// One time step. observe: sum the energies and contacts too.
+    const StepRecord& step(bool observe);
+
+    const StepRecord& now() const { return record_; }
+    const Ledger& ledger() const { return ledger_; }
+    const SimulationOptions& options() const { return options_; }
+    double reference_height() const { return reference_height_; }
+    long long steps() const { return step_; }
+    double time() const { return static_cast<double>(step_) * options_.dt; }
+    Drive& drive() { return drive_; }
+    Leg leg() const { return drive_.leg(); }
+    Block& block() { return block_; }
+    const Block& block() const { return block_; }
+    Interface& interface() { return interface_; }
+    const Interface& interface() const { return interface_; }
+    Phases& phases() { return phases_; }
+    const Phases& phases() const { return phases_; }
+    const StepWork& work() const { return work_; }
+    const Communicator& communicator() const { return block_.communicator(); }
+
+    /// Of the last observed step: (work - change of energy - damped) over the largest of these
+    /// terms and of the interface energy met so far.
+    double energy_residual() const { return record_.residual; }
+
+    /// Everything but the fields, for checkpoints.
+    template <class Visitor>
+    void visit(Visitor& v);
+
+private:
+    void sweep_interface(bool observe);
+    void kick_and_drift(bool observe);
+    void add_noise();
+    void collect(bool observe);
+    void keep_books();
+
+    SimulationOptions options_;
+    Block block_;
+    Interface interface_;
+    Drive drive_;
+    std::optional<Thermostat> thermostat_; ///< only if the scene has a temperature
+    Phases phases_;
+    StepWork work_;
+
+    double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
+    long long step_ = 0;
+    StepRecord record_;
+    Ledger ledger_;
+    std::optional<double> energy_at_start_; ///< set by the first observed step
+    double work_at_start_ = 0.0, damped_at_start_ = 0.0;
+    double scale_ = 0.0;  ///< largest energy seen, for the residual
+    bool booked_ = false; ///< a step came before: trapezia can be formed
+    struct Pending {
+        double dissipated = 0.0, drag = 0.0, heat = 0.0;
+    } pending_; ///< of the step before, eV: booked with the next
+
+    // Sums of the step under way, this rank's share.
+    InterfaceSums interface_sums_;
+    KickSums kick_sums_;
+    ExactSum top_force_, lowest_z_, elastic_, heat_;
+};
+
+template <class Visitor>
+void Simulation::visit(Visitor& v) {
+    v("step", step_);
+    v("reference_height", reference_height_);
+    double top = block_.top();
+    v("top", top);
+    block_.set_top(top);
+    drive_.visit(v);
+    v("record.time", record_.time);
+    v("record.top", record_.top);
+    v("record.mean_height", record_.mean_height);
+    v("record.force", record_.force);
+    v("record.top_force", record_.top_force);
+    v("record.interface_energy", record_.interface_energy);
+    v("record.elastic_energy", record_.elastic_energy);
+    v("record.kinetic_energy", record_.kinetic_energy);
+    v("record.work", record_.work);
+    v("record.damped", record_.damped);
+    v("record.residual", record_.residual);
+    v("ledger.top_work", ledger_.top_work);
+    v("ledger.drag_work", ledger_.drag_work);
+    v("ledger.damped", ledger_.damped);
+    v("ledger.heat", ledger_.heat);
+    v("ledger.approach", ledger_.approach);
+    v("ledger.pull_off", ledger_.pull_off);
+    bool started = energy_at_start_.has_value();
+    v("energy.started", started);
+    double at_start = energy_at_start_.value_or(0.0);
+    v("energy.at_start", at_start);
+    if (started) energy_at_start_ = at_start;
+    v("energy.work_at_start", work_at_start_);
+    v("energy.damped_at_start", damped_at_start_);
+    v("energy.scale", scale_);
+    v("booked", booked_);
+    v("pending.dissipated", pending_.dissipated);
+    v("pending.drag", pending_.drag);
+    v("pending.heat", pending_.heat);
+}
+
+} // namespace asperity

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Langevin noise for scenes with a temperature.
+//
+// The damping that the scene asks for gets its fluctuating partner: after the kick each damped
+// node's velocity receives sigma xi with sigma^2 = 2 Gamma k_B T dt / m / (1 + Gamma dt/2)^2
+// (Bruenger, Brooks and Karplus 1984), so configurations are sampled at T with an error of order
+// dt^2. xi is drawn from a counter-based generator keyed by seed, step and node: the same bits on
+// any number of ranks and threads. A scene at T = 0 has no thermostat object at all.
+#pragma once
+
+#include "engine/block/block.hpp"
+
+#include <cstdint>
+
+namespace asperity {
+
+class Thermostat {
+public:
+    /// temperature in K, damping in 1/fs.
+    Thermostat(double temperature, double damping, std::uint64_t seed)
+        : temperature_(temperature), damping_(damping), seed_(seed) {}
+
+    /// Adds the noise of this step to v(n+1/2) and u(n+1). Returns this rank's share of the energy
+    /// given to the nodes, eV.
+    ExactSum kick(Block& block, double dt, double damping_from, long long step) const;
+
+private:
+    double temperature_, damping_;
+    std::uint64_t seed_;
+};
+
+} // namespace asperity

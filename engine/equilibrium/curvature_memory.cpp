@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/curvature_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace asperity {
+
+CurvatureMemory::CurvatureMemory(const SpectralBlock& block, const Preconditioner& preconditioner,
+                                 std::size_t pairs)
+    : block_(block), preconditioner_(preconditioner), limit_(pairs), z_(block.new_waves<float>()) {}
+
+double CurvatureMemory::look(const Waves<double>& g) {
+    const std::size_t known = pairs_.size();
+    RowSums sums(block_.slab(), 2 + 2 * known);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < g.rows(); ++y) {
+        double* sum = sums.row(y);
+        preconditioner_.apply_row(y, g, z_);
+        for (int c = 0; c < g.components(); ++c) {
+            const double* at = g.row(c, y);
+            const int sites = g.slab().sites;
+            sum[0] += row_dot(at, at, sites);
+            sum[1] += row_dot(at, z_.row(c, y), sites);
+            for (std::size_t j = 0; j < known; ++j) {
+                sum[2 + 2 * j] += row_dot(at, pairs_[j].s.row(c, y), sites);
+                sum[3 + 2 * j] += row_dot(at, pairs_[j].w.row(c, y), sites);
+            }
+        }
+    }
+    const std::vector<double> all = sums.total();
+    gz_ = all[1];
+    for (std::size_t j = 0; j < known; ++j) {
+        pairs_[j].sg = all[2 + 2 * j];
+        pairs_[j].wg = all[3 + 2 * j];
+    }
+    return all[0];
+}
+
+double CurvatureMemory::learn(const Waves<double>& g, double t, const Waves<float>& d,
+                              double slope_before) {
+    Pair pair = make_pair();
+    std::vector<double> sg, wg; // of the older pairs, a look ago
+    for (const Pair& p : pairs_) {
+        sg.push_back(p.sg);
+        wg.push_back(p.wg);
+    }
+    const double gz_before = gz_;
+    const auto scale = static_cast<float>(t);
+    // w = z - z_before, on the way of one look.
+    const std::size_t known = pairs_.size();
+    RowSums sums(block_.slab(), 5 + 2 * known);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < g.rows(); ++y) {
+        double* sum = sums.row(y);
+        const int sites = g.slab().sites, length = g.length();
+        for (int c = 0; c < g.components(); ++c) {
+            std::copy_n(z_.row(c, y), length, pair.w.row(c, y));
+            const float* step = d.row(c, y);
+            float* s = pair.s.row(c, y);
+            for (int i = 0; i < length; ++i)
+                s[i] = scale * step[i];
+        }
+        preconditioner_.apply_row(y, g, z_);
+        for (int c = 0; c < g.components(); ++c) {
+            const double* at = g.row(c, y);
+            float* w = pair.w.row(c, y);
+            const float* z = z_.row(c, y);
+            sum[0] += row_dot(at, at, sites);
+            sum[1] += row_dot(at, z, sites);
+            sum[2] += row_dot(at, w, sites); // g.z_before
+            for (int i = 0; i < length; ++i)
+                w[i] = z[i] - w[i];
+            sum[3] += row_dot(at, pair.s.row(c, y), sites);
+            sum[4] += row_dot(at, w, sites);
+            for (std::size_t j = 0; j < known; ++j) {
+                sum[5 + 2 * j] += row_dot(at, pairs_[j].s.row(c, y), sites);
+                sum[6 + 2 * j] += row_dot(at, pairs_[j].w.row(c, y), sites);
+            }
+        }
+    }
+    const std::vector<double> all = sums.total();
+    gz_ = all[1];
+    pair.sg = all[3];
+    slope_ = pair.sg / t;
+    pair.wg = all[4];
+    for (std::size_t j = 0; j < known; ++j) {
+        pairs_[j].sg = all[5 + 2 * j];
+        pairs_[j].wg = all[6 + 2 * j];
+        pair.sy.push_back(pairs_[j].sg - sg[j]);
+        pair.wy.push_back(pairs_[j].wg - wg[j]);
+    }
+    const double sy = t * (slope_ - slope_before);
+    // (g - g_before).(z - z_before), P being symmetric.
+    pair.yw = gz_ - 2.0 * all[2] + gz_before;
+    if (!(sy > 1e-8 * std::abs(t * slope_before) && pair.yw > 0.0)) {
+        spare_.push_back(std::move(pair));
+        return all[0];
+    }
+    pair.rho = 1.0 / sy;
+    pairs_.push_back(std::move(pair));
+    return all[0];
+}
+
+CurvatureMemory::Pair CurvatureMemory::make_pair() {
+    if (pairs_.size() == limit_) {
+        spare_.push_back(std::move(pairs_.front()));
+        pairs_.pop_front();
+        for (Pair& p : pairs_) {
+            p.sy.erase(p.sy.begin());
+            p.wy.erase(p.wy.begin());
+        }
+    }
+    if (spare_.empty())
+        return {.s = block_.new_waves<float>(), .w = block_.new_waves<float>(), .sy = {}, .wy = {}};
+    Pair pair = std::move(spare_.back());
+    spare_.pop_back();
+    pair.sy.clear();
+    pair.wy.clear();
+    return pair;
+}
+
+double CurvatureMemory::direction(const Waves<double>& g, Waves<float>& d) const {
+    const std::size_t known = pairs_.size();
+    // s_i.y_j and w_i.y_j, i older than j, are kept by the younger.
+    const auto wy = [&](std::size_t i, std::size_t j) {
+        return i == j ? pairs_[i].yw : i < j ? pairs_[j].wy[i] : pairs_[i].wy[j];
+    };
+    std::vector<double> alpha(known), gamma(known); // gamma = alpha - beta
+    for (std::size_t i = known; i-- > 0;) {
+        double sq = pairs_[i].sg;
+        for (std::size_t j = i + 1; j < known; ++j)
+            sq -= alpha[j] * pairs_[j].sy[i];
+        alpha[i] = pairs_[i].rho * sq;
+    }
+    for (std::size_t i = 0; i < known; ++i) {
+        double yr = pairs_[i].wg;
+        for (std::size_t j = 0; j < known; ++j)
+            yr -= alpha[j] * wy(i, j);
+        for (std::size_t j = 0; j < i; ++j)
+            yr += gamma[j] * pairs_[i].sy[j];
+        gamma[i] = alpha[i] - pairs_[i].rho * yr;
+    }
+    double slope = -gz_;
+    for (std::size_t j = 0; j < known; ++j)
+        slope += alpha[j] * pairs_[j].wg - gamma[j] * pairs_[j].sg;
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < g.rows(); ++y)
+        for (int c = 0; c < g.components(); ++c) {
+            float* to = d.row(c, y);
+            const float* z = z_.row(c, y);
+            for (int i = 0; i < g.length(); ++i)
+                to[i] = -z[i];
+            for (std::size_t j = 0; j < known; ++j) {
+                const float *s = pairs_[j].s.row(c, y), *w = pairs_[j].w.row(c, y);
+                const auto along_w = static_cast<float>(alpha[j]);
+                const auto along_s = static_cast<float>(gamma[j]);
+                for (int i = 0; i < g.length(); ++i)
+                    to[i] += along_w * w[i] - along_s * s[i];
+            }
+        }
+    return slope;
+}
+
+std::size_t CurvatureMemory::bytes() const { return (2 * limit_ + 3) * z_.bytes(); }
+
+} // namespace asperity

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/equilibrium.hpp"
+
+#include "decomposition/global_sum.hpp"
+#include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/units.hpp"
+#include "io/error.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+void add_arrays(int level, VectorField<double>& u, int planes, std::vector<StateArray>& list) {
+    const auto add = [&](const char* what, Field<double>& field) {
+        list.push_back({fmt::format("/level{}/{}", level, what), level, &field, planes});
+    };
+    add("u_x", u.x);
+    add("u_y", u.y);
+    add("u_z", u.z);
+}
+
+class LevelsAtRest final : public Equilibrium {
+public:
+    explicit LevelsAtRest(Block block) : block_(std::move(block)) {}
+    VectorPlane<const double> lowest_layer() const override { return block_.lowest_layer(); }
+    VectorPlane<double> interface_force() override { return block_.interface_force(); }
+    const Communicator& communicator() const override { return block_.communicator(); }
+    void set_uniform(double z) override { block_.set_uniform(z, 0.0); }
+    void hold_top(double z) override {
+        held_ = true;
+        block_.set_top(z);
+    }
+    void free_top() override { held_ = false; }
+    double top() const override { return block_.top(); }
+    std::vector<StateArray> state() override {
+        std::vector<StateArray> list;
+        for (Block::Level& level : block_.levels())
+            add_arrays(level.plan.level, level.u, level.plan.cells, list);
+        return list;
+    }
+    void settle() override { block_.exchange(); }
+    RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
+                       Phases& phases) override {
+        options.top_held = held_;
+        return asperity::relax(block_, interface, reference_height, options, phases);
+    }
+    std::size_t bytes() const override { return block_.bytes(); }
+    std::size_t coarse_bytes() const override { return block_.coarse_bytes(); }
+    long long finite_nodes() const override { return block_.finite_nodes(); }
+
+private:
+    Block block_;
+    bool held_ = false;
+};
+
+class WavesAtRest final : public Equilibrium {
+public:
+    WavesAtRest(const BlockOptions& options, const Communicator& ranks, bool frictionless)
+        : block_(options, ranks, frictionless) {}
+    VectorPlane<const double> lowest_layer() const override { return block_.lowest_layer(); }
+    VectorPlane<double> interface_force() override { return block_.interface_force(); }
+    const Communicator& communicator() const override { return block_.communicator(); }
+    void set_uniform(double z) override { block_.set_uniform(z); }
+    void hold_top(double z) override { block_.hold_top(z); }
+    void free_top() override { block_.free_top(); }
+    double top() const override { return block_.top(); }
+    std::vector<StateArray> state() override {
+        std::vector<StateArray> list;
+        add_arrays(0, block_.layer(), 1, list);
+        return list;
+    }
+    void settle() override { block_.settle(); }
+    RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
+                       Phases& phases) override {
+        options.max_move = 0.2;
+        RelaxedState state = asperity::relax(block_, interface, reference_height, options, phases);
+        if (!block_.top_is_free() || options.load == 0.0) return state;
+        // A free top plane follows the layer and leaves out what the load presses the block
+        // together by.
+        const BlockOptions& o = block_.options();
+        const double sites = static_cast<double>(o.sites) * o.sites;
+        const double spring =
+            (o.lame() + 2.0 * o.shear_modulus()) * sites * o.spacing / o.thickness;
+        block_.hold_top(block_.mean_height() - options.load / spring);
+        state.top_force = block_.top_force();
+        state.elastic_energy = block_.elastic_energy();
+        return state;
+    }
+    std::size_t bytes() const override {
+        return block_.bytes() + spectral_relaxation_bytes(block_);
+    }
+    std::size_t coarse_bytes() const override { return 0; }
+    long long finite_nodes() const override { return 0; }
+
+private:
+    SpectralBlock block_;
+};
+
+} // namespace
+
+std::unique_ptr<Equilibrium> at_rest(Block block) {
+    return std::make_unique<LevelsAtRest>(std::move(block));
+}
+
+std::unique_ptr<Equilibrium> spectral_at_rest(const BlockOptions& options,
+                                              const Communicator& ranks, bool frictionless) {
+    return std::make_unique<WavesAtRest>(options, ranks, frictionless);
+}
+
+std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& setup,
+                                              const Communicator& ranks, const ProcessGrid& grid) {
+    if (scene.block.model == BlockModel::spectral)
+        return spectral_at_rest(setup.simulation.block, ranks, scene.interface.frictionless);
+    return at_rest(Block(setup.simulation.block, ranks, grid, Motion::at_rest));
+}
+
+double height_of_strongest_attraction(Equilibrium& block, const Interface& interface,
+                                      double lowest_atom, const Communicator& ranks) {
+    block.set_uniform(0.0);
+    double best_height = interface.start_height(), strongest = 0.0;
+    constexpr double stride = 0.1;
+    for (double height = best_height;; height -= stride) {
+        const InterfaceSums sums =
+            interface.sweep(block.lowest_layer(), block.interface_force(), height, false);
+        const double force = global_sum(ranks, sums.force_z);
+        if (force < strongest) strongest = force, best_height = height;
+        if (force > 0.0 || height < lowest_atom) return best_height;
+    }
+}
+
+RelaxOptions relax_options(const Scene& scene, const Setup& setup) {
+    RelaxOptions options;
+    options.tolerance = scene.drive.tolerance;
+    options.site_stiffness = setup.flat.stiffness * scene.surface.spacing * scene.surface.spacing;
+    return options;
+}
+
+std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
+                                       double reference_height, double load, const Scene& scene,
+                                       const Setup& setup,
+                                       const std::function<bool(long long, double)>& stop) {
+    RelaxOptions options = relax_options(scene, setup);
+    options.load = load;
+    options.report = stop;
+    Phases own; // its lines are not lines of the step
+    const RelaxedState s = block.relax(interface, reference_height, options, own);
+    if (s.interrupted) return std::nullopt;
+    if (!s.converged)
+        throw io::PhysicsError(
+            fmt::format("the zero-load state was not found in {} iterations", s.iterations),
+            fmt::format("the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
+                        s.residual, scene.drive.tolerance),
+            "look at run.h5 whether the surfaces touch at all; a looser drive.tolerance ends "
+            "earlier");
+    const double area = scene.edge() * scene.edge();
+    const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
+    ZeroLoad z;
+    z.binding_energy = -units::milli_per_unit * (s.interface_energy + s.elastic_energy) / area;
+    z.pairwise = -units::milli_per_unit * s.interface_energy / area;
+    z.elastic = units::milli_per_unit * s.elastic_energy / area;
+    z.contact_fraction = static_cast<double>(s.in_contact) / sites;
+    z.pushed_fraction = static_cast<double>(s.pushed) / sites;
+    z.mean_height = reference_height + s.mean_height;
+    z.residual = s.residual;
+    z.iterations = static_cast<double>(s.iterations);
+    return z;
+}
+
+void show_relaxation(io::Progress& progress, long long iteration, double residual) {
+    if (!progress.due()) return;
+    progress.update(
+        {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
+}
+
+} // namespace asperity

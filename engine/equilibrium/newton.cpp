@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/newton.hpp"
+
+namespace asperity {
+
+Newton::Newton(const SpectralBlock& block, const Preconditioner& preconditioner)
+    : block_(block), preconditioner_(preconditioner), stiffness_(block.tile(), block.components()),
+      at_sites_(block.new_field<float>()), r_(block.new_waves<float>()),
+      z_(block.new_waves<float>()), p_(block.new_waves<float>()), q_(block.new_waves<float>()) {}
+
+bool Newton::direction(const Interface& interface, double reference_height, double forcing,
+                       const Waves<double>& g, Waves<float>& d) {
+    stiffness_.measure(interface, block_.lowest_layer(), block_.interface_force(),
+                       reference_height);
+    combine(-1.0, g, 0.0, r_);
+    d.clear();
+    double rz = advance(0.0, d);
+    combine(1.0, z_, 0.0, p_);
+    const double enough = forcing * forcing * rz;
+    for (int i = 0; i < most_products && rz > enough; ++i) {
+        const double curvature = multiply();
+        if (!(curvature > 0.0)) return false;
+        const double next = advance(rz / curvature, d);
+        combine(1.0, z_, next / rz, p_);
+        rz = next;
+    }
+    return true;
+}
+
+double Newton::multiply() {
+    combine(1.0, p_, 0.0, q_);
+    block_.at_sites(q_, at_sites_);
+    stiffness_.apply(at_sites_);
+    block_.to_waves(at_sites_, q_);
+    const double n = block_.options().sites, norm = 1.0 / (n * n);
+    RowSums sums(block_.slab(), 1);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < p_.rows(); ++y) {
+        block_.stiffen_row(y, p_, norm, q_);
+        for (int c = 0; c < p_.components(); ++c)
+            *sums.row(y) += row_dot(p_.row(c, y), q_.row(c, y), p_.slab().sites);
+    }
+    return sums.total()[0];
+}
+
+double Newton::advance(double a, Waves<float>& d) {
+    const auto step = static_cast<float>(a);
+    RowSums sums(block_.slab(), 1);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < r_.rows(); ++y) {
+        for (int c = 0; c < r_.components(); ++c) {
+            float *to = d.row(c, y), *r = r_.row(c, y);
+            const float *p = p_.row(c, y), *q = q_.row(c, y);
+            for (int i = 0; i < r_.length(); ++i) {
+                to[i] += step * p[i];
+                r[i] -= step * q[i];
+            }
+        }
+        preconditioner_.apply_row(y, r_, z_);
+        for (int c = 0; c < r_.components(); ++c)
+            *sums.row(y) += row_dot(r_.row(c, y), z_.row(c, y), r_.slab().sites);
+    }
+    return sums.total()[0];
+}
+
+std::size_t Newton::bytes() const {
+    return stiffness_.bytes() + 4 * r_.bytes() + at_sites_.size() * at_sites_[0].bytes();
+}
+
+} // namespace asperity

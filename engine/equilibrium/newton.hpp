@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Newton's direction of a spectral block: (S + H) d = -g by conjugate gradients, preconditioned
+// with (S + k)^-1, in single precision and without sweeps: H, the interface's Hessian, is a map of
+// 3 x 3 matrices (interface_stiffness.hpp).
+#pragma once
+
+#include "engine/block/interface_stiffness.hpp"
+#include "engine/block/spectral_block.hpp"
+
+namespace asperity {
+
+class Newton {
+public:
+    Newton(const SpectralBlock& block, const Preconditioner& preconditioner);
+
+    /// The direction where the block stands, its interface_force() and gradient being up to date,
+    /// to a residual of `forcing` times the gradient (both measured by the preconditioner). False,
+    /// and no direction, where the energy curves down on the way to it. Collective.
+    bool direction(const Interface& interface, double reference_height, double forcing,
+                   const Waves<double>& g, Waves<float>& d);
+    std::size_t bytes() const;
+
+private:
+    /// q <- (S + H) p. Returns p.q.
+    double multiply();
+    /// d <- d + a p, r <- r - a q, z <- P r. Returns r.z.
+    double advance(double a, Waves<float>& d);
+
+    static constexpr int most_products = 100;
+    const SpectralBlock& block_;
+    const Preconditioner& preconditioner_;
+    InterfaceStiffness stiffness_;
+    SiteField<float> at_sites_;
+    Waves<float> r_, z_, p_, q_;
+};
+
+} // namespace asperity

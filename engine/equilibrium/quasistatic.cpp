@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/quasistatic.hpp"
+
+#include "decomposition/global_largest.hpp"
+#include "io/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace asperity {
+
+QuasistaticPath::QuasistaticPath(Equilibrium& block, Interface& interface, PathOptions options)
+    : block_(block), interface_(interface), options_(std::move(options)),
+      sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
+      length_(options_.step) {}
+
+void QuasistaticPath::start() {
+    // Out of reach the block follows the top plane as a whole: that is what the first steps
+    // continue.
+    before_top_ = options_.step;
+    block_.set_uniform(before_top_);
+    before_.take(block_.state());
+    block_.set_uniform(0.0);
+    block_.hold_top(0.0);
+    first_point();
+    reversible_ = true;
+    direction_ = -1.0;
+}
+
+void QuasistaticPath::hold_here() {
+    block_.hold_top(block_.top());
+    first_point();
+    reversible_ = false;
+}
+
+void QuasistaticPath::first_point() {
+    record_.top = block_.top();
+    last_.take(block_.state());
+    const RelaxedState state = relax_at(record_.top, false);
+    if (!state.converged)
+        throw io::PhysicsError("the path does not start from an equilibrium",
+                               fmt::format("the largest force left is {:.2e} eV/Å", state.residual),
+                               "a looser drive.tolerance");
+    last_.take(block_.state());
+    record_.step = 0;
+    energy_at_start_ = state.interface_energy + state.elastic_energy;
+    set_record(state, record_.top);
+    trail_.begin(record_.top, state.top_force);
+}
+
+void QuasistaticPath::resume() {
+    block_.hold_top(record_.top);
+    block_.settle();
+    last_.take(block_.state());
+    record_.observed = true;
+    reversible_ = false;
+}
+
+void QuasistaticPath::put_back() {
+    last_.restore(block_.state());
+    block_.hold_top(record_.top);
+    block_.settle();
+}
+
+QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
+    const double direction = leg == Leg::approach ? -1.0 : 1.0;
+    if (direction != direction_) {
+        // Behind a turn the trail would run into itself, and a leg's own books begin.
+        trail_.begin(record_.top, record_.top_force);
+        attracted_ = false;
+        (leg == Leg::approach ? approach_ : pull_off_) = 0.0;
+        direction_ = direction;
+    }
+    const double aim = attracted_ ? options_.load : std::max(options_.load, 0.0);
+    const double slack = 0.25 * options_.tolerance * sites_; // what points are relaxed to
+    bool landing = false, predicted = reversible_;
+    for (;;) {
+        const double top = record_.top + direction * length_;
+        const RelaxedState state = relax_at(top, predicted);
+        if (state.interrupted) {
+            put_back();
+            return Outcome::interrupted;
+        }
+        const bool last_try = length_ <= smallest_step();
+        if (!state.converged && last_try)
+            throw io::PhysicsError(
+                fmt::format("no equilibrium was found at a top displacement of {:.6g} Å", top),
+                fmt::format("the largest force left is {:.2e} eV/Å after {} iterations, and {:.2e} "
+                            "is asked for (a quarter of drive.tolerance)",
+                            state.residual, state.iterations, 0.25 * options_.tolerance),
+                "a looser drive.tolerance");
+        const bool beyond =
+            leg == Leg::approach && record_.force <= aim && state.force > aim + slack;
+        if (state.converged && beyond && !last_try) {
+            const double part = (aim - record_.force) / (state.force - record_.force);
+            length_ *= std::clamp(part, 0.02, 0.98);
+            landing = true;
+            continue;
+        }
+        Verdict verdict;
+        if (state.converged) verdict = judge(state, top);
+        if (last_try) verdict.accepted = true;
+        if (verdict.accepted && verdict.dissipated > 0.0 && predicted) {
+            predicted = false;
+            continue;
+        }
+        if (!verdict.accepted) {
+            length_ *= 0.5;
+            continue;
+        }
+        accept(state, top, verdict, leg);
+        if (leg == Leg::approach) {
+            attracted_ = attracted_ || record_.force < std::min(options_.load, 0.0) - slack;
+            const bool back = attracted_ && record_.force >= options_.load;
+            if (back || (landing && record_.force >= aim - slack)) return Outcome::landed;
+        } else if (options_.reference_height + record_.top >= interface_.start_height() &&
+                   std::abs(record_.force) <= 1e-6 * strongest_) {
+            return Outcome::gone;
+        }
+        return Outcome::point;
+    }
+}
+
+RelaxedState QuasistaticPath::relax_at(double top, bool predicted) {
+    const auto arrays = block_.state();
+    last_.restore(arrays);
+    if (predicted) before_.extrapolate((top - record_.top) / (record_.top - before_top_), arrays);
+    block_.hold_top(top);
+    block_.settle();
+    RelaxOptions options;
+    options.tolerance = 0.25 * options_.tolerance;
+    options.site_stiffness = options_.site_stiffness;
+    options.report = options_.report;
+    const RelaxedState state =
+        block_.relax(interface_, options_.reference_height, options, phases_);
+    iterations_ += state.iterations;
+    return state;
+}
+
+QuasistaticPath::Verdict QuasistaticPath::judge(const RelaxedState& state, double top) const {
+    const double step = std::abs(top - record_.top);
+    const double gained = state.interface_energy + state.elastic_energy - record_.interface_energy -
+                          record_.elastic_energy;
+    const double allowed = options_.tolerance * sites_ * step;
+    const ForceTrail::Integral integral = trail_.to(top, state.top_force);
+    Verdict v;
+    v.work = -integral.value;
+    const double missing = v.work - gained;
+    const double error = std::min(integral.error, std::abs(missing));
+    v.margin = allowed / std::max(error, 1e-6 * allowed);
+    if (std::abs(missing) <= allowed) {
+        v.accepted = true;
+        return v;
+    }
+    // What is less than the work may be wrong by is left unaccounted for: it shows in the residual.
+    double uncertain = integral.error;
+    v.smooth = uncertain <= allowed;
+    v.accepted = v.smooth;
+    if (!v.smooth) {
+        v.work = -trail_.trapezium(top, state.top_force);
+        uncertain = 0.5 * step * std::abs(state.top_force - record_.top_force);
+        v.accepted = uncertain <= options_.tolerance * sites_ * options_.step;
+    }
+    if (v.work - gained > uncertain) v.dissipated = v.work - gained;
+    return v;
+}
+
+void QuasistaticPath::accept(const RelaxedState& state, double top, const Verdict& verdict,
+                             Leg leg) {
+    // int F dz over the mean height: z_top plus the stretch of the block, whose spring F obeys.
+    const double stretch = record_.mean_height - options_.reference_height - record_.top;
+    const double next_stretch = state.mean_height - top;
+    double& interface_work = leg == Leg::approach ? approach_ : pull_off_;
+    interface_work +=
+        -verdict.work + 0.5 * (state.top_force * next_stretch - record_.top_force * stretch);
+    record_.work += verdict.work;
+    if (verdict.dissipated > 0.0) {
+        dissipation_.book(describe(state, verdict.dissipated, leg));
+        record_.damped = dissipation_.total();
+    }
+    if (verdict.smooth)
+        trail_.add(top, state.top_force);
+    else
+        trail_.begin(top, state.top_force);
+    before_top_ = record_.top;
+    std::swap(before_, last_);
+    last_.take(block_.state());
+    reversible_ = verdict.dissipated == 0.0;
+    ++record_.step;
+    set_record(state, top);
+    strongest_ = std::max(strongest_, -record_.force);
+    // The error of a smooth step goes with the fourth power of its length, for each Å.
+    const double growth = std::clamp(0.8 * std::sqrt(std::sqrt(verdict.margin)), 0.5, 2.0);
+    length_ *= growth;
+    // A fall was closed in on with ever smaller steps; behind it there is no reason for them.
+    if (!verdict.smooth) length_ = std::max(length_, options_.step / 16.0);
+    length_ = std::clamp(length_, smallest_step(), options_.step);
+}
+
+void QuasistaticPath::set_record(const RelaxedState& state, double top) {
+    record_.top = top;
+    record_.mean_height = options_.reference_height + state.mean_height;
+    record_.force = state.force;
+    record_.top_force = state.top_force;
+    record_.observed = true;
+    record_.interface_energy = state.interface_energy;
+    record_.elastic_energy = state.elastic_energy;
+    record_.in_contact = state.in_contact;
+    record_.pushed = state.pushed;
+    record_.closest = state.closest;
+    const double change = state.interface_energy + state.elastic_energy - energy_at_start_;
+    scale_ = std::max(
+        {scale_, std::abs(state.interface_energy), state.elastic_energy, std::abs(record_.work)});
+    record_.residual = scale_ > 0.0 ? (record_.work - change - record_.damped) / scale_ : 0.0;
+}
+
+Jump QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg) const {
+    Jump jump;
+    jump.energy = energy;
+    jump.leg = leg == Leg::approach ? 0.0 : 1.0;
+    jump.top = record_.top;
+    jump.height_before = record_.mean_height;
+    jump.height_after = options_.reference_height + state.mean_height;
+    jump.force_before = record_.top_force;
+    jump.force_after = state.top_force;
+    jump.contact_before = static_cast<double>(record_.in_contact);
+    jump.contact_after = static_cast<double>(state.in_contact);
+    const auto layer = block_.lowest_layer();
+    const VectorPlane<const double> old = {last_[0].plane(0), last_[1].plane(0), last_[2].plane(0)};
+    const auto moved = [&](int x, int y) {
+        return std::hypot(layer.x(x, y) - old.x(x, y), layer.y(x, y) - old.y(x, y),
+                          layer.z(x, y) - old.z(x, y));
+    };
+    const Communicator& ranks = block_.communicator();
+    const LargestSite most = global_largest(ranks, interface_.tile(), moved);
+    std::array<std::int64_t, 1> count = {0};
+    for (int y = 0; y < layer.x.ny; ++y)
+        for (int x = 0; x < layer.x.nx; ++x)
+            count[0] += moved(x, y) > 0.5 * most.value;
+    ranks.sum(count);
+    jump.site_x = most.x;
+    jump.site_y = most.y;
+    jump.largest_move = most.value;
+    jump.sites_moved = static_cast<double>(count[0]);
+    return jump;
+}
+
+} // namespace asperity

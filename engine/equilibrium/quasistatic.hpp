@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A quasi-static path: equilibria at one position of the held top plane after another, each found
+// downhill of the last, so that hysteresis is kept.
+//
+// Between two points, the work of the top plane -int F dz_top is what the energy U_LJ + U_el has
+// gained, unless the block became unstable on the way and fell to another state: then some of it is
+// missing, and was dissipated. From the last point a step is tried and
+//
+//   accepted  if nothing is missing;
+//   accepted, and what is missing booked as dissipated, if the work is known to be right: the force
+//             is smooth, or its jump times the step is too small to matter;
+//   halved    otherwise, and tried again from the last point.
+//
+// So a fall ends up between two points so close that it is known where it happened and what it
+// cost, while many small falls that leave the force smooth are booked without looking for each.
+// "Nothing" is drive.tolerance for each site and Å of the step: errors of the energy are then
+// bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
+//
+// Where the last steps were reversible, the next one starts from their linear continuation. A
+// prediction could carry a site across a barrier, so whatever would be booked after one is found
+// again without.
+#pragma once
+
+#include "engine/dynamics/drive.hpp"
+#include "engine/dynamics/simulation.hpp"
+#include "engine/equilibrium/dissipation.hpp"
+#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/equilibrium/force_trail.hpp"
+
+#include <functional>
+
+namespace asperity {
+
+struct PathOptions {
+    double step = 0.25;            ///< of the top plane, the largest, Å
+    double tolerance = 1e-4;       ///< eV/Å
+    double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
+    double load = 0.0;             ///< at which the approach ends, eV/Å
+    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    /// Called during relaxations with their iteration and residual. True: stop.
+    std::function<bool(long long, double)> report;
+};
+
+class QuasistaticPath {
+public:
+    QuasistaticPath(Equilibrium& block, Interface& interface, PathOptions options);
+
+    /// The undisplaced block, its top plane held where nothing is in reach.
+    void start();
+    /// The block as it is, its top plane held from now on.
+    void hold_here();
+
+    enum class Outcome { point, landed, gone, interrupted };
+    /// The next point of a leg. landed: the approach has come to its load (the path stands there
+    /// exactly); gone: nothing is left of the force on the pull-off. Where a relaxation was
+    /// interrupted, the block is back at the last point. Collective. Throws io::PhysicsError where
+    /// no equilibrium is found.
+    Outcome advance(Leg leg);
+
+    /// The last point. Without time: step counts points, damped is what was dissipated.
+    const StepRecord& now() const { return record_; }
+    /// int F dz of the mean height over the last approach and pull-off, eV. While the block falls,
+    /// F is what the block's spring exerts.
+    double approach_work() const { return approach_; }
+    double pull_off_work() const { return pull_off_; }
+    const Dissipation& dissipation() const { return dissipation_; }
+    long long iterations() const { return iterations_; }
+    /// Puts the block back to the last point, from wherever it was taken.
+    void put_back();
+    std::size_t bytes() const { return last_.bytes() + before_.bytes(); }
+
+    /// Everything but the displacements, for checkpoints; put back by resume().
+    template <class Visitor>
+    void visit(Visitor& v);
+    /// The block's displacements have been read, and so has visit(): go on from there.
+    void resume();
+
+private:
+    struct Verdict {
+        bool accepted = false;
+        double work = 0.0;       ///< of the top plane in this step, eV
+        double dissipated = 0.0; ///< eV
+        bool smooth = true;      ///< the force did not jump
+        double margin = 0.0;     ///< allowed error over the one found: how much the step may grow
+    };
+    RelaxedState relax_at(double top, bool predicted);
+    Verdict judge(const RelaxedState& state, double top) const;
+    void accept(const RelaxedState& state, double top, const Verdict& verdict, Leg leg);
+    Jump describe(const RelaxedState& state, double energy, Leg leg) const;
+    void set_record(const RelaxedState& state, double top);
+    void first_point();
+    double smallest_step() const { return options_.step * 0x1p-16; }
+
+    Equilibrium& block_;
+    Interface& interface_;
+    PathOptions options_;
+    double sites_ = 0.0; ///< N^2
+    Phases phases_;      ///< of the relaxations; their lines are not lines of the step
+
+    StepRecord record_;
+    StateCopy last_, before_; ///< of the last point and the one before it
+    double before_top_ = 0.0;
+    bool reversible_ = false; ///< the last step was; before_ is good for a prediction
+    double length_ = 0.0;     ///< of the next step, Å
+    double direction_ = 0.0;  ///< of the last step
+    ForceTrail trail_;
+    bool attracted_ = false;
+    double strongest_ = 0.0; ///< attraction so far, eV/Å
+    double approach_ = 0.0, pull_off_ = 0.0;
+    double energy_at_start_ = 0.0, scale_ = 0.0;
+    Dissipation dissipation_;
+    long long iterations_ = 0;
+};
+
+template <class Visitor>
+void QuasistaticPath::visit(Visitor& v) {
+    v("point", record_.step);
+    v("top", record_.top);
+    v("mean_height", record_.mean_height);
+    v("force", record_.force);
+    v("top_force", record_.top_force);
+    v("interface_energy", record_.interface_energy);
+    v("elastic_energy", record_.elastic_energy);
+    v("in_contact", record_.in_contact);
+    v("pushed", record_.pushed);
+    v("closest", record_.closest);
+    v("work", record_.work);
+    v("dissipated", record_.damped);
+    v("residual", record_.residual);
+    v("length", length_);
+    v("direction", direction_);
+    trail_.visit(v);
+    v("attracted", attracted_);
+    v("strongest", strongest_);
+    v("approach_work", approach_);
+    v("pull_off_work", pull_off_);
+    v("energy_at_start", energy_at_start_);
+    v("scale", scale_);
+    dissipation_.visit(v);
+    v("iterations", iterations_);
+}
+
+} // namespace asperity

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/state_array.hpp"
+
+#include <utility>
+
+namespace asperity {
+
+void StateCopy::take(const std::vector<StateArray>& arrays) {
+    if (copies_.empty())
+        for (const StateArray& array : arrays) {
+            const auto shape = std::as_const(*array.field).view();
+            Tile tile{};
+            tile.nx = shape.nx;
+            tile.ny = shape.ny;
+            copies_.emplace_back(tile, shape.nz, array.field->halo());
+        }
+    for (std::size_t i = 0; i < arrays.size(); ++i)
+        copies_[i].copy_from(*arrays[i].field);
+}
+
+void StateCopy::restore(const std::vector<StateArray>& arrays) const {
+    for (std::size_t i = 0; i < arrays.size(); ++i)
+        arrays[i].field->copy_from(copies_[i]);
+}
+
+void StateCopy::extrapolate(double ratio, const std::vector<StateArray>& arrays) const {
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+        const auto to = arrays[i].field->view();
+        const auto from = copies_[i].view();
+#pragma omp parallel for schedule(static)
+        for (int row = 0; row < arrays[i].planes * to.ny; ++row) {
+            double* x = to[row / to.ny].line(row % to.ny);
+            const double* old = from[row / to.ny].line(row % to.ny);
+            for (int k = 0; k < to.nx; ++k)
+                x[k] += ratio * (x[k] - old[k]);
+        }
+    }
+}
+
+std::size_t StateCopy::bytes() const {
+    std::size_t total = 0;
+    for (const Field<double>& copy : copies_)
+        total += copy.bytes();
+    return total;
+}
+
+} // namespace asperity

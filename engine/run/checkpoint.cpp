@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/checkpoint.hpp"
+
+#include "io/error.hpp"
+#include "io/hdf5_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+constexpr int format_version = 1;
+
+/// Displacements and half-step velocities of each level.
+std::vector<StateArray> fields_of(Simulation& simulation) {
+    std::vector<StateArray> list;
+    for (auto& level : simulation.block().levels()) {
+        const int n = level.plan.level, planes = level.plan.cells;
+        const auto add = [&](const char* what, Field<double>& field) {
+            list.push_back({fmt::format("/level{}/{}", n, what), n, &field, planes});
+        };
+        add("u_x", level.u.x);
+        add("u_y", level.u.y);
+        add("u_z", level.u.z);
+        add("v_x", level.v.x);
+        add("v_y", level.v.y);
+        add("v_z", level.v.z);
+    }
+    return list;
+}
+
+} // namespace
+
+double RestoreScalars::next(const char* name) {
+    if (at >= values.size() || values[at].first != name)
+        throw io::FileError(
+            "checkpoint", fmt::format("has no number \"{}\" where it is expected", name),
+            "it was written by another version of the program", "run the scene from its start");
+    return values[at++].second;
+}
+
+void write_checkpoint(const std::string& path, const Communicator& ranks, const ProcessGrid& grid,
+                      const std::vector<StateArray>& arrays, const RunScalars& scalars,
+                      const std::string& fingerprint) {
+    const std::string temporary = path + ".part";
+    std::unique_ptr<io::Hdf5File> file;
+    ranks.on_root([&] {
+        file = std::make_unique<io::Hdf5File>(temporary, io::Hdf5File::Mode::create);
+        file->write_attribute("/", "asperity_checkpoint", std::int64_t{format_version});
+        file->write_attribute("/", "scene", fingerprint);
+        std::string names;
+        std::vector<double> values;
+        for (const auto& [name, value] : scalars)
+            names += name + "\n", values.push_back(value);
+        file->write_attribute("/", "scalar_names", names);
+        file->write<double>("/scalars", {values.size()}, values);
+        int last = -1;
+        for (const StateArray& array : arrays)
+            if (array.level != std::exchange(last, array.level))
+                file->make_group(fmt::format("/level{}", array.level));
+    });
+    for (const StateArray& array : arrays) {
+        const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
+        ranks.on_root([&] {
+            file->make_dataset<double>(array.name,
+                                       {static_cast<std::uint64_t>(array.planes), sites, sites});
+        });
+        for (int z = 0; z < array.planes; ++z) {
+            const auto dense =
+                gather_plane(ranks, grid, array.level, std::as_const(*array.field).plane(z));
+            ranks.on_root([&] {
+                file->write_slab<double>(array.name, {static_cast<std::uint64_t>(z), 0, 0},
+                                         {1, sites, sites}, std::span<const double>(dense));
+            });
+        }
+    }
+    ranks.on_root([&] {
+        file->close();
+        std::error_code failed;
+        std::filesystem::rename(temporary, path, failed);
+        if (failed)
+            throw io::FileError(path, "cannot be put in place", failed.message(),
+                                "the checkpoint is in " + temporary);
+    });
+}
+
+RunScalars read_checkpoint(const std::string& path, const Communicator& ranks,
+                           const ProcessGrid& grid, const std::vector<StateArray>& arrays,
+                           const std::string& fingerprint) {
+    std::unique_ptr<io::Hdf5File> file;
+    std::string names;
+    std::vector<double> values;
+    std::int64_t sizes[2] = {0, 0};
+    ranks.on_root([&] {
+        file = std::make_unique<io::Hdf5File>(path, io::Hdf5File::Mode::read);
+        if (!file->has_attribute("/", "asperity_checkpoint"))
+            throw io::FileError(path, "is not a checkpoint",
+                                "it lacks the attribute asperity_checkpoint",
+                                "give the checkpoint.h5 of a run's result directory");
+        if (file->read_integer_attribute("/", "asperity_checkpoint") != format_version)
+            throw io::FileError(path, "has another checkpoint format",
+                                "it was written by another version",
+                                "run the scene from its start");
+        if (file->read_text_attribute("/", "scene") != fingerprint)
+            throw io::SceneError(
+                {path, "belongs to another scene",
+                 "the physics of this scene differs from the one that wrote the checkpoint",
+                 "give the scene it was made with, or start without --resume"});
+        names = file->read_text_attribute("/", "scalar_names");
+        values = file->read<double>("/scalars");
+        sizes[0] = static_cast<std::int64_t>(names.size());
+        sizes[1] = static_cast<std::int64_t>(values.size());
+    });
+    ranks.broadcast(std::as_writable_bytes(std::span(sizes)));
+    names.resize(static_cast<std::size_t>(sizes[0]));
+    values.resize(static_cast<std::size_t>(sizes[1]));
+    ranks.broadcast(std::as_writable_bytes(std::span(names)));
+    ranks.broadcast(std::span<double>(values));
+
+    RunScalars scalars;
+    std::size_t from = 0;
+    for (double value : values) {
+        const auto to = names.find('\n', from);
+        scalars.emplace_back(names.substr(from, to - from), value);
+        from = to + 1;
+    }
+    for (const StateArray& array : arrays) {
+        const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
+        for (int z = 0; z < array.planes; ++z) {
+            std::vector<double> dense;
+            ranks.on_root([&] {
+                dense.resize(sites * sites);
+                file->read_slab<double>(array.name, {static_cast<std::uint64_t>(z), 0, 0},
+                                        {1, sites, sites}, std::span<double>(dense));
+            });
+            scatter_plane(ranks, grid, array.level, dense, array.field->plane(z));
+        }
+    }
+    return scalars;
+}
+
+void write_checkpoint(const std::string& path, Simulation& simulation, const RunScalars& scalars,
+                      const std::string& fingerprint) {
+    CollectScalars collect;
+    simulation.visit(collect);
+    for (const auto& [name, value] : scalars)
+        collect.values.emplace_back("run." + name, value);
+    write_checkpoint(path, simulation.communicator(), simulation.block().grid(),
+                     fields_of(simulation), collect.values, fingerprint);
+}
+
+RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
+                           const std::string& fingerprint) {
+    const RunScalars scalars =
+        read_checkpoint(path, simulation.communicator(), simulation.block().grid(),
+                        fields_of(simulation), fingerprint);
+    RestoreScalars restore{scalars};
+    simulation.visit(restore);
+    simulation.block().exchange();
+    RunScalars run;
+    for (std::size_t i = restore.at; i < scalars.size(); ++i)
+        run.emplace_back(scalars[i].first.substr(std::strlen("run.")), scalars[i].second);
+    return run;
+}
+
+void Snapshot::take(Simulation& simulation) {
+    fields_.take(fields_of(simulation));
+    CollectScalars collect;
+    simulation.visit(collect);
+    scalars_ = std::move(collect.values);
+    step_ = simulation.steps();
+}
+
+void Snapshot::restore(Simulation& simulation) const {
+    fields_.restore(fields_of(simulation));
+    RestoreScalars restore{scalars_};
+    simulation.visit(restore);
+}
+
+} // namespace asperity

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Checkpoints: the whole state of a run in one HDF5 file, from which it goes on, on any number of
+// ranks: a simulation as if it had never stopped, bit for bit; an equilibrium from the same state.
+//
+// A file holds the state's arrays (of a simulation: each level's displacements and half-step
+// velocities) as whole planes, so it does not know how the box was cut, and scalars by name. It is
+// written beside its place and renamed, so there is always a whole one.
+#pragma once
+
+#include "engine/dynamics/simulation.hpp"
+#include "engine/equilibrium/state_array.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace asperity {
+
+/// Named numbers, in an order of their own.
+using RunScalars = std::vector<std::pair<std::string, double>>;
+
+/// Visitors of everything that lists its numbers by name (visit()): they are kept as doubles, which
+/// hold integers below 2^53 exactly.
+struct CollectScalars {
+    RunScalars values;
+    template <class T>
+    void operator()(const char* name, T& value) {
+        values.emplace_back(name, static_cast<double>(value));
+    }
+};
+struct RestoreScalars {
+    const RunScalars& values;
+    std::size_t at = 0;
+    /// Throws io::FileError where the next number has another name.
+    double next(const char* name);
+    template <class T>
+    void operator()(const char* name, T& value) {
+        value = static_cast<T>(next(name));
+    }
+};
+
+/// Writes arrays, each as whole planes, and scalars. Collective. fingerprint: of the scene; a
+/// checkpoint is taken up only by the scene that wrote it.
+void write_checkpoint(const std::string& path, const Communicator& ranks, const ProcessGrid& grid,
+                      const std::vector<StateArray>& arrays, const RunScalars& scalars,
+                      const std::string& fingerprint);
+/// Reads them back; halos are left to the caller. Collective. Throws io::FileError if the file
+/// cannot be read, io::SceneError if it is of another scene.
+RunScalars read_checkpoint(const std::string& path, const Communicator& ranks,
+                           const ProcessGrid& grid, const std::vector<StateArray>& arrays,
+                           const std::string& fingerprint);
+
+/// A simulation with its fields, and the numbers of the run outside it (rows written, results found
+/// so far). Collective.
+void write_checkpoint(const std::string& path, Simulation& simulation, const RunScalars& scalars,
+                      const std::string& fingerprint);
+RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
+                           const std::string& fingerprint);
+
+/// The last state known to be good, in memory, to be written when a guard stops the run.
+class Snapshot {
+public:
+    void take(Simulation& simulation);
+    bool empty() const { return fields_.empty(); }
+    /// Puts the simulation back to the state taken.
+    void restore(Simulation& simulation) const;
+    long long step() const { return step_; }
+    std::size_t bytes() const { return fields_.bytes(); }
+
+private:
+    StateCopy fields_;
+    RunScalars scalars_;
+    long long step_ = 0;
+};
+
+} // namespace asperity

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// `asperity plan`: what a scene will cost, effect by effect, before it is run.
+//
+// Memory follows from sizes. Time follows from the work (node-steps, site-steps, iterations) and
+// the rates of the real kernels, measured for some 0.3 s on a smaller piece of the scene: the same
+// layers, the same interface and a cut-out of the same surface. What cannot be known before (how
+// often a contact snaps, how many iterations a relaxation takes) is a figure from experience and is
+// called that.
+#pragma once
+
+#include "engine/scene/surface.hpp"
+#include "engine/setup/setup.hpp"
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace asperity {
+
+/// The way of the top plane through a path, as far as it can be known beforehand. Å, fs.
+struct ExpectedWay {
+    double down = 0.0; ///< from the start to contact
+    double up = 0.0;   ///< from there until the contact is torn and the start passed
+    double turn = 0.0; ///< time that the turn takes
+};
+/// start: the height from which the block comes down, Å.
+ExpectedWay expected_way(const Setup& setup, double start);
+/// Of the same path, in steps; at most the scene's drive.max_steps. 0 where no time passes.
+long long expected_steps(const Scene& scene, const Setup& setup, double start);
+
+struct EffectCost {
+    double bytes = 0.0; ///< on all ranks
+    double seconds = 0.0;
+};
+
+struct Plan {
+    Setup setup;
+    int ranks = 1, threads = 1; ///< threads of a rank
+    long long steps = 0;        ///< expected
+    long long iterations = 0;   ///< expected, of the relaxation
+    std::array<EffectCost, effect_count> costs;
+    EffectCost interface; ///< the sweep, without its tail
+    EffectCost making;    ///< surface, tables, block
+    double bytes = 0.0;   ///< at most held at once, on all ranks
+    double seconds = 0.0; ///< expected wall time, without communication between machines
+    std::string rates;    ///< where they come from, in words
+    const EffectCost& cost(Effect effect) const { return costs[static_cast<std::size_t>(effect)]; }
+};
+
+/// Throws io::SceneError with all that is wrong with the scene on that number of ranks.
+/// threads: of a rank. Measures on this process alone.
+Plan make_plan(const Scene& scene, int ranks, int threads);
+void print_plan(std::FILE* to, const Scene& scene, const Plan& plan);
+
+} // namespace asperity

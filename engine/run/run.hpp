@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// `asperity run`: from a scene that has been read to a result directory.
+#pragma once
+
+#include "engine/scene/scene.hpp"
+#include "io/progress.hpp"
+
+#include <optional>
+#include <string>
+
+namespace asperity {
+
+class Communicator;
+
+struct RunOptions {
+    std::string out;                  ///< --out; empty: results/<scene>
+    std::string resume;               ///< --resume: "", "auto", or a checkpoint file
+    std::optional<double> wall_limit; ///< s
+    io::ProgressMode progress = io::ProgressMode::automatic;
+
+    bool resuming() const { return !resume.empty(); }
+};
+
+/// Runs the scene on all ranks of the communicator. Returns the exit code; errors are thrown
+/// (io::Error) and printed by main. Prints the summary on rank 0.
+int run(const Scene& scene, const RunOptions& options, const Communicator& communicator);
+
+} // namespace asperity

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/run_record.hpp"
+
+#include "engine/run/curve.hpp"
+#include "engine/run/theory_command.hpp"
+#include "engine/scene/accuracy.hpp"
+#include "engine/units.hpp"
+#include "kernels/variant.hpp"
+#include "theory/jkr.hpp"
+
+#include <omp.h>
+
+#include <string>
+#include <utility>
+
+namespace asperity {
+
+io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Setup& setup,
+                            const Findings& findings, int ranks) {
+    io::ResultRecord r;
+    r.scene = scene_json(scene);
+    const auto& s = surface.statistics;
+    r.surface = {s.rms, s.rms_slope, s.lowest, s.highest};
+    r.delta_gamma = setup.flat.work_of_adhesion;
+    r.work_of_adhesion.approach = findings.approach;
+    r.work_of_adhesion.pull_off = findings.pull_off;
+    if (findings.zero_load) {
+        const ZeroLoad& z = *findings.zero_load;
+        r.binding_energy = z.binding_energy;
+        r.work_of_adhesion.pairwise = z.pairwise;
+        r.contact_fraction = z.contact_fraction;
+        r.pushed_fraction = z.pushed_fraction;
+        r.run.iterations = static_cast<long long>(z.iterations);
+        r.extra.emplace_back("zero_load.elastic_energy", z.elastic);
+        r.extra.emplace_back("zero_load.mean_height", z.mean_height);
+        r.extra.emplace_back("zero_load.residual_force", z.residual);
+    }
+    if (findings.pull_off) r.pull_off_force = findings.attraction_out;
+    if (scene.surface.radius) {
+        const auto jkr = [&](double f) {
+            return units::milli_per_unit *
+                   theory::jkr::work_from_pull_off(f, *scene.surface.radius);
+        };
+        if (findings.approach) r.jkr.in = jkr(findings.attraction_in);
+        if (findings.pull_off) r.jkr.out = jkr(findings.attraction_out);
+    }
+    add_sphere(scene, setup, r);
+    if (findings.dissipated) {
+        const Dissipation& lost = *findings.dissipated;
+        const double area = scene.edge() * scene.edge();
+        const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
+        io::JsonValue d = io::JsonValue::object();
+        d["approach"] = units::milli_per_unit * lost.approach / area;
+        d["pull_off"] = units::milli_per_unit * lost.pull_off / area;
+        d["energy"] = lost.total();
+        d["events"] = lost.events;
+        d["jumps"] = io::JsonValue::array();
+        for (const Jump& jump : lost.jumps) {
+            io::JsonValue j = io::JsonValue::object();
+            j["leg"] = jump.leg == 0.0 ? "approach" : "pull-off";
+            j["energy"] = jump.energy;
+            j["top"] = jump.top;
+            j["mean_height"] = io::JsonValue::Array{jump.height_before, jump.height_after};
+            j["force"] = io::JsonValue::Array{jump.force_before, jump.force_after};
+            j["contact_fraction"] =
+                io::JsonValue::Array{jump.contact_before / sites, jump.contact_after / sites};
+            j["site"] =
+                io::JsonValue::Array{static_cast<int>(jump.site_x), static_cast<int>(jump.site_y)};
+            j["largest_move"] = jump.largest_move;
+            j["sites_moved"] = static_cast<long long>(jump.sites_moved);
+            d["jumps"].push_back(std::move(j));
+        }
+        r.extra.emplace_back("dissipated", std::move(d));
+    }
+    add_theory(scene, surface, setup.flat.work_of_adhesion, r);
+    r.extra.emplace_back("run.kernels", std::string(name(processor_level())));
+    if (scene.choice) r.extra.emplace_back("accuracy", accuracy_json(*scene.choice));
+    r.run.ranks = ranks;
+    r.run.threads = omp_get_max_threads();
+    return r;
+}
+
+EffectBooks common_books(const Surface& surface, const Interface& interface,
+                         const Findings& findings) {
+    EffectBooks done;
+    const InterfaceWork& work = interface.work();
+    done[Effect::skipping] = {work.sites - work.in_reach, interface.reach_bytes()};
+    done[Effect::tail] = {work.tails, interface.tail_bytes()};
+    done[Effect::curvature] = {surface.radius > 0.0 ? 1 : 0, 0};
+    if (findings.zero_load)
+        done[Effect::relaxation].calls = static_cast<long long>(findings.zero_load->iterations);
+    return done;
+}
+
+std::vector<std::string> add_effects(const Effects& planned, EffectBooks done, bool complete,
+                                     io::ResultRecord& record) {
+    done[Effect::theory].calls = record.theory.gamma_eff ? 1 : 0;
+    std::vector<std::string> differences = done.differences(planned, complete);
+    record.extra.emplace_back("run.effects", done.json(planned));
+    io::JsonValue list = io::JsonValue::array();
+    for (const std::string& difference : differences)
+        list.push_back(difference);
+    if (!differences.empty()) record.extra.emplace_back("run.not_as_planned", std::move(list));
+    return differences;
+}
+
+void add_phases(const Phases& phases, io::ResultRecord& record) {
+    for (std::size_t p = 0; p < phase_names.size(); ++p) {
+        const PhaseClock& clock = phases[static_cast<Phase>(p)];
+        if (clock.calls > 0)
+            record.run.phases.push_back({std::string(phase_names[p]), clock.seconds, clock.calls});
+    }
+}
+
+} // namespace asperity

@@ -1,0 +1,391 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/theory_command.hpp"
+
+#include "engine/block/interface.hpp"
+#include "engine/setup/setup.hpp"
+#include "engine/units.hpp"
+#include "io/error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/table.hpp"
+#include "theory/error.hpp"
+#include "theory/half_space.hpp"
+#include "theory/jkr.hpp"
+#include "theory/maugis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+namespace asperity {
+
+namespace {
+
+using theory::Spectrum;
+
+/// What theory/ refuses is wrong with the scene.
+template <class F>
+auto with_scene_errors(const F& work) {
+    try {
+        return work();
+    } catch (const theory::InvalidInput& error) {
+        throw io::SceneError(io::Problem{
+            "theory", error.what(), "the scene's keys lead there",
+            "look at [surface] (rms, rolloff, cutoff), [block] (young, poisson) and [theory]"});
+    } catch (const theory::NoSolution& error) {
+        throw io::SceneError(io::Problem{"theory", error.what(), "", "try another drive.load"});
+    }
+}
+
+theory::AreaFactor area_factor_of(AreaFactor reading) {
+    switch (reading) {
+    case AreaFactor::gaussian:
+        return theory::AreaFactor::gaussian;
+    case AreaFactor::small_slope:
+        return theory::AreaFactor::small_slope;
+    case AreaFactor::none:
+        return theory::AreaFactor::none;
+    }
+    return theory::AreaFactor::gaussian;
+}
+
+/// The power law of the scene, from q_L up to q1 or to what the grid holds of it.
+Spectrum target_of(const Scene& scene, TheoryCase& out) {
+    const auto& s = scene.surface;
+    const double q_L = 2.0 * std::numbers::pi / scene.edge();
+    const double nyquist = 0.5 * substrate_sites(s.sites, s.lattice_ratio);
+    double cutoff = s.cutoff;
+    if (scene.theory.clip && cutoff > nyquist) {
+        out.notes.push_back(fmt::format("the spectrum ends at Nyquist, q1 = {:.6g} q_L, like the "
+                                        "surface (theory.clip = false: at {:.6g} q_L)",
+                                        nyquist, s.cutoff));
+        cutoff = nyquist;
+    }
+    const double rolloff = std::clamp(s.rolloff, 1.0, cutoff);
+    out.q0 = rolloff * q_L;
+    if (!(cutoff > 1.0))
+        throw io::SceneError(io::Problem{
+            scene.positions.where("surface.cutoff"),
+            fmt::format("surface.cutoff = {:.6g} leaves the theory no roughness", cutoff),
+            "it needs a band of wavevectors from q_L to q1 > q_L",
+            "give a larger cutoff, more sites, or kind = \"flat\""});
+    return Spectrum::self_affine(
+        {.q_L = q_L, .q0 = rolloff * q_L, .q1 = cutoff * q_L, .hurst = s.hurst, .h_rms = s.rms});
+}
+
+/// Ring averages of the map: bin k holds the waves between (k - 1/2) and (k + 1/2) q_L. The first
+/// ring starts at q_L, the longest wave there is, and the last ends at Nyquist; C is such that each
+/// ring has the variance of its waves.
+Spectrum realised_of(const Scene& scene, const Surface& surface, TheoryCase& out) {
+    const auto& bins = surface.statistics.spectrum;
+    const double q_unit = 2.0 * std::numbers::pi / surface.length;
+    const double nyquist = 0.5 * surface.sites;
+    std::vector<double> edges = {q_unit}, C;
+    double variance = 0.0;
+    for (const SpectrumBin& bin : bins) {
+        const double k = std::round(bin.q / q_unit);
+        const double upper = std::min(k + 0.5, nyquist) * q_unit;
+        const double power = bin.realised * bin.modes * q_unit * q_unit;
+        variance += power;
+        const double area = std::numbers::pi * (upper * upper - edges.back() * edges.back());
+        if (!(area > 0.0)) continue;
+        C.push_back(power / area);
+        edges.push_back(upper);
+    }
+    const double rms = surface.statistics.rms;
+    if (C.empty() || !(variance > 0.0))
+        throw io::SceneError(
+            io::Problem{scene.positions.where("theory.spectrum"),
+                        "theory.spectrum = \"realised\" finds no roughness in the surface",
+                        fmt::format("its rms is {:.4g} Å on {} sites", rms, surface.sites),
+                        "give a rough surface of at least 4 sites, or kind = \"flat\""});
+    out.notes.push_back("the spectrum is that of the surface itself (ring averages)");
+    if (const double lost = 1.0 - variance / (rms * rms); lost > 1e-3)
+        out.notes.push_back(fmt::format("{:.2g} % of the height variance lies beyond Nyquist, in "
+                                        "the corners of the grid, and is not in the theory",
+                                        100.0 * lost));
+    const bool scaled = scene.surface.kind == SurfaceKind::self_affine ||
+                        (scene.surface.rms_given && scene.surface.rms > 0.0);
+    const Spectrum spectrum = Spectrum::rings(edges, C);
+    if (!scaled) return spectrum;
+    return spectrum.with_rms_height(scene.surface.rms * std::sqrt(variance) / rms);
+}
+
+Spectrum spectrum_of(const Scene& scene, const Surface* surface, TheoryCase& out) {
+    const auto& s = scene.surface;
+    const double q_L = 2.0 * std::numbers::pi / scene.edge();
+    const bool measured = s.kind == SurfaceKind::file;
+    if (!measured && (s.kind == SurfaceKind::flat || s.rms == 0.0))
+        return Spectrum::self_affine(
+            {.q_L = q_L, .q0 = q_L, .q1 = 2.0 * q_L, .hurst = 0.8, .h_rms = 0.0});
+    if (!theory_needs_surface(scene)) return target_of(scene, out);
+    if (measured && scene.theory.spectrum == TheorySpectrum::target)
+        out.notes.push_back("a measured map has no target spectrum");
+    if (!measured) out.q0 = std::max(1.0, s.rolloff) * q_L;
+    if (surface) return realised_of(scene, *surface, out);
+    return realised_of(scene, scene_surface(scene), out);
+}
+
+} // namespace
+
+bool theory_needs_surface(const Scene& scene) {
+    const auto& s = scene.surface;
+    return s.kind == SurfaceKind::file || (s.kind == SurfaceKind::self_affine && s.rms > 0.0 &&
+                                           scene.theory.spectrum == TheorySpectrum::realised);
+}
+
+TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional<double> flat) {
+    TheoryCase out;
+    const int substrate = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
+    const auto& potential = scene.interface;
+    if (!flat) {
+        InterfaceOptions options;
+        options.potential = {potential.epsilon, potential.r0, potential.cutoff};
+        options.tail = potential.tail;
+        try {
+            flat = flat_reference(options, scene.surface.spacing, scene.surface.sites, substrate)
+                       .work_of_adhesion;
+        } catch (const std::invalid_argument& error) {
+            io::Problems problems = scene.problems();
+            problems.add("interface.epsilon", std::string(": ") + error.what());
+            problems.throw_if_any();
+        }
+    }
+    out.flat = flat.value_or(0.0);
+    out.delta_gamma = scene.theory.delta_gamma.value_or(out.flat);
+    out.radius = scene.surface.radius;
+    // Two planes of 1/a² and 1/b² atoms per area: as one lattice constant, √(ab).
+    const double b = scene.edge() / substrate;
+    out.wall = {potential.epsilon, potential.r0, std::sqrt(scene.surface.spacing * b),
+                potential.tail ? 0.0 : potential.cutoff};
+    with_scene_errors([&] {
+        out.contact.spectrum = spectrum_of(scene, surface, out);
+        out.contact.contact_modulus =
+            theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson);
+        out.contact.work_of_adhesion = out.delta_gamma / units::milli_per_unit;
+        out.contact.pressure = scene.drive.load * units::megapascal;
+        out.contact.beta = scene.theory.beta;
+        out.contact.area_factor = area_factor_of(scene.theory.area_factor);
+        theory::check(out.contact);
+    });
+    return out;
+}
+
+TheoryNumbers solve_theory(const TheoryCase& what) {
+    return with_scene_errors([&] {
+        TheoryNumbers n;
+        const auto& c = what.contact;
+        n.state = theory::solve(c);
+        n.gamma_eff = units::milli_per_unit * n.state.gamma_eff;
+        n.gamma_full_contact = units::milli_per_unit * theory::full_contact(c).gamma;
+        n.gamma_eff_with_gaps =
+            units::milli_per_unit * theory::gap_attraction(c, n.state, what.wall).gamma_with;
+        if (what.q0)
+            n.theta = theory::adhesion_parameter(c.contact_modulus, c.spectrum.rms_height(),
+                                                 *what.q0, c.work_of_adhesion);
+        if (what.radius && n.state.gamma_eff > 0.0)
+            n.jkr_pull_off_force =
+                -theory::jkr::pull_off({*what.radius, c.contact_modulus, n.state.gamma_eff}).force;
+        else if (what.radius)
+            n.jkr_pull_off_force = 0.0;
+        return n;
+    });
+}
+
+void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::ResultRecord& record) {
+    record.theory = {n.gamma_eff, n.state.area, n.gamma_full_contact};
+    const auto extra = [&](const char* name, io::JsonValue value) {
+        record.extra.emplace_back(std::string("theory.") + name, std::move(value));
+    };
+    extra("delta_gamma", what.delta_gamma);
+    extra("gamma_eff_with_gaps", n.gamma_eff_with_gaps);
+    extra("gamma_eff_error", n.state.gamma_ratio_error * what.delta_gamma);
+    extra("contact_fraction_error", n.state.area_error);
+    extra("elastic_energy", units::milli_per_unit * n.state.elastic_energy);
+    extra("h_rms", what.contact.spectrum.rms_height());
+    extra("rms_slope", what.contact.spectrum.rms_slope());
+    if (n.theta) extra("theta", *n.theta);
+    if (n.jkr_pull_off_force) extra("jkr_pull_off_force", *n.jkr_pull_off_force);
+    extra("status", std::string(theory::name(n.state.status)));
+    extra("converged", n.state.converged);
+}
+
+void add_theory(const Scene& scene, const Surface& surface, double flat, io::ResultRecord& record) {
+    try {
+        const TheoryCase what = theory_case(scene, &surface, flat);
+        record_theory(what, solve_theory(what), record);
+    } catch (const std::exception& error) {
+        record.extra.emplace_back("theory.note", std::string(error.what()));
+    }
+}
+
+namespace {
+
+/// theory.h5: everything at every magnification, and the spectrum that it came from.
+void write_profile(const std::string& path, const TheoryCase& what, const TheoryNumbers& n) {
+    io::Hdf5File file(path, io::Hdf5File::Mode::create);
+    const auto& profile = n.state.profile;
+    using Point = theory::ProfilePoint;
+    const auto column = [&](const char* name, const char* unit, const char* doc,
+                            const std::function<double(const Point&)>& value) {
+        std::vector<double> values;
+        for (const Point& p : profile)
+            values.push_back(value(p));
+        const std::string set = std::string("/profile/") + name;
+        file.write<double>(set, {values.size()}, values);
+        file.write_attribute(set, "unit", unit);
+        file.write_attribute(set, "doc", doc);
+    };
+    const double meV = units::milli_per_unit, gpa = 1.0 / units::gigapascal;
+    file.make_group("/profile");
+    column("q", "1/Å", "wavevector", [](const Point& p) { return p.q; });
+    column("zeta", "", "magnification q/q_L", [](const Point& p) { return p.zeta; });
+    column("C", "Å^4", "power spectrum C(q)",
+           [&](const Point& p) { return what.contact.spectrum(p.q); });
+    column("A", "", "A/A0, projected contact area", [](const Point& p) { return p.area; });
+    column("A_real", "", "A*/A0, following the roughness",
+           [](const Point& p) { return p.real_area; });
+    column("gamma_eff", "meV/Å^2", "Eq. (3)", [=](const Point& p) { return meV * p.gamma_eff; });
+    column("sigma_a", "GPa", "detachment stress, Eq. (4)",
+           [=](const Point& p) { return gpa * p.detachment_stress; });
+    column("U_el", "meV/Å^2", "elastic energy over A0 of roughness from q to q1, Eq. (5)",
+           [=](const Point& p) { return meV * p.elastic_energy; });
+    column("stress_variance", "GPa^2", "T(q), of the stress at full contact",
+           [=](const Point& p) { return gpa * gpa * p.stress_variance; });
+    file.write_attribute("/profile", "delta_gamma", what.delta_gamma);
+    file.write_attribute("/profile", "status", std::string(theory::name(n.state.status)));
+    file.close();
+}
+
+/// What only `asperity theory` asks: where adhesion ends, and what the gaps alone would hold.
+struct Beyond {
+    std::optional<theory::CriticalRoughness> critical;
+    std::optional<double> gamma_wall_bound; ///< meV/Å^2
+    std::string note;                       ///< why something is not there
+};
+
+Beyond look_beyond(const TheoryCase& what, const TheoryNumbers& n) {
+    Beyond beyond;
+    if (what.contact.spectrum.q1() > 0.0 && !what.contact.spectrum.smooth()) try {
+            beyond.critical = theory::critical_roughness(what.contact);
+        } catch (const std::exception& error) {
+            beyond.note = error.what();
+        }
+    if (n.state.status == theory::Status::no_contact && what.contact.pressure == 0.0) try {
+            const double gamma = theory::wall_bound(what.contact, what.wall).gamma_with;
+            beyond.gamma_wall_bound = units::milli_per_unit * std::max(0.0, gamma); // apart: 0
+        } catch (const std::exception& error) {
+            beyond.note = error.what();
+        }
+    return beyond;
+}
+
+const char* in_words(theory::Status status) {
+    switch (status) {
+    case theory::Status::adhesive:
+        return "the surfaces hold together without any load";
+    case theory::Status::pressed:
+        return "the load alone holds the surfaces together: it takes more energy to bend them into "
+               "contact than the bonds give back";
+    case theory::Status::no_contact:
+        return "there is no adhesive solution: the surfaces come apart, and all is zero";
+    }
+    return "";
+}
+
+void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumbers& n,
+                  const Beyond& beyond) {
+    const auto& spectrum = what.contact.spectrum;
+    fmt::print("{}: Persson's theory, Eqs. (1) to (5), rms {:.4g} Å, rms slope {:.4g}, load {:.6g} "
+               "MPa\n\n",
+               scene.name, spectrum.rms_height(), spectrum.rms_slope(), scene.drive.load);
+    io::Table table({"", "meV/Å²", "over Δγ", "± (grid)"});
+    const auto energy = [&](const std::string& name, double value, double error = -1.0) {
+        table.row({name, fmt::format("{:.3f}", value),
+                   fmt::format("{:.5f}", value / what.delta_gamma),
+                   error < 0.0 ? std::string() : fmt::format("{:.1e}", error)});
+    };
+    energy(scene.theory.delta_gamma ? "Δγ, as the scene says" : "Δγ, flat on flat",
+           what.delta_gamma);
+    energy("γ_eff", n.gamma_eff, n.state.gamma_ratio_error);
+    energy("γ_eff with attraction across gaps", n.gamma_eff_with_gaps);
+    energy("γ assuming full contact", n.gamma_full_contact);
+    if (beyond.gamma_wall_bound) energy("γ of the gaps alone (DMT-like)", *beyond.gamma_wall_bound);
+    energy("elastic energy U_el", units::milli_per_unit * n.state.elastic_energy);
+    table.row({"contact area A/A0", "", fmt::format("{:.5f}", n.state.area),
+               fmt::format("{:.1e}", n.state.area_error)});
+    table.print(stdout);
+    fmt::print("\n");
+    if (beyond.critical)
+        fmt::print("  critical rms   {:.4f} ± {:.1e} Å: beyond it nothing holds (assuming full "
+                   "contact: {:.4f} Å)\n",
+                   beyond.critical->h_rms, beyond.critical->error,
+                   beyond.critical->full_contact_h_rms);
+    if (n.theta)
+        fmt::print("  theta          {:.4f} = E* h² q0 / Δγ{}\n", *n.theta,
+                   beyond.critical
+                       ? fmt::format(
+                             ", {:.4f} at the critical rms",
+                             *n.theta * std::pow(beyond.critical->h_rms / spectrum.rms_height(), 2))
+                       : "");
+    if (n.jkr_pull_off_force) {
+        const double w = what.contact.work_of_adhesion;
+        const double E = scene.block.young * units::gigapascal;
+        fmt::print("  JKR pull-off   {:.2f} eV/Å with γ_eff, R = {:.6g} Å; Tabor number of the "
+                   "smooth sphere {:.3f} with E, {:.3f} with E*\n",
+                   *n.jkr_pull_off_force, *what.radius,
+                   theory::tabor_number(*what.radius, w, E, scene.interface.r0),
+                   theory::tabor_number(*what.radius, w, what.contact.contact_modulus,
+                                        scene.interface.r0));
+    }
+    fmt::print("  status         {}\n", in_words(n.state.status));
+    if (n.state.status != theory::Status::adhesive)
+        fmt::print("                 (in eV and Å: {})\n", n.state.reason);
+    if (!n.state.converged)
+        fmt::print("                 NOT converged to 1e-5: see the errors in the table\n");
+    for (const std::string& note : what.notes)
+        fmt::print("  note: {}\n", note);
+    if (!beyond.note.empty()) fmt::print("  note: {}\n", beyond.note);
+}
+
+} // namespace
+
+int theory_command(const Scene& scene, const std::string& out) {
+    const auto start = std::chrono::steady_clock::now();
+    const TheoryCase what = theory_case(scene);
+    const TheoryNumbers numbers = solve_theory(what);
+    const Beyond beyond = look_beyond(what, numbers);
+    const io::ResultPlace place = io::choose_result_directory(out, scene.name + "-theory", false);
+    io::make_directory(place.directory);
+    const std::string profile = (std::filesystem::path(place.directory) / "theory.h5").string();
+    write_profile(profile, what, numbers);
+
+    io::ResultRecord record;
+    record.scene = scene_json(scene);
+    record.delta_gamma = what.flat;
+    record_theory(what, numbers, record);
+    if (beyond.critical) {
+        record.extra.emplace_back("theory.critical_rms", beyond.critical->h_rms);
+        record.extra.emplace_back("theory.critical_rms_full_contact",
+                                  beyond.critical->full_contact_h_rms);
+    }
+    if (beyond.gamma_wall_bound)
+        record.extra.emplace_back("theory.gamma_wall_bound", *beyond.gamma_wall_bound);
+    record.run.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    io::write_result(place.directory, record);
+
+    print_theory(scene, what, numbers, beyond);
+    if (!place.note.empty()) fmt::print("  note: {}\n", place.note);
+    fmt::print("  written: {0}/result.json, {0}/theory.h5 (the profile over magnification)\n",
+               place.directory);
+    return io::exit_code::done;
+}
+
+} // namespace asperity

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The analytic theory of a scene: from the keys of the scene to a contact that theory/ can solve,
+// and from its answer to `theory` in result.json. Behind `asperity theory`, every point of a sweep
+// and the `theory` of every run.
+//
+// What is chosen here, and where it comes from:
+//   C(q)   target: the scene's power law, clipped at the grid's Nyquist wavevector like the surface
+//          (theory.clip). realised: the ring averages of the surface made, each ring's variance
+//          kept, so that the rms is that of the map. A measured map has no target: always realised.
+//   Δγ     "flat": flat on flat with this scene's potential, cutoff and lattices; or the number.
+//   E*     E/(1-ν²): the substrate is rigid.
+//   p      drive.load, positive pressing.
+// Beside γ_eff, with a name of its own: γ_eff plus the attraction across the gaps
+// (theory/gap_attraction.hpp), for the walls that the scene's interface makes.
+#pragma once
+
+#include "engine/scene/scene.hpp"
+#include "engine/scene/surface.hpp"
+#include "io/result.hpp"
+#include "theory/gap_attraction.hpp"
+#include "theory/persson.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// The scene in the terms of theory/ (Å, eV).
+struct TheoryCase {
+    theory::AdhesiveContact contact;
+    theory::WallPotential wall;
+    double flat = 0.0;              ///< flat reference of the interface, meV/Å^2
+    double delta_gamma = 0.0;       ///< the Δγ used, meV/Å^2
+    std::optional<double> q0;       ///< roll-off wavevector, 1/Å; a measured map has none
+    std::optional<double> radius;   ///< of the spherical cap, Å
+    std::vector<std::string> notes; ///< what was clipped or left out, in words
+};
+
+/// The theory of this scene follows the surface itself, not the target spectrum.
+bool theory_needs_surface(const Scene& scene);
+
+/// surface: the scene's, if it has been made already (at whatever rms: its spectrum is scaled to
+/// the scene's); flat: the flat reference (meV/Å^2), likewise.
+/// Throws io::SceneError.
+TheoryCase theory_case(const Scene& scene, const Surface* surface = nullptr,
+                       std::optional<double> flat = std::nullopt);
+
+/// What the theory says of it. Energies in meV/Å^2.
+struct TheoryNumbers {
+    theory::ContactState state;
+    double gamma_eff = 0.0;
+    double gamma_full_contact = 0.0;
+    double gamma_eff_with_gaps = 0.0;
+    std::optional<double> theta;              ///< E* h^2 q0 / Δγ
+    std::optional<double> jkr_pull_off_force; ///< of the curved scene with γ_eff, eV/Å
+};
+/// Throws io::SceneError where the theory cannot work with the scene.
+TheoryNumbers solve_theory(const TheoryCase& what);
+
+/// `theory` of a result: the contract's keys, and ours beside them.
+void record_theory(const TheoryCase& what, const TheoryNumbers& numbers, io::ResultRecord& record);
+
+/// The same for a run, which the theory must never make fail: what went wrong becomes theory.note.
+void add_theory(const Scene& scene, const Surface& surface, double flat, io::ResultRecord& record);
+
+/// `asperity theory SCENE`: result.json, theory.h5 and a table. On one rank. Returns the exit code.
+int theory_command(const Scene& scene, const std::string& out);
+
+} // namespace asperity

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// numerics.accuracy: the cheapest settings that keep an error, by a calibration that `asperity
+// cost` has made (accuracy_table.hpp).
+//
+// Chosen are the time step, the layers a level, the precision of the pairs, and without time the
+// block model; each only where the scene leaves it open. What makes another solid or another
+// experiment is never touched: interaction (cutoff and tail too), thickness, velocity, damping.
+#pragma once
+
+#include "engine/scene/scene.hpp"
+
+namespace asperity {
+
+/// Sets what is chosen and scene.choice. Adds a problem where the calibration does not cover the
+/// scene or the target. Nothing is done without numerics.accuracy.
+void choose_accuracy(Scene& scene, io::Problems& problems);
+
+/// What was chosen, for people, and for result.json.
+std::vector<std::string> accuracy_lines(const AccuracyChoice& choice);
+io::JsonValue accuracy_json(const AccuracyChoice& choice);
+
+/// Elastic energy of full contact with a self-affine surface, meV/Å²: (E*/4) <q h²>, the spectrum
+/// up to the grid's Nyquist wavevector. What adhesion has to pay, and the measure of how rough is
+/// rough.
+double bending_energy(const Scene& scene);
+
+} // namespace asperity

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The scene: everything a user may choose, as a plain struct in the units of the scene file.
+//
+// Scene{} is the paper's flat case. bind() ties every field to its key, unit, range and line of
+// documentation; that list is the only place where keys are named, and the reader, `asperity
+// defaults`, result.json and docs/scene.md all follow from it. Names and defaults are a contract
+// (interface.md).
+#pragma once
+
+#include "engine/scene/surface.hpp"
+#include "io/scene_reader.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace asperity {
+
+enum class Detrend { none, plane, periodic };
+enum class Resample { none, band_limited };
+enum class BlockModel { lattice, multiscale, spectral };
+enum class Strain { linear, finite };
+enum class DriveMode { dynamic, quasistatic };
+enum class PathPart { approach, pull_off, zero_load };
+enum class AreaFactor { gaussian, small_slope, none };
+enum class TheorySpectrum { target, realised };
+enum class Precision { double_precision, mixed };
+
+/// Of output.fields: "after-zero-load:140", 140 ps after the approach has ended.
+inline constexpr std::string_view after_zero_load = "after-zero-load:";
+
+/// What numerics.accuracy made of the keys that the scene leaves open (accuracy.hpp).
+struct AccuracyChoice {
+    double target = 0.0;
+    std::vector<std::pair<std::string, std::string>> settings; ///< key and value
+    std::vector<std::string> kept;                             ///< keys that the scene sets itself
+    double expected_error = 0.0;                               ///< of what was chosen, relative
+    std::string calibration;                                   ///< where that is known from
+};
+
+struct Scene {
+    struct Surface {
+        SurfaceKind kind = SurfaceKind::self_affine;
+        int sites = 512;            ///< N
+        double spacing = 2.6;       ///< a, Å
+        double lattice_ratio = 1.0; ///< block spacing over substrate spacing
+        double rms = 3.0;           ///< Å
+        bool rms_given = false; ///< the scene itself says so: only then is a measured map scaled
+        double hurst = 0.8;
+        double rolloff = 3.0;  ///< q0 / q_L
+        double cutoff = 512.0; ///< q1 / q_L
+        Amplitudes amplitudes = Amplitudes::gaussian;
+        long long seed = 1;
+        std::optional<double> radius;    ///< Å; empty: not curved
+        std::string file = "heights.h5"; ///< after reading: a path that can be opened from here
+        std::optional<double>
+            file_size; ///< edge of the map, Å; empty: what the file says, else the box
+        std::string file_unit = "auto"; ///< of the heights; "auto": what the file says, else Å
+        Detrend detrend = Detrend::none;
+        Resample resample = Resample::none;
+    } surface;
+
+    struct Block {
+        BlockModel model = BlockModel::multiscale;
+        double young = 77.2; ///< GPa
+        double poisson = 0.42;
+        double atom_mass = 197.0; ///< u
+        int thickness = 512; ///< lattice layers; after reading: N unless the scene says otherwise
+        int layers_per_level = 4;
+        Strain strain = Strain::linear;
+    } block;
+
+    struct Interface {
+        double epsilon = 0.100; ///< eV
+        double r0 = 3.28;       ///< Å
+        double cutoff = 13.12;  ///< Å
+        bool tail = false;
+        bool frictionless = false; ///< spectral block: normal displacements only
+    } interface;
+
+    struct Drive {
+        DriveMode mode = DriveMode::dynamic;
+        std::vector<PathPart> path = {PathPart::approach, PathPart::pull_off};
+        double velocity = 5.0;      ///< m/s
+        double step = 0.25;         ///< Å
+        double timestep = 10.0;     ///< fs
+        double damping = 0.05;      ///< 1/ps
+        double damping_from = 0.0;  ///< fraction of the thickness above which damping acts
+        std::optional<double> ramp; ///< ps; empty: one sound transit of the block
+        double load = 0.0;          ///< MPa
+        double temperature = 0.0;   ///< K
+        long long seed = 1;         ///< of the thermal noise
+        long long max_steps = 0;    ///< 0: no limit
+        double tolerance = 1e-4;    ///< eV/Å
+    } drive;
+
+    struct Theory {
+        std::optional<double> delta_gamma; ///< meV/Å^2; empty: the flat reference
+        double beta = 0.45;
+        AreaFactor area_factor = AreaFactor::gaussian;
+        TheorySpectrum spectrum = TheorySpectrum::target;
+        bool clip = true;
+    } theory;
+
+    struct Numerics {
+        Precision precision = Precision::double_precision;
+        std::optional<double> accuracy; ///< fraction; empty: none
+    } numerics;
+
+    struct Output {
+        std::optional<long long> trajectory; ///< steps between frames; empty: none
+        bool velocities = false;             ///< in the frames too
+        std::vector<std::string> fields = {"zero-load"};
+        long long series = 100;    ///< steps between rows
+        double checkpoint = 600.0; ///< s of wall time; 0: none
+    } output;
+
+    std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only
+
+    std::optional<AccuracyChoice> choice;
+
+    // Where it came from.
+    std::string file;           ///< as given on the command line
+    std::string name = "scene"; ///< the file's name without folder and ending
+    io::Positions positions;
+
+    double edge() const { return surface.sites * surface.spacing; } ///< of the box, Å
+    /// An empty list of problems that knows this scene's positions.
+    io::Problems problems() const { return io::Problems(positions); }
+    bool has(PathPart part) const;
+    /// Equilibria only: nothing moves in time.
+    bool without_time() const {
+        return drive.mode == DriveMode::quasistatic || has(PathPart::zero_load);
+    }
+    bool writes_field(const std::string& which) const; ///< "zero-load", "pull-off"
+    /// N of "every:N" among the fields: steps, or points of a quasi-static path, between maps.
+    /// Empty: there is none; 0: what stands there is no N.
+    std::optional<long long> field_stride() const;
+    /// Those after zero load: delay in ps and name, in their order.
+    std::vector<std::pair<double, std::string>> delayed_fields() const;
+};
+
+/// Every key, bound to the fields of this scene (which must outlive the schema).
+io::Schema bind(Scene& scene);
+
+/// Reads and checks everything that can be checked without running; throws io::SceneError with all
+/// that is wrong. Overrides are "section.key=value".
+Scene read_scene(const std::string& file, const std::vector<std::string>& overrides = {});
+/// The same from a text in memory; file is the name shown in messages.
+Scene read_scene_text(const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides = {});
+
+/// Contradictions between keys, added to the list.
+void check_scene(const Scene& scene, io::Problems& problems);
+/// Keys of the contract that this release reads but cannot act upon yet, added to the list.
+void not_yet(const Scene& scene, io::Problems& problems);
+/// Worth knowing, not wrong (a spectrum clipped at Nyquist, ...): one sentence each.
+std::vector<std::string> notes(const Scene& scene);
+
+std::string scene_toml(const Scene& scene, bool with_docs = true);
+io::JsonValue scene_json(const Scene& scene);
+/// docs/scene.md
+std::string scene_markdown();
+
+} // namespace asperity

@@ -1,0 +1,411 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/scene/surface.hpp"
+
+#include "decomposition/tile.hpp"
+
+#include <Random123/philox.h>
+#include <fftw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+
+namespace asperity {
+
+namespace {
+
+using std::numbers::pi;
+using Complex = std::complex<double>;
+
+/// Two-dimensional complex transform in place, FFTW's sign and no scaling. Planned by estimate and
+/// on one thread, so that every rank gets the same bits.
+void transform(std::vector<Complex>& data, int nx, int ny, int sign) {
+    auto* raw = reinterpret_cast<fftw_complex*>(data.data());
+    const std::unique_ptr<fftw_plan_s, void (*)(fftw_plan)> plan(
+        fftw_plan_dft_2d(ny, nx, raw, raw, sign, FFTW_ESTIMATE), fftw_destroy_plan);
+    if (!plan)
+        throw std::runtime_error(
+            fmt::format("surface: FFTW cannot plan a transform of {} x {} points", nx, ny));
+    fftw_execute(plan.get());
+}
+
+std::size_t cells(int n) { return static_cast<std::size_t>(n) * static_cast<std::size_t>(n); }
+
+/// Index k of a transform of n points as a signed wavenumber; n/2 stays positive.
+int signed_wave(int k, int n) { return 2 * k > n ? k - n : k; }
+
+void require(bool holds, const std::string& message) {
+    if (!holds) throw std::invalid_argument("surface: " + message);
+}
+
+void check(const SurfaceOptions& o) {
+    require(o.sites >= 1,
+            fmt::format("sites = {} leaves no atom in the box; use at least 1", o.sites));
+    require(o.length > 0.0 && std::isfinite(o.length),
+            fmt::format("a box of {} Å has no area; give a positive length", o.length));
+    require(o.rms >= 0.0 && std::isfinite(o.rms),
+            fmt::format("rms = {} Å is no roughness; give a number >= 0", o.rms));
+    if (o.kind == SurfaceKind::self_affine) {
+        require(o.hurst >= 0.0 && o.hurst <= 1.0,
+                fmt::format("hurst = {} is outside [0, 1]; the paper has 0.8", o.hurst));
+        require(o.rolloff > 0.0 && std::isfinite(o.rolloff),
+                fmt::format("rolloff = {} (q0 / q_L) must be a positive number", o.rolloff));
+        require(o.cutoff >= 1.0,
+                fmt::format("cutoff = {} (q1 / q_L) is below 1: no wave of the box is "
+                            "that long; use at least 1",
+                            o.cutoff));
+    }
+    const double corner = o.length / std::sqrt(2.0);
+    require(o.radius == 0.0 || o.radius >= corner,
+            fmt::format(
+                "radius = {} Å is smaller than half the box's diagonal ({:.1f} Å), so the cap does "
+                "not cover the box; use a larger radius or a smaller box",
+                o.radius, corner));
+}
+
+/// Largest wavevector of the grid's spectrum, in q_L.
+double clipped_cutoff(const SurfaceOptions& o) { return std::min(o.cutoff, 0.5 * o.sites); }
+
+/// C(q) up to a factor: flat to the roll-off, then q^(-2(1+H)); q in q_L.
+double shape(const SurfaceOptions& o, double q) {
+    // The small allowance keeps the waves that lie on a border whatever the rounding.
+    if (q < 1.0 - 1e-9 || q > clipped_cutoff(o) * (1.0 + 1e-12)) return 0.0;
+    return q <= o.rolloff ? 1.0 : std::pow(q / o.rolloff, -2.0 * (1.0 + o.hurst));
+}
+
+double uniform(std::uint32_t high, std::uint32_t low) {
+    const std::uint64_t bits = (static_cast<std::uint64_t>(high) << 32 | low) >> 11;
+    return (static_cast<double>(bits) + 0.5) * 0x1p-53; // in (0, 1)
+}
+
+/// The random factor of wave (kx, ky): unit mean square, hermitian: that of -k is the conjugate.
+Complex random_factor(const SurfaceOptions& o, int kx, int ky, bool own_mirror) {
+    const bool mirrored = ky < 0 || (ky == 0 && kx < 0);
+    const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(mirrored ? -kx : kx),
+                                                 static_cast<std::uint32_t>(mirrored ? -ky : ky),
+                                                 0u, 0u}};
+    const r123::Philox4x32::key_type key = {
+        {static_cast<std::uint32_t>(o.seed), static_cast<std::uint32_t>(o.seed >> 32)}};
+    const auto bits = r123::Philox4x32()(counter, key);
+    const double amplitude =
+        o.amplitudes == Amplitudes::fixed ? 1.0 : std::sqrt(-std::log(uniform(bits[0], bits[1])));
+    const double phase = 2.0 * pi * uniform(bits[2], bits[3]);
+    // A wave that is its own mirror image has a real coefficient.
+    if (own_mirror)
+        return o.amplitudes == Amplitudes::fixed ? std::copysign(1.0, std::cos(phase))
+                                                 : std::sqrt(2.0) * amplitude * std::cos(phase);
+    return std::polar(amplitude, mirrored ? -phase : phase);
+}
+
+double mean_of(const std::vector<double>& h) {
+    double sum = 0.0;
+    for (double v : h)
+        sum += v;
+    return sum / static_cast<double>(h.size());
+}
+
+double rms_of(const std::vector<double>& h) {
+    const double mean = mean_of(h);
+    double square = 0.0;
+    for (double v : h)
+        square += (v - mean) * (v - mean);
+    return std::sqrt(square / static_cast<double>(h.size()));
+}
+
+void remove_mean(std::vector<double>& h) {
+    const double mean = mean_of(h);
+    for (double& v : h)
+        v -= mean;
+}
+
+/// Removes the plane of least squares.
+void remove_plane(std::vector<double>& h, int nx, int ny) {
+    remove_mean(h);
+    double sx = 0.0, sy = 0.0, xx = 0.0, yy = 0.0;
+    const auto at = [&](int x, int y) -> double& {
+        return h[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) +
+                 static_cast<std::size_t>(x)];
+    };
+    for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x) {
+            const double px = x - 0.5 * (nx - 1), py = y - 0.5 * (ny - 1);
+            sx += px * at(x, y);
+            sy += py * at(x, y);
+            xx += px * px;
+            yy += py * py;
+        }
+    for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x)
+            at(x, y) -= (xx > 0.0 ? sx / xx : 0.0) * (x - 0.5 * (nx - 1)) +
+                        (yy > 0.0 ? sy / yy : 0.0) * (y - 0.5 * (ny - 1));
+}
+
+/// Makes a map periodic: takes off the smooth part (harmonic inside) that carries the jumps between
+/// opposite edges (L. Moisan, J. Math. Imaging Vis. 39, 161, 2011).
+void remove_jumps(std::vector<double>& h, int nx, int ny) {
+    const auto at = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) +
+               static_cast<std::size_t>(x);
+    };
+    std::vector<Complex> smooth(h.size());
+    for (int y = 0; y < ny; ++y) {
+        const double jump = h[at(nx - 1, y)] - h[at(0, y)];
+        smooth[at(0, y)] += jump;
+        smooth[at(nx - 1, y)] -= jump;
+    }
+    for (int x = 0; x < nx; ++x) {
+        const double jump = h[at(x, ny - 1)] - h[at(x, 0)];
+        smooth[at(x, 0)] += jump;
+        smooth[at(x, ny - 1)] -= jump;
+    }
+    transform(smooth, nx, ny, FFTW_FORWARD);
+    for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x) {
+            const double laplacian =
+                2.0 * std::cos(2.0 * pi * x / nx) + 2.0 * std::cos(2.0 * pi * y / ny) - 4.0;
+            smooth[at(x, y)] *= x == 0 && y == 0 ? 0.0 : 1.0 / laplacian;
+        }
+    transform(smooth, nx, ny, FFTW_BACKWARD);
+    for (std::size_t i = 0; i < h.size(); ++i)
+        h[i] -= smooth[i].real() / static_cast<double>(h.size());
+}
+
+/// The middle n x n points of a map of m x m.
+std::vector<double> middle(const std::vector<double>& h, int m, int n) {
+    std::vector<double> cut;
+    cut.reserve(cells(n));
+    const int first = (m - n) / 2;
+    for (int y = first; y < first + n; ++y) {
+        const auto row = h.begin() + static_cast<std::ptrdiff_t>(y) * m + first;
+        cut.insert(cut.end(), row, row + n);
+    }
+    return cut;
+}
+
+/// Heights on n x n points with the Fourier coefficients of nx x ny: those that both grids can
+/// hold.
+std::vector<double> resample(const std::vector<double>& h, int nx, int ny, int n) {
+    std::vector<Complex> from(h.begin(), h.end());
+    transform(from, nx, ny, FFTW_FORWARD);
+    std::vector<Complex> to(cells(n));
+    // A wave at the Nyquist limit of the coarser grid stands for both signs: half for each.
+    const auto share = [](int k, int m) { return 2 * std::abs(k) == m ? 0.5 : 1.0; };
+    const int mx = std::min(nx, n), my = std::min(ny, n);
+    for (int ky = -(my / 2); ky <= my / 2; ++ky)
+        for (int kx = -(mx / 2); kx <= mx / 2; ++kx)
+            to[static_cast<std::size_t>(periodic(ky, n)) * static_cast<std::size_t>(n) +
+               static_cast<std::size_t>(periodic(kx, n))] +=
+                share(kx, mx) * share(ky, my) *
+                from[static_cast<std::size_t>(periodic(ky, ny)) * static_cast<std::size_t>(nx) +
+                     static_cast<std::size_t>(periodic(kx, nx))];
+    transform(to, n, n, FFTW_BACKWARD);
+    std::vector<double> result(to.size());
+    const double scale = 1.0 / (static_cast<double>(nx) * static_cast<double>(ny));
+    for (std::size_t i = 0; i < to.size(); ++i)
+        result[i] = to[i].real() * scale;
+    return result;
+}
+
+void scale_to_rms(std::vector<double>& h, double rms) {
+    const double factor = rms / rms_of(h);
+    for (double& v : h)
+        v *= factor;
+}
+
+/// Slope and spectrum of the roughness, from its Fourier coefficients.
+void measure(const SurfaceOptions& o, Surface& s) {
+    SurfaceStatistics& stat = s.statistics;
+    stat.rms = rms_of(s.height);
+    const int n = s.sites;
+    const double q_unit = 2.0 * pi / s.length;
+    std::vector<Complex> wave(s.height.begin(), s.height.end());
+    transform(wave, n, n, FFTW_FORWARD);
+    stat.spectrum.assign(static_cast<std::size_t>(n / 2) + 1, {});
+    double slope2 = 0.0;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const double kx = signed_wave(x, n), ky = signed_wave(y, n);
+            const double power =
+                std::norm(wave[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) +
+                               static_cast<std::size_t>(x)]) /
+                (static_cast<double>(cells(n)) * static_cast<double>(cells(n)));
+            const double k = std::sqrt(kx * kx + ky * ky);
+            slope2 += power * k * k * q_unit * q_unit;
+            const auto bin = static_cast<std::size_t>(std::lround(k));
+            if (bin == 0 || bin >= stat.spectrum.size()) continue;
+            stat.spectrum[bin].q += k * q_unit;
+            stat.spectrum[bin].realised += power / (q_unit * q_unit);
+            stat.spectrum[bin].target += target_spectrum(o, k * q_unit);
+            stat.spectrum[bin].modes += 1;
+        }
+    stat.rms_slope = std::sqrt(slope2);
+    std::erase_if(stat.spectrum, [](const SpectrumBin& b) { return b.modes == 0; });
+    for (SpectrumBin& b : stat.spectrum) {
+        b.q /= b.modes;
+        b.realised /= b.modes;
+        b.target /= b.modes;
+    }
+}
+
+/// Statistics of the roughness, then the cap, then the extremes.
+Surface finish(const SurfaceOptions& o, Surface s) {
+    measure(o, s);
+    if (o.radius > 0.0) {
+        s.radius = o.radius;
+        const double spacing = o.length / o.sites, centre = 0.5 * o.length;
+        for (int y = 0; y < s.sites; ++y)
+            for (int x = 0; x < s.sites; ++x) {
+                const double dx = x * spacing - centre, dy = y * spacing - centre;
+                const double rho2 = dx * dx + dy * dy;
+                // R - sqrt(R^2 - rho^2), written without the difference of two large numbers.
+                s.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(s.sites) +
+                         static_cast<std::size_t>(x)] -=
+                    rho2 / (o.radius + std::sqrt(o.radius * o.radius - rho2));
+            }
+    }
+    const auto [low, high] = std::minmax_element(s.height.begin(), s.height.end());
+    s.statistics.lowest = *low;
+    s.statistics.highest = *high;
+    return s;
+}
+
+} // namespace
+
+double target_spectrum(const SurfaceOptions& o, double q) {
+    if (o.kind != SurfaceKind::self_affine || !(o.rms > 0.0)) return 0.0;
+    const double q_unit = 2.0 * pi / o.length;
+    // 2 pi int q C dq = rms^2 with C = C0 shape(q): the integral in q_L, in closed form.
+    const double top = clipped_cutoff(o), knee = std::clamp(o.rolloff, 1.0, std::max(1.0, top));
+    const double flat = 0.5 * (knee * knee - 1.0);
+    const double ratio = top / knee, h = o.hurst;
+    // If the roll-off lies below q_L the power law has fallen already where the spectrum begins.
+    const double at_knee = std::pow(knee / o.rolloff, o.rolloff < knee ? -2.0 * (1.0 + h) : 0.0);
+    const double tail = at_knee * knee * knee *
+                        (h > 0.0 ? (1.0 - std::pow(ratio, -2.0 * h)) / (2.0 * h) : std::log(ratio));
+    const double integral = 2.0 * pi * (flat + std::max(0.0, tail)) * q_unit * q_unit;
+    return integral > 0.0 ? o.rms * o.rms * shape(o, q / q_unit) / integral : 0.0;
+}
+
+int substrate_sites(int block_sites, double lattice_ratio) {
+    return std::max(1, static_cast<int>(std::lround(lattice_ratio * block_sites)));
+}
+
+Surface make_surface(const SurfaceOptions& o) {
+    check(o);
+    require(o.kind != SurfaceKind::file,
+            "a measured surface is made from its heights (surface_from_heights), not from options");
+    Surface s;
+    s.sites = o.sites;
+    s.length = o.length;
+    s.height.assign(cells(o.sites), 0.0);
+    if (o.kind == SurfaceKind::flat || o.rms == 0.0) return finish(o, std::move(s));
+
+    const int n = o.sites;
+    if (o.cutoff > 0.5 * n)
+        s.notes.push_back(fmt::format("cutoff q1 = {:g} q_L lies above the Nyquist wavevector of "
+                                      "{} sites; clipped to {:g} q_L",
+                                      o.cutoff, n, 0.5 * n));
+    std::vector<Complex> wave(cells(n));
+    bool any = false;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const int kx = signed_wave(x, n), ky = signed_wave(y, n);
+            const double c =
+                shape(o, std::sqrt(static_cast<double>(kx) * kx + static_cast<double>(ky) * ky));
+            if (c == 0.0) continue;
+            const bool own_mirror = (2 * x) % n == 0 && (2 * y) % n == 0;
+            wave[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) +
+                 static_cast<std::size_t>(x)] = std::sqrt(c) * random_factor(o, kx, ky, own_mirror);
+            any = true;
+        }
+    require(any, fmt::format(
+                     "{} sites hold no wave between q_L and q1 = {:g} q_L, so rms = {} Å cannot be "
+                     "reached; use more sites or kind = \"flat\"",
+                     n, o.cutoff, o.rms));
+    transform(wave, n, n, FFTW_BACKWARD);
+    for (std::size_t i = 0; i < wave.size(); ++i)
+        s.height[i] = wave[i].real();
+    remove_mean(s.height);
+    scale_to_rms(s.height, o.rms);
+    return finish(o, std::move(s));
+}
+
+int sites_of_map(const SurfaceOptions& o) {
+    const double ratio = o.map_edge > 0.0 ? o.map_edge / o.length : 1.0;
+    if (std::abs(ratio - 1.0) <= 0.005) return o.sites;
+    return static_cast<int>(std::lround(ratio * o.sites));
+}
+
+Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int nx, int ny) {
+    check(o);
+    require(nx >= 1 && ny >= 1 &&
+                h.size() == static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny),
+            fmt::format("the height map has {} values, not {} x {}; give a full matrix", h.size(),
+                        nx, ny));
+    const auto bad = std::find_if(h.begin(), h.end(), [](double v) { return !std::isfinite(v); });
+    if (bad != h.end()) {
+        const auto at = static_cast<int>(bad - h.begin());
+        require(false,
+                fmt::format("the height map holds {} in row {}, column {}; fill such gaps by "
+                            "neighbouring heights before the run",
+                            *bad, at / nx + 1, at % nx + 1));
+    }
+    Surface s;
+    s.sites = o.sites;
+    s.length = o.length;
+    if (o.detrend) {
+        remove_plane(h, nx, ny);
+        s.notes.push_back("mean plane removed from the height map");
+    }
+    if (o.periodic) {
+        const double before = rms_of(h);
+        remove_jumps(h, nx, ny);
+        s.notes.push_back(fmt::format("the map made periodic: rms {:.4g} Å before, {:.4g} Å after",
+                                      before, rms_of(h)));
+    }
+    const int whole = sites_of_map(o);
+    require(whole >= o.sites,
+            fmt::format("the height map is {:.6g} Å wide, the box {:.6g} Å; take {} sites at most, "
+                        "or stretch the map on purpose with surface.file_size = {:.6g}",
+                        o.map_edge, o.length, static_cast<int>(o.map_edge / o.length * o.sites),
+                        o.length));
+    if (whole == o.sites && o.map_edge > 0.0 && std::abs(o.map_edge - o.length) > 1e-9 * o.length)
+        s.notes.push_back(fmt::format("the map, {:.6g} Å wide, is stretched by {:+.2f} % to the "
+                                      "box",
+                                      o.map_edge, 100.0 * (o.length / o.map_edge - 1.0)));
+    if (nx != whole || ny != whole) {
+        h = resample(h, nx, ny, whole);
+        s.notes.push_back(
+            fmt::format("height map of {} x {} points resampled (Fourier, periodic) to {} x {}", nx,
+                        ny, whole, whole));
+    }
+    if (whole > o.sites) {
+        h = middle(h, whole, o.sites);
+        s.notes.push_back(
+            fmt::format("the middle {:.6g} Å of the map are taken; at the box's edges "
+                        "heights jump",
+                        o.length));
+    }
+    if (o.rms > 0.0) {
+        const double own = rms_of(h);
+        const double largest = std::max(std::abs(*std::max_element(h.begin(), h.end())),
+                                        std::abs(*std::min_element(h.begin(), h.end())));
+        require(
+            own > 1e-12 * largest && own > 0.0,
+            fmt::format("the height map is flat (rms = {:g} Å), so it cannot be scaled to rms = {} "
+                        "Å; leave rms out or give a rough map",
+                        own, o.rms));
+        remove_mean(h);
+        scale_to_rms(h, o.rms);
+        s.notes.push_back(fmt::format("height map scaled from rms = {:g} Å to {:g} Å", own, o.rms));
+    }
+    s.height = std::move(h);
+    return finish(o, std::move(s));
+}
+
+} // namespace asperity

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/setup/setup.hpp"
+
+#include "engine/units.hpp"
+#include "io/error.hpp"
+#include "io/height_map.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+namespace asperity {
+
+Surface scene_surface(const Scene& scene) {
+    const auto& s = scene.surface;
+    SurfaceOptions options;
+    options.kind = s.kind;
+    options.sites = substrate_sites(s.sites, s.lattice_ratio);
+    options.length = scene.edge();
+    options.rms = s.rms;
+    options.hurst = s.hurst;
+    options.rolloff = s.rolloff;
+    options.cutoff = s.cutoff;
+    options.amplitudes = s.amplitudes;
+    options.seed = static_cast<std::uint64_t>(s.seed);
+    options.radius = s.radius.value_or(0.0);
+    try {
+        if (s.kind != SurfaceKind::file) return make_surface(options);
+        io::HeightMap map = io::read_height_map(s.file, s.file_unit);
+        options.map_edge = s.file_size.value_or(map.size.value_or(0.0));
+        const int covered = sites_of_map(options);
+        if (map.sites != covered && s.resample == Resample::none)
+            throw std::invalid_argument(fmt::format(
+                "the map in {} has {} x {} values, but covers {} x {} atoms of the substrate; give "
+                "a map of that size, set surface.sites = {}, or let it be resampled with "
+                "surface.resample = \"band-limited\"",
+                s.file, map.sites, map.sites, covered, covered, map.sites));
+        options.rms = s.rms_given ? s.rms : 0.0;
+        options.detrend = s.detrend != Detrend::none;
+        options.periodic = s.detrend == Detrend::periodic;
+        const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
+        Surface surface =
+            surface_from_heights(options, std::move(map.heights), map.sites, map.sites);
+        surface.notes.insert(
+            surface.notes.begin(),
+            fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",
+                        std::filesystem::path(s.file).filename().string(), map.sites, map.sites,
+                        edge / map.sites, edge, map.unit));
+        return surface;
+    } catch (const std::invalid_argument& e) {
+        io::Problems problems = scene.problems();
+        problems.add(s.kind == SurfaceKind::file ? "surface.file" : "surface.kind",
+                     std::string(": ") + e.what());
+        problems.throw_if_any();
+        throw;
+    }
+}
+
+Setup make_setup(const Scene& scene, int ranks) {
+    Setup setup;
+    setup.effects = Effects(scene);
+    const auto on = [&](Effect effect) { return setup.effects.on(effect); };
+    io::Problems problems = scene.problems();
+    setup.notes = notes(scene);
+
+    BlockOptions& block = setup.simulation.block;
+    block.sites = scene.surface.sites;
+    block.spacing = scene.surface.spacing;
+    block.young = scene.block.young * units::gigapascal;
+    block.poisson = scene.block.poisson;
+    block.atom_mass = scene.block.atom_mass * units::atomic_mass;
+    block.thickness = scene.block.thickness;
+    block.layers_per_level = scene.block.layers_per_level;
+    block.multiscale = on(Effect::coarse_levels);
+    block.finite_strain = on(Effect::finite_strain);
+    setup.levels = plan_levels(block);
+
+    InterfaceOptions& interface = setup.simulation.interface;
+    interface.potential = {scene.interface.epsilon, scene.interface.r0, scene.interface.cutoff};
+    interface.tail = on(Effect::tail);
+    interface.mixed = scene.numerics.precision == Precision::mixed;
+    const int substrate = substrate_sites(block.sites, scene.surface.lattice_ratio);
+    try {
+        setup.flat = flat_reference(interface, block.spacing, block.sites, substrate);
+    } catch (const std::invalid_argument& e) {
+        problems.add("interface.epsilon", std::string(": ") + e.what());
+    }
+
+    auto& drive = setup.simulation.drive;
+    const double crossing = block.thickness * block.spacing / block.sound_speed();
+    drive.velocity = scene.drive.velocity * units::metre_per_second;
+    drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
+    drive.load_force = scene.drive.load * units::megapascal * scene.edge() * scene.edge();
+    drive.approach = scene.has(PathPart::approach);
+    drive.pull_off = scene.has(PathPart::pull_off);
+
+    setup.simulation.dt = scene.drive.timestep;
+    if (on(Effect::damping)) {
+        setup.simulation.damping = scene.drive.damping * units::per_picosecond;
+        setup.simulation.damping_from = scene.drive.damping_from;
+    }
+    if (on(Effect::temperature)) setup.simulation.temperature = scene.drive.temperature;
+    setup.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
+
+    const double site_stiffness = setup.flat.stiffness * block.spacing * block.spacing;
+    setup.longest_timestep = 2.0 / block.highest_frequency(site_stiffness);
+    if (on(Effect::inertia) && scene.drive.timestep >= setup.longest_timestep)
+        problems.add(
+            "drive.timestep",
+            fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",
+                        scene.drive.timestep, setup.longest_timestep),
+            fmt::format(
+                "the block's fastest vibration has a period of {:.4g} fs, and velocity Verlet "
+                "diverges for steps longer than 1/pi of it",
+                3.14159265 * setup.longest_timestep),
+            fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a "
+                        "fraction of a percent",
+                        0.314159 * setup.longest_timestep));
+    try {
+        const ProcessGrid grid = make_grid(scene, setup, ranks, 0);
+        if (grid.imbalance() > 0.1)
+            setup.notes.push_back(
+                fmt::format("{} ranks share {} sites unevenly: the largest tile has {:.0f} % "
+                            "more than the mean",
+                            ranks, block.sites, 100.0 * grid.imbalance()));
+    } catch (const std::invalid_argument& e) {
+        problems.add("surface.sites", std::string(": ") + e.what());
+    }
+    problems.throw_if_any();
+    return setup;
+}
+
+Setup examine(const Scene& scene, int ranks) {
+    io::Problems problems = scene.problems();
+    not_yet(scene, problems);
+    Setup setup;
+    try {
+        setup = make_setup(scene, ranks);
+    } catch (const io::SceneError& error) {
+        for (const io::Problem& problem : error.problems())
+            problems.add(problem);
+    }
+    if (scene.surface.kind == SurfaceKind::file) {
+        try {
+            scene_surface(scene);
+        } catch (const io::SceneError& error) {
+            for (const io::Problem& problem : error.problems())
+                problems.add(problem);
+        }
+    }
+    problems.throw_if_any();
+    return setup;
+}
+
+ProcessGrid make_grid(const Scene& scene, const Setup& setup, int ranks, int rank) {
+    if (scene.block.model == BlockModel::spectral)
+        return ProcessGrid::slabs(ranks, rank, scene.surface.sites);
+    return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(setup.levels.size()));
+}
+
+} // namespace asperity
