@@ -66,8 +66,14 @@ void expect_accuracy(const std::string& text, const std::vector<std::string>& re
 const std::string thin = "[block]\nthickness = 32\n[drive]\nvelocity = 10\n";
 
 TEST(HeldOut, PathInTime) {
-    expect_accuracy("[surface]\nsites = 32\nrms = 0.8\nseed = 11\nhurst = 0.7\n" + thin,
-                    {"block.model=lattice", "drive.timestep=20"}, "1%", Question::path);
+    std::vector<std::string> scenes = {"sites = 32\nrms = 0.8\nseed = 11\nhurst = 0.7\n" + thin};
+    if (std::getenv("ASPERITY_LONG")) // ctest -L long
+        for (const char* surface :
+             {"sites = 64\nrms = 1.2\nseed = 4\n", "sites = 64\nrms = 2\nseed = 9\n"})
+            scenes.push_back(surface + std::string("[drive]\nvelocity = 10\n"));
+    for (const std::string& scene : scenes)
+        expect_accuracy("[surface]\n" + scene, {"block.model=lattice", "drive.timestep=20"}, "1%",
+                        Question::path);
 }
 
 TEST(HeldOut, StatesAtZeroLoad) {
@@ -75,14 +81,6 @@ TEST(HeldOut, StatesAtZeroLoad) {
          {"sites = 48\nrms = 1.2\nseed = 5\n", "sites = 40\nrms = 1.7\nseed = 3\n"})
         expect_accuracy("[surface]\n" + std::string(surface) + "[drive]\npath = [\"zero-load\"]\n",
                         {"block.model=lattice", "drive.tolerance=1e-5"}, "0.1%", Question::state);
-}
-
-TEST(HeldOut, AtLength) {
-    if (!std::getenv("ASPERITY_LONG")) GTEST_SKIP() << "part of ctest -L long";
-    for (const char* surface :
-         {"sites = 64\nrms = 1.2\nseed = 4\n", "sites = 64\nrms = 2\nseed = 9\n"})
-        expect_accuracy("[surface]\n" + std::string(surface) + "[drive]\nvelocity = 10\n",
-                        {"block.model=lattice", "drive.timestep=20"}, "1%", Question::path);
 }
 
 TEST(Choice, LeavesAloneWhatTheSceneSays) {
