@@ -6,6 +6,7 @@
 #include "io/hdf5_file.hpp"
 
 #include "io/error.hpp"
+#include "io/hdf5_handle.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -17,53 +18,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <hdf5.h>
 
 namespace asperity::io {
 
 namespace {
-
-static_assert(sizeof(hid_t) == sizeof(std::int64_t));
-
-/// One handle, closed by the function of its kind.
-class Handle {
-public:
-    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-    ~Handle() {
-        if (id_ >= 0) close_(id_);
-    }
-    Handle(const Handle&) = delete;
-    Handle& operator=(const Handle&) = delete;
-    operator hid_t() const { return id_; }
-    bool good() const { return id_ >= 0; }
-
-private:
-    hid_t id_;
-    herr_t (*close_)(hid_t);
-};
-
-template <class T>
-hid_t native();
-template <>
-hid_t native<double>() {
-    return H5T_NATIVE_DOUBLE;
-}
-template <>
-hid_t native<float>() {
-    return H5T_NATIVE_FLOAT;
-}
-template <>
-hid_t native<std::int64_t>() {
-    return H5T_NATIVE_INT64;
-}
-template <>
-hid_t native<std::int32_t>() {
-    return H5T_NATIVE_INT32;
-}
-template <>
-hid_t native<std::uint8_t>() {
-    return H5T_NATIVE_UINT8;
-}
 
 void silence() {
     static const herr_t once = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -88,8 +46,6 @@ std::uint64_t volume(const Hdf5File::Shape& shape) {
 }
 
 std::vector<hsize_t> extents(const Hdf5File::Shape& shape) { return {shape.begin(), shape.end()}; }
-
-hid_t string_type() { return H5Tcopy(H5T_C_S1); }
 
 } // namespace
 
@@ -156,7 +112,7 @@ bool Hdf5File::exists(const std::string& object) const {
 
 bool Hdf5File::is_dataset(const std::string& object) const {
     if (!exists(object)) return false;
-    const Handle handle(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
+    const Hdf5Handle handle(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
     if (!handle.good()) fail(object, "cannot be opened");
     return H5Iget_type(handle) == H5I_DATASET;
 }
@@ -169,13 +125,13 @@ void Hdf5File::make_group(const std::string& group) {
     if (group.empty() || exists(group)) return;
     const std::size_t slash = group.rfind('/');
     if (slash != std::string::npos && slash > 0) make_group(group.substr(0, slash));
-    const Handle made(H5Gcreate2(id_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                      H5Gclose);
+    const Hdf5Handle made(H5Gcreate2(id_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                          H5Gclose);
     if (!made.good()) fail(group, "cannot be made as a group");
 }
 
 std::vector<std::string> Hdf5File::members(const std::string& group) const {
-    const Handle handle(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
+    const Hdf5Handle handle(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
     if (!handle.good()) fail(group, "cannot be opened as a group");
     std::vector<std::string> names;
     const auto each = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
@@ -187,157 +143,18 @@ std::vector<std::string> Hdf5File::members(const std::string& group) const {
     return names;
 }
 
-// ---- attributes
-
-namespace {
-
-/// Opens the object, drops an old attribute of that name, makes the new one and writes it.
-bool put_attribute(hid_t file, const std::string& object, const std::string& name, hid_t type,
-                   hid_t space, const void* data) {
-    const Handle owner(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose);
-    if (!owner.good()) return false;
-    const htri_t there = H5Aexists(owner, name.c_str());
-    if (there < 0 || (there > 0 && H5Adelete(owner, name.c_str()) < 0)) return false;
-    const Handle attribute(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose);
-    return attribute.good() && H5Awrite(attribute, type, data) >= 0;
-}
-
-template <class T>
-bool put_numbers(hid_t file, const std::string& object, const std::string& name, const T* data,
-                 std::size_t count, bool scalar) {
-    const hsize_t extent = count;
-    const Handle space(scalar ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr),
-                       H5Sclose);
-    return space.good() && put_attribute(file, object, name, native<T>(), space, data);
-}
-
-} // namespace
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name,
-                               const std::string& value) {
-    // Of variable length: such strings are text to Python, fixed ones are bytes.
-    const Handle type(string_type(), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
-    const char* text = value.c_str();
-    if (!type.good() || !space.good() || H5Tset_size(type, H5T_VARIABLE) < 0 ||
-        H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
-        !put_attribute(id_, object, name, type, space, &text))
-        fail(object, "cannot take the attribute " + name);
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name, double value) {
-    if (!put_numbers(id_, object, name, &value, 1, true))
-        fail(object, "cannot take the attribute " + name);
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name,
-                               std::int64_t value) {
-    if (!put_numbers(id_, object, name, &value, 1, true))
-        fail(object, "cannot take the attribute " + name);
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name,
-                               const std::vector<double>& value) {
-    if (!put_numbers(id_, object, name, value.data(), value.size(), false))
-        fail(object, "cannot take the attribute " + name);
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name,
-                               const std::vector<std::int64_t>& value) {
-    if (!put_numbers(id_, object, name, value.data(), value.size(), false))
-        fail(object, "cannot take the attribute " + name);
-}
-
-void Hdf5File::write_text_list_attribute(const std::string& object, const std::string& name,
-                                         const std::vector<std::string>& value) {
-    std::size_t longest = 1;
-    for (const std::string& text : value)
-        longest = std::max(longest, text.size());
-    std::string padded;
-    for (std::string text : value) {
-        text.resize(longest, '\0');
-        padded += text;
-    }
-    const hsize_t count = value.size();
-    const Handle type(string_type(), H5Tclose),
-        space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-    if (!type.good() || !space.good() || H5Tset_size(type, longest) < 0 ||
-        H5Tset_strpad(type, H5T_STR_NULLPAD) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
-        !put_attribute(id_, object, name, type, space, padded.data()))
-        fail(object, "cannot take the attribute " + name);
-}
-
-bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
-    return H5Aexists_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
-}
-
-std::string Hdf5File::read_text_attribute(const std::string& object,
-                                          const std::string& name) const {
-    const Handle attribute(
-        H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    if (!attribute.good()) fail(object, "has no attribute " + name);
-    const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
-    if (!type.good() || !space.good() || H5Tget_class(type) != H5T_STRING ||
-        H5Sget_simple_extent_npoints(space) != 1)
-        fail(object, "has an attribute " + name + " that is not one string");
-    if (H5Tis_variable_str(type) > 0) {
-        char* data = nullptr;
-        const Handle memory(string_type(), H5Tclose);
-        if (H5Tset_size(memory, H5T_VARIABLE) < 0 || H5Tset_cset(memory, H5Tget_cset(type)) < 0 ||
-            H5Aread(attribute, memory, &data) < 0)
-            fail(object, "has an attribute " + name + " that cannot be read");
-        const std::string text = data ? data : "";
-        if (data) H5free_memory(data);
-        return text;
-    }
-    std::string text(H5Tget_size(type), '\0');
-    if (H5Aread(attribute, type, text.data()) < 0)
-        fail(object, "has an attribute " + name + " that cannot be read");
-    text.resize(std::min(text.find('\0'), text.size()));
-    return text;
-}
-
-namespace {
-
-template <class T>
-bool get_number(hid_t file, const std::string& object, const std::string& name, T& value) {
-    const Handle attribute(
-        H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    if (!attribute.good()) return false;
-    const Handle space(H5Aget_space(attribute), H5Sclose);
-    return space.good() && H5Sget_simple_extent_npoints(space) == 1 &&
-           H5Aread(attribute, native<T>(), &value) >= 0;
-}
-
-} // namespace
-
-double Hdf5File::read_number_attribute(const std::string& object, const std::string& name) const {
-    double value = 0.0;
-    if (!get_number(id_, object, name, value)) fail(object, "has no number as attribute " + name);
-    return value;
-}
-
-std::int64_t Hdf5File::read_integer_attribute(const std::string& object,
-                                              const std::string& name) const {
-    std::int64_t value = 0;
-    if (!get_number(id_, object, name, value)) fail(object, "has no number as attribute " + name);
-    return value;
-}
-
-// ---- data sets
-
 template <class T>
 void Hdf5File::make_dataset(const std::string& dataset, const Shape& shape) {
     if (const std::size_t slash = dataset.rfind('/'); slash != std::string::npos && slash > 0)
         make_group(dataset.substr(0, slash));
     const std::vector<hsize_t> extent = extents(shape);
-    const Handle space(
+    const Hdf5Handle space(
         shape.empty() ? H5Screate(H5S_SCALAR)
                       : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
         H5Sclose);
-    const Handle set(
-        H5Dcreate2(id_, dataset.c_str(), native<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-        H5Dclose);
+    const Hdf5Handle set(H5Dcreate2(id_, dataset.c_str(), hdf5_type<T>(), space, H5P_DEFAULT,
+                                    H5P_DEFAULT, H5P_DEFAULT),
+                         H5Dclose);
     if (!space.good() || !set.good()) fail(dataset, "cannot be made");
 }
 
@@ -348,9 +165,9 @@ void Hdf5File::write(const std::string& dataset, const Shape& shape, std::span<c
                         fmt::format("{} values for a shape of {}", data.size(), volume(shape)),
                         "this is a mistake in the program");
     make_dataset<T>(dataset, shape);
-    const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good() || (!data.empty() &&
-                        H5Dwrite(set, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0))
+    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!set.good() || (!data.empty() && H5Dwrite(set, hdf5_type<T>(), H5S_ALL, H5S_ALL,
+                                                  H5P_DEFAULT, data.data()) < 0))
         fail(dataset, "cannot be written");
 }
 
@@ -359,10 +176,10 @@ namespace {
 /// The file's side of a slab, and the memory's.
 bool transfer(hid_t set, hid_t type, const Hdf5File::Shape& offset, const Hdf5File::Shape& count,
               void* read_into, const void* write_from) {
-    const Handle file_space(H5Dget_space(set), H5Sclose);
+    const Hdf5Handle file_space(H5Dget_space(set), H5Sclose);
     const std::vector<hsize_t> start = extents(offset), extent = extents(count);
-    const Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
-                        H5Sclose);
+    const Hdf5Handle memory(
+        H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
     if (!file_space.good() || !memory.good() ||
         H5Sget_simple_extent_ndims(file_space) != static_cast<int>(count.size()) ||
         H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, extent.data(),
@@ -378,27 +195,27 @@ bool transfer(hid_t set, hid_t type, const Hdf5File::Shape& offset, const Hdf5Fi
 template <class T>
 void Hdf5File::write_slab(const std::string& dataset, const Shape& offset, const Shape& count,
                           std::span<const T> data) {
-    const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     if (!set.good() || offset.size() != count.size() || data.size() != volume(count) ||
-        !transfer(set, native<T>(), offset, count, nullptr, data.data()))
+        !transfer(set, hdf5_type<T>(), offset, count, nullptr, data.data()))
         fail(dataset, fmt::format("does not take a block of {} at {}", count, offset));
 }
 
 template <class T>
 void Hdf5File::read_slab(const std::string& dataset, const Shape& offset, const Shape& count,
                          std::span<T> data) const {
-    const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     if (!set.good() || offset.size() != count.size() || data.size() != volume(count) ||
-        !transfer(set, native<T>(), offset, count, data.data(), nullptr))
+        !transfer(set, hdf5_type<T>(), offset, count, data.data(), nullptr))
         fail(dataset, fmt::format("does not give a block of {} at {}", count, offset));
 }
 
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& dataset) const {
     std::vector<T> data(volume(shape(dataset)));
-    const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good() || (!data.empty() &&
-                        H5Dread(set, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0))
+    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!set.good() || (!data.empty() && H5Dread(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                                 data.data()) < 0))
         fail(dataset, "cannot be read");
     return data;
 }
@@ -407,9 +224,9 @@ Hdf5File::Shape Hdf5File::shape(const std::string& dataset) const {
     if (!exists(dataset))
         throw FileError(path_, "has no data set " + dataset,
                         "the file was written by something else", "check the file");
-    const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     if (!set.good()) fail(dataset, "is not a data set");
-    const Handle space(H5Dget_space(set), H5Sclose);
+    const Hdf5Handle space(H5Dget_space(set), H5Sclose);
     const int rank = space.good() ? H5Sget_simple_extent_ndims(space) : -1;
     if (rank < 0) fail(dataset, "has no shape");
     std::vector<hsize_t> extent(static_cast<std::size_t>(rank));
@@ -430,12 +247,12 @@ void Hdf5File::make_series(const std::string& dataset, const Shape& row) {
     chunk = extent;
     chunk[0] = std::max<hsize_t>(1, 8192 / bytes);
     const int rank = static_cast<int>(extent.size());
-    const Handle space(H5Screate_simple(rank, extent.data(), most.data()), H5Sclose);
-    const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Hdf5Handle space(H5Screate_simple(rank, extent.data(), most.data()), H5Sclose);
+    const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     if (!space.good() || !layout.good() || H5Pset_chunk(layout, rank, chunk.data()) < 0)
         fail(dataset, "cannot be made as a series");
-    const Handle set(
-        H5Dcreate2(id_, dataset.c_str(), native<T>(), space, H5P_DEFAULT, layout, H5P_DEFAULT),
+    const Hdf5Handle set(
+        H5Dcreate2(id_, dataset.c_str(), hdf5_type<T>(), space, H5P_DEFAULT, layout, H5P_DEFAULT),
         H5Dclose);
     if (!set.good()) fail(dataset, "cannot be made as a series");
 }
@@ -445,7 +262,7 @@ void Hdf5File::append(const std::string& dataset, std::span<const T> rows) {
     if (rows.empty()) return;
     Shape now = shape(dataset);
     const std::uint64_t row = volume(Shape(now.begin() + (now.empty() ? 0 : 1), now.end()));
-    const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     if (!set.good() || now.empty() || row == 0 || rows.size() % row != 0)
         fail(dataset, "does not take these rows");
     Shape offset(now.size(), 0), count = now;
@@ -454,13 +271,13 @@ void Hdf5File::append(const std::string& dataset, std::span<const T> rows) {
     now[0] += count[0];
     const std::vector<hsize_t> extent = extents(now);
     if (H5Dset_extent(set, extent.data()) < 0 ||
-        !transfer(set, native<T>(), offset, count, nullptr, rows.data()))
+        !transfer(set, hdf5_type<T>(), offset, count, nullptr, rows.data()))
         fail(dataset, "cannot be appended to");
 }
 
 void Hdf5File::truncate(const std::string& dataset, std::uint64_t rows) {
     Shape now = shape(dataset);
-    const Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     if (!set.good() || now.empty() || now[0] < rows)
         fail(dataset, fmt::format("has fewer rows than the {} to keep", rows));
     now[0] = rows;

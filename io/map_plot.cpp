@@ -3,6 +3,7 @@
 #include "io/map_plot.hpp"
 
 #include "io/plot.hpp"
+#include "io/plot_axis.hpp"
 
 #include <algorithm>
 #include <array>

@@ -48,12 +48,6 @@ struct Plot {
     std::string id;                ///< unique in a page; empty: a document of its own
 };
 
-/// The multiples of a round step from low to high (those in between), about `count` of them.
-std::vector<double> nice_ticks(double low, double high, int count);
-
-/// The number as it stands at a tick, with as many digits as the step needs.
-std::string tick_label(double value, double step);
-
 /// The plot as a self-contained SVG document, or as an element of a page. Throws
 /// std::invalid_argument for series of unequal lengths.
 std::string plot_svg(const Plot& plot);

@@ -237,9 +237,6 @@ private:
     } variations_;
 };
 
-/// The name among candidates that a misspelt word most likely meant; empty if none is near.
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
-
 /// Contents of a file; SceneError if it cannot be read.
 std::string read_scene_file(const std::string& file);
 

@@ -4,6 +4,8 @@
 // From TOML text and overrides to the keys of a schema. The one unit that includes toml++.
 #include "io/scene_reader.hpp"
 
+#include "io/spelling.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>

@@ -6,6 +6,7 @@
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
 #include "io/scene_reader.hpp"
+#include "io/spelling.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/report_plots.hpp"
 
-#include "engine/run/theory_command.hpp"
+#include "engine/run/theory_case.hpp"
 #include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 

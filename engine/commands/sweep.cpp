@@ -4,7 +4,7 @@
 
 #include "engine/commands/sweep_output.hpp"
 #include "engine/commands/sweep_plots.hpp"
-#include "engine/run/theory_command.hpp"
+#include "engine/run/theory_case.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
 #include "io/result.hpp"

@@ -7,7 +7,7 @@
 
 #include "engine/commands/sweep_grid.hpp"
 #include "engine/commands/sweep_points.hpp"
-#include "engine/run/theory_command.hpp"
+#include "engine/run/theory_case.hpp"
 #include "io/json_value.hpp"
 
 #include <functional>

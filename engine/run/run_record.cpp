@@ -3,7 +3,7 @@
 #include "engine/run/run_record.hpp"
 
 #include "engine/run/curve.hpp"
-#include "engine/run/theory_command.hpp"
+#include "engine/run/theory_case.hpp"
 #include "engine/scene/accuracy.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/surface.hpp"
 
-#include "decomposition/tile.hpp"
+#include "engine/scene/heights.hpp"
 
 #include <Random123/philox.h>
 #include <fftw3.h>
@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <memory>
 #include <numbers>
 #include <stdexcept>
 
@@ -21,18 +20,6 @@ namespace {
 
 using std::numbers::pi;
 using Complex = std::complex<double>;
-
-/// Two-dimensional complex transform in place, FFTW's sign and no scaling. Planned by estimate and
-/// on one thread, so that every rank gets the same bits.
-void transform(std::vector<Complex>& data, int nx, int ny, int sign) {
-    auto* raw = reinterpret_cast<fftw_complex*>(data.data());
-    const std::unique_ptr<fftw_plan_s, void (*)(fftw_plan)> plan(
-        fftw_plan_dft_2d(ny, nx, raw, raw, sign, FFTW_ESTIMATE), fftw_destroy_plan);
-    if (!plan)
-        throw std::runtime_error(
-            fmt::format("surface: FFTW cannot plan a transform of {} x {} points", nx, ny));
-    fftw_execute(plan.get());
-}
 
 std::size_t cells(int n) { return static_cast<std::size_t>(n) * static_cast<std::size_t>(n); }
 
@@ -102,129 +89,14 @@ Complex random_factor(const SurfaceOptions& o, int kx, int ky, bool own_mirror) 
     return std::polar(amplitude, mirrored ? -phase : phase);
 }
 
-double mean_of(const std::vector<double>& h) {
-    double sum = 0.0;
-    for (double v : h)
-        sum += v;
-    return sum / static_cast<double>(h.size());
-}
-
-double rms_of(const std::vector<double>& h) {
-    const double mean = mean_of(h);
-    double square = 0.0;
-    for (double v : h)
-        square += (v - mean) * (v - mean);
-    return std::sqrt(square / static_cast<double>(h.size()));
-}
-
-void remove_mean(std::vector<double>& h) {
-    const double mean = mean_of(h);
-    for (double& v : h)
-        v -= mean;
-}
-
-/// Removes the plane of least squares.
-void remove_plane(std::vector<double>& h, int nx, int ny) {
-    remove_mean(h);
-    double sx = 0.0, sy = 0.0, xx = 0.0, yy = 0.0;
-    const auto at = [&](int x, int y) -> double& {
-        return h[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) +
-                 static_cast<std::size_t>(x)];
-    };
-    for (int y = 0; y < ny; ++y)
-        for (int x = 0; x < nx; ++x) {
-            const double px = x - 0.5 * (nx - 1), py = y - 0.5 * (ny - 1);
-            sx += px * at(x, y);
-            sy += py * at(x, y);
-            xx += px * px;
-            yy += py * py;
-        }
-    for (int y = 0; y < ny; ++y)
-        for (int x = 0; x < nx; ++x)
-            at(x, y) -= (xx > 0.0 ? sx / xx : 0.0) * (x - 0.5 * (nx - 1)) +
-                        (yy > 0.0 ? sy / yy : 0.0) * (y - 0.5 * (ny - 1));
-}
-
-/// Makes a map periodic: takes off the smooth part (harmonic inside) that carries the jumps between
-/// opposite edges (L. Moisan, J. Math. Imaging Vis. 39, 161, 2011).
-void remove_jumps(std::vector<double>& h, int nx, int ny) {
-    const auto at = [&](int x, int y) {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) +
-               static_cast<std::size_t>(x);
-    };
-    std::vector<Complex> smooth(h.size());
-    for (int y = 0; y < ny; ++y) {
-        const double jump = h[at(nx - 1, y)] - h[at(0, y)];
-        smooth[at(0, y)] += jump;
-        smooth[at(nx - 1, y)] -= jump;
-    }
-    for (int x = 0; x < nx; ++x) {
-        const double jump = h[at(x, ny - 1)] - h[at(x, 0)];
-        smooth[at(x, 0)] += jump;
-        smooth[at(x, ny - 1)] -= jump;
-    }
-    transform(smooth, nx, ny, FFTW_FORWARD);
-    for (int y = 0; y < ny; ++y)
-        for (int x = 0; x < nx; ++x) {
-            const double laplacian =
-                2.0 * std::cos(2.0 * pi * x / nx) + 2.0 * std::cos(2.0 * pi * y / ny) - 4.0;
-            smooth[at(x, y)] *= x == 0 && y == 0 ? 0.0 : 1.0 / laplacian;
-        }
-    transform(smooth, nx, ny, FFTW_BACKWARD);
-    for (std::size_t i = 0; i < h.size(); ++i)
-        h[i] -= smooth[i].real() / static_cast<double>(h.size());
-}
-
-/// The middle n x n points of a map of m x m.
-std::vector<double> middle(const std::vector<double>& h, int m, int n) {
-    std::vector<double> cut;
-    cut.reserve(cells(n));
-    const int first = (m - n) / 2;
-    for (int y = first; y < first + n; ++y) {
-        const auto row = h.begin() + static_cast<std::ptrdiff_t>(y) * m + first;
-        cut.insert(cut.end(), row, row + n);
-    }
-    return cut;
-}
-
-/// Heights on n x n points with the Fourier coefficients of nx x ny: those that both grids can
-/// hold.
-std::vector<double> resample(const std::vector<double>& h, int nx, int ny, int n) {
-    std::vector<Complex> from(h.begin(), h.end());
-    transform(from, nx, ny, FFTW_FORWARD);
-    std::vector<Complex> to(cells(n));
-    // A wave at the Nyquist limit of the coarser grid stands for both signs: half for each.
-    const auto share = [](int k, int m) { return 2 * std::abs(k) == m ? 0.5 : 1.0; };
-    const int mx = std::min(nx, n), my = std::min(ny, n);
-    for (int ky = -(my / 2); ky <= my / 2; ++ky)
-        for (int kx = -(mx / 2); kx <= mx / 2; ++kx)
-            to[static_cast<std::size_t>(periodic(ky, n)) * static_cast<std::size_t>(n) +
-               static_cast<std::size_t>(periodic(kx, n))] +=
-                share(kx, mx) * share(ky, my) *
-                from[static_cast<std::size_t>(periodic(ky, ny)) * static_cast<std::size_t>(nx) +
-                     static_cast<std::size_t>(periodic(kx, nx))];
-    transform(to, n, n, FFTW_BACKWARD);
-    std::vector<double> result(to.size());
-    const double scale = 1.0 / (static_cast<double>(nx) * static_cast<double>(ny));
-    for (std::size_t i = 0; i < to.size(); ++i)
-        result[i] = to[i].real() * scale;
-    return result;
-}
-
-void scale_to_rms(std::vector<double>& h, double rms) {
-    const double factor = rms / rms_of(h);
-    for (double& v : h)
-        v *= factor;
-}
-
 /// Slope and spectrum of the roughness, from its Fourier coefficients.
 void measure(const SurfaceOptions& o, Surface& s) {
     SurfaceStatistics& stat = s.statistics;
-    stat.rms = rms_of(s.height);
+    stat.rms = heights::rms_of(s.height);
     const int n = s.sites;
     const double q_unit = 2.0 * pi / s.length;
     std::vector<Complex> wave(s.height.begin(), s.height.end());
-    transform(wave, n, n, FFTW_FORWARD);
+    heights::transform(wave, n, n, FFTW_FORWARD);
     stat.spectrum.assign(static_cast<std::size_t>(n / 2) + 1, {});
     double slope2 = 0.0;
     for (int y = 0; y < n; ++y)
@@ -327,11 +199,11 @@ Surface make_surface(const SurfaceOptions& o) {
                      "{} sites hold no wave between q_L and q1 = {:g} q_L, so rms = {} Å cannot be "
                      "reached; use more sites or kind = \"flat\"",
                      n, o.cutoff, o.rms));
-    transform(wave, n, n, FFTW_BACKWARD);
+    heights::transform(wave, n, n, FFTW_BACKWARD);
     for (std::size_t i = 0; i < wave.size(); ++i)
         s.height[i] = wave[i].real();
-    remove_mean(s.height);
-    scale_to_rms(s.height, o.rms);
+    heights::remove_mean(s.height);
+    heights::scale_to_rms(s.height, o.rms);
     return finish(o, std::move(s));
 }
 
@@ -359,14 +231,14 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
     s.sites = o.sites;
     s.length = o.length;
     if (o.detrend) {
-        remove_plane(h, nx, ny);
+        heights::remove_plane(h, nx, ny);
         s.notes.push_back("mean plane removed from the height map");
     }
     if (o.periodic) {
-        const double before = rms_of(h);
-        remove_jumps(h, nx, ny);
+        const double before = heights::rms_of(h);
+        heights::remove_jumps(h, nx, ny);
         s.notes.push_back(fmt::format("the map made periodic: rms {:.4g} Å before, {:.4g} Å after",
-                                      before, rms_of(h)));
+                                      before, heights::rms_of(h)));
     }
     const int whole = sites_of_map(o);
     require(whole >= o.sites,
@@ -379,20 +251,20 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
                                       "box",
                                       o.map_edge, 100.0 * (o.length / o.map_edge - 1.0)));
     if (nx != whole || ny != whole) {
-        h = resample(h, nx, ny, whole);
+        h = heights::resample(h, nx, ny, whole);
         s.notes.push_back(
             fmt::format("height map of {} x {} points resampled (Fourier, periodic) to {} x {}", nx,
                         ny, whole, whole));
     }
     if (whole > o.sites) {
-        h = middle(h, whole, o.sites);
+        h = heights::middle(h, whole, o.sites);
         s.notes.push_back(
             fmt::format("the middle {:.6g} Å of the map are taken; at the box's edges "
                         "heights jump",
                         o.length));
     }
     if (o.rms > 0.0) {
-        const double own = rms_of(h);
+        const double own = heights::rms_of(h);
         const double largest = std::max(std::abs(*std::max_element(h.begin(), h.end())),
                                         std::abs(*std::min_element(h.begin(), h.end())));
         require(
@@ -400,8 +272,8 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
             fmt::format("the height map is flat (rms = {:g} Å), so it cannot be scaled to rms = {} "
                         "Å; leave rms out or give a rough map",
                         own, o.rms));
-        remove_mean(h);
-        scale_to_rms(h, o.rms);
+        heights::remove_mean(h);
+        heights::scale_to_rms(h, o.rms);
         s.notes.push_back(fmt::format("height map scaled from rms = {:g} Å to {:g} Å", own, o.rms));
     }
     s.height = std::move(h);

@@ -3,6 +3,7 @@
 //
 // The reader on a scene of its own: a teapot. Every kind of mistake with its exact position.
 #include "io/scene_reader.hpp"
+#include "io/spelling.hpp"
 
 #include "scratch.hpp"
 

@@ -66,7 +66,4 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& numbers, io::Res
 /// The same for a run, which the theory must never make fail: what went wrong becomes theory.note.
 void add_theory(const Scene& scene, const Surface& surface, double flat, io::ResultRecord& record);
 
-/// `asperity theory SCENE`: result.json, theory.h5 and a table. On one rank. Returns the exit code.
-int theory_command(const Scene& scene, const std::string& out);
-
 } // namespace asperity

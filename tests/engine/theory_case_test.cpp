@@ -3,12 +3,12 @@
 //
 // The theory of a scene: the scene's keys reach the solver, its numbers reach the result. The
 // expected numbers are those of theory.md (tests/theory judges the solver itself).
-#include "engine/run/theory_command.hpp"
+#include "engine/run/theory_case.hpp"
 
 #include "engine/commands/sweep_grid.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
-#include "io/plot.hpp"
+#include "io/plot_axis.hpp"
 #include "theory/error.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/commands/command_line.hpp"
+
+#include "decomposition/communicator.hpp"
+#include "io/build_info.hpp"
+#include "io/error.hpp"
+#include "io/spelling.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace asperity {
+
+namespace {
+
+bool is_override(const std::string& word) {
+    const std::size_t equals = word.find('='), dot = word.find('.');
+    return equals != std::string::npos && dot < equals && word.find('/') >= equals &&
+           !std::filesystem::exists(word);
+}
+
+} // namespace
+
+std::vector<std::string> scene_files(const Arguments& given, std::vector<std::string>& overrides) {
+    std::vector<std::string> files;
+    overrides = given.overrides;
+    for (const std::string& word : given.words)
+        (is_override(word) ? overrides : files).push_back(word);
+    if (files.empty())
+        throw io::SceneError(io::Problem{"command line", "no scene is given",
+                                         "the command needs one",
+                                         "for example: asperity run scenes/first-contact.toml"});
+    return files;
+}
+
+std::string scene_file(const Arguments& given, std::vector<std::string>& overrides) {
+    const std::vector<std::string> files = scene_files(given, overrides);
+    if (files.size() > 1)
+        throw io::SceneError(io::Problem{"command line", "more than one scene is given",
+                                         fmt::format("{} and {}", files[0], files[1]),
+                                         "for example: asperity run scenes/first-contact.toml"});
+    return files.front();
+}
+
+Scene scene_of(const Arguments& given) {
+    std::vector<std::string> overrides;
+    const std::string file = scene_file(given, overrides);
+    return read_scene(file, overrides);
+}
+
+RunOptions run_options(const Arguments& given) {
+    RunOptions options;
+    options.out = given.out;
+    options.resume = given.resume;
+    io::Problems problems;
+    if (!given.wall_limit.empty()) {
+        options.wall_limit = io::parse_duration(given.wall_limit);
+        if (!options.wall_limit)
+            problems.add(io::Problem{"--wall-limit " + given.wall_limit, "is no length of time", "",
+                                     "for example 23h50m, 45m or 90s"});
+    }
+    if (const auto mode = io::progress_mode(given.progress))
+        options.progress = *mode;
+    else
+        problems.add(io::Problem{"--progress " + given.progress, "is none of its choices",
+                                 "choices: auto, bar, lines, off", ""});
+    if (options.resuming() && options.resume != "auto" && !std::filesystem::exists(options.resume))
+        problems.add(io::Problem{"--resume " + options.resume, "there is no such file",
+                                 "a checkpoint file or the word auto is needed",
+                                 "--resume auto takes the checkpoint in the result directory"});
+    problems.throw_if_any();
+    return options;
+}
+
+namespace takes {
+
+void scene(CLI::App& command, Arguments& given) {
+    command.add_option("SCENE", given.words, "the scene file (TOML)")->required()->type_name("");
+    command
+        .add_option("--set", given.overrides,
+                    "override a key of the scene: section.key=value; repeatable")
+        ->type_name("key=value")
+        ->allow_extra_args(false);
+}
+
+void result(CLI::App& command, Arguments& given) {
+    command.add_option("DIR", given.directory, "the result directory")->required()->type_name("");
+}
+
+void resume(CLI::App& command, Arguments& given) {
+    command.add_option("--resume", given.resume, "go on from a checkpoint: auto, or its file")
+        ->type_name("auto|FILE");
+}
+
+void progress(CLI::App& command, Arguments& given) {
+    command.add_option("--progress", given.progress, "auto, bar, lines or off")->type_name("MODE");
+}
+
+void ranks(CLI::App& command, Arguments& given) {
+    command.add_option("--ranks", given.ranks, "for so many ranks (default: as started)")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+}
+
+void launch(CLI::App& command, Arguments& given) {
+    command
+        .add_option("--launch", given.launch,
+                    "what to put before the program for every point: \"mpirun -n 2\"")
+        ->type_name("WORDS");
+}
+
+void theory_only(CLI::App& command, Arguments& given) {
+    command.add_flag("--theory-only", given.theory_only, "the theory alone, no simulation");
+}
+
+void knobs(CLI::App& command, Arguments& given) {
+    command.add_option("--knobs", given.knobs, "only these: timestep,cutoff,layers,...")
+        ->delimiter(',')
+        ->type_name("NAMES");
+}
+
+void format(CLI::App& command, Arguments& given) {
+    command.add_option("--to", given.format, "xyz, lammps, xdmf or png")
+        ->required()
+        ->type_name("FORMAT");
+}
+
+void markdown(CLI::App& command, Arguments& given) {
+    command.add_flag("--markdown", given.markdown, "as the reference page docs/scene.md");
+}
+
+void plain(CLI::App& command, Arguments& given) {
+    command.add_flag("--plain", given.plain, "without explanations");
+}
+
+Option out(const std::string& otherwise) {
+    return [otherwise](CLI::App& command, Arguments& given) {
+        command
+            .add_option("--out", given.out,
+                        fmt::format("result directory (default: {})", otherwise))
+            ->type_name("DIR");
+    };
+}
+
+Option wall_limit(const std::string& explanation) {
+    return [explanation](CLI::App& command, Arguments& given) {
+        command.add_option("--wall-limit", given.wall_limit, explanation)->type_name("23h50m");
+    };
+}
+
+Option jobs(const std::string& explanation) {
+    return [explanation](CLI::App& command, Arguments& given) {
+        command.add_option("--jobs", given.jobs, explanation)
+            ->check(CLI::Range(1, 1024))
+            ->type_name("N");
+    };
+}
+
+} // namespace takes
+
+int carry_out(const std::vector<Command>& commands, int argc, char** argv,
+              const Communicator& world) {
+    CLI::App app("Adhesion between randomly rough elastic solids, from the atoms up", "asperity");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "asperity " + io::build_info().version);
+    app.failure_message(CLI::FailureMessage::simple);
+    app.footer("Exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard, 4 files, "
+               "75 stopped "
+               "early.\nStart here: asperity run scenes/first-contact.toml");
+
+    Arguments given;
+    std::vector<std::string> names;
+    for (const Command& command : commands) {
+        CLI::App& entry = *app.add_subcommand(command.name, command.purpose);
+        for (const Option& option : command.options)
+            option(entry, given);
+        if (!command.footer.empty()) entry.footer(command.footer);
+        names.push_back(command.name);
+    }
+
+    // The library would only say that a command is missing.
+    if (argc > 1 && argv[1][0] != '-' &&
+        std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+        const std::string near = io::nearest(argv[1], names);
+        throw io::SceneError(io::Problem{
+            "command line", fmt::format("'{}' is no command", argv[1]),
+            fmt::format("commands: {}", fmt::join(names, ", ")),
+            near.empty() ? "asperity --help" : fmt::format("did you mean `asperity {}`?", near)});
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) { // --help, --version
+        return world.root() ? app.exit(asked) : 0;
+    } catch (const CLI::ParseError& error) {
+        throw io::SceneError(io::Problem{"command line", error.what(), "",
+                                         "asperity --help, or asperity COMMAND --help"});
+    }
+    for (const Command& command : commands)
+        if (app.got_subcommand(command.name)) return command.act(given, world);
+    return io::exit_code::internal;
+}
+
+} // namespace asperity

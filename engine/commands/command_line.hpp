@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The command line: a list of commands, each with the options that it takes, and what a call says.
+//
+//     const std::vector<Command> commands = {
+//         {"theory", "the analytic theory of a scene", {takes::scene,
+//         takes::out("results/<scene>")},
+//          [](const Arguments& given, const Communicator& world) { ... return code; }}};
+//     return carry_out(commands, argc, argv, world);
+#pragma once
+
+#include "engine/run/run.hpp"
+#include "engine/scene/scene.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace asperity {
+
+class Communicator;
+
+/// What was given, as it was written. Options that a command does not take have their defaults.
+struct Arguments {
+    std::vector<std::string> words; ///< the scene, and overrides that follow a --set
+    std::vector<std::string> overrides;
+    std::string directory; ///< of a result
+    std::string out;
+    std::string resume;
+    std::string wall_limit;
+    std::string progress = "auto";
+    int ranks = 0; ///< to plan for; 0: as many as there are
+    int jobs = 1;
+    std::string launch;
+    std::vector<std::string> knobs;
+    std::string format; ///< of an export
+    bool theory_only = false;
+    bool markdown = false;
+    bool plain = false;
+};
+
+/// The scene named by the words, read and checked with its overrides.
+Scene scene_of(const Arguments& given);
+/// The one scene's file, or all of them; the overrides among the words are added to the list:
+/// `--set a=1 b=2 scene.toml` means what it looks like.
+std::string scene_file(const Arguments& given, std::vector<std::string>& overrides);
+std::vector<std::string> scene_files(const Arguments& given, std::vector<std::string>& overrides);
+/// Throw io::SceneError, like those above.
+RunOptions run_options(const Arguments& given);
+
+using Option = std::function<void(CLI::App&, Arguments&)>;
+
+struct Command {
+    std::string name;
+    std::string purpose; ///< one line
+    std::vector<Option> options;
+    std::function<int(const Arguments&, const Communicator&)> act; ///< returns the exit code
+    std::string footer = {};                                       ///< below its options
+};
+
+/// The options; where commands mean different things by one, it takes its words of explanation.
+namespace takes {
+void scene(CLI::App& command, Arguments& given); ///< and --set
+void result(CLI::App& command, Arguments& given);
+void resume(CLI::App& command, Arguments& given);
+void progress(CLI::App& command, Arguments& given);
+void ranks(CLI::App& command, Arguments& given);
+void launch(CLI::App& command, Arguments& given);
+void theory_only(CLI::App& command, Arguments& given);
+void knobs(CLI::App& command, Arguments& given);
+void format(CLI::App& command, Arguments& given);
+void markdown(CLI::App& command, Arguments& given);
+void plain(CLI::App& command, Arguments& given);
+Option out(const std::string& otherwise);
+Option wall_limit(const std::string& explanation);
+Option jobs(const std::string& explanation);
+} // namespace takes
+
+/// Reads the command line and carries out the command it names; --help and --version are answered.
+/// Returns the exit code. Throws io::SceneError for a call that cannot be understood.
+int carry_out(const std::vector<Command>& commands, int argc, char** argv,
+              const Communicator& world);
+
+} // namespace asperity

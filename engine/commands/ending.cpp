@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/commands/ending.hpp"
+
+#include "decomposition/communicator.hpp"
+#include "io/error.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <span>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+
+namespace asperity {
+
+namespace {
+
+/// Says what went wrong, on rank 0, and with which code to end.
+int report(const std::exception& error, const Communicator& world) {
+    int code = io::exit_code::internal;
+    std::string text = error.what();
+    if (const auto* known = dynamic_cast<const io::Error*>(&error)) {
+        code = known->code();
+        const std::size_t count = known->problems().size();
+        if (code == io::exit_code::scene)
+            text +=
+                fmt::format("\n{} problem{}; nothing was written", count, count == 1 ? "" : "s");
+    } else {
+        text = "asperity: internal error: " + text +
+               "\n    why: the program met a state it does not expect"
+               "\n    fix: please report this, with the scene";
+    }
+    if (world.root()) {
+        std::fflush(stdout);
+        fmt::print(stderr, "{}\n", text);
+        std::fflush(stderr);
+    }
+    return code;
+}
+
+/// The root's exit code (or the only one there is), on every rank. Collective.
+int agreed(int code, const Communicator& world) {
+    double greatest = code;
+    world.max(std::span<double>(&greatest, 1));
+    return static_cast<int>(greatest);
+}
+
+/// An error inside a run of several ranks. Those that are not rank 0 give it time to speak first;
+/// if it does not, the error is theirs alone.
+[[noreturn]] void end_together(const std::exception& error, const Communicator& world) {
+    const int code = report(error, world);
+    if (!world.root()) {
+        std::this_thread::sleep_for(std::chrono::seconds(5));
+        fmt::print(stderr, "rank {}: {}\n", world.rank(), error.what());
+        std::fflush(stderr);
+    }
+    world.abort(code);
+}
+
+} // namespace
+
+int ended_in_order(const Communicator& world, const std::function<int()>& work) {
+    try {
+        return work();
+    } catch (const io::SceneError& error) { // on every rank, or on the root for all of them
+        return agreed(report(error, world), world);
+    } catch (const io::PhysicsError& error) { // guards judge global numbers: on every rank
+        return agreed(report(error, world), world);
+    } catch (const RootFailure&) { // the root has the reason and the code
+        return agreed(io::exit_code::done, world);
+    } catch (const std::exception& error) {
+        if (world.size() > 1) end_together(error, world);
+        return report(error, world);
+    }
+}
+
+} // namespace asperity

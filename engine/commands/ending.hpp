@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// How the program ends, whatever happens.
+//
+// Under mpirun every rank runs the same command; rank 0 alone speaks. A scene that is wrong is met
+// by all ranks alike, or by rank 0 for all of them: they agree on the code and end in order. Any
+// other error ends them all at once (abort), because the others may be waiting for this one.
+#pragma once
+
+#include <functional>
+
+namespace asperity {
+
+class Communicator;
+
+/// Does the work and returns the exit code, the same on every rank: its own, or that of the error
+/// it threw, which is printed.
+int ended_in_order(const Communicator& world, const std::function<int()>& work);
+
+} // namespace asperity

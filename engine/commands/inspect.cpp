@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/commands/inspect.hpp"
+
+#include "decomposition/communicator.hpp"
+#include "engine/run/plan.hpp"
+#include "engine/setup/setup.hpp"
+#include "io/build_info.hpp"
+#include "io/error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/height_map.hpp"
+#include "io/result.hpp"
+#include "io/table.hpp"
+#include "kernels/variant.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fftw3.h>
+#include <fmt/format.h>
+#include <omp.h>
+
+namespace asperity {
+
+int check_command(const Scene& scene, const Communicator& world) {
+    const Setup setup = examine(scene, world.size());
+    if (!world.root()) return io::exit_code::done;
+    fmt::print("{}: nothing wrong\n", scene.file);
+    fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
+               scene.surface.sites, scene.edge(), scene.block.thickness, setup.levels.size(),
+               setup.levels.size() == 1 ? "" : "s");
+    if (scene.has(PathPart::approach) || scene.has(PathPart::pull_off))
+        fmt::print("  time step {:.4g} fs, stable up to {:.4g} fs\n", scene.drive.timestep,
+                   setup.longest_timestep);
+    for (const std::string& note : setup.notes)
+        fmt::print("  note: {}\n", note);
+    return io::exit_code::done;
+}
+
+int plan_command(const Scene& scene, int ranks, const Communicator& world) {
+    if (ranks <= 0) ranks = world.size();
+    examine(scene, ranks);
+    const int cores = omp_get_max_threads() * world.size();
+    world.on_root(
+        [&] { print_plan(stdout, scene, make_plan(scene, ranks, std::max(1, cores / ranks))); });
+    return io::exit_code::done;
+}
+
+int surface_command(const Scene& scene, const std::string& out, const Communicator& world) {
+    const Surface surface = scene_surface(scene);
+    if (!world.root()) return io::exit_code::done;
+    const io::ResultPlace place = io::choose_result_directory(out, scene.name + "-surface", false);
+    io::make_directory(place.directory);
+
+    const SurfaceStatistics& statistics = surface.statistics;
+    const std::string map = (std::filesystem::path(place.directory) / "heights.h5").string();
+    io::write_height_map(map, {surface.sites, surface.height, surface.length, "Å", ""});
+    io::Hdf5File file(map, io::Hdf5File::Mode::edit);
+    std::vector<double> q, realised, target;
+    for (const SpectrumBin& bin : statistics.spectrum) {
+        q.push_back(bin.q);
+        realised.push_back(bin.realised);
+        target.push_back(bin.target);
+    }
+    const auto column = [&](const std::string& name, const std::string& unit, const auto& values) {
+        file.write<double>("/spectrum/" + name, {values.size()}, values);
+        file.write_attribute("/spectrum/" + name, "unit", unit);
+    };
+    column("q", "1/Å", q);
+    column("realised", "Å^4", realised);
+    column("target", "Å^4", target);
+    file.close();
+
+    io::ResultRecord record;
+    record.scene = scene_json(scene);
+    record.surface = {statistics.rms, statistics.rms_slope, statistics.lowest, statistics.highest};
+    io::write_result(place.directory, record);
+
+    io::Table table({"surface", "", ""});
+    table.align_left(2);
+    table.row({"atoms", fmt::format("{0} x {0}", surface.sites), ""});
+    table.row({"edge", io::cell(surface.length, 6), "Å"});
+    table.row({"pixel", io::cell(surface.length / surface.sites), "Å"});
+    table.row({"rms height", io::cell(statistics.rms), "Å"});
+    table.row({"rms slope", io::cell(statistics.rms_slope), ""});
+    table.row({"lowest", io::cell(statistics.lowest), "Å"});
+    table.row({"highest", io::cell(statistics.highest), "Å"});
+    table.print(stdout);
+    for (const std::string& note : surface.notes)
+        fmt::print("note: {}\n", note);
+    if (!place.note.empty()) fmt::print("note: {}\n", place.note);
+    fmt::print("heights and spectrum in {}\n", map);
+    return io::exit_code::done;
+}
+
+int defaults_command(bool markdown, bool plain, const Communicator& world) {
+    if (!world.root()) return io::exit_code::done;
+    fmt::print("{}", markdown ? scene_markdown() : scene_toml(Scene{}, !plain));
+    return io::exit_code::done;
+}
+
+int info_command(const Communicator& world) {
+    if (!world.root()) return io::exit_code::done;
+    const io::BuildInfo build = io::build_info();
+    io::Table table({"", ""});
+    table.align_left(1);
+    table.row({"version", build.version});
+    table.row({"git", build.git});
+    table.row({"compiler", build.compiler});
+    table.row({"flags", build.flags});
+    table.row({"MPI", ParallelSession::library()});
+    table.row({"HDF5", build.hdf5});
+    table.row({"FFTW", fftw_version});
+    table.row({"ranks", std::to_string(world.size())});
+    table.row({"threads", fmt::format("{} a rank", omp_get_max_threads())});
+    table.row({"processor", fmt::format("kernels for {}, interface in double or mixed precision",
+                                        name(processor_level()))});
+    fmt::print("asperity {}\n", build.version);
+    table.print(stdout);
+    return io::exit_code::done;
+}
+
+} // namespace asperity

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The commands that simulate nothing: what a scene says, what it would cost, what its surface is,
+// what keys there are, what this program is. Each returns the exit code; rank 0 alone prints.
+#pragma once
+
+#include "engine/scene/scene.hpp"
+
+#include <string>
+
+namespace asperity {
+
+class Communicator;
+
+/// `asperity check`. Throws io::SceneError with all that is wrong, like those below.
+int check_command(const Scene& scene, const Communicator& world);
+/// `asperity plan`; ranks: to plan for, 0: as many as there are.
+int plan_command(const Scene& scene, int ranks, const Communicator& world);
+/// `asperity surface`: heights.h5 and result.json in `out` (empty: results/<scene>-surface).
+int surface_command(const Scene& scene, const std::string& out, const Communicator& world);
+/// `asperity defaults`: as TOML, with or without explanations, or as the page docs/scene.md.
+int defaults_command(bool markdown, bool plain, const Communicator& world);
+/// `asperity info`
+int info_command(const Communicator& world);
+
+} // namespace asperity

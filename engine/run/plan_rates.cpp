@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/plan_rates.hpp"
+
+#include "engine/equilibrium/equilibrium.hpp"
+#include "kernels/variant.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+namespace asperity {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A smaller piece of the scene: a cut-out of its surface under as many layers as a piece of that
+/// width takes.
+struct Piece {
+    SimulationOptions options;
+    Surface surface;
+};
+
+Piece cut_out(const Scene& scene, const Setup& setup, const Surface& surface) {
+    Piece piece;
+    piece.options = setup.simulation;
+    BlockOptions& block = piece.options.block;
+    const int needed = static_cast<int>(std::ceil(2.0 * scene.interface.cutoff / block.spacing));
+    int sites = 128;
+    while (sites < needed)
+        sites *= 2;
+    block.sites = std::min(block.sites, sites);
+    block.thickness = std::min(block.thickness, setup.effects.on(Effect::coarse_levels) ? 128 : 16);
+    piece.surface = surface;
+    piece.surface.sites = substrate_sites(block.sites, scene.surface.lattice_ratio);
+    piece.surface.length = block.sites * block.spacing;
+    piece.surface.height.clear();
+    for (int y = 0; y < piece.surface.sites; ++y)
+        for (int x = 0; x < piece.surface.sites; ++x)
+            piece.surface.height.push_back(
+                surface.height[static_cast<std::size_t>(periodic(y, surface.sites)) *
+                                   static_cast<std::size_t>(surface.sites) +
+                               static_cast<std::size_t>(periodic(x, surface.sites))]);
+    return piece;
+}
+
+ProcessGrid one_rank(const BlockOptions& block) {
+    return ProcessGrid(1, 0, block.sites, static_cast<int>(plan_levels(block).size()));
+}
+
+/// Repeats work for about so many seconds; the shortest of them.
+template <class Work>
+double shortest(double seconds, const Work& work) {
+    double best = 1e300;
+    const auto start = Clock::now();
+    for (int n = 0; n < 3 || since(start) < seconds; ++n) {
+        const auto begin = Clock::now();
+        work();
+        best = std::min(best, since(begin));
+    }
+    return best;
+}
+
+/// Sweeps of a block that lies on the surface like a cloth, and of one out of reach.
+void measure_sweeps(const Interface& interface, const Piece& piece, double separation,
+                    Rates& rates) {
+    const BlockOptions& block = piece.options.block;
+    const Tile tile = one_rank(block).tile(0);
+    VectorField<double> layer(tile, 1), force(tile, 1);
+    const double sites = static_cast<double>(block.sites) * block.sites;
+    const auto sweep = [&](double height) {
+        interface.sweep(layer.plane(0), force.plane(0), height, false);
+    };
+    rates.far = shortest(0.02, [&] { sweep(interface.start_height()); }) / sites;
+    const int n = piece.surface.sites;
+    for (int y = 0; y < tile.ny; ++y)
+        for (int x = 0; x < tile.nx; ++x)
+            layer.plane(0).z(x, y) =
+                piece.surface.height[static_cast<std::size_t>(y * n / tile.ny) *
+                                         static_cast<std::size_t>(n) +
+                                     static_cast<std::size_t>(x * n / tile.nx)];
+    rates.near = shortest(0.05, [&] { sweep(separation); }) / sites;
+}
+
+void measure_steps(const Piece& piece, Rates& rates) {
+    const Communicator alone;
+    const ProcessGrid grid = one_rank(piece.options.block);
+    const double sites = static_cast<double>(piece.options.block.sites) * piece.options.block.sites;
+    const auto begin = Clock::now();
+    Simulation simulation(piece.options, piece.surface, alone, grid);
+    simulation.start(simulation.interface().start_height());
+    rates.making = since(begin) / sites;
+    const auto spent = [&](Phase p) { return simulation.phases()[p].seconds; };
+    simulation.step(false);
+    const double nodes = static_cast<double>(simulation.work().nodes);
+    // The best of some steps, phase by phase.
+    const std::array phases = {Phase::advance,  Phase::thermostat, Phase::interpolate,
+                               Phase::exchange, Phase::sums,       Phase::observe};
+    std::array<double, phases.size()> best;
+    best.fill(1e300);
+    const double plain = shortest(0.06, [&] {
+        std::array<double, phases.size()> before;
+        for (std::size_t i = 0; i < phases.size(); ++i)
+            before[i] = spent(phases[i]);
+        simulation.step(false);
+        for (std::size_t i = 0; i < phases.size(); ++i)
+            best[i] = std::min(best[i], spent(phases[i]) - before[i]);
+    });
+    rates.node = best[0] / nodes;
+    rates.noise = best[1] / nodes;
+    rates.hanging = best[2] / sites;
+    rates.rest = (best[3] + best[4] + best[5]) / sites;
+    const double observed = shortest(0.04, [&] { simulation.step(true); });
+    rates.observation = std::max(0.0, observed - plain) / nodes;
+    if (piece.options.damping == 0.0) return;
+    Piece free = piece;
+    free.options.damping = free.options.temperature = 0.0;
+    Simulation undamped(free.options, free.surface, alone, grid);
+    undamped.start(undamped.interface().start_height());
+    double least = 1e300;
+    shortest(0.04, [&] {
+        const double before = undamped.phases()[Phase::advance].seconds;
+        undamped.step(false);
+        least = std::min(least, undamped.phases()[Phase::advance].seconds - before);
+    });
+    rates.damping = std::clamp(rates.node - least / nodes, 0.0, rates.node);
+    rates.node -= rates.damping;
+}
+
+/// Forces of the piece's block, against those of its twin at small strain.
+void measure_strain(const Piece& piece, Rates& rates) {
+    const auto forces_take = [&](bool finite) {
+        BlockOptions options = piece.options.block;
+        options.finite_strain = finite;
+        Block block(options, Communicator(), one_rank(options), Motion::at_rest);
+        std::vector<VectorField<double>> out;
+        double nodes = 0.0;
+        for (const Block::Level& level : block.levels()) {
+            out.emplace_back(level.tile, level.plan.cells);
+            nodes += static_cast<double>(level.tile.nx) * level.tile.ny * level.plan.cells;
+        }
+        return shortest(0.04, [&] { block.forces(out); }) / nodes;
+    };
+    rates.finite = std::max(0.0, forces_take(true) - forces_take(false));
+}
+
+/// The first iterations of a relaxation of the piece.
+void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& piece,
+                        const Interface& interface, double nodes, Rates& rates) {
+    const Communicator alone;
+    const BlockOptions& block = piece.options.block;
+    Setup small = setup;
+    small.simulation = piece.options;
+    Interface own(piece.surface, one_rank(block).tile(0), block.spacing, interface.options());
+    const auto state = make_equilibrium(scene, small, alone, one_rank(block));
+    const double height = height_of_strongest_attraction(
+        *state, own, *std::min_element(piece.surface.height.begin(), piece.surface.height.end()),
+        alone);
+    RelaxOptions options;
+    options.site_stiffness = setup.flat.stiffness * block.spacing * block.spacing;
+    options.max_iterations = 10;
+    options.tolerance = 1e-300;
+    Phases phases;
+    const auto begin = Clock::now();
+    const RelaxedState reached = state->relax(own, height, options, phases);
+    rates.iteration = since(begin) / static_cast<double>(std::max(1ll, reached.iterations)) / nodes;
+    rates.relaxation_bytes =
+        static_cast<double>(state->bytes()) / (static_cast<double>(block.sites) * block.sites);
+}
+
+} // namespace
+
+double nodes_of(const std::vector<LevelPlan>& levels) {
+    double nodes = 0.0;
+    for (const LevelPlan& l : levels)
+        nodes += static_cast<double>(l.sites) * l.sites * l.cells;
+    return nodes;
+}
+
+Rates measure_rates(const Scene& scene, const Setup& setup, const Surface& surface) {
+    const auto on = [&](Effect e) { return setup.effects.on(e); };
+    const bool spectral = scene.block.model == BlockModel::spectral;
+    Rates rates;
+    const Piece piece = cut_out(scene, setup, surface);
+    const auto measuring = Clock::now();
+    const Interface interface(piece.surface, one_rank(piece.options.block).tile(0),
+                              piece.options.block.spacing, piece.options.interface);
+    const double piece_sites =
+        static_cast<double>(piece.options.block.sites) * piece.options.block.sites;
+    rates.making = since(measuring) / piece_sites;
+    rates.interface_bytes = static_cast<double>(interface.bytes()) / piece_sites;
+    measure_sweeps(interface, piece, setup.flat.separation, rates);
+    if (on(Effect::tail)) {
+        InterfaceOptions without = piece.options.interface;
+        without.tail = false;
+        Rates bare;
+        measure_sweeps(Interface(piece.surface, one_rank(piece.options.block).tile(0),
+                                 piece.options.block.spacing, without),
+                       piece, setup.flat.separation, bare);
+        rates.tail = std::max(0.0, rates.near - bare.near);
+        rates.near = bare.near;
+        rates.far = bare.far;
+    }
+    if (on(Effect::finite_strain)) measure_strain(piece, rates);
+    if (on(Effect::inertia)) measure_steps(piece, rates);
+    if (on(Effect::relaxation))
+        measure_relaxation(scene, setup, piece, interface,
+                           spectral ? piece_sites : nodes_of(plan_levels(piece.options.block)),
+                           rates);
+    rates.origin = fmt::format("rates measured now in {:.1f} s on a piece of {} x {} sites with {} "
+                               "thread{}, kernels for {}",
+                               since(measuring), piece.options.block.sites,
+                               piece.options.block.sites, omp_get_max_threads(),
+                               omp_get_max_threads() == 1 ? "" : "s", name(processor_level()));
+    return rates;
+}
+
+} // namespace asperity

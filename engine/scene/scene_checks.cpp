@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What single keys cannot know: contradictions between them, what is not available yet, and what is
+// worth a note.
+#include "engine/scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace asperity {
+
+void check_scene(const Scene& scene, io::Problems& problems) {
+    const auto& [surface, interface, drive] = std::tie(scene.surface, scene.interface, scene.drive);
+
+    const double half = scene.edge() / 2.0;
+    if (interface.cutoff > half)
+        // Where the cutoff is the default, the box is what the scene chose.
+        problems.add(io::Problem{
+            scene.positions.where(scene.positions.is_set("interface.cutoff") ? "interface.cutoff"
+                                                                             : "surface.sites"),
+            fmt::format("interface.cutoff = {:.6g} Å is more than half the box", interface.cutoff),
+            fmt::format(
+                "the box is {} x {:.6g} Å = {:.6g} Å wide, and an atom must not meet the same "
+                "neighbour twice",
+                surface.sites, surface.spacing, scene.edge()),
+            fmt::format("take a cutoff of {:.6g} Å at most, or surface.sites = {} at least", half,
+                        static_cast<int>(std::ceil(2.0 * interface.cutoff / surface.spacing)))});
+    const double minimum = std::pow(2.0, 1.0 / 6.0) * interface.r0;
+    if (interface.cutoff <= minimum)
+        problems.add(
+            "interface.cutoff", fmt::format("= {:.6g} Å leaves no attraction", interface.cutoff),
+            fmt::format("the minimum of the potential is at 2^(1/6) r0 = {:.6g} Å", minimum),
+            fmt::format("the usual cutoff is 4 r0 = {:.6g} Å", 4.0 * interface.r0));
+
+    if (surface.kind == SurfaceKind::self_affine && surface.rolloff > surface.cutoff)
+        problems.add("surface.rolloff",
+                     fmt::format("= {:.6g} is above surface.cutoff = {:.6g}", surface.rolloff,
+                                 surface.cutoff),
+                     "the spectrum falls between the two", "give rolloff <= cutoff");
+    if (surface.kind == SurfaceKind::self_affine && surface.rms > 0.0 &&
+        surface.rolloff > surface.sites / 2.0)
+        problems.add("surface.rolloff", fmt::format("= {:.6g} is beyond Nyquist", surface.rolloff),
+                     fmt::format("a grid of {} sites holds nothing above q = {} q_L", surface.sites,
+                                 surface.sites / 2),
+                     "give a smaller rolloff or more sites");
+    if (surface.radius && *surface.radius < scene.edge() * std::numbers::sqrt2 / 2.0)
+        problems.add(
+            "surface.radius",
+            fmt::format("= {:.6g} Å is less than half the diagonal of the box", *surface.radius),
+            fmt::format("the cap would not reach the corners, {:.6g} Å from the centre",
+                        scene.edge() * std::numbers::sqrt2 / 2.0),
+            "give a larger radius or fewer sites");
+
+    if (interface.frictionless && scene.block.model != BlockModel::spectral)
+        problems.add("interface.frictionless", "= true with a block that is not spectral",
+                     "only the spectral block can leave lateral displacements out: its stiffness "
+                     "for normal forces alone is known wave by wave",
+                     "take block.model = \"spectral\", or frictionless = false");
+
+    const auto& path = drive.path;
+    if (path.empty())
+        problems.add("drive.path", "is empty", "there would be nothing to do",
+                     "for example path = [\"approach\", \"pull-off\"]");
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const bool approach = path[i] == PathPart::approach;
+        const bool follows_pull_off = i > 0 && path[i - 1] == PathPart::pull_off;
+        if (approach && i > 0 && !follows_pull_off)
+            problems.add("drive.path",
+                         "has an \"approach\" from a state that is in contact already",
+                         "an approach starts out of reach", "put a \"pull-off\" before it");
+        if (path[i] == PathPart::pull_off && (i == 0 || follows_pull_off))
+            problems.add("drive.path", "has a \"pull-off\" with nothing to pull off",
+                         "it starts where an \"approach\" or \"zero-load\" ends",
+                         "for example path = [\"approach\", \"pull-off\"]");
+        if (path[i] == PathPart::zero_load && i > 0)
+            problems.add("drive.path", "has \"zero-load\" after something else",
+                         "it goes straight to the relaxed state and needs nothing before it",
+                         "take it out, or take path = [\"zero-load\"]: after an approach the state "
+                         "under zero load is found anyway");
+    }
+    if (surface.kind == SurfaceKind::file && surface.rms_given && surface.rms == 0.0)
+        problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
+                     "take kind = \"flat\", or leave rms out to take the map as it is");
+    if (scene.block.strain == Strain::finite && scene.block.model == BlockModel::spectral)
+        problems.add("block.strain", "= \"finite\" with block.model = \"spectral\"",
+                     "the spectral block adds up waves, and at finite strain waves do not add up",
+                     "take block.model = \"multiscale\" or \"lattice\", or strain = \"linear\"");
+    if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
+        problems.add("drive.damping_from",
+                     fmt::format("= {:.6g} with a temperature", drive.damping_from),
+                     "the thermostat acts where the damping does, and that is nowhere",
+                     "give a fraction below 1");
+    if (drive.temperature > 0.0 && drive.damping == 0.0)
+        problems.add("drive.temperature",
+                     fmt::format("= {:.6g} K with drive.damping = 0", drive.temperature),
+                     "the Langevin thermostat gives and takes heat through the damping",
+                     "give a damping, for example 0.05 1/ps");
+    if (scene.field_stride() == 0)
+        problems.add("output.fields", "has an \"every:\" without a number of steps",
+                     "maps are written every so many steps (points of a quasi-static path)",
+                     "for example fields = [\"zero-load\", \"every:1000\"]");
+    for (const auto& [delay, field] : scene.delayed_fields())
+        if (scene.without_time() || !scene.has(PathPart::pull_off))
+            problems.add("output.fields", "asks for \"" + field + "\"",
+                         "no pull-off goes on in time after zero load",
+                         "take a dynamic path with a pull-off, or take it out of output.fields");
+    if (scene.writes_field("pull-off") && !scene.has(PathPart::pull_off))
+        problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
+                     "add it to drive.path or take it out of output.fields");
+    if (scene.output.trajectory &&
+        (scene.has(PathPart::zero_load) || drive.mode == DriveMode::quasistatic))
+        problems.add("output.trajectory", fmt::format("= {}", *scene.output.trajectory),
+                     "frames are taken over time, and this path has none",
+                     "leave it out: the maps of output.fields hold the states");
+}
+
+void not_yet(const Scene& scene, io::Problems& problems) {
+    const auto refuse = [&](const std::string& key, const std::string& value, std::string instead) {
+        problems.add(key, "= " + value + " is not available yet",
+                     "it is part of the scene format, and this release does not compute it",
+                     std::move(instead));
+    };
+    if (scene.block.model == BlockModel::spectral && !scene.without_time())
+        refuse("block.model", "\"spectral\" on a path in time",
+               "use drive.mode = \"quasistatic\", or \"multiscale\" (\"lattice\" is the "
+               "reference)");
+    const auto parts = static_cast<std::size_t>(
+        std::count(scene.drive.path.begin(), scene.drive.path.end(), PathPart::approach));
+    if (parts > 1 && !scene.without_time())
+        refuse("drive.path", "a path of several cycles in time",
+               "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
+    if (scene.drive.mode == DriveMode::dynamic && scene.drive.path.size() > 1 &&
+        scene.drive.path.front() == PathPart::zero_load)
+        refuse("drive.path", "a pull-off from \"zero-load\" in time",
+               "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
+}
+
+std::vector<std::string> notes(const Scene& scene) {
+    std::vector<std::string> list;
+    const auto& surface = scene.surface;
+    if (scene.block.model == BlockModel::multiscale) {
+        int sites = surface.sites, halvings = 0;
+        while (sites % 2 == 0)
+            sites /= 2, ++halvings;
+        double reach = 0.0; // what the levels above that halving can carry at layers_per_level each
+        for (int level = 0; level <= halvings; ++level)
+            reach += std::ldexp(scene.block.layers_per_level, level);
+        if (2.0 * reach < scene.block.thickness)
+            list.push_back(
+                fmt::format("{} sites can be halved {} times only, so the coarsest level is "
+                            "much thicker than layers_per_level; a power of two costs least",
+                            surface.sites, halvings));
+    }
+    if (scene.block.thickness < surface.sites)
+        list.push_back(
+            fmt::format("the block is thinner ({} layers) than wide ({} sites): the longest waves "
+                        "feel the rigid top plane",
+                        scene.block.thickness, surface.sites));
+    if (scene.has(PathPart::zero_load) && scene.drive.load != 0.0)
+        list.push_back(fmt::format("the \"zero-load\" state carries drive.load = {:.6g} MPa; its "
+                                   "binding energy leaves out the load's potential",
+                                   scene.drive.load));
+    const auto idle = [&](const std::string& key, const std::string& reason) {
+        if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
+    };
+    if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
+    if (surface.kind != SurfaceKind::file) idle("surface.file", "surface.kind is not \"file\"");
+    if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");
+    if (surface.kind != SurfaceKind::self_affine)
+        for (const char* key : {"surface.hurst", "surface.rolloff", "surface.cutoff"})
+            idle(key, "surface.kind is not \"self-affine\"");
+    if (scene.block.model != BlockModel::multiscale)
+        idle("block.layers_per_level", "block.model is not \"multiscale\"");
+    return list;
+}
+
+} // namespace asperity

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Attributes of groups and data sets: numbers, lists of numbers, texts.
+#include "io/hdf5_file.hpp"
+
+#include "io/hdf5_handle.hpp"
+
+#include <algorithm>
+
+namespace asperity::io {
+
+namespace {
+
+hid_t string_type() { return H5Tcopy(H5T_C_S1); }
+
+/// Opens the object, drops an old attribute of that name, makes the new one and writes it.
+bool put_attribute(hid_t file, const std::string& object, const std::string& name, hid_t type,
+                   hid_t space, const void* data) {
+    const Hdf5Handle owner(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose);
+    if (!owner.good()) return false;
+    const htri_t there = H5Aexists(owner, name.c_str());
+    if (there < 0 || (there > 0 && H5Adelete(owner, name.c_str()) < 0)) return false;
+    const Hdf5Handle attribute(
+        H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    return attribute.good() && H5Awrite(attribute, type, data) >= 0;
+}
+
+template <class T>
+bool put_numbers(hid_t file, const std::string& object, const std::string& name, const T* data,
+                 std::size_t count, bool scalar) {
+    const hsize_t extent = count;
+    const Hdf5Handle space(scalar ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr),
+                           H5Sclose);
+    return space.good() && put_attribute(file, object, name, hdf5_type<T>(), space, data);
+}
+
+} // namespace
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name,
+                               const std::string& value) {
+    // Of variable length: such strings are text to Python, fixed ones are bytes.
+    const Hdf5Handle type(string_type(), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
+    const char* text = value.c_str();
+    if (!type.good() || !space.good() || H5Tset_size(type, H5T_VARIABLE) < 0 ||
+        H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
+        !put_attribute(id_, object, name, type, space, &text))
+        fail(object, "cannot take the attribute " + name);
+}
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name, double value) {
+    if (!put_numbers(id_, object, name, &value, 1, true))
+        fail(object, "cannot take the attribute " + name);
+}
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name,
+                               std::int64_t value) {
+    if (!put_numbers(id_, object, name, &value, 1, true))
+        fail(object, "cannot take the attribute " + name);
+}
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name,
+                               const std::vector<double>& value) {
+    if (!put_numbers(id_, object, name, value.data(), value.size(), false))
+        fail(object, "cannot take the attribute " + name);
+}
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name,
+                               const std::vector<std::int64_t>& value) {
+    if (!put_numbers(id_, object, name, value.data(), value.size(), false))
+        fail(object, "cannot take the attribute " + name);
+}
+
+void Hdf5File::write_text_list_attribute(const std::string& object, const std::string& name,
+                                         const std::vector<std::string>& value) {
+    std::size_t longest = 1;
+    for (const std::string& text : value)
+        longest = std::max(longest, text.size());
+    std::string padded;
+    for (std::string text : value) {
+        text.resize(longest, '\0');
+        padded += text;
+    }
+    const hsize_t count = value.size();
+    const Hdf5Handle type(string_type(), H5Tclose),
+        space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+    if (!type.good() || !space.good() || H5Tset_size(type, longest) < 0 ||
+        H5Tset_strpad(type, H5T_STR_NULLPAD) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
+        !put_attribute(id_, object, name, type, space, padded.data()))
+        fail(object, "cannot take the attribute " + name);
+}
+
+bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
+    return H5Aexists_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::string Hdf5File::read_text_attribute(const std::string& object,
+                                          const std::string& name) const {
+    const Hdf5Handle attribute(
+        H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    if (!attribute.good()) fail(object, "has no attribute " + name);
+    const Hdf5Handle type(H5Aget_type(attribute), H5Tclose),
+        space(H5Aget_space(attribute), H5Sclose);
+    if (!type.good() || !space.good() || H5Tget_class(type) != H5T_STRING ||
+        H5Sget_simple_extent_npoints(space) != 1)
+        fail(object, "has an attribute " + name + " that is not one string");
+    if (H5Tis_variable_str(type) > 0) {
+        char* data = nullptr;
+        const Hdf5Handle memory(string_type(), H5Tclose);
+        if (H5Tset_size(memory, H5T_VARIABLE) < 0 || H5Tset_cset(memory, H5Tget_cset(type)) < 0 ||
+            H5Aread(attribute, memory, &data) < 0)
+            fail(object, "has an attribute " + name + " that cannot be read");
+        const std::string text = data ? data : "";
+        if (data) H5free_memory(data);
+        return text;
+    }
+    std::string text(H5Tget_size(type), '\0');
+    if (H5Aread(attribute, type, text.data()) < 0)
+        fail(object, "has an attribute " + name + " that cannot be read");
+    text.resize(std::min(text.find('\0'), text.size()));
+    return text;
+}
+
+namespace {
+
+template <class T>
+bool get_number(hid_t file, const std::string& object, const std::string& name, T& value) {
+    const Hdf5Handle attribute(
+        H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    if (!attribute.good()) return false;
+    const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+    return space.good() && H5Sget_simple_extent_npoints(space) == 1 &&
+           H5Aread(attribute, hdf5_type<T>(), &value) >= 0;
+}
+
+} // namespace
+
+double Hdf5File::read_number_attribute(const std::string& object, const std::string& name) const {
+    double value = 0.0;
+    if (!get_number(id_, object, name, value)) fail(object, "has no number as attribute " + name);
+    return value;
+}
+
+std::int64_t Hdf5File::read_integer_attribute(const std::string& object,
+                                              const std::string& name) const {
+    std::int64_t value = 0;
+    if (!get_number(id_, object, name, value)) fail(object, "has no number as attribute " + name);
+    return value;
+}
+
+} // namespace asperity::io

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Hard cases of motion in time. Each test says first what stable means for it. With ASPERITY_LONG
+// set, long paths are as long as in the issue (10^6 steps).
+#include "engine/run/checkpoint.hpp"
+#include "engine/setup/setup.hpp"
+#include "io/error.hpp"
+#include "support/cases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include <unistd.h>
+
+using namespace asperity;
+
+namespace {
+
+const bool at_length = std::getenv("ASPERITY_LONG") != nullptr;
+
+Simulation make(const SimulationOptions& options, const Surface& surface) {
+    return Simulation(options, surface, Communicator(), test::serial_grid(options.block));
+}
+
+/// A contact of N = 8 sites without drive or damping.
+SimulationOptions free_contact(double dt) {
+    SimulationOptions options;
+    options.block = test::paper_block(8, 7, 2);
+    options.interface = test::paper_interface();
+    options.drive.velocity = 0.0;
+    options.dt = dt;
+    return options;
+}
+
+/// Worst energy residual of some observed steps; infinite where something is no number.
+double worst_residual(Simulation& s, int steps) {
+    double worst = 0.0;
+    for (int n = 0; n < steps; ++n) {
+        s.step(true);
+        const double r = std::abs(s.energy_residual());
+        worst = std::isfinite(r) ? std::max(worst, r) : INFINITY;
+    }
+    return worst;
+}
+
+} // namespace
+
+// Overlap. Stable: a motion from inside the wall keeps its energy if the step fits the collision;
+// if it does not, the balance says so at once.
+
+TEST(Overlap, MotionKeepsItsEnergyOrSaysSo) {
+    // 23 eV a site, 4.7 km/s.
+    SimulationOptions options = free_contact(0.5);
+    Simulation fine = make(options, test::flat_surface(8));
+    fine.start(1.8);
+    const double kept = worst_residual(fine, 1000);
+    options.dt = 20.0;
+    Simulation coarse = make(options, test::flat_surface(8));
+    coarse.start(1.8);
+    const double lost = worst_residual(coarse, 20);
+    std::printf("overlap of 23 eV a site: residual %.1e at 0.5 fs, %.1e at 20 fs\n", kept, lost);
+    EXPECT_LT(kept, 1e-2);
+    EXPECT_GT(lost, 0.02) << "the guard's limit";
+}
+
+// Time step. Stable: below the limit the energy of a free block stays bounded, above it diverges,
+// and a scene over the limit is refused with the limit and a step to take.
+
+TEST(TimeStep, TheLimitIsSharp) {
+    BlockOptions block = test::paper_block(8, 64, 0);
+    const double limit = 2.0 / block.highest_frequency(0.0);
+    const auto energy_growth = [&](double dt) {
+        SimulationOptions options;
+        options.block = block;
+        options.interface = test::paper_interface();
+        options.drive.velocity = 0.0;
+        options.dt = dt;
+        Simulation s = make(options, test::flat_surface(8));
+        s.start(40.0); // out of reach
+        for (int z = 0; z < block.thickness; ++z)
+            for (int y = 0; y < 8; ++y)
+                for (int x = 0; x < 8; ++x)
+                    s.block().levels()[0].u.z.view()(x, y, z) =
+                        (z % 2 ? 1e-3 : -1e-3) * (1 + x % 3);
+        s.block().exchange();
+        double early = 0.0, late = 0.0;
+        for (int n = 0; n < 4000; ++n) {
+            const StepRecord& now = s.step(n < 500 || n >= 3500);
+            if (!now.observed) continue;
+            double& most = n < 500 ? early : late;
+            most = std::max(most, now.elastic_energy);
+            if (!std::isfinite(now.elastic_energy)) return double{INFINITY};
+        }
+        return late / early;
+    };
+    const double below = energy_growth(0.99 * limit), above = energy_growth(1.01 * limit);
+    std::printf("limit %.3f fs: elastic energy grows by %.3g at 99 %%, by %.3g at 101 %%\n", limit,
+                below, above);
+    EXPECT_LT(below, 3.0);
+    EXPECT_GT(above, 1e6);
+}
+
+TEST(TimeStep, ASceneOverTheLimitIsRefused) {
+    const auto setup_at = [](double dt) {
+        return make_setup(read_scene_text("[surface]\nsites = 16\n", "test.toml",
+                                          {"drive.timestep=" + std::to_string(dt)}),
+                          1);
+    };
+    const double limit = setup_at(10.0).longest_timestep;
+    EXPECT_NO_THROW(setup_at(0.99 * limit));
+    try {
+        setup_at(1.01 * limit);
+        FAIL() << "accepted";
+    } catch (const io::SceneError& error) {
+        EXPECT_EQ(error.code(), 2);
+        EXPECT_NE(std::string(error.what()).find("is over the stability limit of"),
+                  std::string::npos);
+    }
+}
+
+// Long free oscillation. Stable: the means of the energy over tenths of the path lie together, far
+// closer than Verlet's own ripple.
+
+TEST(Oscillation, DoesNotDrift) {
+    const int steps = at_length ? 1000000 : 30000;
+    Simulation s = make(free_contact(10.0), test::reference_surface("n8_b_rms1.0"));
+    s.start(4.5);
+    std::array<double, 10> mean{};
+    double least = 1e300, most = -1e300;
+    for (int n = 0; n < steps; ++n) {
+        const StepRecord& now = s.step(true);
+        const double energy = now.interface_energy + now.elastic_energy + now.kinetic_energy;
+        least = std::min(least, energy), most = std::max(most, energy);
+        mean[static_cast<std::size_t>(n / (steps / 10))] += 10.0 * energy / steps;
+    }
+    const auto [low, high] = std::minmax_element(mean.begin(), mean.end());
+    std::printf("%d steps: ripple %.2e eV, means of tenths within %.2e, last minus first %.2e\n",
+                steps, most - least, *high - *low, mean.back() - mean.front());
+    EXPECT_LT(*high - *low, 0.05 * (most - least));
+}
+
+// Levels. Stable: a path over one level or ten keeps its energy.
+
+TEST(Levels, OneAndTen) {
+    // Ten levels need 512 sites; 512 cells of 2 layers a level and more.
+    const int sites = 512, thickness = 2 * 1023;
+    const BlockOptions options = test::paper_block(sites, thickness, 2);
+    ASSERT_EQ(plan_levels(options).size(), 10u);
+    SimulationOptions s;
+    s.block = options;
+    s.interface = test::paper_interface();
+    s.drive.velocity = 5e-4;
+    s.dt = 10.0;
+    Simulation ten = make(s, test::flat_surface(sites));
+    ten.start(3.3);
+    const double residual = worst_residual(ten, at_length ? 500 : 30);
+    std::printf("ten levels: residual %.1e\n", residual);
+    EXPECT_LT(residual, 1e-3);
+    s.block = test::paper_block(16, 16, 0);
+    ASSERT_EQ(plan_levels(s.block).size(), 1u);
+    Simulation one = make(s, test::flat_surface(16));
+    one.start(3.3);
+    EXPECT_LT(worst_residual(one, 300), 1e-3);
+}
+
+// Restart. Stable: a checkpoint taken while the block snaps in leads to the same bits.
+
+TEST(Restart, InsideASnapIn) {
+    SimulationOptions options;
+    options.block = test::paper_block(16, 62, 2);
+    options.interface = test::paper_interface();
+    options.drive.velocity = 2e-4;
+    options.damping = 1e-3;
+    const Surface surface = test::reference_surface("c1_N16_T16_rms0.5");
+    Simulation s = make(options, surface);
+    s.start(7.0);
+    double fastest = 0.0, height = 7.0;
+    for (int n = 0; n < 3000; ++n) { // until the layer falls twice as fast as the top
+        s.step(false);
+        fastest = (height - s.now().mean_height) / options.dt;
+        height = s.now().mean_height;
+        if (fastest > 2.0 * options.drive.velocity) break;
+    }
+    ASSERT_GT(fastest, 2.0 * options.drive.velocity) << "no snap-in";
+    const auto path = (std::filesystem::temp_directory_path() /
+                       ("asperity-snap-" + std::to_string(::getpid()) + ".h5"))
+                          .string();
+    write_checkpoint(path, s, {}, "snap");
+    Simulation again = make(options, surface);
+    read_checkpoint(path, again, "snap");
+    std::filesystem::remove(path);
+    for (int n = 0; n < 300; ++n)
+        s.step(n % 50 == 0), again.step(n % 50 == 0);
+    EXPECT_EQ(test::fingerprint(s.block()), test::fingerprint(again.block()));
+    EXPECT_EQ(s.now().force, again.now().force);
+    EXPECT_EQ(s.energy_residual(), again.energy_residual());
+    std::printf("restarted at %.0f m/s of the snap-in, %.2f A above the surface\n", 1e5 * fastest,
+                height);
+}
