@@ -104,7 +104,9 @@ const std::vector<Command> commands = {
      }},
     {"sweep",
      "a scene over several values of its keys: runs, theory, one table",
-     {takes::scene, takes::jobs("points side by side, each with an equal share of the processors"),
+     {takes::scene,
+      takes::jobs("points side by side; each takes an equal share of the processors, unless "
+                  "OMP_NUM_THREADS or --launch chooses"),
       takes::launch, takes::wall_limit("stop with checkpoints when this time has passed (exit 75)"),
       takes::progress, takes::theory_only, takes::out("results/<scene>-sweep")},
      [](const Arguments& given, const Communicator& world) {

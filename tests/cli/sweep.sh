@@ -34,6 +34,13 @@ expect 0 sweep state.toml --out one --progress off
 says "4 of 4 points are done"
 expect 0 sweep state.toml --out two --progress off --jobs 2
 [ "$(numbers one)" = "$(numbers two)" ] || fail "--jobs changes the table: $(numbers one) $(numbers two)"
+# Points side by side share the processors, unless somebody has chosen.
+threads() { grep -m1 '"threads"' "$1/rms=0.2,seed=1/result.json" | tr -dc 0-9; }
+half=$(($(env -u OMP_NUM_THREADS nproc) / 2)) # nproc heeds it too
+(unset OMP_NUM_THREADS && "$asperity" sweep state.toml --out shared --progress off --jobs 2 >log 2>&1) || fail "$(cat log)"
+[ "$(threads shared)" = $((half > 1 ? half : 1)) ] || fail "$(threads shared) threads for one of two points"
+(export OMP_NUM_THREADS=3 && "$asperity" sweep state.toml --out chosen --progress off --jobs 2 >log 2>&1) || fail "$(cat log)"
+[ "$(threads chosen)" = 3 ] || fail "$(threads chosen) threads instead of the three chosen"
 for file in sweep.csv sweep-mean.csv sweep.json sweep.h5 gamma.svg area.svg; do
     [ -s "one/$file" ] || fail "one/$file was not written"
 done

@@ -8,7 +8,6 @@
 #include "engine/commands/sweep_grid.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
-#include "io/plot_axis.hpp"
 #include "theory/error.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -181,82 +179,6 @@ TEST(SweepAxes, RefuseNonsense) {
     EXPECT_THROW(sweep_axes({"surface.rms=1,2", "surface.rms=3,4"}, fixed), io::SceneError);
     EXPECT_THROW(sweep_axes({"surface.rms=1:1000:1", "drive.load=1:1000:1"}, fixed),
                  io::SceneError);
-}
-
-std::size_t count(const std::string& text, const std::string& what) {
-    std::size_t n = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-        ++n;
-    return n;
-}
-
-/// Every tag is closed, in order, and no stray <, & stands in the text.
-bool well_formed(const std::string& text) {
-    std::vector<std::string> open;
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        if (text[at] == '&' && text.compare(at, 5, "&amp;") != 0 &&
-            text.compare(at, 4, "&lt;") != 0 && text.compare(at, 4, "&gt;") != 0 &&
-            text.compare(at, 6, "&quot;") != 0)
-            return false;
-        if (text[at] != '<') continue;
-        const std::size_t end = text.find('>', at);
-        if (end == std::string::npos) return false;
-        const std::string tag = text.substr(at + 1, end - at - 1);
-        at = end;
-        if (tag.starts_with("?") || tag.ends_with("/")) continue;
-        const std::string name = tag.substr(0, tag.find_first_of(" \n"));
-        if (count(tag, "\"") % 2 != 0) return false;
-        if (!name.starts_with("/")) {
-            open.push_back(name);
-        } else {
-            if (open.empty() || "/" + open.back() != name) return false;
-            open.pop_back();
-        }
-    }
-    return open.empty();
-}
-
-TEST(Plot, IsWellFormed) {
-    io::Plot plot;
-    plot.title = "a < b & \"c\"";
-    plot.x_label = "h_{rms} (Å)";
-    plot.y_label = "γ_{eff} / Δγ";
-    const double nan = std::nan("");
-    plot.series.push_back({.label = "broken", .x = {0, 1, 2, 3, 4}, .y = {1, 2, nan, 3, 4}});
-    plot.series.push_back({.label = "points",
-                           .x = {0, 1},
-                           .y = {1e30, -1e30},
-                           .style = io::PlotSeries::Style::points});
-    plot.y_low = 0.0;
-    plot.y_high = 5.0;
-    const std::string svg = io::plot_svg(plot);
-    EXPECT_TRUE(well_formed(svg)) << svg;
-    EXPECT_TRUE(svg.starts_with("<?xml"));
-    EXPECT_EQ(svg.find("nan"), std::string::npos);
-    EXPECT_EQ(svg.find("inf"), std::string::npos);
-    EXPECT_NE(svg.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
-    EXPECT_EQ(count(svg, "<circle"), 3u); // two points and the legend's
-    const std::size_t path = svg.find("<path d=\"M");
-    ASSERT_NE(path, std::string::npos);
-    EXPECT_EQ(count(svg.substr(path, svg.find('"', path + 9) - path), "M"), 2u); // a gap at NaN
-    plot.series.clear();
-    EXPECT_TRUE(well_formed(io::plot_svg(plot)));
-    plot.series.push_back({.label = "uneven", .x = {0, 1}, .y = {1}});
-    EXPECT_THROW(io::plot_svg(plot), std::invalid_argument);
-}
-
-TEST(Plot, TicksStandAtRoundNumbers) {
-    const auto labels = [](double low, double high, int n) {
-        std::vector<std::string> list;
-        const std::vector<double> ticks = io::nice_ticks(low, high, n);
-        for (const double t : ticks)
-            list.push_back(io::tick_label(t, ticks.at(1) - ticks.at(0)));
-        return list;
-    };
-    EXPECT_EQ(labels(0, 1, 6), (std::vector<std::string>{"0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
-    EXPECT_EQ(labels(-9, 11, 4), (std::vector<std::string>{"−5", "0", "5", "10"}));
-    EXPECT_EQ(labels(0, 0.003, 3), (std::vector<std::string>{"0", "0.001", "0.002", "0.003"}));
-    EXPECT_TRUE(io::nice_ticks(1, 1, 5).empty());
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "io/html_page.hpp"
 #include "io/map_plot.hpp"
 #include "io/plot.hpp"
+#include "io/plot_axis.hpp"
 #include "io/png.hpp"
 
 #include <cmath>
@@ -12,7 +13,9 @@
 #include <limits>
 #include <regex>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -37,6 +40,73 @@ std::vector<std::pair<double, double>> curve(const std::string& svg) {
     for (std::sregex_iterator at(path.begin(), path.end(), pair), end; at != end; ++at)
         points.emplace_back(std::stod((*at)[1]), std::stod((*at)[2]));
     return points;
+}
+
+/// Every tag is closed, in order, and no stray <, & stands in the text.
+bool well_formed(const std::string& text) {
+    std::vector<std::string> open;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text[at] == '&' && text.compare(at, 5, "&amp;") != 0 &&
+            text.compare(at, 4, "&lt;") != 0 && text.compare(at, 4, "&gt;") != 0 &&
+            text.compare(at, 6, "&quot;") != 0)
+            return false;
+        if (text[at] != '<') continue;
+        const std::size_t end = text.find('>', at);
+        if (end == std::string::npos) return false;
+        const std::string tag = text.substr(at + 1, end - at - 1);
+        at = end;
+        if (tag.starts_with("?") || tag.ends_with("/")) continue;
+        const std::string name = tag.substr(0, tag.find_first_of(" \n"));
+        if (count(tag, "\"") % 2 != 0) return false;
+        if (!name.starts_with("/")) {
+            open.push_back(name);
+        } else {
+            if (open.empty() || "/" + open.back() != name) return false;
+            open.pop_back();
+        }
+    }
+    return open.empty();
+}
+
+TEST(Plot, IsWellFormed) {
+    Plot plot;
+    plot.title = "a < b & \"c\"";
+    plot.x_label = "h_{rms} (Å)";
+    plot.y_label = "γ_{eff} / Δγ";
+    const double nan = std::nan("");
+    plot.series.push_back({.label = "broken", .x = {0, 1, 2, 3, 4}, .y = {1, 2, nan, 3, 4}});
+    plot.series.push_back(
+        {.label = "points", .x = {0, 1}, .y = {1e30, -1e30}, .style = PlotSeries::Style::points});
+    plot.y_low = 0.0;
+    plot.y_high = 5.0;
+    const std::string svg = plot_svg(plot);
+    EXPECT_TRUE(well_formed(svg)) << svg;
+    EXPECT_TRUE(svg.starts_with("<?xml"));
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_EQ(svg.find("inf"), std::string::npos);
+    EXPECT_NE(svg.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
+    EXPECT_EQ(count(svg, "<circle"), 3u); // two points and the legend's
+    const std::size_t path = svg.find("<path d=\"M");
+    ASSERT_NE(path, std::string::npos);
+    EXPECT_EQ(count(svg.substr(path, svg.find('"', path + 9) - path), "M"), 2u); // a gap at NaN
+    plot.series.clear();
+    EXPECT_TRUE(well_formed(plot_svg(plot)));
+    plot.series.push_back({.label = "uneven", .x = {0, 1}, .y = {1}});
+    EXPECT_THROW(plot_svg(plot), std::invalid_argument);
+}
+
+TEST(Plot, TicksStandAtRoundNumbers) {
+    const auto labels = [](double low, double high, int n) {
+        std::vector<std::string> list;
+        const std::vector<double> ticks = nice_ticks(low, high, n);
+        for (const double t : ticks)
+            list.push_back(tick_label(t, ticks.at(1) - ticks.at(0)));
+        return list;
+    };
+    EXPECT_EQ(labels(0, 1, 6), (std::vector<std::string>{"0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
+    EXPECT_EQ(labels(-9, 11, 4), (std::vector<std::string>{"−5", "0", "5", "10"}));
+    EXPECT_EQ(labels(0, 0.003, 3), (std::vector<std::string>{"0", "0.001", "0.002", "0.003"}));
+    EXPECT_TRUE(nice_ticks(1, 1, 5).empty());
 }
 
 TEST(Plot, LogarithmicAxesMakePowersStraight) {
