@@ -66,7 +66,8 @@ ASPERITY_INLINE void sum_lattice(const SiteBlock& site, int lane, Columns all, C
         west2[m] = west * west;
         east2[m] = east * east;
     }
-    WideSum<T> sum_f, sum_cx, sum_cy, sum_z, energy;
+    // Sums of a site, in the precision of its pairs: their rounding is below that of a pair.
+    V f_all(T(0)), f_cx(T(0)), f_cy(T(0)), f_z(T(0)), v(T(0));
     V nearest = pair.r2_cut;
     const typename SiteHeight<T>::Atom *south_row = nullptr, *north_row = nullptr;
     V south2, north2;
@@ -91,7 +92,7 @@ ASPERITY_INLINE void sum_lattice(const SiteBlock& site, int lane, Columns all, C
         pair.template inverse<close>(q.r2_nw, q.r2_ne, q.t_nw, q.t_ne);
         return q;
     };
-    V f_south, f_north, f_cx, f_z, v; // sums of a row
+    V f_south, f_north; // sums of a row
     const auto collect = [&](int m, const Quad<T>& q, auto masked) __attribute__((always_inline)) {
         const V f_sw = pair.force(q.t_sw, q.r2_sw, masked);
         const V f_se = pair.force(q.t_se, q.r2_se, masked);
@@ -114,7 +115,7 @@ ASPERITY_INLINE void sum_lattice(const SiteBlock& site, int lane, Columns all, C
     enter_row(1);
     Quad<T> quad = approach(1);
     for (int n = 1, rows = all.rows(half_offsets); n <= rows; ++n) {
-        f_south = f_north = f_cx = f_z = v = V(T(0));
+        f_south = f_north = V(T(0));
         const int inside = within.of_row[n - 1], last = all.of_row[n - 1];
         int m = 1;
         for (; m <= inside && m < last; ++m) {
@@ -134,25 +135,22 @@ ASPERITY_INLINE void sum_lattice(const SiteBlock& site, int lane, Columns all, C
         else
             collect(last, quad, std::true_type{});
         quad = next;
-        sum_f.add(f_south + f_north);
-        sum_cy.add((f_south - f_north) * offset(n));
-        sum_cx.add(f_cx);
-        sum_z.add(f_z);
-        if constexpr (observe) energy.add(v);
+        f_all = f_all + (f_south + f_north);
+        f_cy = fma(f_south - f_north, offset(n), f_cy);
     }
     // Sum f (ux + cx) = ux sum f + sum f cx.
     alignas(64) double all_f[width], all_cx[width], all_cy[width], all_z[width], all_v[width];
-    sum_f.store(all_f);
-    sum_cx.store(all_cx);
-    sum_cy.store(all_cy);
-    sum_z.store(all_z);
+    store_wide(f_all, all_f);
+    store_wide(f_cx, all_cx);
+    store_wide(f_cy, all_cy);
+    store_wide(f_z, all_z);
     for (int i = 0; i < width; ++i) {
         terms.x[lane + i] = pair.force_scale * (site.ux[lane + i] * all_f[i] + unit * all_cx[i]);
         terms.y[lane + i] = pair.force_scale * (site.uy[lane + i] * all_f[i] + unit * all_cy[i]);
         terms.z[lane + i] = pair.force_scale * (unit * all_z[i]);
     }
     if constexpr (observe) {
-        energy.store(all_v);
+        store_wide(v, all_v);
         for (int i = 0; i < width; ++i) {
             terms.energy[lane + i] = pair.energy_scale * all_v[i];
             terms.nearest[lane + i] = pair.nearest(nearest[i]);

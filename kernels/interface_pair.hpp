@@ -141,12 +141,18 @@ ASPERITY_INLINE double total(Real v) {
     return halve<Real::width / 2>(v, [](Real a, Real b) { return a + b; });
 }
 
+/// Writes a pack as doubles.
+ASPERITY_INLINE void store_wide(Pack<double> a, double* to) { a.store(to); }
+ASPERITY_INLINE void store_wide(Pack<float> a, double* to) {
+    widen_low(a).store(to);
+    widen_high(a).store(to + Real::width);
+}
+
 /// A sum in double, lane by lane, of terms of type T.
 template <class T>
 struct WideSum {
     Real low{0.0};
     ASPERITY_INLINE void add(Real term) { low = low + term; }
-    ASPERITY_INLINE void store(double* to) const { low.store(to); }
     ASPERITY_INLINE double over_lanes() const { return total(low); }
 };
 template <>
@@ -155,10 +161,6 @@ struct WideSum<float> {
     ASPERITY_INLINE void add(Pack<float> term) {
         low = low + widen_low(term);
         high = high + widen_high(term);
-    }
-    ASPERITY_INLINE void store(double* to) const {
-        low.store(to);
-        high.store(to + Real::width);
     }
     ASPERITY_INLINE double over_lanes() const { return total(low + high); }
 };

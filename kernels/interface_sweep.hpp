@@ -11,8 +11,8 @@
 //   rows       a substrate with a spacing of its own (incommensurate): site by site, SIMD over the
 //              atoms along x, row after row.
 //
-// The last two exist twice: in double, and mixed, where pairs are worked out in single precision
-// and a site's sums in double. Mixed heights are 32-bit integers, multiples of 2^-22 Å: the
+// The last two exist twice: in double, and mixed: a site's pairs, and in the lattice sweep their
+// sums, in single precision. Mixed heights are 32-bit integers, multiples of 2^-22 Å: the
 // difference of two is exact, wherever in the box and however high it is formed, and only then
 // becomes a float.
 //
