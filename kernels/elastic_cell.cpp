@@ -19,8 +19,8 @@ struct Rows {
     V c, sum, difference; ///< y = 0; y = 1 plus y = -1; y = 1 minus y = -1
 
     ASPERITY_INLINE static Rows load(const double* p, std::ptrdiff_t row) {
-        const V north = V::load(p + row), south = V::load(p - row);
-        return {V::load(p), north + south, north - south};
+        const V north = V::load_once(p + row), south = V::load_once(p - row);
+        return {V::load_once(p), north + south, north - south};
     }
     ASPERITY_INLINE friend Rows operator+(const Rows& a, const Rows& b) {
         return {a.c + b.c, a.sum + b.sum, a.difference + b.difference};
@@ -32,6 +32,27 @@ struct Rows {
 
 struct Column {
     Rows own, P, M;
+};
+
+/// The stencil's coefficients, a copy in every lane. Many are equal (make_stencil): inside a level
+/// six numbers are left, which stay in registers.
+template <Face face>
+struct Weights {
+    V own_c, own_e, own_t, own_d, own_n; ///< _n: of the diagonal neighbours in uz -> Fz
+    V out_c, out_e, out_t, out_d, out_n; ///< _n: of the node itself in uz -> Fz
+    V tau_r, tau_rd;
+
+    ASPERITY_INLINE explicit Weights(const Stencil& s)
+        : own_c(s.own_c), own_e(s.own_e), own_t(s.own_t), own_d(s.own_d), own_n(s.normal_d),
+          out_c(s.out_c), out_e(s.out_e), out_t(s.out_t), out_d(s.out_d), out_n(s.out_normal_c),
+          tau_r(s.tau_r), tau_rd(s.tau_rd) {
+        if constexpr (face == Face::inner) {
+            own_e = out_n;
+            own_t = out_c;
+            own_d = out_e;
+            own_n = out_t;
+        }
+    }
 };
 
 template <Face face>
@@ -63,66 +84,66 @@ ASPERITY_INLINE Parts parts(V here, V even, V odd) { return {here, even + odd, e
 
 template <Face face>
 ASPERITY_INLINE ColumnParts column_parts(const VectorVolume<const double>& u, std::ptrdiff_t at,
-                                         const Stencil& s) {
+                                         const Weights<face>& s) {
     const auto row = u.x.row, plane = u.x.plane;
     V cx, ex, ox, cy, ey, oy, cz, ez, oz; // centre, even and odd parts of the three components
     {
         const Column a = load_column<face>(u.x.origin + at, row, plane);
-        cx = V(s.own_c) * a.own.c;
-        cx = fma(V(s.own_t), a.own.sum, cx);
-        cx = fma(V(s.out_c), a.P.c, cx);
-        cx = fma(V(s.out_t), a.P.sum, cx);
-        ex = V(s.own_e) * a.own.c;
-        ex = fma(V(s.own_d), a.own.sum, ex);
-        ex = fma(V(s.out_e), a.P.c, ex);
-        ex = fma(V(s.out_d), a.P.sum, ex);
-        oy = V(s.own_xy) * a.own.difference;
-        oy = fma(V(s.out_xy), a.P.difference, oy);
-        oz = V(s.out_r) * a.M.c;
-        oz = fma(V(s.out_rd), a.M.sum, oz);
+        cx = s.own_c * a.own.c;
+        cx = fma(s.own_t, a.own.sum, cx);
+        cx = fma(s.out_c, a.P.c, cx);
+        cx = fma(s.out_t, a.P.sum, cx);
+        ex = s.own_e * a.own.c;
+        ex = fma(s.own_d, a.own.sum, ex);
+        ex = fma(s.out_e, a.P.c, ex);
+        ex = fma(s.out_d, a.P.sum, ex);
+        oy = s.own_d * a.own.difference;
+        oy = fma(s.out_d, a.P.difference, oy);
+        oz = s.out_e * a.M.c;
+        oz = fma(s.out_d, a.M.sum, oz);
         if constexpr (face != Face::inner) {
-            oz = fma(V(s.tau_r), a.own.c, oz);
-            oz = fma(V(s.tau_rd), a.own.sum, oz);
+            oz = fma(s.tau_r, a.own.c, oz);
+            oz = fma(s.tau_rd, a.own.sum, oz);
         }
     }
     {
         const Column a = load_column<face>(u.y.origin + at, row, plane);
-        cy = V(s.own_c) * a.own.c;
-        cy = fma(V(s.own_e), a.own.sum, cy);
-        cy = fma(V(s.out_c), a.P.c, cy);
-        cy = fma(V(s.out_e), a.P.sum, cy);
-        ey = V(s.own_t) * a.own.c;
-        ey = fma(V(s.own_d), a.own.sum, ey);
-        ey = fma(V(s.out_t), a.P.c, ey);
-        ey = fma(V(s.out_d), a.P.sum, ey);
-        ox = V(s.own_xy) * a.own.difference;
-        ox = fma(V(s.out_xy), a.P.difference, ox);
-        cz = V(s.out_r) * a.M.difference;
-        ez = V(s.out_rd) * a.M.difference;
+        cy = s.own_c * a.own.c;
+        cy = fma(s.own_e, a.own.sum, cy);
+        cy = fma(s.out_c, a.P.c, cy);
+        cy = fma(s.out_e, a.P.sum, cy);
+        ey = s.own_t * a.own.c;
+        ey = fma(s.own_d, a.own.sum, ey);
+        ey = fma(s.out_t, a.P.c, ey);
+        ey = fma(s.out_d, a.P.sum, ey);
+        ox = s.own_d * a.own.difference;
+        ox = fma(s.out_d, a.P.difference, ox);
+        cz = s.out_e * a.M.difference;
+        ez = s.out_d * a.M.difference;
         if constexpr (face != Face::inner) {
-            cz = fma(V(s.tau_r), a.own.difference, cz);
-            ez = fma(V(s.tau_rd), a.own.difference, ez);
+            cz = fma(s.tau_r, a.own.difference, cz);
+            ez = fma(s.tau_rd, a.own.difference, ez);
         }
     }
     {
         const Column a = load_column<face>(u.z.origin + at, row, plane);
-        cz = fma(V(s.normal_c), a.own.c, cz);
-        cz = fma(V(s.normal_e), a.own.sum, cz);
-        cz = fma(V(s.out_normal_c), a.P.c, cz);
-        cz = fma(V(s.out_normal_e), a.P.sum, cz);
-        ez = fma(V(s.normal_e), a.own.c, ez);
-        ez = fma(V(s.normal_d), a.own.sum, ez);
-        ez = fma(V(s.out_normal_e), a.P.c, ez);
-        ez = fma(V(s.out_normal_d), a.P.sum, ez);
-        ox = fma(V(s.out_r), a.M.c, ox);
-        ox = fma(V(s.out_rd), a.M.sum, ox);
-        cy = fma(V(s.out_r), a.M.difference, cy);
-        ey = fma(V(s.out_rd), a.M.difference, ey);
+        cz = fma(s.own_c, a.own.c, cz);
+        cz = fma(s.own_t, a.own.sum, cz);
+        cz = fma(s.out_n, a.P.c, cz);
+        cz = fma(s.out_e, a.P.sum, cz);
+        ez = fma(s.own_t, a.own.c, ez);
+        ez = fma(s.own_n, a.own.sum, ez);
+        ez = fma(s.out_e, a.P.c, ez);
+        ez = fma(s.out_d, a.P.sum, ez);
+        ox = fma(s.out_e, a.M.c, ox);
+        ox = fma(s.out_d, a.M.sum, ox);
+        cy = fma(s.out_e, a.M.difference, cy);
+        ey = fma(s.out_d, a.M.difference, ey);
         if constexpr (face != Face::inner) {
-            ox = fma(V(-s.tau_r), a.own.c, ox);
-            ox = fma(V(-s.tau_rd), a.own.sum, ox);
-            cy = fma(V(-s.tau_r), a.own.difference, cy);
-            ey = fma(V(-s.tau_rd), a.own.difference, ey);
+            ox = fma(-s.tau_r, a.own.c, ox);
+            ox = fma(-s.tau_rd, a.own.sum, ox);
+            cy = fma(-s.tau_r, a.own.difference, cy);
+            ey = fma(-s.tau_rd, a.own.difference, ey);
         }
     }
     return {parts(cx, ex, ox), parts(cy, ey, oy), parts(cz, ez, oz)};
@@ -132,7 +153,7 @@ ASPERITY_INLINE ColumnParts column_parts(const VectorVolume<const double>& u, st
 /// width, so lanes outside may come along.
 template <Face face, class Use>
 ASPERITY_INLINE void sweep_row(const VectorVolume<const double>& u, std::ptrdiff_t line, int x0,
-                               int x1, const Stencil& s, const Use& use) {
+                               int x1, const Weights<face>& s, const Use& use) {
     int x = x0 & ~(V::width - 1);
     // A node at x0 needs the column before it: in this pack, or in the one before.
     ColumnParts before = column_parts<face>(u, line + (x == x0 ? x - V::width : x), s);
@@ -150,14 +171,16 @@ ASPERITY_INLINE void sweep_row(const VectorVolume<const double>& u, std::ptrdiff
 }
 
 template <Face face>
-void force_patch(const VectorVolume<const double>& u, int z, const Stencil& s, Patch patch,
-                 const VectorPlane<double>& out) {
+void force_patch(VectorVolume<const double> u, int z, const Stencil& s, Patch patch,
+                 VectorPlane<double> out) {
+    const Weights<face> weights(s);
     for (int y = patch.y0; y < patch.y1; ++y)
-        sweep_row<face>(u, z * u.x.plane + y * u.x.row, patch.x0, patch.x1, s,
+        sweep_row<face>(u, z * u.x.plane + y * u.x.row, patch.x0, patch.x1, weights,
                         [&](int x, const PackVector& f) {
-                            f.x.store_lanes(out.x.line(y) + x, patch.x0 - x, patch.x1 - x);
-                            f.y.store_lanes(out.y.line(y) + x, patch.x0 - x, patch.x1 - x);
-                            f.z.store_lanes(out.z.line(y) + x, patch.x0 - x, patch.x1 - x);
+                            const auto at = y * out.x.row + x;
+                            f.x.store_lanes(out.x.origin + at, patch.x0 - x, patch.x1 - x);
+                            f.y.store_lanes(out.y.origin + at, patch.x0 - x, patch.x1 - x);
+                            f.z.store_lanes(out.z.origin + at, patch.x0 - x, patch.x1 - x);
                         });
 }
 
@@ -188,23 +211,24 @@ public:
 private:
     ASPERITY_INLINE static void line_of(const double* p) { __builtin_prefetch(p, 0, 2); }
 
-    const VectorVolume<const double>& u_;
-    const VectorVolume<double>& v_;
+    VectorVolume<const double> u_;
+    VectorVolume<double> v_;
     std::ptrdiff_t here_, above_;
     bool lowest_;
 };
 
 template <Face face, bool with_incoming, bool damped, bool observed>
-void kick_rows(const VectorVolume<const double>& u, int z, const Stencil& s, int y0, int y1,
-               const VectorPlane<const double>& incoming, const Kick& plan, Following next,
+void kick_rows(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,
+               VectorPlane<const double> incoming, const Kick& plan, Following next,
                const VectorVolume<double>& v, KickSums& sums) {
     const int nx = u.x.nx;
     const auto place = [&](int plane, int y) { return plane * u.x.plane + y * u.x.row; };
     const Fetch fetch(u, v, place(z, y0), place(next.z, next.y), next.z == 0);
+    const Weights<face> weights(s);
     Kicker<damped, observed> kicker(plan, v);
     for (int y = y0; y < y1; ++y) {
         const auto line = place(z, y);
-        sweep_row<face>(u, line, 0, nx, s, [&](int x, PackVector f) {
+        sweep_row<face>(u, line, 0, nx, weights, [&](int x, PackVector f) {
             const auto at = line + x;
             fetch(at);
             if constexpr (with_incoming) {
@@ -226,8 +250,8 @@ void force(VectorVolume<const double> u, int z, const Stencil& s, Patch patch,
 }
 
 template <Face face, bool with_incoming>
-void kick_as(const VectorVolume<const double>& u, int z, const Stencil& s, int y0, int y1,
-             const VectorPlane<const double>& incoming, const Kick& plan, Following next,
+void kick_as(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,
+             VectorPlane<const double> incoming, const Kick& plan, Following next,
              const VectorVolume<double>& v, KickSums& sums) {
     const auto rows = plan.damped ? (plan.observed ? kick_rows<face, with_incoming, true, true>
                                                    : kick_rows<face, with_incoming, true, false>)
@@ -248,9 +272,13 @@ void kick(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,
 
 void drift(VectorPlane<const double> v, double dt, int y0, int y1, VectorPlane<double> u) {
     const V step(dt);
+    const int nx = u.x.nx;
     const auto move = [&](const double* speed, double* place) {
-        for (int x = 0; x < u.x.nx; x += V::width)
-            fma(step, V::load(speed + x), V::load(place + x)).store_first(place + x, u.x.nx - x);
+        const auto moved = [&](int x) { return fma(step, V::load(speed + x), V::load(place + x)); };
+        int x = 0;
+        for (; x + V::width <= nx; x += V::width)
+            moved(x).store(place + x);
+        if (x < nx) moved(x).store_first(place + x, nx - x);
     };
     for (int y = y0; y < y1; ++y) {
         move(v.x.line(y), u.x.line(y));

@@ -29,6 +29,16 @@ ASPERITY_INLINE void collect(const BasicExactSum<Pack<double>>& lanes, ExactSum&
             into.bin[k] += lanes.bin[k][i];
 }
 
+/// Adds a times b; both parts of it are split off without rounding the product first, which takes
+/// an addition and a multiplication less.
+ASPERITY_INLINE void add_product(BasicExactSum<Pack<double>>& sum, Pack<double> a, Pack<double> b) {
+    using V = Pack<double>;
+    const V coarse(sum.shifter(0)), fine(sum.shifter(1));
+    const V part = fma(a, b, coarse) - coarse;
+    sum.bin[0] = sum.bin[0] + part;
+    sum.bin[1] = sum.bin[1] + ((fms(a, b, part) + fine) - fine);
+}
+
 /// Kicks the nodes of one plane, pack by pack.
 template <bool damped, bool observed>
 class Kicker {
@@ -36,13 +46,13 @@ class Kicker {
 
 public:
     ASPERITY_INLINE Kicker(const Kick& plan, const VectorVolume<double>& v)
-        : keep_(plan.keep), kick_(plan.kick), drag_(plan.drag_z), plan_(plan), v_(v) {}
+        : keep_(plan.keep), kick_(plan.kick), drag_(plan.drag_z), medium_(2.0 * plan.medium_z),
+          kinetic_weight_(0.25 * plan.half_mass), loss_weight_(0.25 * plan.drag),
+          given_weight_(0.5 * plan.drag), x_(v.x.origin), y_(v.y.origin), z_(v.z.origin) {}
 
     /// The first count nodes from element `at` of the volume, under the force f.
     ASPERITY_INLINE void operator()(std::ptrdiff_t at, int count, const PackVector& f) {
-        const V old_x = V::load(v_.x.origin + at);
-        const V old_y = V::load(v_.y.origin + at);
-        const V old_z = V::load(v_.z.origin + at);
+        const V old_x = V::load(x_ + at), old_y = V::load(y_ + at), old_z = V::load(z_ + at);
         V new_x, new_y, new_z;
         if constexpr (damped) {
             new_x = fma(kick_, f.x, keep_ * old_x);
@@ -53,32 +63,29 @@ public:
             new_y = fma(kick_, f.y, old_y);
             new_z = fma(kick_, f.z, old_z);
         }
-        new_x.store_first(v_.x.origin + at, count);
-        new_y.store_first(v_.y.origin + at, count);
-        new_z.store_first(v_.z.origin + at, count);
-        if constexpr (damped || observed) {
-            // Twice the velocity at the whole step; factors of two are exact.
-            const V wx = old_x + new_x, wy = old_y + new_y, wz = old_z + new_z;
+        // Twice the velocity at the whole step; factors of two are exact.
+        V wx = old_x + new_x, wy = old_y + new_y, wz = old_z + new_z;
+        V rz = wz - medium_;
+        if (count >= V::width) [[likely]] {
+            new_x.store(x_ + at);
+            new_y.store(y_ + at);
+            new_z.store(z_ + at);
+        } else {
+            new_x.store_first(x_ + at, count);
+            new_y.store_first(y_ + at, count);
+            new_z.store_first(z_ + at, count);
+            const auto inside = lane_numbers() < V(static_cast<double>(count));
             const V zero(0.0);
-            [[maybe_unused]] V energy = zero, loss = zero, given = zero;
-            if constexpr (observed)
-                energy = V(0.25 * plan_.half_mass) * fma(wx, wx, fma(wy, wy, wz * wz));
-            if constexpr (damped) {
-                const V rz = wz - V(2.0 * plan_.medium_z);
-                loss = V(0.25 * plan_.drag) * fma(wx, wx, fma(wy, wy, rz * rz));
-                given = V(0.5 * plan_.drag) * rz;
-            }
-            if (count < V::width) {
-                const auto inside = lane_numbers() < V(static_cast<double>(count));
-                energy = select(inside, energy, zero);
-                loss = select(inside, loss, zero);
-                given = select(inside, given, zero);
-            }
-            if constexpr (observed) kinetic_.add(energy);
-            if constexpr (damped) {
-                dissipated_.add(loss);
-                dragged_.add(given);
-            }
+            wx = select(inside, wx, zero);
+            wy = select(inside, wy, zero);
+            wz = select(inside, wz, zero);
+            rz = select(inside, rz, zero);
+        }
+        if constexpr (observed)
+            add_product(kinetic_, kinetic_weight_, fma(wx, wx, fma(wy, wy, wz * wz)));
+        if constexpr (damped) {
+            add_product(dissipated_, loss_weight_, fma(wx, wx, fma(wy, wy, rz * rz)));
+            add_product(dragged_, given_weight_, rz);
         }
     }
 
@@ -91,9 +98,8 @@ public:
     }
 
 private:
-    V keep_, kick_, drag_;
-    const Kick& plan_;
-    const VectorVolume<double>& v_;
+    V keep_, kick_, drag_, medium_, kinetic_weight_, loss_weight_, given_weight_;
+    double *x_, *y_, *z_;
     BasicExactSum<V> kinetic_, dissipated_, dragged_;
 };
 

@@ -69,6 +69,14 @@ struct Pack {
         std::memcpy(&p.r, from, sizeof(Register));
         return p;
     }
+    /// Like load, for what is needed twice: the compiler shall not read it twice.
+    static ASPERITY_INLINE Pack load_once(const T* from) {
+        Pack p = load(from);
+#if defined(__x86_64__)
+        asm("" : "+v"(p.r));
+#endif
+        return p;
+    }
     ASPERITY_INLINE void store(T* to) const { std::memcpy(to, &r, sizeof(Register)); }
     /// Stores past the caches, to an aligned place: for arrays too large to be found there again.
     ASPERITY_INLINE void stream(T* to) const {
@@ -137,6 +145,10 @@ ASPERITY_INLINE unsigned bits_where_less(Pack<T> a, Pack<T> b) {
 /// The pack one element further on, given the pack a and the one behind it, b: a1 a2 ... b0.
 template <class T>
 ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(T) == 8) // needs no register for the numbers of lanes
+        return (DoubleRegister)_mm512_maskz_alignr_epi64(0xff, (__m512i)b.r, (__m512i)a.r, 1);
+#endif
     typename Pack<T>::Mask lanes;
     for (int i = 0; i < Pack<T>::width; ++i)
         lanes[i] = i + 1;
@@ -145,6 +157,10 @@ ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
 /// The pack one element back, given the pack a before b: a_last b0 b1 ...
 template <class T>
 ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(T) == 8)
+        return (DoubleRegister)_mm512_maskz_alignr_epi64(0xff, (__m512i)b.r, (__m512i)a.r, 7);
+#endif
     typename Pack<T>::Mask lanes;
     for (int i = 0; i < Pack<T>::width; ++i)
         lanes[i] = Pack<T>::width - 1 + i;
