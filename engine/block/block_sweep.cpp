@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace asperity {
@@ -49,11 +50,39 @@ Patch beyond(const Tile& tile, Block::Rows rows) {
             rows.end == tile.ny ? tile.ny + 1 : rows.end};
 }
 
+/// Hands the forces on a level's upper plane to the level that it hangs on.
+class Restriction {
+public:
+    /// nodes: those of the coarse level that this rank sums.
+    Restriction(LevelSeam seam, Block::Level& fine, Block::Level& coarse, const Tile& nodes)
+        : seam_(seam), force_(std::as_const(fine.upper_force).plane(0)),
+          incoming_(coarse.incoming.plane(0)), x0_(nodes.x0 - coarse.tile.x0), nx_(nodes.nx) {}
+
+    /// Into the coarse rows that lie on fine rows of this range; the forces on these and on one row
+    /// more at each side are done.
+    void operator()(Block::Rows fine) const {
+        const auto& restrict_forces = transfer_kernels().restrict_forces;
+        const int shift = seam_.fine_y0 - 2 * seam_.coarse_y0;
+        for (int y = (fine.begin + shift + 1) / 2; y < (fine.end + shift + 1) / 2; ++y) {
+            restrict_forces(seam_, force_.x, incoming_.x, y, x0_, nx_);
+            restrict_forces(seam_, force_.y, incoming_.y, y, x0_, nx_);
+            restrict_forces(seam_, force_.z, incoming_.z, y, x0_, nx_);
+        }
+    }
+
+private:
+    LevelSeam seam_;
+    VectorPlane<const double> force_;
+    VectorPlane<double> incoming_;
+    int x0_, nx_;
+};
+
 } // namespace
 
-/// Level by level from below: work on all bands of all moving planes; then the force on the upper
+/// Level by level from below: work on all bands of all moving planes, and the force on the upper
 /// plane, which goes to the level above as its incoming force, or is the top plane's. Planes of a
-/// band are done one after the other, while they are in the cache.
+/// band are done one after the other, while they are in the cache, and so are the coarse rows above
+/// it; what needs rows of two threads comes last.
 template <class Work>
 void Block::sweep(const Work& work) {
     for (std::size_t l = 0; l < levels_.size(); ++l) {
@@ -61,18 +90,34 @@ void Block::sweep(const Work& work) {
         const int ny = level.tile.ny;
         const long long nodes = static_cast<long long>(level.tile.nx) * ny * level.plan.cells;
         if (options_.finite_strain) finite_nodes_ += nodes;
+        std::optional<Restriction> restriction;
+        if (l + 1 < levels_.size()) {
+            Level& coarse = levels_[l + 1];
+            // A fine level held whole feeds the whole coarse one on every rank alike.
+            restriction.emplace(seam(l), level, coarse,
+                                level.tiled ? grid_.footprint(coarse.plan.level, grid_.rank())
+                                            : coarse.tile);
+        }
 #pragma omp parallel if (nodes > worth_threads)
         {
             typename Work::Sums mine;
             const Rows share = rows_of_thread(ny);
+            const Rows alone = {share.begin + (share.begin > 0), share.end - (share.end < ny)};
             for (int y0 = share.begin; y0 < share.end; y0 += band) {
                 const Rows rows = {y0, std::min(share.end, y0 + band)};
                 if (options_.finite_strain)
                     sweep_finite_band(level, rows, share, work, mine);
                 else
                     sweep_band(level, rows, share, work, mine);
+                if (restriction)
+                    (*restriction)({std::max(rows.begin - 1, alone.begin),
+                                    rows.end == share.end ? alone.end : rows.end - 1});
             }
 #pragma omp barrier
+            if (restriction && share.begin < share.end) {
+                (*restriction)({share.begin, alone.begin});
+                (*restriction)({std::max(alone.begin, alone.end), share.end});
+            }
             work.finish(level, share);
 #pragma omp critical(asperity_block_sums)
             work.merge(level, mine);
@@ -126,26 +171,13 @@ void Block::sweep_finite_band(Level& level, Rows rows, Rows share, const Work& w
     kernels.surface(u, cells, cell, beyond(level.tile, rows), lower);
 }
 
+/// To every rank, where these hold the coarse level whole.
 void Block::hand_up(std::size_t l) {
-    const auto force = std::as_const(levels_[l].upper_force).plane(0);
     const Level& coarse = levels_[l + 1];
+    if (!levels_[l].tiled || coarse.tiled) return;
     const auto in = levels_[l + 1].incoming.plane(0);
-    // A fine level held whole feeds the whole coarse one on every rank alike.
-    const Tile mine =
-        levels_[l].tiled ? grid_.footprint(coarse.plan.level, grid_.rank()) : coarse.tile;
-    const int x0 = mine.x0 - coarse.tile.x0, y0 = mine.y0 - coarse.tile.y0;
-#pragma omp parallel for schedule(static) if (static_cast <long long>(mine.nx) * mine.ny >         \
-                                              worth_threads)
-    for (int y = y0; y < y0 + mine.ny; ++y) {
-        const auto& restrict_forces = transfer_kernels().restrict_forces;
-        restrict_forces(seam(l), force.x, in.x, y, x0, mine.nx);
-        restrict_forces(seam(l), force.y, in.y, y, x0, mine.nx);
-        restrict_forces(seam(l), force.z, in.z, y, x0, mine.nx);
-    }
-    if (levels_[l].tiled && !coarse.tiled) {
-        const std::array planes = {in.x, in.y, in.z};
-        gather_footprints(communicator_, grid_, coarse.plan.level, planes);
-    }
+    const std::array planes = {in.x, in.y, in.z};
+    gather_footprints(communicator_, grid_, coarse.plan.level, planes);
 }
 
 namespace {
