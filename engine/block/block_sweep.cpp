@@ -102,6 +102,7 @@ void Block::sweep(const Work& work) {
         {
             typename Work::Sums mine;
             const Rows share = rows_of_thread(ny);
+            // Rows of the upper plane whose neighbours are this thread's, too.
             const Rows alone = {share.begin + (share.begin > 0), share.end - (share.end < ny)};
             for (int y0 = share.begin; y0 < share.end; y0 += band) {
                 const Rows rows = {y0, std::min(share.end, y0 + band)};
