@@ -3,6 +3,10 @@
 #include "io/html_page.hpp"
 
 #include "io/markup.hpp"
+#include "io/png.hpp"
+
+#include <cctype>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -64,6 +68,11 @@ th{font-weight:600;color:var(--soft)}
 th:first-child,td:first-child{text-align:left;white-space:normal}
 table.words{width:100%}
 table.words td:last-child{text-align:left;white-space:normal;overflow-wrap:anywhere;width:75%}
+.thumbs{display:grid;grid-template-columns:repeat(auto-fill,minmax(8.5rem,1fr));gap:1.2rem;
+margin:0 0 1.4rem}
+.thumbs img{display:block;width:100%;image-rendering:pixelated;border:1px solid var(--rule)}
+td a,.thumbs a{color:var(--accent);text-decoration:none}
+td a:hover,.thumbs a:hover{text-decoration:underline}
 .bars{display:grid;grid-template-columns:max-content 1fr max-content;gap:.35rem 1rem;
 font-size:.86rem;max-width:46rem;align-items:center;font-variant-numeric:tabular-nums}
 .bars i{display:block;height:.7rem;background:var(--c0);min-width:1px}
@@ -90,7 +99,7 @@ h1{font-size:1.75rem}svg.plot text,svg.map text{font-size:15px}
 @media print{@page{margin:16mm 15mm}html{font-size:11.5px}
 body{font-size:10.5pt;background:#fff;--paper:#fff}main{padding:0;max-width:none}
 nav,output{display:none}h2{break-after:avoid;margin-top:1.8rem}
-figure,.numbers,.bars,tr,.notice{break-inside:avoid}.figures{grid-template-columns:1fr 1fr;
+figure,.numbers,.bars,tr,.notice{break-inside:avoid}.thumbs{grid-template-columns:repeat(6,1fr)}.figures{grid-template-columns:1fr 1fr;
 gap:1.4rem 1.6rem}.numbers{grid-template-columns:repeat(3,1fr)}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}a{color:inherit}}
 )css";
@@ -157,6 +166,19 @@ std::string set(const std::string& text) {
     return out;
 }
 
+/// A path as an address: what is neither letter nor digit in percents.
+std::string linked(const std::string& path, const std::string& markup) {
+    if (path.empty()) return markup;
+    std::string address;
+    for (const char c : path)
+        if (std::isalnum(static_cast<unsigned char>(c)) ||
+            std::string_view("/._-=,").find(c) != std::string_view::npos)
+            address += c;
+        else
+            address += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    return fmt::format("<a href=\"{}\">{}</a>", address, markup);
+}
+
 } // namespace
 
 HtmlPage::HtmlPage(const std::string& kicker, const std::string& title, const std::string& lead)
@@ -201,20 +223,34 @@ void HtmlPage::figure(const std::string& svg, const std::string& caption,
 }
 
 void HtmlPage::table(const std::vector<std::string>& heads,
-                     const std::vector<std::vector<std::string>>& rows) {
+                     const std::vector<std::vector<std::string>>& rows,
+                     const std::vector<std::string>& links) {
     // A table without headings is one of names and words.
     body_ +=
         fmt::format("<div class=\"scroll\"><table{}>\n", heads.empty() ? " class=\"words\"" : "");
-    const auto line = [&](const std::vector<std::string>& cells, const char* tag) {
+    const auto line = [&](const std::vector<std::string>& cells, const char* tag,
+                          const std::string& link) {
         body_ += "<tr>";
         for (const std::string& cell : cells)
-            body_ += fmt::format("<{0}>{1}</{0}>", tag, set(cell));
+            body_ += fmt::format("<{0}>{1}</{0}>", tag,
+                                 &cell == &cells.front() ? linked(link, set(cell)) : set(cell));
         body_ += "</tr>\n";
     };
-    if (!heads.empty()) line(heads, "th");
-    for (const auto& row : rows)
-        line(row, "td");
+    if (!heads.empty()) line(heads, "th", "");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        line(rows[i], "td", i < links.size() ? links[i] : "");
     body_ += "</table></div>\n";
+}
+
+void HtmlPage::thumbnails(const std::vector<Thumbnail>& list) {
+    body_ += "<div class=\"thumbs\">\n";
+    for (const Thumbnail& t : list)
+        body_ +=
+            fmt::format("<figure>{}</figure>\n",
+                        linked(t.link, fmt::format("<img src=\"data:image/png;base64,{}\" alt=\"\">"
+                                                   "<figcaption>{}</figcaption>",
+                                                   base64(t.png), set(t.caption))));
+    body_ += "</div>\n";
 }
 
 void HtmlPage::bars(const std::vector<Bar>& bars) {

@@ -37,9 +37,18 @@ public:
     void end_columns() { body_ += "</div>\n"; }
     /// A plot or map as an SVG element; files: where else its numbers are.
     void figure(const std::string& svg, const std::string& caption, const std::string& files);
-    /// The first column is set flush left, the others as numbers.
+    /// The first column is set flush left, the others as numbers. links: the first cells lead to
+    /// these files, named from where the page is; empty: nowhere.
     void table(const std::vector<std::string>& heads,
-               const std::vector<std::vector<std::string>>& rows);
+               const std::vector<std::vector<std::string>>& rows,
+               const std::vector<std::string>& links = {});
+    /// Small pictures in rows, each a link likewise.
+    struct Thumbnail {
+        std::string png;
+        std::string caption;
+        std::string link;
+    };
+    void thumbnails(const std::vector<Thumbnail>& list);
     /// Shares of a whole as bars: name, share (0 to 1), text.
     struct Bar {
         std::string name;

@@ -199,6 +199,13 @@ std::string map_svg(const MapPlot& map) {
     return out + "</svg>\n";
 }
 
+std::string map_png(const MapPlot& map) { return picture(map, scale_of(map), 1); }
+
+std::string map_document(MapPlot map) {
+    map.id.clear();
+    return map_svg(map);
+}
+
 std::string map_csv(const MapPlot& map) {
     std::string out;
     const auto n = static_cast<std::size_t>(map.sites);

@@ -40,6 +40,12 @@ std::vector<Rgb> palette(MapPlot::Colours colours);
 /// As a document of its own, or as an element of a page. The picture within is a PNG.
 std::string map_svg(const MapPlot& map);
 
+/// A map of a page as a document of its own.
+std::string map_document(MapPlot map);
+
+/// The map alone as a PNG, a pixel a value.
+std::string map_png(const MapPlot& map);
+
 /// The values as text, one row of the map a line, lowest y first.
 std::string map_csv(const MapPlot& map);
 

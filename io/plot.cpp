@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
@@ -205,6 +206,32 @@ private:
                         ring ? 1.8 : 1.0, ring ? 'c' : 'f', tint, more);
     }
 
+    /// Of neighbours within half a pixel across, the first, least, greatest and last are drawn: no
+    /// more can be seen.
+    std::string line_path(const PlotSeries& s) const {
+        std::string path;
+        bool drawing = false;
+        for (std::size_t i = 0; i < s.x.size(); ++i) {
+            if (!holds(s, i)) {
+                drawing = false;
+                continue;
+            }
+            const std::size_t first = i;
+            std::size_t least = i, greatest = i;
+            while (i + 1 < s.x.size() && holds(s, i + 1) &&
+                   std::abs(px(s.x[i + 1]) - px(s.x[first])) < 0.5) {
+                ++i;
+                if (s.y[i] < s.y[least]) least = i;
+                if (s.y[i] > s.y[greatest]) greatest = i;
+            }
+            for (const std::size_t k : std::set{first, least, greatest, i}) {
+                path += fmt::format("{}{:.2f} {:.2f}", drawing ? "L" : "M", px(s.x[k]), py(s.y[k]));
+                drawing = true;
+            }
+        }
+        return path;
+    }
+
     void series(const PlotSeries& s, std::size_t tint) {
         if (is_marker(s.style)) {
             for (std::size_t i = 0; i < s.x.size(); ++i) {
@@ -222,14 +249,7 @@ private:
             }
             return;
         }
-        std::string path;
-        bool drawing = false;
-        for (std::size_t i = 0; i < s.x.size(); ++i) {
-            const bool there = holds(s, i);
-            if (there)
-                path += fmt::format("{}{:.2f} {:.2f}", drawing ? "L" : "M", px(s.x[i]), py(s.y[i]));
-            drawing = there;
-        }
+        const std::string path = line_path(s);
         if (!path.empty())
             out_ += fmt::format(
                 "<path d=\"{}\" stroke=\"{}\" class=\"c{}\" data-label=\"{}\"{}/>\n", path,
@@ -346,6 +366,13 @@ std::string plot_csv(const Plot& plot) {
 
 std::string plot_markup(const std::string& text) { return marked_up(text); }
 
-void write_plot(const std::string& path, const Plot& plot) { write_whole(path, plot_svg(plot)); }
+std::string plot_document(Plot plot) {
+    plot.id.clear();
+    return plot_svg(plot);
+}
+
+void write_plot(const std::string& path, const Plot& plot) {
+    write_whole(path, plot_document(plot));
+}
 
 } // namespace asperity::io

@@ -58,7 +58,8 @@ std::string plot_csv(const Plot& plot);
 /// The plot's text in SVG markup: escaped, with its subscripts.
 std::string plot_markup(const std::string& text);
 
-/// The same into a file, whole or not at all. Throws FileError.
+/// A plot of a page as a document of its own, and that in a file, whole or not at all (FileError).
+std::string plot_document(Plot plot);
 void write_plot(const std::string& path, const Plot& plot);
 
 } // namespace asperity::io

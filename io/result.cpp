@@ -45,6 +45,7 @@ void put_group(JsonValue& root, const char* name, JsonValue object) {
 
 JsonValue result_json(const ResultRecord& record) {
     JsonValue root = JsonValue::object();
+    if (!record.name.empty()) root["name"] = record.name;
     if (!record.scene.is_null()) root["scene"] = record.scene;
     const auto& s = record.surface;
     put_group(root, "surface",

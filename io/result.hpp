@@ -21,7 +21,8 @@ namespace asperity::io {
 using Quantity = std::optional<double>;
 
 struct ResultRecord {
-    JsonValue scene; ///< everything that was used, defaults filled in
+    std::string name; ///< of the scene
+    JsonValue scene;  ///< everything that was used, defaults filled in
 
     struct Surface {
         Quantity rms, rms_slope, min, max; ///< Å, -, Å, Å

@@ -79,10 +79,9 @@ public:
     void pictures() {
         io::make_directory(run_.path("export"));
         for (const StoredState& state : run_.states)
-            for (io::MapPlot map : state_maps(run_, state)) {
+            for (const io::MapPlot& map : state_maps(run_, state)) {
                 const std::string path = run_.path("export/" + map.id + ".png");
-                map.id.clear();
-                io::write_whole(path, io::png_of_svg(io::map_svg(map), 2.0));
+                io::write_whole(path, io::png_of_svg(io::map_document(map), 2.0));
                 written_.push_back(path);
             }
     }

@@ -75,6 +75,7 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
     file.close();
 
     io::ResultRecord record;
+    record.name = scene.name;
     record.scene = scene_json(scene);
     record.surface = {statistics.rms, statistics.rms_slope, statistics.lowest, statistics.highest};
     io::write_result(place.directory, record);

@@ -48,64 +48,68 @@ void write_findings(io::HtmlPage& page, const StoredRun& run) {
 }
 
 void write_path(io::HtmlPage& page, ReportFiles& files, const StoredRun& run) {
-    const auto separation = separation_plot(run), loading = loading_plot(run),
-               energy = energy_plot(run), contact = contact_plot(run), balance = balance_plot(run);
-    if (!separation && !energy) return;
-    page.section("path", "Along the path");
-    page.begin_columns("figures");
-    if (separation)
-        files.add(
-            page, *separation,
-            "Force of the substrate on the block over the mean separation, the mean height of "
-            "the lowest layer above the substrate’s mean plane. Negative: attraction. The "
-            "area under a curve is the work of adhesion of that leg.");
-    if (loading)
-        files.add(page, *loading,
-                  "Elastic force on the driven top plane over its displacement: what a testing "
-                  "machine would record. Between the curves lies the energy lost in a cycle.");
-    if (contact)
-        files.add(page, *contact,
-                  "Sites nearer to an atom of the substrate than the inflection of the potential "
-                  "(in contact), and sites whose net normal force is repulsive (pushed).");
-    if (energy)
-        files.add(page, *energy,
-                  "Energies per nominal area over time. Work is done by the top plane and the "
-                  "moving medium of the damping.");
-    if (balance)
-        files.add(page, *balance,
-                  "Work done minus energy gained minus energy damped, over the largest of these "
-                  "terms met so far.");
-    page.end_columns();
+    const std::string curves =
+        run.curved()
+            ? "Force of the substrate on the block over the mean height of the lowest layer above "
+              "the apex; negative is attraction. Beside it what a smooth sphere would do: JKR "
+              "alone, "
+              "and JKR and Maugis-Dugdale with the sphere’s periodic images."
+            : "Force of the substrate on the block over the mean separation, the mean height of "
+              "the lowest layer above the substrate’s mean plane; negative is attraction. The area "
+              "under a curve is the work of adhesion of that leg.";
+    files.section(
+        page, "path", "Force and contact",
+        {{separation_plot(run), curves},
+         {contact_plot(run), "Sites nearer to an atom of the substrate than the inflection of the "
+                             "potential (in contact), and sites whose net normal force is "
+                             "repulsive (pushed)."}});
+}
+
+void write_energies(io::HtmlPage& page, ReportFiles& files, const StoredRun& run) {
+    files.section(
+        page, "energies", "Energies",
+        {{energy_plot(run), "Energies over the path. Work is done by the top plane and the moving "
+                            "medium of the damping."},
+         {balance_plot(run), "Work done minus energy gained minus energy damped, over the largest "
+                             "of these terms met so far."},
+         {loading_plot(run), "Elastic force on the driven top plane over its displacement: what a "
+                             "testing machine would record. Between the curves lies the energy "
+                             "lost in a cycle."}});
+}
+
+std::string caption_of(const io::MapPlot& map) {
+    if (map.unit == "Å")
+        return std::string("Height of each site above the substrate below it. The colour bar ") +
+               (map.high ? "ends at the cutoff." : "spans 99\u00a0% of the values.");
+    if (map.unit == "GPa")
+        return "Normal force of the substrate on a site over its area. Blue pulls, orange pushes; "
+               "the colour bar spans 99\u00a0% of the values.";
+    return "Sites nearer to an atom of the substrate than the inflection of the potential.";
 }
 
 void write_state(io::HtmlPage& page, ReportFiles& files, const StoredRun& run,
                  const StoredState& state) {
-    const std::string heading =
-        state.name == "zero-load" ? "The state at zero load" : "The state “" + state.name + "”";
-    page.section("state-" + file_name(state.name), heading);
-    page.begin_columns("figures");
+    std::vector<Figure> figures;
     for (const io::MapPlot& map : state_maps(run, state))
-        files.add(page, map,
-                  map.unit == "Å"
-                      ? "Height of each site above the substrate below it. The colour bar spans "
-                        "99\u00a0% of the values."
-                  : map.unit == "GPa"
-                      ? "Normal force of the substrate on a site over its area. Blue "
-                        "pulls, orange pushes; the colour bar spans 99\u00a0% of the "
-                        "values."
-                      : "Sites nearer to an atom of the substrate than the "
-                        "inflection of the potential.");
-    if (const auto gaps = gap_plot(state))
-        files.add(page, *gaps, "Distribution of the gaps of all sites, normalised to one.");
-    page.end_columns();
+        figures.emplace_back(map, caption_of(map));
+    figures.emplace_back(pressure_plot(state),
+                         "How the interface’s pressure is distributed over the sites that feel "
+                         "any: the left wing pulls, the right one pushes. Per site of the box.");
+    figures.emplace_back(gap_plot(state),
+                         "Distribution of the gaps of all sites, normalised to one.");
+    files.section(page, "state-" + file_name(state.name), "The state " + in_words(state.name),
+                  figures);
 }
 
-/// A page of a hundred snapshots would be for nobody.
+/// At zero load first. A page of a hundred snapshots would be for nobody.
 void write_states(io::HtmlPage& page, ReportFiles& files, const StoredRun& run) {
     constexpr std::size_t most = 6;
-    const std::size_t n = run.states.size(), shown = std::min(n, most);
+    std::vector<StoredState> states = run.states;
+    std::stable_partition(states.begin(), states.end(),
+                          [](const StoredState& s) { return s.name == "zero-load"; });
+    const std::size_t n = states.size(), shown = std::min(n, most);
     for (std::size_t i = 0; i < shown; ++i)
-        write_state(page, files, run, run.states[shown < 2 ? i : i * (n - 1) / (shown - 1)]);
+        write_state(page, files, run, states[shown < 2 ? i : i * (n - 1) / (shown - 1)]);
     if (shown < n)
         page.paragraph(fmt::format("{} of the {} states in run.h5 are shown; `asperity export` "
                                    "writes them all.",
@@ -113,60 +117,68 @@ void write_states(io::HtmlPage& page, ReportFiles& files, const StoredRun& run) 
 }
 
 void write_surface(io::HtmlPage& page, ReportFiles& files, const StoredRun& run) {
-    const auto height = height_map(run);
-    const auto spectrum = spectrum_plot(run), roughness = roughness_plot(run);
-    if (!height && !spectrum && !roughness) return;
-    page.section("surface", "Surface and theory");
-    page.begin_columns("figures");
-    if (height)
-        files.add(page, *height, "The substrate from above. The colour bar spans 99\u00a0% of it.");
-    if (spectrum)
-        files.add(page, *spectrum,
-                  "Radially averaged power spectrum of the surface that was made, and what was "
-                  "asked for.");
-    if (roughness)
-        files.add(page, *roughness,
-                  "Persson’s theory for this scene at other roughnesses (dotted: with the "
-                  "attraction across the gaps), and this run’s numbers.");
-    page.end_columns();
+    files.section(
+        page, "surface", "Surface and theory",
+        {{height_map(run), "The substrate from above. The colour bar spans 99\u00a0% of it."},
+         {spectrum_plot(run),
+          "Radially averaged power spectrum of the surface that was made, and what was asked for."},
+         {roughness_plot(run), "Persson’s theory for this scene at other roughnesses (dotted: "
+                               "with the attraction across the gaps), and this run’s numbers."}});
 }
 
 /// Every number of the contract that is there.
 void write_numbers(io::HtmlPage& page, const StoredRun& run) {
     const double flat = run.number("delta_gamma").value_or(0.0);
-    std::vector<std::vector<std::string>> rows;
-    const auto add = [&](const char* name, const char* key, const char* unit, bool energy = false) {
-        const auto value = run.number(key);
-        if (!value) return;
-        rows.push_back({name, minus(fmt::format("{:.6g}", *value)), unit,
-                        energy && flat > 0.0 ? fmt::format("{:.4f}", *value / flat) : ""});
+    // Of a sphere, the nominal area says nothing, and so does energy over it.
+    const bool per_area = flat > 0.0 && !run.curved();
+    const std::string energy = "meV/Å²";
+    struct Row {
+        const char *name, *key;
+        std::string unit;
+        bool over_flat = false;
     };
-    add("flat on flat, Δγ", "delta_gamma", "meV/Å²", true);
-    add("binding energy at zero load", "binding_energy", "meV/Å²", true);
-    add("work of adhesion, approach", "work_of_adhesion.approach", "meV/Å²", true);
-    add("work of adhesion, pull-off", "work_of_adhesion.pull_off", "meV/Å²", true);
-    add("atom-by-atom work", "work_of_adhesion.pairwise", "meV/Å²", true);
-    add("contact fraction", "contact_fraction", "");
-    add("pushed fraction", "pushed_fraction", "");
-    add("largest attraction on the way out", "pull_off_force", "eV/Å");
-    add("JKR energy, way in", "jkr.in", "meV/Å²", true);
-    add("JKR energy, way out", "jkr.out", "meV/Å²", true);
-    add("theory: γ_{eff}", "theory.gamma_eff", "meV/Å²", true);
-    add("theory: γ_{eff} with attraction across gaps", "theory.gamma_eff_with_gaps", "meV/Å²",
-        true);
-    add("theory: γ assuming full contact", "theory.gamma_full_contact", "meV/Å²", true);
-    add("theory: contact fraction", "theory.contact_fraction", "");
-    add("theory: critical rms", "theory.critical_rms", "Å");
-    add("surface: rms height", "surface.rms", "Å");
-    add("surface: rms slope", "surface.rms_slope", "");
-    add("surface: lowest", "surface.min", "Å");
-    add("surface: highest", "surface.max", "Å");
-    add("energy balance: residual", "energy.residual", "relative");
-    add("work done", "energy.work", "eV");
-    add("kinetic energy at the end", "energy.kinetic", "eV");
-    add("elastic energy at the end", "energy.elastic", "eV");
-    add("interface energy at the end", "energy.interface", "eV");
-    add("energy damped", "energy.damped", "eV");
+    const std::vector<Row> list = {
+        {"flat on flat, Δγ", "delta_gamma", energy, flat > 0.0},
+        {"binding energy at zero load", "binding_energy", energy, per_area},
+        {"work of adhesion, approach", "work_of_adhesion.approach", energy, per_area},
+        {"work of adhesion, pull-off", "work_of_adhesion.pull_off", energy, per_area},
+        {"atom-by-atom work", "work_of_adhesion.pairwise", energy, per_area},
+        {"contact fraction", "contact_fraction", ""},
+        {"pushed fraction", "pushed_fraction", ""},
+        {"largest attraction on the way out", "pull_off_force", "eV/Å"},
+        {"energy lost in the cycle", "hysteresis.loop", "eV"},
+        {"of it on the way in", "hysteresis.approach", "eV"},
+        {"of it on the way out", "hysteresis.pull_off", "eV"},
+        {"JKR energy, way in", "jkr.in", energy, flat > 0.0},
+        {"JKR energy, way in, averaged over 2 ps", "jkr.in_averaged", energy, flat > 0.0},
+        {"JKR energy, way out", "jkr.out", energy, flat > 0.0},
+        {"JKR energy, way out, averaged over 2 ps", "jkr.out_averaged", energy, flat > 0.0},
+        {"smooth sphere: JKR with images", "sphere.jkr_images", energy, flat > 0.0},
+        {"smooth sphere: Maugis-Dugdale with images", "sphere.maugis_images", energy, flat > 0.0},
+        {"smooth sphere: Maugis parameter λ", "sphere.maugis_parameter", ""},
+        {"contact radius at zero load", "contact_radius.zero_load", "Å"},
+        {"contact radius at the pull-off force", "contact_radius.pull_off", "Å"},
+        {"theory: γ_{eff}", "theory.gamma_eff", energy, flat > 0.0},
+        {"theory: γ_{eff} with attraction across gaps", "theory.gamma_eff_with_gaps", energy,
+         flat > 0.0},
+        {"theory: γ assuming full contact", "theory.gamma_full_contact", energy, flat > 0.0},
+        {"theory: contact fraction", "theory.contact_fraction", ""},
+        {"theory: critical rms", "theory.critical_rms", "Å"},
+        {"surface: rms height", "surface.rms", "Å"},
+        {"surface: rms slope", "surface.rms_slope", ""},
+        {"surface: lowest", "surface.min", "Å"},
+        {"surface: highest", "surface.max", "Å"},
+        {"energy balance: residual", "energy.residual", "relative"},
+        {"work done", "energy.work", "eV"},
+        {"kinetic energy at the end", "energy.kinetic", "eV"},
+        {"elastic energy at the end", "energy.elastic", "eV"},
+        {"interface energy at the end", "energy.interface", "eV"},
+        {"energy damped", "energy.damped", "eV"}};
+    std::vector<std::vector<std::string>> rows;
+    for (const Row& row : list)
+        if (const auto value = run.number(row.key))
+            rows.push_back({row.name, minus(fmt::format("{:.6g}", *value)), row.unit,
+                            row.over_flat ? fmt::format("{:.4f}", *value / flat) : ""});
     if (rows.empty()) return;
     page.section("numbers", "All numbers");
     page.table({"", "value", "unit", "over Δγ"}, rows);
@@ -193,11 +205,12 @@ void write_times(io::HtmlPage& page, const StoredRun& run) {
 }
 
 io::HtmlPage run_page(const StoredRun& run, ReportFiles& files) {
-    io::HtmlPage page("Asperity report", run.name, lead(run));
+    io::HtmlPage page("Asperity report", run.title, lead(run));
     write_findings(page, run);
     write_path(page, files, run);
     write_states(page, files, run);
     write_surface(page, files, run);
+    write_energies(page, files, run);
     write_numbers(page, run);
     write_times(page, run);
     if (!run.toml.empty()) {
@@ -227,32 +240,43 @@ std::string ReportFiles::keep(const std::string& name, const std::string& svg,
     return fmt::format("report/{0}.png, {0}.csv", name);
 }
 
-void ReportFiles::add(io::HtmlPage& page, const io::Plot& plot, const std::string& caption) {
-    io::Plot alone = plot;
-    alone.id.clear();
-    page.figure(io::plot_svg(plot), caption,
-                keep(plot.id, io::plot_svg(alone), io::plot_csv(plot)));
+void ReportFiles::section(io::HtmlPage& page, const std::string& id, const std::string& heading,
+                          const std::vector<Figure>& figures) {
+    if (std::none_of(figures.begin(), figures.end(), [](const Figure& f) { return f.there(); }))
+        return;
+    page.section(id, heading);
+    page.begin_columns("figures");
+    for (const Figure& figure : figures) {
+        if (const auto& plot = figure.plot)
+            page.figure(io::plot_svg(*plot), figure.caption,
+                        keep(plot->id, io::plot_document(*plot), io::plot_csv(*plot)));
+        if (const auto& map = figure.map)
+            page.figure(io::map_svg(*map), figure.caption,
+                        keep(map->id, io::map_document(*map), io::map_csv(*map)));
+    }
+    page.end_columns();
 }
 
-void ReportFiles::add(io::HtmlPage& page, const io::MapPlot& map, const std::string& caption) {
-    io::MapPlot alone = map;
-    alone.id.clear();
-    page.figure(io::map_svg(map), caption, keep(map.id, io::map_svg(alone), io::map_csv(map)));
-}
-
-int report_command(const std::string& directory) {
-    expect_result(directory, {"result.json", "sweep.json"});
-    ReportFiles files(directory);
-    std::error_code error;
-    const bool sweep = fs::exists(fs::path(directory) / "sweep.json", error);
-    const io::HtmlPage page =
-        sweep ? sweep_page(directory, files) : run_page(read_run(directory), files);
+std::string write_page(const std::string& directory, const io::HtmlPage& page,
+                       const ReportFiles& files) {
     const std::string path = (fs::path(directory) / "report.html").string();
     const std::string text = page.text();
     io::write_whole(path, text);
-    fmt::print("{}: one page, {:.1f} MB, nothing else needed; {} files of its plots in {}\n", path,
-               static_cast<double>(text.size()) / 1e6, files.written(),
-               (fs::path(directory) / "report").string());
+    return fmt::format(
+        "{}: one page, {:.1f} MB, nothing else needed; {} files of its plots in {}\n", path,
+        static_cast<double>(text.size()) / 1e6, files.written(),
+        (fs::path(directory) / "report").string());
+}
+
+std::string write_run_page(const StoredRun& run) {
+    ReportFiles files(run.directory);
+    return write_page(run.directory, run_page(run, files), files);
+}
+
+int report_command(const std::string& directory) {
+    const bool sweep = holds_sweep(directory);
+    if (!sweep) expect_result(directory, {"result.json", "sweep.json"});
+    fmt::print("{}", sweep ? write_sweep_page(directory) : write_run_page(read_run(directory)));
     return io::exit_code::done;
 }
 

@@ -15,7 +15,9 @@
 #include "io/map_plot.hpp"
 #include "io/plot.hpp"
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace asperity {
@@ -24,12 +26,26 @@ namespace asperity {
 /// result.json nor sweep.json, or cannot be written to.
 int report_command(const std::string& directory);
 
-/// Puts plots into the page and their PNG and CSV into DIR/report/.
+/// A plot or a map with its caption, or nothing, where the run has nothing to show.
+struct Figure {
+    Figure(std::optional<io::Plot> p, std::string words)
+        : plot(std::move(p)), caption(std::move(words)) {}
+    Figure(std::optional<io::MapPlot> m, std::string words)
+        : map(std::move(m)), caption(std::move(words)) {}
+    bool there() const { return plot || map; }
+
+    std::optional<io::Plot> plot;
+    std::optional<io::MapPlot> map;
+    std::string caption;
+};
+
+/// Puts figures into the page and their PNG and CSV into DIR/report/.
 class ReportFiles {
 public:
     explicit ReportFiles(const std::string& directory);
-    void add(io::HtmlPage& page, const io::Plot& plot, const std::string& caption);
-    void add(io::HtmlPage& page, const io::MapPlot& map, const std::string& caption);
+    /// A section of those that are there, side by side; none, if none is.
+    void section(io::HtmlPage& page, const std::string& id, const std::string& heading,
+                 const std::vector<Figure>& figures);
     std::size_t written() const { return written_; }
 
 private:
@@ -39,8 +55,17 @@ private:
     std::size_t written_ = 0;
 };
 
+/// DIR/report.html. Returns what was written, in words.
+std::string write_page(const std::string& directory, const io::HtmlPage& page,
+                       const ReportFiles& files);
+
+/// The page of a run, DIR/report.html and its files. Returns what was written, in words.
+std::string write_run_page(const StoredRun& run);
+
 // report_words.cpp
 std::string minus(std::string number); ///< with the sign that is as wide as a digit
+std::string percent(double fraction);
+std::string in_words(const std::string& state); ///< "zero-load": "at zero load"
 std::vector<io::KeyNumber> key_numbers(const StoredRun& run);
 std::string lead(const StoredRun& run);
 std::vector<std::string> findings_in_words(const StoredRun& run);
@@ -51,6 +76,9 @@ std::vector<std::vector<std::string>> provenance(const io::JsonValue& result);
 void cite(io::HtmlPage& page, const io::JsonValue& result);
 
 // report_sweep.cpp
-io::HtmlPage sweep_page(const std::string& directory, ReportFiles& files);
+/// The page of a sweep and those of its points. Returns what was written, in words.
+std::string write_sweep_page(const std::string& directory);
+/// Whether a directory holds a sweep, or, beside each other, those of several scenes.
+bool holds_sweep(const std::string& directory);
 
 } // namespace asperity

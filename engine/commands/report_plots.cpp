@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/report_plots.hpp"
 
+#include "engine/run/curve.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
+#include "io/error.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -19,8 +21,8 @@ namespace {
 
 using Style = io::PlotSeries::Style;
 
-constexpr int width = 520, height = 372; // in the page: two side by side, or one on a phone
-constexpr std::size_t most_points = 1200;
+constexpr int width = 520,
+              height_of_plots = 372; // in the page: two side by side, or one on a phone
 // Places in the palette, the same in every plot.
 constexpr int blue = 0, red = 1, green = 2, pink = 3, grey = 6;
 
@@ -31,39 +33,14 @@ io::Plot empty_plot(const std::string& id, const std::string& title, const std::
     plot.title = title;
     plot.x_label = x_label;
     plot.y_label = y_label;
-    plot.width = width;
-    plot.height = height;
+    plot.width = page_plot_width;
+    plot.height = page_plot_height;
     return plot;
 }
 
 const std::vector<double>* column(const StoredRun& run, const std::string& name) {
     const auto it = run.series.find(name);
     return it == run.series.end() || it->second.size() < 2 ? nullptr : &it->second;
-}
-
-/// No more points than can be seen: of each stretch of rows, the least and the greatest y.
-void thin(io::PlotSeries& s) {
-    const std::size_t n = s.x.size(), stretch = 2 * n / most_points;
-    if (n <= most_points) return;
-    io::PlotSeries kept = s;
-    kept.x.clear();
-    kept.y.clear();
-    for (std::size_t from = 0; from < n; from += stretch) {
-        const auto begin = s.y.begin() + static_cast<std::ptrdiff_t>(from);
-        const auto end = s.y.begin() + static_cast<std::ptrdiff_t>(std::min(n, from + stretch));
-        auto [least, greatest] = std::minmax_element(begin, end);
-        if (greatest < least) std::swap(least, greatest);
-        for (const auto at : {least, greatest}) {
-            if (at == greatest && least == greatest) break;
-            kept.x.push_back(s.x[static_cast<std::size_t>(at - s.y.begin())]);
-            kept.y.push_back(*at);
-        }
-        if (least == greatest) {
-            kept.x.push_back(s.x[static_cast<std::size_t>(least - s.y.begin())]);
-            kept.y.push_back(*least);
-        }
-    }
-    s = std::move(kept);
 }
 
 using Value = std::function<double(std::size_t)>;
@@ -83,30 +60,8 @@ void add_legs(io::Plot& plot, const StoredRun& run, const std::string& name, con
                 s.y.push_back(y(i));
             }
         if (s.x.size() < 2) continue;
-        thin(s);
         plot.series.push_back(std::move(s));
     }
-}
-
-double area(const StoredRun& run) { return run.edge() * run.edge(); }
-bool curved(const StoredRun& run) { return run.scene && run.scene->surface.radius; }
-
-/// Force on the block, as a mean pressure in GPa, or in eV/Å on a sphere, where the nominal area
-/// means nothing.
-std::optional<io::Plot> force_plot(const StoredRun& run, const std::string& id,
-                                   const std::string& title, const std::string& x_name,
-                                   const std::string& x_label, const std::string& force_name) {
-    const auto *x = column(run, x_name), *force = column(run, force_name),
-               *leg = column(run, "leg");
-    if (!x || !force || !leg || area(run) == 0.0) return std::nullopt;
-    const double unit = curved(run) ? 1.0 : 1.0 / (area(run) * units::gigapascal);
-    io::Plot plot = empty_plot(id, title, x_label,
-                               curved(run) ? "force F (eV/Å)" : "mean pressure F/A_{0} (GPa)");
-    add_legs(
-        plot, run, "", [x](std::size_t i) { return (*x)[i]; },
-        [=](std::size_t i) { return unit * (*force)[i]; }, Style::line, {blue, red});
-    if (plot.series.empty()) return std::nullopt;
-    return plot;
 }
 
 /// Along the path: time, or the points of a path without time.
@@ -119,30 +74,50 @@ const std::vector<double>* along(const StoredRun& run, std::string& label) {
 } // namespace
 
 std::optional<io::Plot> separation_plot(const StoredRun& run) {
-    return force_plot(run, "separation", "Force and separation", "mean_height",
-                      "mean separation (Å)", "force");
+    const auto *leg = column(run, "leg"), *height = column(run, "mean_height"),
+               *force = column(run, "force"), *contact = column(run, "contact_fraction");
+    if (!leg || !height || !force || !contact || !run.scene) return std::nullopt;
+    std::optional<io::Plot> plot;
+    try {
+        plot = force_curve({*leg, {}, *height, *force, *contact}, *run.scene,
+                           make_setup(*run.scene, 1).flat);
+    } catch (const io::Error&) { // a scene that this version refuses
+        return std::nullopt;
+    }
+    plot->id = "separation";
+    plot->width = page_plot_width;
+    plot->height = page_plot_height;
+    return plot;
 }
 
 std::optional<io::Plot> loading_plot(const StoredRun& run) {
     // What the top plane feels from the block is minus what it does to it: the same sign as the
     // force of the substrate at rest.
-    return force_plot(run, "loading", "Force and displacement of the top plane", "top",
-                      "displacement of the top plane (Å)", "top_force");
+    const auto *top = column(run, "top"), *force = column(run, "top_force");
+    if (!top || !force || !column(run, "leg") || !run.scene) return std::nullopt;
+    const double unit = force_unit(*run.scene);
+    io::Plot plot = empty_plot("loading", "Force and displacement of the top plane",
+                               "displacement of the top plane (Å)", force_label(*run.scene));
+    add_legs(
+        plot, run, "", [top](std::size_t i) { return (*top)[i]; },
+        [=](std::size_t i) { return (*force)[i] / unit; }, Style::line, {blue, red});
+    if (plot.series.empty()) return std::nullopt;
+    return plot;
 }
 
 std::optional<io::Plot> energy_plot(const StoredRun& run) {
     std::string axis;
     const auto* time = along(run, axis);
-    if (!time || area(run) == 0.0) return std::nullopt;
-    io::Plot plot = empty_plot("energy", "Energies", axis, "energy per area (meV/Å²)");
-    const double unit = units::milli_per_unit / area(run);
+    if (!time || run.edge() == 0.0) return std::nullopt;
+    io::Plot plot = empty_plot("energy", "Energies", axis,
+                               run.curved() ? "energy (eV)" : "energy per area (meV/Å²)");
+    const double unit = run.curved() ? 1.0 : units::milli_per_unit / (run.edge() * run.edge());
     const auto add = [&](const char* name, const char* label, int colour, Style style) {
         const auto* values = column(run, name);
         if (!values) return;
         io::PlotSeries s{label, *time, *values, style, colour};
         for (double& v : s.y)
             v *= unit;
-        thin(s);
         plot.series.push_back(std::move(s));
     };
     add("interface_energy", "interface", blue, Style::line);
@@ -162,7 +137,6 @@ std::optional<io::Plot> balance_plot(const StoredRun& run) {
     io::PlotSeries s{"", *time, *residual, Style::line, blue};
     for (double& v : s.y)
         v *= 1e6;
-    thin(s);
     plot.series.push_back(std::move(s));
     return plot;
 }
@@ -217,9 +191,14 @@ std::optional<io::Plot> roughness_plot(const StoredRun& run) {
         }
     for (io::PlotSeries* s : {&contact, &gaps})
         if (!s->x.empty()) plot.series.push_back(*s);
-    point("work_of_adhesion.approach", "approach", blue);
-    point("work_of_adhesion.pull_off", "pull-off", red);
-    point("binding_energy", "state at zero load", green);
+    if (run.curved()) {
+        point("jkr.in_averaged", "approach, by JKR", blue);
+        point("jkr.out", "pull-off, by JKR", red);
+    } else {
+        point("work_of_adhesion.approach", "approach", blue);
+        point("work_of_adhesion.pull_off", "pull-off", red);
+        point("binding_energy", "state at zero load", green);
+    }
     if (plot.series.empty()) return std::nullopt;
     double lowest = 0.0;
     for (const io::PlotSeries& s : plot.series)
@@ -245,18 +224,51 @@ std::optional<io::Plot> spectrum_plot(const StoredRun& run) {
     return std::nullopt; // flat
 }
 
+namespace {
+
+/// Density over the bins between edges, as steps. Empty bins are gaps in the line.
+io::PlotSeries steps(const std::vector<double>& edges, const std::vector<double>& density) {
+    io::PlotSeries s{"", {}, {}, Style::line, blue};
+    for (std::size_t i = 0; i < density.size(); ++i)
+        for (const std::size_t edge : {i, i + 1}) {
+            s.x.push_back(edges[edge]);
+            s.y.push_back(density[i]);
+        }
+    return s;
+}
+
+} // namespace
+
 std::optional<io::Plot> gap_plot(const StoredState& state) {
     if (state.gap_edges.size() != state.gap_density.size() + 1) return std::nullopt;
     io::Plot plot = empty_plot("gaps-" + file_name(state.name), "Distribution of gaps", "gap u (Å)",
                                "P(u) (1/Å)");
-    io::PlotSeries s{"", {}, {}, Style::line, blue};
-    for (std::size_t i = 0; i < state.gap_density.size(); ++i)
-        for (const std::size_t edge : {i, i + 1}) {
-            s.x.push_back(state.gap_edges[edge]);
-            s.y.push_back(state.gap_density[i]);
-        }
-    plot.series.push_back(std::move(s));
-    plot.y_low = 0.0;
+    plot.series.push_back(steps(state.gap_edges, state.gap_density));
+    plot.y_log = true;
+    return plot;
+}
+
+std::optional<io::Plot> pressure_plot(const StoredState& state) {
+    if (!state.has("pressure")) return std::nullopt;
+    // A site out of reach feels exactly nothing, and a peak at zero would say no more than that.
+    std::vector<double> felt;
+    for (const double p : state.maps.at("pressure"))
+        if (std::isfinite(p) && p != 0.0) felt.push_back(p);
+    if (felt.size() < 100) return std::nullopt;
+    const auto [least, greatest] = std::minmax_element(felt.begin(), felt.end());
+    constexpr std::size_t bins = 80;
+    const double low = *least, bin = (*greatest - low) / bins;
+    if (!(bin > 0.0)) return std::nullopt;
+    std::vector<double> edges, density(bins);
+    for (std::size_t i = 0; i <= bins; ++i)
+        edges.push_back(low + static_cast<double>(i) * bin);
+    const double share = 1.0 / (bin * static_cast<double>(state.maps.at("pressure").size()));
+    for (const double p : felt)
+        density[std::min(bins - 1, static_cast<std::size_t>((p - low) / bin))] += share;
+    io::Plot plot = empty_plot("pressures-" + file_name(state.name), "Distribution of pressure",
+                               "pressure p (GPa), positive pushes", "P(p) (1/GPa)");
+    plot.series.push_back(steps(edges, density));
+    plot.y_log = true;
     return plot;
 }
 
@@ -294,6 +306,8 @@ std::vector<io::MapPlot> state_maps(const StoredRun& run, const StoredState& sta
         map.colours = colours;
         map.low_word = "apart";
         map.high_word = "in contact";
+        // Around a sphere the gap grows without an end; beyond the cutoff it matters to nobody.
+        if (run.curved() && map.id.starts_with("gap")) map.high = run.scene->interface.cutoff;
         list.push_back(std::move(map));
     };
     add("gap", "Gap", "Å", io::MapPlot::Colours::rising);

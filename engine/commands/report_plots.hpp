@@ -14,7 +14,11 @@
 
 namespace asperity {
 
-/// Mean pressure (force on a sphere) over the mean separation, both ways.
+/// Pixels: two side by side in the page, or one on a phone.
+inline constexpr int page_plot_width = 520, page_plot_height = 372;
+
+/// Force over the mean separation, both ways; beside it what a smooth sphere would do, if it is
+/// one.
 std::optional<io::Plot> separation_plot(const StoredRun& run);
 /// The same over the displacement of the driven top plane: what a testing machine sees.
 std::optional<io::Plot> loading_plot(const StoredRun& run);
@@ -28,8 +32,9 @@ std::optional<io::Plot> contact_plot(const StoredRun& run);
 std::optional<io::Plot> roughness_plot(const StoredRun& run);
 /// C(q), realised and target.
 std::optional<io::Plot> spectrum_plot(const StoredRun& run);
-/// The distribution of gaps P(u).
+/// The distribution of gaps P(u), and of the interface's pressure on the sites that feel any.
 std::optional<io::Plot> gap_plot(const StoredState& state);
+std::optional<io::Plot> pressure_plot(const StoredState& state);
 
 std::optional<io::MapPlot> height_map(const StoredRun& run);
 /// Gap, pressure, contact of a state.

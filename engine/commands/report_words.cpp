@@ -17,10 +17,24 @@ std::string minus(std::string number) {
     return number.starts_with('-') ? "−" + number.substr(1) : number;
 }
 
-namespace {
-
 std::string percent(double fraction) {
     return minus(fmt::format("{:.{}f}\u00a0%", 100.0 * fraction, std::abs(fraction) < 0.1 ? 2 : 1));
+}
+
+std::string in_words(const std::string& state) {
+    if (state == "zero-load") return "at zero load";
+    if (state == "pull-off") return "at the largest attraction of the pull-off";
+    const std::string after = "after-zero-load:", step = "step-";
+    if (state.starts_with(after)) return state.substr(after.size()) + " ps after zero load";
+    if (state.starts_with(step)) return "at step " + state.substr(step.size());
+    return "“" + state + "”";
+}
+
+namespace {
+
+/// A smooth sphere's pull-off force for a work of adhesion in meV/Å^2, as JKR's F = 3πγR/2: eV/Å.
+double smooth_pull_off(const StoredRun& run, double gamma) {
+    return 1.5 * std::numbers::pi * *run.scene->surface.radius * gamma / units::milli_per_unit;
 }
 
 std::string meV(double gamma) { return minus(fmt::format("{:.2f} meV/Å²", gamma)); }
@@ -49,34 +63,60 @@ std::string lead(const StoredRun& run) {
 std::vector<io::KeyNumber> key_numbers(const StoredRun& run) {
     std::vector<io::KeyNumber> list;
     const double flat = run.number("delta_gamma").value_or(0.0);
-    const auto gamma = [&](const char* key, const char* name) {
+    const auto gamma = [&](const char* key, const char* name, const char* symbol = "γ_{eff}/Δγ") {
         if (const auto value = run.number(key); value && flat > 0.0)
             list.push_back(
-                {minus(fmt::format("{:.3f}", *value / flat)), "γ_{eff}/Δγ", name, meV(*value)});
+                {minus(fmt::format("{:.3f}", *value / flat)), symbol, name, meV(*value)});
     };
-    gamma("binding_energy", "binding energy at zero load");
-    gamma("work_of_adhesion.approach", "work of adhesion, approach");
-    gamma("work_of_adhesion.pull_off", "work of adhesion, pull-off");
-    gamma("theory.gamma_eff", "Persson’s theory");
-    if (const auto contact = run.number("contact_fraction")) {
-        const auto theory = run.number("theory.contact_fraction");
-        list.push_back({percent(*contact), "", "of the sites in contact at zero load",
-                        theory ? "theory: " + percent(*theory) : ""});
-    } else if (const auto theory = run.number("theory.contact_fraction")) {
+    const auto nanonewton = [](double force) {
+        return fmt::format("{:.4g} nN", force / units::nanonewton);
+    };
+    const auto force = run.number("pull_off_force");
+    const auto in = run.number("work_of_adhesion.approach"),
+               out = run.number("work_of_adhesion.pull_off");
+    if (run.curved()) { // energies over the nominal area mean nothing
+        gamma("jkr.out", "from the pull-off force, by JKR", "γ_{JKR}/Δγ");
+        gamma("jkr.in_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps",
+              "γ_{JKR}/Δγ");
+        if (force) {
+            const auto smooth = run.number("sphere.maugis_images");
+            const double jkr = smooth_pull_off(run, run.number("sphere.jkr").value_or(0.0));
+            list.push_back(
+                {fmt::format("{:.4g}", *force / units::nanonewton), "nN", "pull-off force",
+                 jkr > 0.0 && smooth
+                     ? fmt::format("smooth sphere: JKR {}, Maugis-Dugdale with images {}",
+                                   nanonewton(jkr), nanonewton(smooth_pull_off(run, *smooth)))
+                     : ""});
+        }
+        if (const auto radius = run.number("contact_radius.zero_load"))
+            list.push_back({fmt::format("{:.1f}", *radius), "Å", "contact radius at zero load",
+                            "√(area of the sites in contact / π)"});
+    } else {
+        gamma("binding_energy", "binding energy at zero load");
+        if (const auto contact = run.number("contact_fraction")) {
+            const auto theory = run.number("theory.contact_fraction");
+            list.push_back({percent(*contact), "", "of the sites in contact at zero load",
+                            theory ? "theory: " + percent(*theory) : ""});
+        }
+        if (force)
+            list.push_back(
+                {fmt::format("{:.3g}", *force / (run.edge() * run.edge()) / units::gigapascal),
+                 "GPa", "pull-off stress, the largest attraction on the way out",
+                 nanonewton(*force) + " in all"});
+    }
+    if (const auto loop = run.number("hysteresis.loop"); loop && in && out)
+        list.push_back({minus(fmt::format("{:.4g}", run.curved() ? *loop : *out - *in)),
+                        run.curved() ? "eV" : "meV/Å²", "lost in a cycle (hysteresis)",
+                        "where surfaces snap together and apart"});
+    if (!run.curved()) {
+        gamma("work_of_adhesion.approach", "work of adhesion, approach");
+        gamma("work_of_adhesion.pull_off", "work of adhesion, pull-off");
+    }
+    gamma("theory.gamma_eff",
+          run.curved() ? "Persson’s theory, of the flat surface" : "Persson’s theory");
+    if (const auto theory = run.number("theory.contact_fraction");
+        theory && !run.number("contact_fraction"))
         list.push_back({percent(*theory), "", "contact area in theory", ""});
-    }
-    if (const auto force = run.number("pull_off_force")) {
-        const double area = run.edge() * run.edge();
-        list.push_back({fmt::format("{:.4g}", *force), "eV/Å", "largest attraction on the way out",
-                        area > 0.0 && run.scene && !run.scene->surface.radius
-                            ? fmt::format("{:.3g} GPa over the nominal area",
-                                          *force / area / units::gigapascal)
-                            : fmt::format("{:.3g} nN", 1.602177 * *force)});
-    }
-    if (const auto in = run.number("jkr.in"))
-        list.push_back({fmt::format("{:.2f}", *in), "meV/Å²", "JKR energy, way in", ""});
-    if (const auto out = run.number("jkr.out"))
-        list.push_back({fmt::format("{:.2f}", *out), "meV/Å²", "JKR energy, way out", ""});
     if (const auto residual = run.number("energy.residual");
         residual && !run.result.find("failure"))
         list.push_back({fmt::format("{:.1e}", std::abs(*residual)), "", "energy balance",
@@ -84,43 +124,66 @@ std::vector<io::KeyNumber> key_numbers(const StoredRun& run) {
     return list;
 }
 
+namespace {
+
+/// What the state at zero load is, in energies and in area.
+std::string state_in_words(const StoredRun& run, double state, double flat) {
+    std::string s;
+    const auto bonds = run.number("work_of_adhesion.pairwise");
+    const auto contact = run.number("contact_fraction"), pushed = run.number("pushed_fraction");
+    if (run.curved()) {
+        const double area = run.edge() * run.edge() / units::milli_per_unit;
+        s = fmt::format("Without external force the sphere is bound by {:.4g} eV.", state * area);
+    } else {
+        s = fmt::format("Without external force the solids are bound by {}, {} of the {} of two "
+                        "flat surfaces.",
+                        meV(state), percent(state / flat), meV(flat));
+        if (bonds)
+            s += fmt::format(" The bonds across the interface give {}; {} of it is spent on "
+                             "bending the block into contact.",
+                             meV(*bonds), meV(*bonds - state));
+    }
+    if (contact) s += fmt::format(" {} of the sites are in contact", percent(*contact));
+    if (contact && pushed)
+        s += fmt::format(", {} are pushed by the substrate rather than pulled", percent(*pushed));
+    return contact ? s + "." : s;
+}
+
+std::string cycle_in_words(const StoredRun& run, double in, double out, double flat) {
+    const auto loop = run.number("hysteresis.loop"), at_in = run.number("hysteresis.approach"),
+               at_out = run.number("hysteresis.pull_off");
+    if (run.curved()) {
+        if (!loop || !at_in || !at_out) return "";
+        const auto number = [](double v) { return minus(fmt::format("{:.4g}", v)); };
+        return fmt::format(
+            "A cycle of approach and pull-off loses {} eV: {} on the way in, where "
+            "the contact spreads by itself, and {} on the way out, where it lets go.",
+            number(*loop), number(*at_in), number(*at_out));
+    }
+    const double lost = out - in;
+    const std::string s =
+        fmt::format("Coming together the interface does a work of {}; taking it apart costs {}.",
+                    meV(in), meV(out));
+    if (std::abs(lost) < 0.01 * flat)
+        return s + fmt::format(" The two agree to {}: hardly anything is lost on the way.",
+                               meV(std::abs(lost)));
+    return s + fmt::format(" The difference, {}, is lost: where the surfaces snap together or "
+                           "apart, their energy goes into vibrations (hysteresis).",
+                           meV(lost));
+}
+
+} // namespace
+
 std::vector<std::string> findings_in_words(const StoredRun& run) {
     std::vector<std::string> text;
     const double flat = run.number("delta_gamma").value_or(0.0);
-    const auto state = run.number("binding_energy"),
-               bonds = run.number("work_of_adhesion.pairwise");
-    if (state && flat > 0.0) {
-        std::string s =
-            fmt::format("Without external force the solids are bound by {}, {} of the {} "
-                        "of two flat surfaces.",
-                        meV(*state), percent(*state / flat), meV(flat));
-        if (bonds)
-            s +=
-                fmt::format(" The bonds across the interface give {}; {} of it is spent on bending "
-                            "the block into contact.",
-                            meV(*bonds), meV(*bonds - *state));
-        if (const auto contact = run.number("contact_fraction"))
-            s += fmt::format(" {} of the sites are in contact", percent(*contact));
-        if (const auto pushed = run.number("pushed_fraction"))
-            s += fmt::format(", {} are pushed by the substrate rather than pulled",
-                             percent(*pushed));
-        text.push_back(s + ".");
-    }
+    const auto state = run.number("binding_energy");
     const auto in = run.number("work_of_adhesion.approach"),
                out = run.number("work_of_adhesion.pull_off");
-    if (in && out && flat > 0.0) {
-        const double lost = *out - *in;
-        std::string s = fmt::format("Coming together the interface does a work of {}; taking it "
-                                    "apart costs {}.",
-                                    meV(*in), meV(*out));
-        s += std::abs(lost) < 0.01 * flat
-                 ? fmt::format(" The two agree to {}: hardly anything is lost on the way.",
-                               meV(std::abs(lost)))
-                 : fmt::format(" The difference, {}, is lost: where the surfaces snap together or "
-                               "apart, their energy goes into vibrations (hysteresis).",
-                               meV(lost));
-        text.push_back(s);
-    }
+    if (state && flat > 0.0) text.push_back(state_in_words(run, *state, flat));
+    if (in && out && flat > 0.0)
+        if (const std::string s = cycle_in_words(run, *in, *out, flat); !s.empty())
+            text.push_back(s);
     if (const auto theory = run.number("theory.gamma_eff"); theory && flat > 0.0) {
         std::string s = fmt::format("Persson’s theory gives γ_{{eff}} = {} ({} of Δγ)",
                                     meV(*theory), percent(*theory / flat));
@@ -128,7 +191,10 @@ std::vector<std::string> findings_in_words(const StoredRun& run) {
             s += fmt::format(", {} with the attraction across the gaps", meV(*gaps));
         if (const auto full = run.number("theory.gamma_full_contact"))
             s += fmt::format(", and {} if contact were full", meV(*full));
-        if (state) s += fmt::format("; the simulation finds {}", meV(*state));
+        const auto found = run.curved() ? run.number("jkr.out") : state;
+        if (found)
+            s += fmt::format("; the simulation finds {}{}", meV(*found),
+                             run.curved() ? " by JKR from the pull-off force" : "");
         text.push_back(s + ".");
     }
     if (const std::string note = run.text("theory.note"); !note.empty())

@@ -120,19 +120,24 @@ void expect_result(const std::string& directory, const std::vector<std::string>&
                         "it is resumed");
 }
 
+std::string directory_name(const std::string& directory) {
+    const fs::path path = fs::absolute(directory).lexically_normal();
+    return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 StoredRun read_run(const std::string& directory) {
     expect_result(directory, {"result.json"});
     StoredRun run;
     run.directory = directory;
-    run.name = fs::absolute(directory).lexically_normal().filename().string();
-    if (run.name.empty()) // a path that ends in a slash
-        run.name = fs::absolute(directory).lexically_normal().parent_path().filename().string();
+    run.title = directory_name(directory);
     const std::string json = run.path("result.json");
     run.result = io::JsonValue::parse(read_text(json), json);
     if (const io::JsonValue* scene = run.result.find("scene"); scene && scene->is_object()) {
         run.toml = io::toml_of(*scene);
         try {
             run.scene = read_scene_text(run.toml, json);
+            run.scene->name = run.text("name");
+            run.title = run.scene->title();
         } catch (const io::Error& error) {
             run.notes.push_back(
                 fmt::format("The scene in result.json cannot be read any more: {}",

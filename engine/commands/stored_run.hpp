@@ -32,7 +32,7 @@ struct StoredState {
 
 struct StoredRun {
     std::string directory;
-    std::string name;     ///< of the directory
+    std::string title;    ///< of its scene; of a result without one, the directory's name
     io::JsonValue result; ///< result.json
     std::optional<Scene> scene;
     std::string toml; ///< the scene as text
@@ -46,15 +46,19 @@ struct StoredRun {
     std::size_t frames = 0; ///< of the trajectory
     std::vector<std::string> notes;
 
-    std::string path(const std::string& file) const;             ///< in the directory
-    double edge() const;                                         ///< of the box, Å
-    int sites() const;                                           ///< of the block across the box
+    std::string path(const std::string& file) const; ///< in the directory
+    double edge() const;                             ///< of the box, Å
+    int sites() const;                               ///< of the block across the box
+    bool curved() const { return scene && scene->surface.radius; }
     std::optional<double> number(const std::string& name) const; ///< "energy.residual" of result
     std::string text(const std::string& name) const;             ///< likewise; "" if not there
 };
 
 /// Throws io::FileError where there is no result.
 StoredRun read_run(const std::string& directory);
+
+/// The last name of a path, with or without a slash behind it.
+std::string directory_name(const std::string& directory);
 
 /// A whole text file. Throws io::FileError.
 std::string read_text(const std::string& path);

@@ -216,6 +216,17 @@ struct Part {
     std::string directory;
 };
 
+/// gamma.svg and the others into the directory; their paths.
+std::vector<std::string> write_plots(const std::string& directory,
+                                     const std::vector<SweepTable>& tables, std::string& note) {
+    std::vector<std::string> written;
+    for (const io::Plot& plot : sweep_plots(tables, note)) {
+        written.push_back((std::filesystem::path(directory) / (plot.id + ".svg")).string());
+        io::write_plot(written.back(), plot);
+    }
+    return written;
+}
+
 int simulate(std::vector<Part>& parts, const SweepOptions& options, const std::string& directory) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<SweepJob> jobs;
@@ -234,6 +245,8 @@ int simulate(std::vector<Part>& parts, const SweepOptions& options, const std::s
                                 "every point has a directory of its own", "give every value once"});
             jobs.push_back(std::move(job));
         }
+    for (Part& part : parts)
+        part.table.theory = theory_curves(part.plan, part.table.points);
     std::vector<PointOutcome> outcomes;
     for (const SweepJob& job : jobs)
         outcomes.push_back(look_at(job));
@@ -268,10 +281,8 @@ int simulate(std::vector<Part>& parts, const SweepOptions& options, const std::s
     fill_in();
 
     std::vector<SweepTable> tables;
-    for (Part& part : parts) {
-        part.table.theory = theory_curves(part.plan, part.table.points);
+    for (const Part& part : parts)
         tables.push_back(part.table);
-    }
     std::string note;
     const std::vector<std::string> plots = write_plots(directory, tables, note);
     for (const SweepTable& table : tables) {

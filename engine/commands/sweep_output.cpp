@@ -72,12 +72,19 @@ std::vector<Cells> cells_of(const SweepTable& table) {
     const auto plain = [](const char* path) {
         return [path](const SweepPoint& p) { return result_number(p, path); };
     };
-    std::vector<Cells> list = {{"state", share("binding_energy"), 4},
-                               {"approach", share("work_of_adhesion.approach"), 4},
-                               {"pull-off", share("work_of_adhesion.pull_off"), 4},
+    const auto flat = [](const auto& value) { // the nominal area of a sphere means nothing
+        return [value](const SweepPoint& p) {
+            return std::isfinite(result_number(p, "contact_radius.zero_load")) ? std::nan("")
+                                                                               : value(p);
+        };
+    };
+    std::vector<Cells> list = {{"state", flat(share("binding_energy")), 4},
+                               {"approach", flat(share("work_of_adhesion.approach")), 4},
+                               {"pull-off", flat(share("work_of_adhesion.pull_off")), 4},
                                {"JKR in", share("jkr.in"), 4},
                                {"JKR out", share("jkr.out"), 4},
-                               {"contact", plain("contact_fraction"), 4},
+                               {"contact", flat(plain("contact_fraction")), 4},
+                               {"radius, Å", plain("contact_radius.zero_load"), 1},
                                {"loop, eV", plain("hysteresis.loop"), 1}};
     std::erase_if(list, [&](const Cells& cells) {
         return std::none_of(table.points.begin(), table.points.end(),
@@ -206,14 +213,14 @@ std::string sweep_mean_csv(const SweepTable& table) {
 
 io::JsonValue sweep_json(const SweepTable& table) {
     io::JsonValue root = io::JsonValue::object();
+    root["name"] = table.name;
     root["scene"] = table.scene;
     io::JsonValue axes = io::JsonValue::array();
     for (const SweepAxis& axis : table.axes)
         axes.push_back(axis.key);
     root["axes"] = std::move(axes);
     const std::vector<SweepColumn> columns = sweep_columns(table);
-    io::JsonValue points = io::JsonValue::array();
-    for (const SweepPoint& p : table.points) {
+    const auto theory_of = [&](const SweepPoint& p) {
         io::JsonValue point = io::JsonValue::object();
         point["set"] = io::JsonValue::object();
         for (std::size_t i = 0; i < table.axes.size(); ++i)
@@ -224,6 +231,11 @@ io::JsonValue sweep_json(const SweepTable& table) {
         const io::JsonValue result = io::result_json(record);
         point["delta_gamma"] = *result.find("delta_gamma");
         point["theory"] = *result.find("theory");
+        return point;
+    };
+    io::JsonValue points = io::JsonValue::array();
+    for (const SweepPoint& p : table.points) {
+        io::JsonValue point = theory_of(p);
         if (table.simulated) {
             point["directory"] = p.name;
             point["status"] = status_of(p, true);
@@ -240,6 +252,8 @@ io::JsonValue sweep_json(const SweepTable& table) {
         points.push_back(std::move(point));
     }
     root["points"] = std::move(points);
+    for (const SweepPoint& p : table.theory)
+        root["theory"].push_back(theory_of(p));
     if (table.simulated) {
         io::JsonValue means = io::JsonValue::array();
         for (const SweepGroup& g : sweep_groups(table.axes, table.points)) {
@@ -292,32 +306,39 @@ std::vector<std::string> write_tables(const std::string& directory, const SweepT
     return written;
 }
 
-void print_table(const SweepTable& table) {
-    std::vector<std::string> heads;
+SweepText sweep_text(const SweepTable& table) {
+    SweepText text;
     for (const SweepAxis& axis : table.axes)
-        if (!axis.is_seed()) heads.push_back(axis.key);
+        if (!axis.is_seed()) text.heads.push_back(axis.key);
     const std::vector<Cells> list = cells_of(table);
     for (const Cells& cells : list)
-        heads.push_back(cells.head);
-    heads.emplace_back("");
-    io::Table text(heads);
-    text.align_left(static_cast<int>(heads.size()) - 1);
-    const std::vector<SweepGroup> groups = sweep_groups(table.axes, table.points);
-    // A hundred lines tell no more than twenty; the files have them all.
-    const std::size_t n = groups.size(), stride = std::max<std::size_t>(1, (n + 19) / 25);
-    for (std::size_t i = 0; i < n; ++i) {
-        if (i % stride != 0 && i + 1 != n) continue;
+        text.heads.push_back(cells.head);
+    text.heads.emplace_back("");
+    for (const SweepGroup& group : sweep_groups(table.axes, table.points)) {
         std::vector<std::string> row;
-        for (const io::JsonValue& value : groups[i].values)
+        for (const io::JsonValue& value : group.values)
             row.push_back(shown(value));
         for (const Cells& cells : list)
-            row.push_back(cell_of(spread_of(groups[i], cells.value), cells.digits));
-        row.push_back(status_of(groups[i], table.simulated));
-        text.row(row);
+            row.push_back(cell_of(spread_of(group, cells.value), cells.digits));
+        row.push_back(status_of(group, table.simulated));
+        text.rows.push_back(std::move(row));
     }
-    if (table.simulated)
-        fmt::print("{}: binding energies and works of adhesion over Δγ{}\n", table.name,
-                   has_seeds(table) ? ", mean ± standard deviation over the seeds" : "");
+    text.meaning = table.simulated
+                       ? std::string("binding energies and works of adhesion over Δγ") +
+                             (has_seeds(table) ? ", mean ± standard deviation over the seeds" : "")
+                       : "";
+    return text;
+}
+
+void print_table(const SweepTable& table) {
+    const SweepText all = sweep_text(table);
+    io::Table text(all.heads);
+    text.align_left(static_cast<int>(all.heads.size()) - 1);
+    // A hundred lines tell no more than twenty; the files have them all.
+    const std::size_t n = all.rows.size(), stride = std::max<std::size_t>(1, (n + 19) / 25);
+    for (std::size_t i = 0; i < n; ++i)
+        if (i % stride == 0 || i + 1 == n) text.row(all.rows[i]);
+    if (!all.meaning.empty()) fmt::print("{}: {}\n", table.name, all.meaning);
     text.print(stdout);
     if (stride > 1) fmt::print("  (every {}th of {} lines; all are in the files)\n", stride, n);
 }

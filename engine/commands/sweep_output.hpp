@@ -20,7 +20,14 @@ io::JsonValue sweep_json(const SweepTable& table);
 
 /// The tables as they are at this moment; their paths. sweep.json is written last.
 std::vector<std::string> write_tables(const std::string& directory, const SweepTable& table);
-/// The table, on the terminal.
+/// The table in words: a row for all seeds of a point, as sweep_groups() gives them.
+struct SweepText {
+    std::string meaning; ///< of its numbers; empty where the heads say all
+    std::vector<std::string> heads;
+    std::vector<std::vector<std::string>> rows;
+};
+SweepText sweep_text(const SweepTable& table);
+/// It, on the terminal.
 void print_table(const SweepTable& table);
 
 } // namespace asperity

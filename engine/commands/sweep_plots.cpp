@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/sweep_plots.hpp"
 
-#include "io/plot.hpp"
+#include "engine/units.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -123,14 +122,15 @@ std::vector<Trace> simulated_gamma() {
     };
     const auto flat = [=](const char* path) { // of a curved substrate JKR tells, not the area
         return [=](const SweepPoint& p) {
-            return std::isfinite(result_number(p, "jkr.out")) ? nothing : share(path)(p);
+            return std::isfinite(result_number(p, "contact_radius.zero_load")) ? nothing
+                                                                               : share(path)(p);
         };
     };
-    return {{"approach", Style::points, 5, flat("work_of_adhesion.approach")},
-            {"pull-off", Style::rings, 2, flat("work_of_adhesion.pull_off")},
-            {"state at zero load", Style::points, 4, flat("binding_energy")},
-            {"curved, in", Style::points, 3, share("jkr.in")},
-            {"curved, out", Style::rings, 6, share("jkr.out")}};
+    return {{"approach", Style::points, 0, flat("work_of_adhesion.approach")},
+            {"pull-off", Style::rings, 1, flat("work_of_adhesion.pull_off")},
+            {"state at zero load", Style::points, 2, flat("binding_energy")},
+            {"curved, in", Style::points, 5, share("jkr.in")},
+            {"curved, out", Style::rings, 4, share("jkr.out")}};
 }
 
 /// Those that some point has a number for, each in a colour that no earlier table has taken.
@@ -167,8 +167,7 @@ std::optional<std::size_t> plotted_axis(const std::vector<SweepAxis>& axes,
     return best;
 }
 
-std::vector<std::string> write_plots(const std::string& directory,
-                                     const std::vector<SweepTable>& tables, std::string& note) {
+std::vector<io::Plot> sweep_plots(const std::vector<SweepTable>& tables, std::string& note) {
     struct Part {
         const SweepTable* table;
         std::vector<Curve> theory, simulated;
@@ -183,7 +182,8 @@ std::vector<std::string> write_plots(const std::string& directory,
             continue;
         }
         key = table.axes[*axis].key;
-        const auto& lines = table.simulated ? table.theory : table.points;
+        // A sweep without curves of its own: the theory of its points.
+        const auto& lines = table.theory.empty() ? table.points : table.theory;
         parts.push_back({&table, curves_of(table.axes, lines, *axis), {}});
         if (table.simulated) parts.back().simulated = curves_of(table.axes, table.points, *axis);
         if (parts.back().theory.size() > most_curves)
@@ -192,7 +192,9 @@ std::vector<std::string> write_plots(const std::string& directory,
     }
     if (parts.empty()) return {};
 
-    const Trace theory{"theory", Style::line, 0,
+    const bool simulated = parts.front().table->simulated;
+    const int plain = simulated ? grey : 0;
+    const Trace theory{"theory", Style::line, plain,
                        [](const SweepPoint& p) { return p.numbers.state.gamma_ratio; }};
     const Trace full{"assuming full contact", Style::dashed, 2, [](const SweepPoint& p) {
                          return over(p.numbers.gamma_full_contact, p.what.delta_gamma);
@@ -203,21 +205,28 @@ std::vector<std::string> write_plots(const std::string& directory,
                                     ? nothing
                                     : over(p.numbers.gamma_eff_with_gaps, p.what.delta_gamma);
                      }};
-    const Trace area{"theory", Style::line, 0,
+    const Trace area{"theory", Style::line, plain,
                      [](const SweepPoint& p) { return p.numbers.state.area; }};
-    const Trace found{"state at zero load", Style::points, 4,
-                      [](const SweepPoint& p) { return result_number(p, "contact_fraction"); }};
-    const Trace loop{"hysteresis loop", Style::points, 3,
-                     [](const SweepPoint& p) { return result_number(p, "hysteresis.loop"); }};
+    const auto found = [](const char* label, Style style, int colour, const char* path,
+                          double unit = 1.0) {
+        return Trace{label, style, colour,
+                     [=](const SweepPoint& p) { return result_number(p, path) / unit; }};
+    };
+    // Of a sphere the radius tells, not the share of the box.
+    const Trace flat_area{"state at zero load", Style::points, 2, [](const SweepPoint& p) {
+                              return std::isfinite(result_number(p, "contact_radius.zero_load"))
+                                         ? nothing
+                                         : result_number(p, "contact_fraction");
+                          }};
 
-    std::vector<std::string> written;
-    const auto write = [&](const char* file, const std::string& title, const std::string& y_label,
-                           const std::vector<Trace>& lines, const std::vector<Trace>& points) {
+    std::vector<io::Plot> plots;
+    const auto add = [&](const char* id, const std::string& title, const std::string& y_label,
+                         const std::vector<Trace>& lines, const std::vector<Trace>& points) {
         io::Plot plot;
         std::vector<int> used;
         for (const Trace& trace : lines)
             used.push_back(trace.colour);
-        bool drawn = !lines.empty();
+        bool drawn = !simulated;
         for (const Part& part : parts) {
             if (&part == &parts.front()) add_traces(plot, part.theory, lines, "", true);
             const std::size_t before = plot.series.size();
@@ -226,6 +235,7 @@ std::vector<std::string> write_plots(const std::string& directory,
             drawn = drawn || plot.series.size() > before;
         }
         if (!drawn) return;
+        plot.id = id;
         plot.title = title;
         plot.x_label = axis_label(key);
         plot.y_label = y_label;
@@ -240,21 +250,25 @@ std::vector<std::string> write_plots(const std::string& directory,
         if (key == "surface.rms") plot.x_low = 0.0;
         plot.y_low = lowest == 0.0 ? 0.0 : 1.05 * lowest;
         if (!lines.empty() && highest <= 1.02) plot.y_high = 1.02;
-        written.push_back((std::filesystem::path(directory) / file).string());
-        io::write_plot(written.back(), plot);
+        plots.push_back(std::move(plot));
     };
     const std::string binding = "γ_{eff} / Δγ", contact = "A / A_{0}";
-    if (!parts.front().table->simulated) {
-        write("gamma.svg", "Binding energy, theory", binding, {theory, gaps, full}, {});
-        write("area.svg", "Contact area, theory", contact, {area}, {});
-        write("full-contact.svg", "Binding energy, theory and full contact", binding,
-              {theory, full}, {});
-        return written;
+    if (!simulated) {
+        add("gamma", "Binding energy, theory", binding, {theory, gaps, full}, {});
+        add("area", "Contact area, theory", contact, {area}, {});
+        add("full-contact", "Binding energy, theory and full contact", binding, {theory, full}, {});
+        return plots;
     }
-    write("gamma.svg", "Binding energy", binding, {theory}, simulated_gamma());
-    write("area.svg", "Contact area", contact, {area}, {found});
-    write("hysteresis.svg", "Energy lost in the cycle", "∮ F dz (eV)", {}, {loop});
-    return written;
+    add("gamma", "Binding energy", binding, {theory}, simulated_gamma());
+    add("area", "Contact area", contact, {area}, {flat_area});
+    add("radius", "Contact radius", "√(contact area / π) (Å)", {},
+        {found("at zero load", Style::points, 2, "contact_radius.zero_load"),
+         found("at the pull-off force", Style::rings, 1, "contact_radius.pull_off")});
+    add("pull-off", "Pull-off force", "largest attraction on the way out (nN)", {},
+        {found("pull-off", Style::rings, 1, "pull_off_force", units::nanonewton)});
+    add("hysteresis", "Energy lost in the cycle", "∮ F dz (eV)", {},
+        {found("hysteresis loop", Style::points, 3, "hysteresis.loop")});
+    return plots;
 }
 
 } // namespace asperity

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "engine/commands/sweep_table.hpp"
+#include "io/plot.hpp"
 
 #include <optional>
 #include <string>
@@ -17,9 +18,8 @@ namespace asperity {
 std::optional<std::size_t> plotted_axis(const std::vector<SweepAxis>& axes,
                                         const std::vector<SweepPoint>& points);
 
-/// Writes the plots that the tables allow; several tables (of simulations over the same key) share
-/// one plot. Their paths; note: what kept others out.
-std::vector<std::string> write_plots(const std::string& directory,
-                                     const std::vector<SweepTable>& tables, std::string& note);
+/// The plots that the tables allow, gamma first; several tables (of simulations over the same key)
+/// share them. note: what kept others out.
+std::vector<io::Plot> sweep_plots(const std::vector<SweepTable>& tables, std::string& note);
 
 } // namespace asperity

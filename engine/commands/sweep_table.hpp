@@ -17,6 +17,7 @@
 namespace asperity {
 
 struct SweepPoint {
+    SweepPoint() = default;
     SweepPoint(const Scene& scene, const std::vector<SweepAxis>& axes, TheoryCase what,
                TheoryNumbers numbers);
 

@@ -164,6 +164,7 @@ int theory_command(const Scene& scene, const std::string& out) {
     write_profile(profile, what, numbers);
 
     io::ResultRecord record;
+    record.name = scene.name;
     record.scene = scene_json(scene);
     record.delta_gamma = what.flat;
     record_theory(what, numbers, record);

@@ -4,7 +4,6 @@
 
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
-#include "io/plot.hpp"
 #include "theory/half_space.hpp"
 #include "theory/periodic_sphere.hpp"
 
@@ -18,19 +17,18 @@ namespace asperity {
 
 namespace {
 
-constexpr double nanonewton = 1.602176634; // per eV/Å
 using Style = io::PlotSeries::Style;
 
-theory::PeriodicSphere smooth_sphere(const Scene& scene, const Setup& setup) {
+theory::PeriodicSphere smooth_sphere(const Scene& scene, const FlatReference& flat) {
     return {{*scene.surface.radius,
              theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson),
-             setup.flat.work_of_adhesion / units::milli_per_unit},
+             flat.work_of_adhesion / units::milli_per_unit},
             scene.edge(),
-            setup.flat.separation};
+            flat.separation};
 }
 
-double largest_tension(const Setup& setup) {
-    return setup.flat.largest_tension * units::gigapascal;
+double largest_tension(const FlatReference& flat) {
+    return flat.largest_tension * units::gigapascal;
 }
 
 /// A curve by a parameter, up to a contact radius and as long as the theory has one.
@@ -43,7 +41,7 @@ io::PlotSeries curve(const std::string& label, Style style, int colour, double w
             const theory::PeriodicState s = state(p);
             if (s.contact.radius > widest) continue;
             series.x.push_back(s.height);
-            series.y.push_back(s.contact.force * nanonewton);
+            series.y.push_back(s.contact.force / units::nanonewton);
         } catch (const std::exception&) { // beyond what first-order images can say
         }
     return series;
@@ -56,8 +54,9 @@ std::vector<double> spaced(double from, double to, int count) {
     return list;
 }
 
-void add_sphere_curves(io::Plot& plot, const Scene& scene, const Setup& setup, double strongest) {
-    const theory::PeriodicSphere sphere = smooth_sphere(scene, setup);
+void add_sphere_curves(io::Plot& plot, const Scene& scene, const FlatReference& flat,
+                       double strongest) {
+    const theory::PeriodicSphere sphere = smooth_sphere(scene, flat);
     theory::PeriodicSphere alone = sphere;
     alone.period *= 1e6;
     // As far into the contact as the run went.
@@ -75,9 +74,8 @@ void add_sphere_curves(io::Plot& plot, const Scene& scene, const Setup& setup, d
     plot.series.push_back(curve(whose + "JKR with images", Style::dashed, 4, widest, radii,
                                 [&](double a) { return theory::jkr_at_radius(sphere, a); }));
     plot.series.push_back(
-        curve(whose + "Maugis-Dugdale with images", Style::line, 4, widest, ratios, [&](double m) {
-            return theory::maugis_at_ratio(sphere, largest_tension(setup), m);
-        }));
+        curve(whose + "Maugis-Dugdale with images", Style::line, 4, widest, ratios,
+              [&](double m) { return theory::maugis_at_ratio(sphere, largest_tension(flat), m); }));
 }
 
 /// The largest attraction of a running mean over 2 ps, eV/Å; nothing if rows are too rare for one.
@@ -98,6 +96,15 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
 }
 
 } // namespace
+
+double force_unit(const Scene& scene) {
+    return scene.surface.radius ? units::nanonewton
+                                : scene.edge() * scene.edge() * units::gigapascal;
+}
+
+std::string force_label(const Scene& scene) {
+    return scene.surface.radius ? "force F (nN)" : "mean stress F/A_{0} (GPa)";
+}
 
 PathSeries read_path(const std::string& file) {
     const io::Hdf5File run(file, io::Hdf5File::Mode::read);
@@ -141,7 +148,7 @@ void add_path(const PathSeries& path, const Scene& scene, io::ResultRecord& reco
     averaged(turn, rows, "jkr.out_averaged");
 }
 
-void add_sphere(const Scene& scene, const Setup& setup, io::ResultRecord& record) {
+void add_sphere(const Scene& scene, const FlatReference& flat, io::ResultRecord& record) {
     if (!scene.surface.radius) return;
     if (record.contact_fraction)
         record.extra.emplace_back("contact_radius.zero_load",
@@ -152,8 +159,8 @@ void add_sphere(const Scene& scene, const Setup& setup, io::ResultRecord& record
                theory::jkr::work_from_pull_off(force, *scene.surface.radius);
     };
     try {
-        const theory::PeriodicSphere sphere = smooth_sphere(scene, setup);
-        const double stress = largest_tension(setup);
+        const theory::PeriodicSphere sphere = smooth_sphere(scene, flat);
+        const double stress = largest_tension(flat);
         record.extra.emplace_back("sphere.jkr",
                                   as_work(theory::jkr::pull_off(sphere.sphere).force));
         record.extra.emplace_back("sphere.maugis_parameter",
@@ -167,45 +174,53 @@ void add_sphere(const Scene& scene, const Setup& setup, io::ResultRecord& record
     }
 }
 
-void write_curve(const std::string& directory, const PathSeries& path, const Scene& scene,
-                 const Setup& setup) {
-    if (path.leg.size() < 2) return; // no path
+std::optional<io::Plot> force_curve(const PathSeries& path, const Scene& scene,
+                                    const FlatReference& flat) {
+    if (path.leg.size() < 2) return std::nullopt;
     const bool curved = scene.surface.radius.has_value();
-    const double area = scene.edge() * scene.edge();
-    const double scale = curved ? nanonewton : 1.0 / (area * units::gigapascal);
     io::Plot plot;
-    plot.title = scene.name;
+    plot.title = "Force and separation";
     plot.x_label = curved ? "mean height above the apex (Å)" : "mean separation (Å)";
-    plot.y_label = curved ? "force (nN)" : "stress (GPa)";
-    double strongest = -1e300, low = 1e300, high = -1e300;
+    plot.y_label = force_label(scene);
+    const double unit = force_unit(scene);
+    double low = 1e300, high = -1e300;
     io::PlotSeries in{.label = "approach", .x = {}, .y = {}, .colour = 0},
         out{.label = "pull-off", .x = {}, .y = {}, .colour = 1};
-    const double least = 1e-3 * -*std::min_element(path.force.begin(), path.force.end());
+    const auto [least, greatest] = std::minmax_element(path.force.begin(), path.force.end());
     for (std::size_t i = 0; i < path.leg.size(); ++i) {
         io::PlotSeries& series = path.leg[i] == 0.0 ? in : out;
         series.x.push_back(path.height[i]);
-        series.y.push_back(path.force[i] * scale);
-        strongest = std::max(strongest, path.force[i]);
-        if (std::abs(path.force[i]) <= least) continue; // out of reach: not worth room
+        series.y.push_back(path.force[i] / unit);
+        if (std::abs(path.force[i]) <= -1e-3 * *least) continue; // out of reach: not worth room
         low = std::min(low, path.height[i]);
         high = std::max(high, path.height[i]);
     }
-    if (curved) add_sphere_curves(plot, scene, setup, strongest);
+    if (curved) add_sphere_curves(plot, scene, flat, *greatest);
     for (io::PlotSeries* series : {&in, &out})
         if (!series->x.empty()) plot.series.push_back(std::move(*series));
-    if (curved) { // the run has the say, not the curves beside it
-        const auto [least_force, greatest_force] =
-            std::minmax_element(path.force.begin(), path.force.end());
-        const double room = 0.08 * (*greatest_force - *least_force);
-        plot.y_low = (*least_force - room) * scale;
-        plot.y_high = (*greatest_force + room) * scale;
+    if (curved) { // the run has the say, not curves beside it that go much deeper
+        const double room = 0.08 * (*greatest - *least);
+        double deepest = *least / unit;
+        for (const io::PlotSeries& s : plot.series)
+            for (const double y : s.y)
+                if (y > 1.5 * *least / unit) deepest = std::min(deepest, y);
+        plot.y_low = deepest - room / unit;
+        plot.y_high = (*greatest + room) / unit;
     }
     if (high > low) {
         const double room = 0.04 * (high - low);
         plot.x_low = low - room;
         plot.x_high = high + room;
     }
-    io::write_plot(directory + "/curve.svg", plot);
+    return plot;
+}
+
+void write_curve(const std::string& directory, const PathSeries& path, const Scene& scene,
+                 const FlatReference& flat) {
+    std::optional<io::Plot> plot = force_curve(path, scene, flat);
+    if (!plot) return;
+    plot->title = scene.title();
+    io::write_plot(directory + "/curve.svg", *plot);
 }
 
 } // namespace asperity

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Force against separation, after a run along a path: what the series of run.h5 say of it, as
-// numbers for result.json and as curve.svg.
+// numbers for result.json and as a plot (curve.svg, the report).
 //
 // Separation is the mean height of the lowest layer above the substrate's zero (the apex, if it is
 // curved), so that the rigid shift of the block, which depends on its thickness, is not in it.
@@ -11,8 +11,9 @@
 // on flat.
 #pragma once
 
+#include "engine/block/interface.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/setup/setup.hpp"
+#include "io/plot.hpp"
 #include "io/result.hpp"
 
 #include <optional>
@@ -46,10 +47,18 @@ void add_path(const PathSeries& path, const Scene& scene, io::ResultRecord& reco
 /// What a smooth sphere would do, in the record of a curved scene: contact_radius.zero_load, and
 /// sphere.{jkr, jkr_images, maugis_images}, pull-off forces as works of adhesion by JKR (meV/Å²),
 /// sphere.maugis_parameter.
-void add_sphere(const Scene& scene, const Setup& setup, io::ResultRecord& record);
+void add_sphere(const Scene& scene, const FlatReference& flat, io::ResultRecord& record);
 
-/// directory/curve.svg.
+/// What forces on the block are drawn in, eV/Å: 1 nN, or, where the nominal area means something,
+/// 1 GPa on it. And the axis' label.
+double force_unit(const Scene& scene);
+std::string force_label(const Scene& scene);
+
+/// Force against separation, both ways; nothing without a path.
+std::optional<io::Plot> force_curve(const PathSeries& path, const Scene& scene,
+                                    const FlatReference& flat);
+/// It as directory/curve.svg.
 void write_curve(const std::string& directory, const PathSeries& path, const Scene& scene,
-                 const Setup& setup);
+                 const FlatReference& flat);
 
 } // namespace asperity

@@ -71,7 +71,7 @@ int RunFrame::go() {
     if (ranks_.root()) {
         for (const std::string& difference : differences_)
             fmt::print("  NOT AS PLANNED: {}\n", difference);
-        write_curve(directory_, curve_, scene_, setup_);
+        write_curve(directory_, curve_, scene_, setup_.flat);
         print_summary(stdout, scene_, setup_, findings_, energy_residual(), directory_);
         if (!stopped_.empty())
             fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);

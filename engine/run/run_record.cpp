@@ -19,6 +19,7 @@ namespace asperity {
 io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Setup& setup,
                             const Findings& findings, int ranks) {
     io::ResultRecord r;
+    r.name = scene.name;
     r.scene = scene_json(scene);
     const auto& s = surface.statistics;
     r.surface = {s.rms, s.rms_slope, s.lowest, s.highest};
@@ -45,7 +46,7 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
         if (findings.approach) r.jkr.in = jkr(findings.attraction_in);
         if (findings.pull_off) r.jkr.out = jkr(findings.attraction_out);
     }
-    add_sphere(scene, setup, r);
+    add_sphere(scene, setup.flat, r);
     if (findings.dissipated) {
         const Dissipation& lost = *findings.dissipated;
         const double area = scene.edge() * scene.edge();

@@ -174,14 +174,16 @@ TheoryNumbers solve_theory(const TheoryCase& what) {
     return with_scene_errors([&] {
         TheoryNumbers n;
         const auto& c = what.contact;
+        n.h_rms = c.spectrum.rms_height();
+        n.rms_slope = c.spectrum.rms_slope();
         n.state = theory::solve(c);
         n.gamma_eff = units::milli_per_unit * n.state.gamma_eff;
         n.gamma_full_contact = units::milli_per_unit * theory::full_contact(c).gamma;
         n.gamma_eff_with_gaps =
             units::milli_per_unit * theory::gap_attraction(c, n.state, what.wall).gamma_with;
         if (what.q0)
-            n.theta = theory::adhesion_parameter(c.contact_modulus, c.spectrum.rms_height(),
-                                                 *what.q0, c.work_of_adhesion);
+            n.theta = theory::adhesion_parameter(c.contact_modulus, n.h_rms, *what.q0,
+                                                 c.work_of_adhesion);
         if (what.radius && n.state.gamma_eff > 0.0)
             n.jkr_pull_off_force =
                 -theory::jkr::pull_off({*what.radius, c.contact_modulus, n.state.gamma_eff}).force;
@@ -201,8 +203,8 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::ResultRec
     extra("gamma_eff_error", n.state.gamma_ratio_error * what.delta_gamma);
     extra("contact_fraction_error", n.state.area_error);
     extra("elastic_energy", units::milli_per_unit * n.state.elastic_energy);
-    extra("h_rms", what.contact.spectrum.rms_height());
-    extra("rms_slope", what.contact.spectrum.rms_slope());
+    extra("h_rms", n.h_rms);
+    extra("rms_slope", n.rms_slope);
     if (n.theta) extra("theta", *n.theta);
     if (n.jkr_pull_off_force) extra("jkr_pull_off_force", *n.jkr_pull_off_force);
     extra("status", std::string(theory::name(n.state.status)));

@@ -51,6 +51,7 @@ TheoryCase theory_case(const Scene& scene, const Surface* surface = nullptr,
 /// What the theory says of it. Energies in meV/Å^2.
 struct TheoryNumbers {
     theory::ContactState state;
+    double h_rms = 0.0, rms_slope = 0.0; ///< of the spectrum solved for: Å, -
     double gamma_eff = 0.0;
     double gamma_full_contact = 0.0;
     double gamma_eff_with_gaps = 0.0;

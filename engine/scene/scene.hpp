@@ -129,6 +129,8 @@ struct Scene {
     io::Positions positions;
 
     double edge() const { return surface.sites * surface.spacing; } ///< of the box, Å
+    /// "fig5: rms 3 Å, 128 × 128, R = 275.6 Å"
+    std::string title() const;
     /// An empty list of problems that knows this scene's positions.
     io::Problems problems() const { return io::Problems(positions); }
     bool has(PathPart part) const;

@@ -69,5 +69,5 @@ END
     [ "$(head -c 5 $directory.pdf)" = "%PDF-" ] || fail "$directory cannot be printed"
 done
 # Readable without its script: all sections and plots stand in the document itself.
-[ "$(sed '/<script>/,$d' run/report.html | grep -o '<svg' | wc -l)" = 12 ] || fail "plots need the script"
+[ "$(sed '/<script>/,$d' run/report.html | grep -o '<svg' | wc -l)" = 13 ] || fail "plots need the script"
 finish

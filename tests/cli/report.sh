@@ -19,13 +19,14 @@ expect 0 run small.toml --progress off --out run
 before=$(cat run/result.json)
 expect 0 report run
 says "run/report.html: one page"
-holds run/report.html '<h1>run</h1>' 'binding energy at zero load' 'Persson’s theory' 'energy balance' \
+holds run/report.html '<h1>small: rms 0.5 Å, 32 × 32</h1>' 'binding energy at zero load' 'Persson’s theory' 'energy balance' \
     'Not simulated' 'Force and separation' 'Energies' 'Contact over the path' 'The state at zero load' \
-    'Gap (Å)' 'Pressure, positive pushes (GPa)' 'Distribution of gaps' 'Height of the substrate (Å)' \
+    'Gap (Å)' 'Pressure, positive pushes (GPa)' 'Distribution of gaps' 'Distribution of pressure' \
+    'hysteresis' 'pull-off stress' 'Height of the substrate (Å)' \
     'Roughness spectrum' 'Binding energy and roughness' 'All numbers' 'Time spent' 'timestep = 20.0' \
     'Provenance' 'compiler' 'machine' 'arXiv:1112.5275' 'data:image/png;base64,'
 for plot in separation loading contact energy balance gap-zero-load pressure-zero-load contact-zero-load \
-    gaps-zero-load height spectrum roughness; do
+    gaps-zero-load pressures-zero-load height spectrum roughness; do
     [ "$(head -c 8 "run/report/$plot.png" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] ||
         fail "report/$plot.png is no PNG"
     [ -s "run/report/$plot.csv" ] || fail "report/$plot.csv was not written"
@@ -38,7 +39,7 @@ grep -oE '(src|href)="[^"]*"' run/report.html | grep -vE '="(data:|#)' && fail "
 [ "$(wc -l <run/report/gap-zero-load.csv)" = 32 ] || fail "the map has not 32 lines"
 [ "$before" = "$(cat run/result.json)" ] || fail "the result was touched"
 expect 0 report run/ # again, and with a slash: the same page
-holds run/report.html '<h1>run</h1>'
+holds run/report.html '<h1>small: rms 0.5 Å, 32 × 32</h1>'
 
 # The scene in the page is the scene: it gives the same plan.
 sed -n '/<pre>/,/<\/pre>/p' run/report.html | sed 's/<[^>]*>//g; s/&quot;/"/g' >again.toml
@@ -68,15 +69,38 @@ expect 0 report theory
 holds theory/report.html 'nothing was simulated' 'Persson’s theory'
 expect 0 sweep small.toml --theory-only --set surface.rms=0.2:1:0.2 --set drive.load=0,100 --out sweep
 expect 0 report sweep
-holds sweep/report.html '10 points over surface.rms, drive.load' 'theory, load = 100' 'All points'
+holds sweep/report.html '<h1>small</h1>' '10 points over surface.rms (0.2 to 1), drive.load (0 to 100)' 'load = 100 MPa' \
+    'All points' 'full theory'
 [ -s sweep/report/gamma.png ] || fail "no plot of the sweep"
 # Points that were simulated carry their numbers; names with dots are whole.
-sed '0,/"delta_gamma": [0-9]/s//"result": { "binding_energy": 91.5, "work_of_adhesion.approach": 90.25 },\n&/' \
+sed '0,/"delta_gamma": [0-9]/s//"result": { "delta_gamma": 100, "binding_energy": 91.5, "work_of_adhesion.approach": 90.25 },\n&/' \
     sweep/sweep.json >simulated.json
 mkdir simulated && mv simulated.json simulated/sweep.json
 expect 0 report simulated
-holds simulated/report.html 'state at zero load, load' 'approach, load' '0.9255' '0.9129'
-expect 0 run small.toml --progress off --out 'a <b> & c' --set drive.max_steps=5
+holds simulated/report.html 'state at zero load' 'approach' '0.9150' '0.9025'
+# A sweep of runs: the same plots as the sweep's own, a map and a page of each point, seeds shared.
+printf '[surface]\nsites = 24\n[block]\nmodel = "spectral"\n[drive]\npath = ["zero-load"]\n' >state.toml
+expect 0 sweep state.toml --set surface.rms=0.2,0.6 surface.seed=1,2 --progress off --out points
+expect 0 report points
+holds points/report.html '4 points over' 'href="rms=0.2,seed=1/report.html"' 'href="rms=0.6,seed=1/report.html"' \
+    'class="thumbs"' '±'
+[ -s points/rms=0.6,seed=1/report.html ] && [ ! -e points/rms=0.6,seed=2/report.html ] || fail "pages of the points"
+[ "$(grep -o '<path d="[^"]*"' points/gamma.svg | wc -l)" -gt 2 ] || fail "no curve of the theory"
+head -n 1 points/report/gamma.csv | grep -q theory || fail "no curve of the theory in the report"
+page=$(stat -c %Y%i points/rms=0.6,seed=1/report.html)
+expect 0 report points
+[ "$page" = "$(stat -c %Y%i points/rms=0.6,seed=1/report.html)" ] || fail "a page was made again"
+sed 's/24/20/' state.toml >other.toml
+expect 0 sweep state.toml other.toml --set surface.rms=0.2,0.6 --progress off --out both
+expect 0 report both
+holds both/report.html '<h1>other, state</h1>' 'other: state at zero load' 'href="state/rms=0.2/report.html"' \
+    'The points of other'
+# A sphere: its own numbers, and the curves of a smooth one.
+expect 0 run small.toml --progress off --out sphere --set surface.radius=100 surface.rms=0.2 output.series=10
+expect 0 report sphere
+holds sphere/report.html 'R = 100 Å</h1>' 'smooth sphere, Maugis-Dugdale with images' 'by JKR' 'pull-off force' 'force F (nN)'
+# What has no name has its directory's; text is text.
+cp -r bare 'a <b> & c' && echo '{"delta_gamma": 1}' >'a <b> & c/result.json'
 expect 0 report 'a <b> & c'
 holds 'a <b> & c/report.html' '<h1>a &lt;b&gt; &amp; c</h1>'
 

@@ -3,7 +3,9 @@
 //
 // Sweeps without their processes: where axes come from, what a point's directory says, means over
 // seeds, and what a path says of its hysteresis.
+#include "engine/commands/stored_sweep.hpp"
 #include "engine/commands/sweep_output.hpp"
+#include "engine/commands/sweep_plots.hpp"
 #include "engine/commands/sweep_points.hpp"
 #include "engine/commands/sweep_table.hpp"
 #include "engine/run/curve.hpp"
@@ -131,6 +133,30 @@ TEST(SweepTables, GoToCsvAndHdf5Alike) {
     EXPECT_EQ(file.read<double>("/means/binding_energy.count"), (std::vector<double>{3, 3, 2}));
     EXPECT_EQ(file.read_text_attribute("/points/binding_energy", "unit"), "meV/Å^2");
     EXPECT_TRUE(std::isnan(file.read<double>("/points/binding_energy").back()));
+}
+
+TEST(SweepTables, ReadBackGiveTheSamePlots) {
+    const io::Scratch scratch;
+    SweepTable table = table_of_nine();
+    table.notes = {"a note"};
+    for (SweepPoint& p : table.points) {
+        p.name = "somewhere";
+        table.theory.push_back(p); // some curve
+    }
+    write_tables(scratch / "out", table);
+    const std::vector<StoredSweep> sweeps = read_sweeps(scratch / "out");
+    ASSERT_EQ(sweeps.size(), 1u);
+    const SweepTable& back = sweeps[0].table;
+    EXPECT_EQ(back.name, table.name);
+    EXPECT_EQ(back.notes, table.notes);
+    EXPECT_EQ(sweep_text(back).rows, sweep_text(table).rows);
+    std::string note;
+    const auto here = sweep_plots({table}, note), there = sweep_plots({back}, note);
+    ASSERT_EQ(here.size(), there.size());
+    ASSERT_EQ(here.size(), 1u); // no contact, no cycle
+    for (std::size_t i = 0; i < here.size(); ++i)
+        EXPECT_EQ(io::plot_svg(here[i]), io::plot_svg(there[i]));
+    EXPECT_EQ(read_sweeps(scratch / "").size(), 1u); // in a folder of its own
 }
 
 TEST(SweepPoints, AreKnownByTheirResult) {

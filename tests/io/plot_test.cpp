@@ -180,6 +180,36 @@ TEST(Plot, TheLegendCoversNothing) {
     EXPECT_EQ(count(plot_svg(full), "height=\"468\""), 2u);
 }
 
+TEST(Plot, DrawsNoMoreOfALineThanCanBeSeen) {
+    Plot plot;
+    plot.series.push_back({"noise", {}, {}, PlotSeries::Style::line, -1});
+    for (int i = 0; i < 100000; ++i) {
+        plot.series[0].x.push_back(i);
+        plot.series[0].y.push_back(i == 12345 ? 9.0 : i == 54321 ? -7.0 : std::sin(0.7 * i));
+    }
+    const std::string svg = plot_svg(plot);
+    std::smatch frame, y;
+    ASSERT_TRUE(
+        std::regex_search(svg, frame, std::regex("data-frame=\"\\S+ (\\S+) \\S+ (\\S+)\"")));
+    ASSERT_TRUE(std::regex_search(svg, y, std::regex("data-y=\"(\\S+) (\\S+) linear\"")));
+    const double top = std::stod(frame[1]), bottom = std::stod(frame[2]);
+    const double low = std::stod(y[1]), high = std::stod(y[2]);
+    // curve() would match this long path with a recursion.
+    const std::size_t from = svg.find("<path d=\"M") + 9;
+    const std::string path = svg.substr(from, svg.find('"', from) - from);
+    EXPECT_LT(count(path, "L"), 6000u);
+    double greatest = -1e9, least = 1e9;
+    for (std::size_t at = path.find(' '); at != std::string::npos; at = path.find(' ', at + 1)) {
+        const double v =
+            low + (bottom - std::stod(path.substr(at))) / (bottom - top) * (high - low);
+        greatest = std::max(greatest, v);
+        least = std::min(least, v);
+    }
+    EXPECT_NEAR(greatest, 9.0, 0.01);
+    EXPECT_NEAR(least, -7.0, 0.01);
+    EXPECT_EQ(count(plot_csv(plot), "\n"), 100001u); // the numbers are all there
+}
+
 TEST(Plot, NumbersAsText) {
     Plot plot;
     plot.x_label = "h_{rms} (Å)";
