@@ -31,25 +31,21 @@ std::string grid_text(const std::string& hdf5, const XdmfGrid& g) {
     return text + "    </Grid>\n";
 }
 
-std::string points_text(const std::string& hdf5, const XdmfPoints& p) {
+std::string points_text(const XdmfPoints& p) {
     if (p.times.empty()) return "";
     std::string text = fmt::format(
         "    <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", p.name);
     for (std::size_t frame = 0; frame < p.times.size(); ++frame)
-        text += fmt::format(
-            "      <Grid Name=\"{0} {1}\" GridType=\"Uniform\">\n"
-            "        <Time Value=\"{2:.9g}\"/>\n"
-            "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{3}\"/>\n"
-            "        <Geometry GeometryType=\"XYZ\">\n"
-            "          <DataItem ItemType=\"HyperSlab\" Dimensions=\"{3} 3\">\n"
-            "            <DataItem Dimensions=\"3 3\" Format=\"XML\">{1} 0 0 1 1 1 1 {3} "
-            "3</DataItem>\n"
-            "            <DataItem Dimensions=\"{4} {3} 3\" NumberType=\"Float\" Precision=\"4\" "
-            "Format=\"HDF\">{5}:{6}</DataItem>\n"
-            "          </DataItem>\n"
-            "        </Geometry>\n"
-            "      </Grid>\n",
-            p.name, frame, p.times[frame], p.points, p.times.size(), hdf5, p.dataset);
+        text += fmt::format("      <Grid Name=\"{0} {1}\" GridType=\"Uniform\">\n"
+                            "        <Time Value=\"{2:.9g}\"/>\n"
+                            "        <Topology TopologyType=\"Polyvertex\" "
+                            "NumberOfElements=\"{3}\"/>\n"
+                            "        <Geometry GeometryType=\"XYZ\">\n"
+                            "          <DataItem Dimensions=\"{3} 3\" NumberType=\"Float\" "
+                            "Precision=\"4\" Format=\"HDF\">{4}:{5}</DataItem>\n"
+                            "        </Geometry>\n"
+                            "      </Grid>\n",
+                            p.name, frame, p.times[frame], p.points, p.hdf5, p.datasets[frame]);
     return text + "    </Grid>\n";
 }
 
@@ -62,7 +58,7 @@ std::string xdmf(const std::string& hdf5, const std::vector<XdmfGrid>& grids,
                        "<Xdmf Version=\"2.0\">\n  <Domain>\n";
     for (const XdmfGrid& grid : grids)
         text += grid_text(hdf5, grid);
-    return text + points_text(hdf5, points) + "  </Domain>\n</Xdmf>\n";
+    return text + points_text(points) + "  </Domain>\n</Xdmf>\n";
 }
 
 } // namespace asperity::io

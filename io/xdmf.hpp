@@ -26,12 +26,14 @@ struct XdmfGrid {
     std::vector<XdmfMap> maps;
 };
 
-/// Points that move: data set [frame][point][3] of single precision.
+/// Points that move: a data set [point][3] of single precision a frame. (Slabs of one data set of
+/// all frames are read differently by the XDMF libraries 2 and 3.)
 struct XdmfPoints {
     std::string name;
-    std::string dataset;
+    std::string hdf5; ///< the file's name as seen from the XDMF file
     std::uint64_t points = 0;
-    std::vector<double> times; ///< of the frames, ps
+    std::vector<double> times;         ///< of the frames, ps
+    std::vector<std::string> datasets; ///< as many as times
 };
 
 /// hdf5: the file's name as seen from the XDMF file.

@@ -65,14 +65,7 @@ public:
                                      "/fields/" + state.name + "/" + name, name == "contact"});
             grids.push_back(std::move(grid));
         }
-        io::XdmfPoints points;
-        if (run_.frames > 0) {
-            const io::Hdf5File file(run_.path("run.h5"), io::Hdf5File::Mode::read);
-            const std::string position = std::string(io::H5mdTrajectory::group) + "/position";
-            points = {"lowest layer", position + "/value", file.shape(position + "/value").at(1),
-                      file.read<double>(position + "/time")};
-        }
-        io::write_whole(run_.path("run.xdmf"), io::xdmf("run.h5", grids, points));
+        io::write_whole(run_.path("run.xdmf"), io::xdmf("run.h5", grids, frames()));
         written_.push_back(run_.path("run.xdmf"));
     }
 
@@ -190,6 +183,27 @@ private:
             fit_box(frame, run_.edge());
             out.append(frame);
         }
+    }
+
+    /// The trajectory for XDMF: its frames one by one in export/trajectory.h5.
+    io::XdmfPoints frames() {
+        io::XdmfPoints points{"lowest layer", "export/trajectory.h5", 0, {}, {}};
+        if (run_.frames == 0) return points;
+        const io::Hdf5File file(run_.path("run.h5"), io::Hdf5File::Mode::read);
+        const std::string position = std::string(io::H5mdTrajectory::group) + "/position";
+        points.points = file.shape(position + "/value").at(1);
+        points.times = file.read<double>(position + "/time");
+        io::make_directory(run_.path("export"));
+        io::Hdf5File copy(run_.path(points.hdf5), io::Hdf5File::Mode::create);
+        std::vector<float> values(3 * points.points);
+        for (std::size_t f = 0; f < run_.frames; ++f) {
+            file.read_slab<float>(position + "/value", {f, 0, 0}, {1, points.points, 3}, values);
+            points.datasets.push_back(fmt::format("/position-{}", f));
+            copy.write<float>(points.datasets.back(), {points.points, 3}, values);
+        }
+        copy.close();
+        written_.push_back(run_.path(points.hdf5));
+        return points;
     }
 
     template <class Fill>

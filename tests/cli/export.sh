@@ -22,6 +22,7 @@ says "run/export/zero-load.xyz"
 says "run/export/trajectory.xyz"
 expect 0 export run --to lammps
 expect 0 export run --to xdmf
+says "run/export/trajectory.h5"
 expect 0 export run --to png
 for map in gap pressure contact; do
     [ "$(head -c 4 "run/export/$map-zero-load.png" | tail -c 3)" = PNG ] || fail "$map is no PNG"
@@ -93,6 +94,30 @@ value = run["particles/trajectory/position/value"]
 assert len(frames) == len(value)
 assert all(np.allclose(f.positions[1024:], v, atol=1e-4) for f, v in zip(frames, value))
 END
+cat >xdmf_reads.py <<'END'
+import sys
+import xml.etree.ElementTree as tree
+try:
+    import h5py, numpy as np
+except ImportError:
+    sys.exit(77)
+# Every data set is where the XML says, of the shape and kind that it says, and the frames are the trajectory's.
+run = h5py.File("run/run.h5")
+value = run["particles/trajectory/position/value"]
+frames = 0
+for item in tree.parse("run/run.xdmf").iter("DataItem"):
+    if item.get("Format") != "HDF":
+        continue
+    file, dataset = item.text.split(":")
+    data = h5py.File("run/" + file)[dataset]
+    said = [int(n) for n in item.get("Dimensions").split()]
+    assert [n for n in said if n > 1] == list(data.shape), dataset
+    assert data.dtype.itemsize == int(item.get("Precision")), dataset
+    if dataset.startswith("/position-"):
+        assert (data[:] == value[frames]).all()
+        frames += 1
+assert frames == len(value)
+END
 cat >mdanalysis_reads.py <<'END'
 import sys, warnings
 warnings.filterwarnings("ignore")
@@ -111,7 +136,7 @@ for frame, ts in enumerate(universe.trajectory):
     if frame == 0:
         assert np.allclose(ts.velocities, [0, 0, -1.0]) # 100 m/s, in Å/ps
 END
-for reader in ase mdanalysis; do
+for reader in ase xdmf mdanalysis; do
     [ -x /usr/bin/python3 ] || continue
     out=$(/usr/bin/python3 ${reader}_reads.py 2>&1)
     case $? in
