@@ -25,6 +25,9 @@ expect 0 run small.toml --progress off --out run
 expect 0 report run
 expect 0 sweep small.toml --theory-only --set surface.rms=0.2:1:0.2 --out sweep
 expect 0 report sweep
+printf '[surface]\nsites = 24\n[block]\nmodel = "spectral"\n[drive]\npath = ["zero-load"]\n' >state.toml
+expect 0 sweep state.toml --set surface.rms=0.2,0.6 --progress off --out points
+expect 0 report points
 
 # A copy that moves the pointer to each plot's middle, and tells its parent how wide it has become, what the
 # read-outs say, and what it has loaded.
@@ -49,7 +52,7 @@ addEventListener('load', () => {
 });
 </script>
 END
-for directory in run sweep; do
+for directory in run sweep points; do
     sed '/^<\/body>/e cat probe.html' $directory/report.html >$directory/probe.html
     for width in 360 1280; do
         cat >frame.html <<END
