@@ -129,17 +129,23 @@ void SpectralBlock::set_uniform(double z) {
         std::fill(uz.line(y), uz.line(y) + uz.nx, z);
     waves_.clear();
     if (slab_.holds_uniform()) waves_.row(components_ - 1, 0)[0] = z;
-    if (!top_free_) top_ = z;
+    if (held_ != Held::nothing) held_at_ = z;
 }
 
 void SpectralBlock::hold_top(double z) {
-    top_ = z;
-    top_free_ = false;
+    held_ = Held::top;
+    held_at_ = z;
     table(zz, 0)[0] = uniform_;
 }
 
+void SpectralBlock::hold_mean_height(double z) {
+    held_ = Held::mean_height;
+    held_at_ = z;
+    table(zz, 0)[0] = 0.0;
+}
+
 void SpectralBlock::free_top() {
-    top_free_ = true;
+    held_ = Held::nothing;
     table(zz, 0)[0] = 0.0;
 }
 
@@ -150,9 +156,9 @@ double SpectralBlock::mean_height() const {
 }
 
 double SpectralBlock::top_force() const {
-    if (top_free_) return 0.0;
+    if (!top_is_held()) return 0.0;
     const double sites = options_.sites;
-    return sites * sites * uniform_ * (mean_height() - top_);
+    return sites * sites * uniform_ * (mean_height() - held_at_);
 }
 
 void SpectralBlock::gradient(double load, Waves<double>& g) const {
@@ -165,7 +171,8 @@ void SpectralBlock::gradient(double load, Waves<double>& g) const {
     if (!slab_.holds_uniform()) return;
     double& mean = g.row(components_ - 1, 0)[0];
     mean += norm * load;
-    if (!top_free_) mean -= uniform_ * top_;
+    if (top_is_held()) mean -= uniform_ * held_at_;
+    if (mean_height_is_held()) mean = 0.0;
 }
 
 template <class T>
@@ -179,7 +186,7 @@ double SpectralBlock::elastic_energy() const {
     // Half u.(S u), u measured from the top plane where that is held.
     Waves<double> u = new_waves<double>(), su = new_waves<double>();
     combine(1.0, waves_, 0.0, u);
-    if (!top_free_ && slab_.holds_uniform()) u.row(components_ - 1, 0)[0] -= top_;
+    if (top_is_held() && slab_.holds_uniform()) u.row(components_ - 1, 0)[0] -= held_at_;
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < slab_.rows; ++y)
         stiffen_row(y, u, 0.0, su);
@@ -208,12 +215,32 @@ void SpectralBlock::displace(double t, const Waves<float>& d, const SiteField<fl
         }
 }
 
+void SpectralBlock::keep_mean_height(Waves<float>& d, SiteField<float>& at_sites) const {
+    if (!mean_height_is_held()) return;
+    const int normal = components_ - 1;
+    double mean = 0.0;
+    if (slab_.holds_uniform()) mean = std::exchange(d.row(normal, 0)[0], 0.0f);
+    slab_.ranks.broadcast(std::span(&mean, 1));
+    const auto by = static_cast<float>(mean);
+    const PlaneView<float> z = at_sites[static_cast<std::size_t>(normal)].plane(0);
+    for (int y = 0; y < z.ny; ++y)
+        for (int x = 0; x < z.nx; ++x)
+            z(x, y) -= by;
+}
+
 void SpectralBlock::settle() {
     const VectorPlane<const double> layer = std::as_const(layer_).plane(0);
     for (int c = 0; c < components_; ++c)
         transform_.forward(moving(layer, c), waves_, c);
     const double sites = options_.sites;
     combine(0.0, waves_, 1.0 / (sites * sites), waves_);
+    if (!mean_height_is_held()) return;
+    const double by = held_at_ - mean_height();
+    if (slab_.holds_uniform()) waves_.row(components_ - 1, 0)[0] = held_at_;
+    const PlaneView<double> z = layer_.z.plane(0);
+    for (int y = 0; y < z.ny; ++y)
+        for (int x = 0; x < z.nx; ++x)
+            z(x, y) += by;
 }
 
 SurfaceMatrix SpectralBlock::stiffness(int nx, int ny) const {
@@ -241,7 +268,8 @@ Preconditioner::Preconditioner(const SpectralBlock& block, double k)
             m.xx += k;
             m.yy += k;
             m.zz += k;
-            const SurfaceMatrix i = inverse(m);
+            SurfaceMatrix i = inverse(m);
+            if (nx == 0 && ny == 0 && block.mean_height_is_held()) i.zz = 0.0;
             if (entries_ == 1) {
                 *at = static_cast<float>(i.zz);
                 continue;

@@ -19,7 +19,8 @@
 //
 // The rigid top plane is clamped sideways. Along z it is held at `top` (its displacement), or free:
 // then it follows the mean height of the layer, the uniform normal wave costs nothing, and no force
-// is on it.
+// is on it. Or that mean height itself is held: then there is no force along the uniform wave,
+// which stays as it is, and the other waves are all that moves.
 //
 // The displacement of the layer is kept both at the sites (for the interface) and as waves (for
 // everything else), in slabs of rows over the ranks; displace() changes both. What says so is
@@ -67,19 +68,23 @@ public:
     void set_uniform(double z);
     /// The top plane's displacement along z, Å; it is held there.
     void hold_top(double z);
-    /// From now on the top plane follows the layer.
+    /// The layer's mean displacement along z, Å: held there, where settle() brings the block. The
+    /// top plane follows.
+    void hold_mean_height(double z);
+    /// From now on nothing is held; the top plane follows the layer.
     void free_top();
-    bool top_is_free() const { return top_free_; }
+    bool top_is_held() const { return held_ == Held::top; }
+    bool mean_height_is_held() const { return held_ == Held::mean_height; }
     /// Collective, as are the next two.
-    double top() const { return top_free_ ? mean_height() : top_; }
+    double top() const { return top_is_held() ? held_at_ : mean_height(); }
     /// Mean of u_z over the layer, Å.
     double mean_height() const;
     /// Elastic force on the held top plane along z, eV/Å (zero on a free one).
     double top_force() const;
 
     /// Gradient of the energy with respect to each site, as waves: S u - F - load, with F what
-    /// interface_force() holds and the load (eV/Å, pressing down) spread over the top plane.
-    /// Collective.
+    /// interface_force() holds and the load (eV/Å, pressing down) spread over the top plane. None
+    /// along a mean height that is held. Collective.
     void gradient(double load, Waves<double>& g) const;
     /// f <- S u + norm f for row y of the slab: u and f are its components.
     template <class T>
@@ -93,8 +98,12 @@ public:
     void to_waves(const SiteField<float>& field, Waves<float>& waves) const;
     /// u <- u + t d, given both as waves and at the sites.
     void displace(double t, const Waves<float>& d, const SiteField<float>& at_sites);
+    /// Takes out of a displacement, given both ways, what would change a mean height that is held.
+    /// Collective.
+    void keep_mean_height(Waves<float>& d, SiteField<float>& at_sites) const;
     /// Makes the waves those of the sites: after a state from outside, or after many displacements,
-    /// which in single precision leave 1e-7 of what has been moved between them. Collective.
+    /// which in single precision leave 1e-7 of what has been moved between them. A mean height that
+    /// is held is then what it should be. Collective.
     void settle();
 
     /// S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2. Frictionless: its one number, as zz.
@@ -117,16 +126,17 @@ private:
     std::size_t columns_ = 0;
     std::vector<double> table_; ///< S of the quadrant: [zz, or xx yy zz xy xz yz][ny][nx], eV/Å^2
     double uniform_ = 0.0;      ///< S_zz of the uniform wave with the top held, eV/Å^2
-    double top_ = 0.0;
-    bool top_free_ = true;
+    enum class Held { nothing, top, mean_height };
+    Held held_ = Held::nothing;
+    double held_at_ = 0.0; ///< Å
     VectorField<double> layer_, force_;
     Waves<double> waves_;
     SurfaceTransform<double> transform_;
     SurfaceTransform<float> single_;
 };
 
-/// (S + k)^-1, in single precision, of a block as it is (its top held or free): k > 0, eV/Å^2,
-/// stands for the interface's stiffness of a site.
+/// (S + k)^-1, in single precision, of a block as it is (held or free): k > 0, eV/Å^2, stands for
+/// the interface's stiffness of a site. Zero for the uniform wave of a mean height that is held.
 class Preconditioner {
 public:
     Preconditioner(const SpectralBlock& block, double k);

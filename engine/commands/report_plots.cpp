@@ -91,6 +91,8 @@ std::optional<io::Plot> separation_plot(const StoredRun& run) {
 }
 
 std::optional<io::Plot> loading_plot(const StoredRun& run) {
+    // With the mean height held, the top plane follows: the plot above again.
+    if (run.scene && run.scene->drive.hold == Hold::mean_height) return std::nullopt;
     // What the top plane feels from the block is minus what it does to it: the same sign as the
     // force of the substrate at rest.
     const auto *top = column(run, "top"), *force = column(run, "top_force");

@@ -222,8 +222,9 @@ std::vector<std::string> what_was_simulated(const Scene& scene) {
     if (relaxed)
         list.push_back("the relaxed state under zero load, straight from the undeformed block");
     else if (scene.drive.mode == DriveMode::quasistatic)
-        list.push_back(fmt::format("force balance at every {:.3g} Å of the top plane’s path",
-                                   scene.drive.step));
+        list.push_back(fmt::format("force balance at every {:.3g} Å of the {}", scene.drive.step,
+                                   scene.drive.hold == Hold::top ? "top plane’s path"
+                                                                 : "lowest layer’s mean height"));
     else
         list.push_back(fmt::format("motion in time: the top plane driven at {:.4g} m/s, steps of "
                                    "{:.4g} fs",

@@ -32,21 +32,36 @@ public:
     const Communicator& communicator() const override { return block_.communicator(); }
     void set_uniform(double z) override { block_.set_uniform(z, 0.0); }
     void hold_top(double z) override {
-        held_ = true;
+        held_ = Hold::top;
         block_.set_top(z);
     }
-    void free_top() override { held_ = false; }
+    void free_top() override { held_.reset(); }
     double top() const override { return block_.top(); }
+    void hold_mean_height(double z) override {
+        held_ = Hold::mean_height;
+        height_ = z;
+        block_.set_top(z);
+    }
+    double mean_height() const override {
+        ExactSum sum;
+        block_.add_lowest_z(sum);
+        const double sites = block_.options().sites;
+        return global_sum(block_.communicator(), sum) / (sites * sites);
+    }
     std::vector<StateArray> state() override {
         std::vector<StateArray> list;
         for (Block::Level& level : block_.levels())
             add_arrays(level.plan.level, level.u, level.plan.cells, list);
         return list;
     }
-    void settle() override { block_.exchange(); }
+    void settle() override {
+        if (held_ == Hold::mean_height) shift(height_ - mean_height());
+        block_.exchange();
+    }
     RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
                        Phases& phases) override {
-        options.top_held = held_;
+        options.top_held = held_ == Hold::top;
+        options.mean_height_held = held_ == Hold::mean_height;
         return asperity::relax(block_, interface, reference_height, options, phases);
     }
     std::size_t bytes() const override { return block_.bytes(); }
@@ -54,8 +69,20 @@ public:
     long long finite_nodes() const override { return block_.finite_nodes(); }
 
 private:
+    /// All that moves, the free top plane apart, by this much along z.
+    void shift(double by) {
+        for (Block::Level& level : block_.levels())
+            for (int cell = 0; cell < level.plan.cells; ++cell) {
+                const PlaneView<double> z = level.u.z.plane(cell);
+                for (int y = 0; y < z.ny; ++y)
+                    for (int x = 0; x < z.nx; ++x)
+                        z(x, y) += by;
+            }
+    }
+
     Block block_;
-    bool held_ = false;
+    std::optional<Hold> held_;
+    double height_ = 0.0; ///< the mean that is held, Å
 };
 
 class WavesAtRest final : public Equilibrium {
@@ -69,6 +96,8 @@ public:
     void hold_top(double z) override { block_.hold_top(z); }
     void free_top() override { block_.free_top(); }
     double top() const override { return block_.top(); }
+    void hold_mean_height(double z) override { block_.hold_mean_height(z); }
+    double mean_height() const override { return block_.mean_height(); }
     std::vector<StateArray> state() override {
         std::vector<StateArray> list;
         add_arrays(0, block_.layer(), 1, list);
@@ -79,7 +108,8 @@ public:
                        Phases& phases) override {
         options.max_move = 0.2;
         RelaxedState state = asperity::relax(block_, interface, reference_height, options, phases);
-        if (!block_.top_is_free() || options.load == 0.0) return state;
+        const bool held = block_.top_is_held() || block_.mean_height_is_held();
+        if (held || options.load == 0.0) return state;
         // A free top plane follows the layer and leaves out what the load presses the block
         // together by.
         const BlockOptions& o = block_.options();

@@ -34,13 +34,17 @@ public:
     virtual void hold_top(double z) = 0;
     virtual void free_top() = 0;
     virtual double top() const = 0;
+    /// The mean displacement of the lowest layer along z, Å. Held instead of the top plane, it
+    /// stays at z, where settle() brings the block. Collective, both.
+    virtual void hold_mean_height(double z) = 0;
+    virtual double mean_height() const = 0;
 
     /// Displacements of all that moves, those of the lowest layer (x, y, z) first.
     virtual std::vector<StateArray> state() = 0;
     /// Makes the rest follow after the arrays of state() were written from outside.
     virtual void settle() = 0;
 
-    /// Relaxes in place. options.max_move and options.top_held are the realisation's own.
+    /// Relaxes in place. options.max_move and what is held are the realisation's own.
     virtual RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
                                Phases& phases) = 0;
     virtual std::size_t bytes() const = 0;

@@ -26,20 +26,25 @@ void QuasistaticPath::start() {
     block_.set_uniform(before_top_);
     before_.take(block_.state());
     block_.set_uniform(0.0);
-    block_.hold_top(0.0);
-    first_point();
+    first_point(0.0);
     reversible_ = true;
     direction_ = -1.0;
 }
 
 void QuasistaticPath::hold_here() {
-    block_.hold_top(block_.top());
-    first_point();
+    first_point(options_.hold == Hold::top ? block_.top() : block_.mean_height());
     reversible_ = false;
 }
 
-void QuasistaticPath::first_point() {
-    record_.top = block_.top();
+void QuasistaticPath::hold(double top) {
+    if (options_.hold == Hold::top)
+        block_.hold_top(top);
+    else
+        block_.hold_mean_height(top);
+}
+
+void QuasistaticPath::first_point(double top) {
+    record_.top = top;
     last_.take(block_.state());
     const RelaxedState state = relax_at(record_.top, false);
     if (!state.converged)
@@ -54,7 +59,7 @@ void QuasistaticPath::first_point() {
 }
 
 void QuasistaticPath::resume() {
-    block_.hold_top(record_.top);
+    hold(record_.top);
     block_.settle();
     last_.take(block_.state());
     record_.observed = true;
@@ -63,7 +68,7 @@ void QuasistaticPath::resume() {
 
 void QuasistaticPath::put_back() {
     last_.restore(block_.state());
-    block_.hold_top(record_.top);
+    hold(record_.top);
     block_.settle();
 }
 
@@ -89,7 +94,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         const bool last_try = length_ <= smallest_step();
         if (!state.converged && last_try)
             throw io::PhysicsError(
-                fmt::format("no equilibrium was found at a top displacement of {:.6g} Å", top),
+                fmt::format("no equilibrium was found with the {} displaced by {:.6g} Å",
+                            options_.hold == Hold::top ? "top plane" : "mean height", top),
                 fmt::format("the largest force left is {:.2e} eV/Å after {} iterations, and {:.2e} "
                             "is asked for (a quarter of drive.tolerance)",
                             state.residual, state.iterations, 0.25 * options_.tolerance),
@@ -130,7 +136,7 @@ RelaxedState QuasistaticPath::relax_at(double top, bool predicted) {
     const auto arrays = block_.state();
     last_.restore(arrays);
     if (predicted) before_.extrapolate((top - record_.top) / (record_.top - before_top_), arrays);
-    block_.hold_top(top);
+    hold(top);
     block_.settle();
     RelaxOptions options;
     options.tolerance = 0.25 * options_.tolerance;

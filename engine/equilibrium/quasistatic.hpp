@@ -4,6 +4,12 @@
 // A quasi-static path: equilibria at one position of the held top plane after another, each found
 // downhill of the last, so that hysteresis is kept.
 //
+// Or what is held is the mean height of the lowest layer, by a machine that is hard whatever the
+// thickness of the block: the top plane follows, the block is not stretched as a whole, and what
+// holds feels the interface's force F. Where a block on its spring would fall as a whole, that path
+// goes on; only what happens within the surface can still be unstable. Below, "top" is then that
+// mean height, as a displacement.
+//
 // Between two points, the work of the top plane -int F dz_top is what the energy U_LJ + U_el has
 // gained, unless the block became unstable on the way and fell to another state: then some of it is
 // missing, and was dissipated. From the last point a step is tried and
@@ -34,7 +40,8 @@
 namespace asperity {
 
 struct PathOptions {
-    double step = 0.25;            ///< of the top plane, the largest, Å
+    Hold hold = Hold::top;
+    double step = 0.25;            ///< of what is held, the largest, Å
     double tolerance = 1e-4;       ///< eV/Å
     double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
     double load = 0.0;             ///< at which the approach ends, eV/Å
@@ -47,9 +54,9 @@ class QuasistaticPath {
 public:
     QuasistaticPath(Equilibrium& block, Interface& interface, PathOptions options);
 
-    /// The undisplaced block, its top plane held where nothing is in reach.
+    /// The undisplaced block, held where nothing is in reach.
     void start();
-    /// The block as it is, its top plane held from now on.
+    /// The block as it is, held from now on.
     void hold_here();
 
     enum class Outcome { point, landed, gone, interrupted };
@@ -61,8 +68,8 @@ public:
 
     /// The last point. Without time: step counts points, damped is what was dissipated.
     const StepRecord& now() const { return record_; }
-    /// int F dz of the mean height over the last approach and pull-off, eV. While the block falls,
-    /// F is what the block's spring exerts.
+    /// int F dz of the mean height over the last approach and pull-off, eV. While the block falls
+    /// under a held top plane, F is what the block's spring exerts.
     double approach_work() const { return approach_; }
     double pull_off_work() const { return pull_off_; }
     const Dissipation& dissipation() const { return dissipation_; }
@@ -85,12 +92,13 @@ private:
         bool smooth = true;      ///< the force did not jump
         double margin = 0.0;     ///< allowed error over the one found: how much the step may grow
     };
+    void hold(double top);
     RelaxedState relax_at(double top, bool predicted);
     Verdict judge(const RelaxedState& state, double top) const;
     void accept(const RelaxedState& state, double top, const Verdict& verdict, Leg leg);
     Jump describe(const RelaxedState& state, double energy, Leg leg) const;
     void set_record(const RelaxedState& state, double top);
-    void first_point();
+    void first_point(double top);
     double smallest_step() const { return options_.step * 0x1p-16; }
 
     Equilibrium& block_;

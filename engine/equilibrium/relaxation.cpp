@@ -43,6 +43,7 @@ public:
         }
         const auto t = phases_.time(Phase::advance);
         block_.forces(force_);
+        if (options_.mean_height_held) keep_mean_height();
         ExactSum top;
         block_.add_top_force(top);
         const auto [above, below] =
@@ -142,6 +143,18 @@ public:
     double elastic_top_force() const { return elastic_top_force_; }
 
 private:
+    /// Takes the mean normal force off the lowest layer.
+    void keep_mean_height() {
+        const PlaneView<double> z = force_.front().plane(0).z;
+        ExactSum sum;
+        elastic_kernels().sum(z, 0, z.ny, sum);
+        const double sites = static_cast<double>(block_.options().sites);
+        const double mean = global_sum(block_.communicator(), sum) / (sites * sites);
+        for (int y = 0; y < z.ny; ++y)
+            for (int x = 0; x < z.nx; ++x)
+                z(x, y) -= mean;
+    }
+
     static double mass(const Block::Level& level) {
         return static_cast<double>(1 << level.plan.level);
     }
@@ -238,7 +251,7 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
     const auto values = global_sums(block.communicator(), energies);
     state.interface_energy = values[0];
     state.force = values[1];
-    state.top_force = descent.elastic_top_force();
+    state.top_force = options.mean_height_held ? state.force : descent.elastic_top_force();
     state.elastic_energy = values[2];
     state.mean_height =
         values[3] / (static_cast<double>(block.options().sites) * block.options().sites);

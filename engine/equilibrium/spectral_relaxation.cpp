@@ -95,6 +95,7 @@ public:
             const double sites = block_.options().sites;
             block_.to_waves(at_sites_, d_);
             combine(0.0, d_, 1.0 / (sites * sites), d_);
+            block_.keep_mean_height(d_, at_sites_);
         }
         const double slope = dot(g_, d_);
         if (!(slope < 0.0)) return turn_back(newton, iteration);
@@ -217,7 +218,7 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
     state.interface_energy = values[0];
     state.force = values[1];
-    state.top_force = block.top_force();
+    state.top_force = block.mean_height_is_held() ? state.force : block.top_force();
     state.elastic_energy = block.elastic_energy();
     state.mean_height = block.mean_height();
     const ContactCount contacts = count_contacts(sums, block.communicator());

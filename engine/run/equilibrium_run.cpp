@@ -236,6 +236,7 @@ private:
     double reference_height() const { return interface_.start_height(); }
     PathOptions path_options() {
         PathOptions o;
+        o.hold = scene_.drive.hold;
         o.step = scene_.drive.step;
         o.tolerance = scene_.drive.tolerance;
         o.site_stiffness = relax_options(scene_, setup_).site_stiffness;

@@ -144,11 +144,13 @@ void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const 
         else
             fmt::print(to,
                        "; pull-off minus approach, {:.2f} meV/Å², is energy that\n"
-                       "  snapping in and off has turned into vibrations (hysteresis). A thick "
-                       "block is a soft spring and\n"
-                       "  snaps as a whole; a thinner one (block.thickness) follows the interface "
-                       "more closely.\n",
-                       lost);
+                       "  snapping in and off has turned into vibrations (hysteresis). {}\n",
+                       lost,
+                       scene.drive.hold == Hold::mean_height
+                           ? "With the mean height held, the\n  surface did so in patches, not as "
+                             "a whole."
+                           : "A thick block is a soft spring and\n  snaps as a whole; a thinner "
+                             "one (block.thickness) follows the interface more closely.");
     }
     if (std::isfinite(residual))
         fmt::print(to,

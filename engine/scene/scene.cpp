@@ -104,8 +104,12 @@ io::Schema bind(Scene& scene) {
                               {"zero-load", PathPart::zero_load}},
                              "the parts of the run, in order");
     schema.number("velocity", drive.velocity, "m/s", positive(), "of the top plane (dynamic)");
+    schema.choice<Hold>("hold", drive.hold,
+                        {{"top", Hold::top}, {"mean-height", Hold::mean_height}},
+                        "what is moved from point to point (quasistatic): the top plane, or the "
+                        "mean height of the lowest layer, which a soft block cannot fall through");
     schema.number("step", drive.step, "Å", positive(),
-                  "largest top displacement per point (quasistatic)");
+                  "largest displacement of what is held per point (quasistatic)");
     schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet");
     schema.number("damping", drive.damping, "1/ps", at_least(0.0),
                   "rate Γ of the force -m Γ v, v relative to the top plane");

@@ -25,6 +25,7 @@ enum class Resample { none, band_limited };
 enum class BlockModel { lattice, multiscale, spectral };
 enum class Strain { linear, finite };
 enum class DriveMode { dynamic, quasistatic };
+enum class Hold { top, mean_height };
 enum class PathPart { approach, pull_off, zero_load };
 enum class AreaFactor { gaussian, small_slope, none };
 enum class TheorySpectrum { target, realised };
@@ -87,6 +88,7 @@ struct Scene {
         std::vector<PathPart> path = {PathPart::approach, PathPart::pull_off};
         double velocity = 5.0;      ///< m/s
         double step = 0.25;         ///< Å
+        Hold hold = Hold::top;      ///< of a quasi-static path
         double timestep = 10.0;     ///< fs
         double damping = 0.05;      ///< 1/ps
         double damping_from = 0.0;  ///< fraction of the thickness above which damping acts

@@ -83,6 +83,11 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                          "take it out, or take path = [\"zero-load\"]: after an approach the state "
                          "under zero load is found anyway");
     }
+    if (drive.hold == Hold::mean_height && !scene.without_time())
+        problems.add("drive.hold", "= \"mean-height\" on a path in time",
+                     "in time the top plane is driven, and the lowest layer's mean height is what "
+                     "the waves in the block make of it",
+                     "take drive.mode = \"quasistatic\", or hold = \"top\"");
     if (surface.kind == SurfaceKind::file && surface.rms_given && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
@@ -168,6 +173,8 @@ std::vector<std::string> notes(const Scene& scene) {
     const auto idle = [&](const std::string& key, const std::string& reason) {
         if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
     };
+    if (!scene.has(PathPart::approach) && !scene.has(PathPart::pull_off))
+        idle("drive.hold", "drive.path relaxes with nothing held");
     if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
     if (surface.kind != SurfaceKind::file) idle("surface.file", "surface.kind is not \"file\"");
     if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");

@@ -37,6 +37,8 @@ bad "path" $'[drive]\npath = ["pull-off"]' "scene.toml:2:8: drive.path has a \"p
 bad "not yet" $'[block]\nmodel = "spectral"' "scene.toml:2:9: block.model = \"spectral\" on a path in time is not available yet"
 bad "waves at finite strain" $'[block]\nmodel = "spectral"\nstrain = "finite"\n[drive]\npath = ["zero-load"]' \
     "scene.toml:3:10: block.strain = \"finite\" with block.model = \"spectral\"" "waves do not add up"
+bad "mean height in time" $'[drive]\nhold = "mean-height"' \
+    "scene.toml:2:8: drive.hold = \"mean-height\" on a path in time" "take drive.mode = \"quasistatic\""
 bad "several" $'[surface]\nrms = -1\nhurst = 3\n[drive]\nspeed = 1\n' \
     "scene.toml:2:7" "scene.toml:3:9" "scene.toml:5:1" "3 problems"
 

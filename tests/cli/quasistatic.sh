@@ -48,6 +48,20 @@ expect 0 run path.toml --progress off --out parts --resume auto
 for key in approach pull_off; do near "$(number whole $key)" "$(number parts $key)" 0.1 "$key"; done
 near "$state" "$(number parts binding_energy)" 1e-4 "binding energy"
 
+# The same solids at a held mean height: no fall as a whole, and the two works are the state's energy.
+held=(--set drive.hold=mean-height)
+expect 0 run path.toml --progress off --out held "${held[@]}"
+near "$state" "$(number held binding_energy)" 0.1 "the state after a held mean height"
+for key in approach pull_off; do
+    near "$state" "$(sed -n "/\"work_of_adhesion\"/,/}/s/.*\"$key\": \([0-9.]*\),*/\1/p" held/result.json)" 0.5 "held, $key"
+done
+expect 75 run path.toml --progress off --out held-parts --wall-limit 0.2s "${held[@]}"
+expect 3 run path.toml --progress off --out held-parts --resume auto
+expect 0 run path.toml --progress off --out held-parts --resume auto "${held[@]}"
+for key in approach pull_off; do near "$(number held $key)" "$(number held-parts $key)" 0.1 "held, $key"; done
+expect 0 check path.toml "${held[@]}" 'drive.path=["zero-load"]' 'output.fields=[]'
+says "drive.hold has no effect"
+
 # One relaxation, stopped inside.
 for model in spectral multiscale; do
     zero=(--set drive.path=zero-load 'output.fields=["zero-load"]' surface.sites=64 drive.tolerance=1e-6 block.model=$model)

@@ -33,13 +33,15 @@ struct Contact {
     std::unique_ptr<Equilibrium> block;
     QuasistaticPath path;
 
-    explicit Contact(const Communicator& ranks)
+    explicit Contact(const Communicator& ranks, Hold hold = Hold::top)
         : grid(test::grid_for(options, ranks)),
           interface(surface, grid.tile(0), options.spacing, test::paper_interface()),
-          block(at_rest(Block(options, ranks, grid))), path(*block, interface, path_options()) {}
+          block(at_rest(Block(options, ranks, grid))), path(*block, interface, path_options(hold)) {
+    }
 
-    PathOptions path_options() const {
+    PathOptions path_options(Hold hold) const {
         PathOptions o;
+        o.hold = hold;
         o.step = 0.5;
         o.tolerance = tolerance;
         o.reference_height = interface.start_height();
@@ -91,6 +93,15 @@ TEST(QuasistaticRanks, SameBits) {
     all.path.start();
     ASSERT_TRUE(all.approach(1000));
     EXPECT_EQ(all.trace(), judge().trace);
+}
+
+TEST(QuasistaticRanks, SameBitsAtAHeldMeanHeight) {
+    Contact all(world(), Hold::mean_height), one(Communicator(), Hold::mean_height);
+    all.path.start();
+    one.path.start();
+    EXPECT_EQ(all.approach(20), one.approach(20));
+    EXPECT_LT(one.path.now().force, -1.0);
+    EXPECT_EQ(all.trace(), one.trace());
 }
 
 TEST(QuasistaticRanks, TakenUpFromACheckpointEndsTheSame) {

@@ -37,12 +37,16 @@ struct State {
     double top = 0.0, top_force = 0.0;
 };
 
-/// Pressed down on a rough map by a held top plane, or let go.
+enum class Held { nothing, top, mean_height };
+
+/// Pressed down on a rough map by what is held, or let go.
 State relax_on(const Communicator& ranks, const BlockOptions& options, const Surface& surface,
-               bool held, bool frictionless) {
+               Held held, bool frictionless) {
     SpectralBlock block(options, ranks, frictionless);
     const Interface interface(surface, block.tile(), options.spacing, test::paper_interface());
-    if (held) block.hold_top(-0.3);
+    if (held == Held::top) block.hold_top(-0.3);
+    if (held == Held::mean_height) block.hold_mean_height(-0.3);
+    block.settle();
     RelaxOptions relaxation;
     relaxation.tolerance = 1e-7;
     relaxation.max_move = 0.2;
@@ -50,7 +54,7 @@ State relax_on(const Communicator& ranks, const BlockOptions& options, const Sur
     State state;
     state.relaxed = relax(block, interface, surface.statistics.highest + 2.5, relaxation, phases);
     state.top = block.top();
-    state.top_force = block.top_force();
+    state.top_force = state.relaxed.top_force;
     return state;
 }
 
@@ -106,7 +110,7 @@ TEST(SpectralBlock, RelaxesLikeOneRank) {
         int sites, thickness;
     };
     for (const Map& map : {Map{"n8_b_rms1.0", 8, 6}, Map{"c2_N16_T8_rms1.5", 16, 8}})
-        for (bool held : {false, true})
+        for (Held held : {Held::nothing, Held::top, Held::mean_height})
             for (bool frictionless : {false, true}) {
                 const BlockOptions options = test::paper_block(map.sites, map.thickness, 0);
                 const Surface surface = test::reference_surface(map.name);

@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Paths at a held mean height against their laws: flat on flat is the wall's own F(z) through the
+// whole well, however soft the block; F is minus the slope of the relaxed energy; what is not lost
+// is the state's energy both ways; the state is the one that a held top plane leads to; levels and
+// waves agree.
+#include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/units.hpp"
+#include "support/path_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+using namespace asperity;
+using test::energy;
+using test::follow;
+using test::OneDimension;
+using Case = test::PathCase;
+
+namespace {
+
+QuasistaticPath path_of(Case& c, double tolerance, double load = 0.0) {
+    return c.path(tolerance, 0.25, load, Hold::mean_height);
+}
+
+/// The state with nothing held, from where the block is.
+RelaxedState let_go(Case& c) {
+    RelaxOptions o;
+    o.tolerance = 1e-6;
+    Phases phases;
+    c.block->free_top();
+    return c.block->relax(c.interface, c.interface.start_height(), o, phases);
+}
+
+/// Without a path: relaxed at a mean displacement, from where the block is.
+RelaxedState relax_at(Case& c, double z, double tolerance) {
+    RelaxOptions o;
+    o.tolerance = tolerance;
+    o.max_iterations = 20000;
+    Phases phases;
+    c.block->hold_mean_height(z);
+    c.block->settle();
+    const RelaxedState s = c.block->relax(c.interface, c.interface.start_height(), o, phases);
+    EXPECT_TRUE(s.converged) << z << ", " << s.residual;
+    EXPECT_NEAR(s.mean_height, z, 1e-12);
+    return s;
+}
+
+} // namespace
+
+TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
+    // Under a held top plane these blocks fall in and off (quasistatic_test).
+    struct Model {
+        int thickness, layers;
+        bool spectral;
+    };
+    for (const Model& m : {Model{40, 0, true}, Model{512, 0, true}, Model{200, 3, false}})
+        for (double tolerance : {1e-3, 1e-4, 1e-5}) {
+            Case c(test::paper_block(10, m.thickness, m.layers), test::flat_surface(10),
+                   m.spectral);
+            const OneDimension one{c};
+            QuasistaticPath path = path_of(c, tolerance);
+            path.start();
+            const auto in = follow(path, Leg::approach);
+            const double state = -energy(path.now()), way = -path.now().top;
+            const auto out = follow(path, Leg::pull_off);
+            EXPECT_EQ(path.dissipation().total(), 0.0);
+            EXPECT_NEAR(path.approach_work(), state, tolerance * c.sites() * way);
+            EXPECT_NEAR(path.pull_off_work(), -state, tolerance * c.sites() * way);
+            int unstable = 0;
+            for (const auto* leg : {&in, &out})
+                for (const StepRecord& r : *leg) {
+                    const double jump = one.jump(r.mean_height);
+                    EXPECT_NEAR(r.force, one.force(r.mean_height), 1e-9 * c.sites() + jump);
+                    EXPECT_NEAR(r.interface_energy, one.potential(r.mean_height),
+                                1e-9 * c.sites() + 1e-3 * jump);
+                    EXPECT_NEAR(r.elastic_energy, 0.0, 1e-9 * c.sites());
+                    EXPECT_EQ(r.top_force, r.force);
+                    constexpr double h = 1e-4;
+                    unstable += one.force(r.mean_height + h) - one.force(r.mean_height - h) >
+                                2.0 * h * c.spring();
+                }
+            EXPECT_GT(unstable, m.thickness > 40 ? 10 : 0)
+                << "points where a block on its spring cannot stand";
+            std::printf("%d layers, tolerance %.0e: %zu points, %d of them unstable on a spring, "
+                        "approach off by %+.1e, pull-off by %+.1e meV/A^2\n",
+                        m.thickness, tolerance, in.size() + out.size(), unstable,
+                        1e3 * (path.approach_work() - state) / (6.76 * c.sites()),
+                        1e3 * (path.pull_off_work() + state) / (6.76 * c.sites()));
+        }
+}
+
+TEST(MeanHeight, ForceIsMinusTheSlopeOfTheRelaxedEnergy) {
+    // By five points, h^4, in and out of a rough contact; two models, two ways to relax.
+    for (bool spectral : {true, false}) {
+        Case c(test::paper_block(16, 8, spectral ? 0 : 2),
+               test::reference_surface("c1_N16_T16_rms0.5"), spectral);
+        constexpr double h = 0.02;
+        double strongest = 0.0;
+        for (double z : {-8.0, -9.0, -9.5, -10.0, -10.4}) {
+            std::array<double, 5> u{};
+            double force = 0.0;
+            for (int i = -2; i <= 2; ++i) {
+                const RelaxedState s = relax_at(c, z + i * h, 1e-7);
+                u[static_cast<std::size_t>(i + 2)] = s.interface_energy + s.elastic_energy;
+                if (i == 0) force = s.top_force;
+            }
+            const double slope = (8.0 * (u[3] - u[1]) - (u[4] - u[0])) / (12.0 * h);
+            strongest = std::max(strongest, std::abs(force));
+            EXPECT_NEAR(force, -slope, 1e-3 + 2e-5 * std::abs(force)) << z << " " << spectral;
+        }
+        EXPECT_GT(strongest, 5.0);
+    }
+}
+
+TEST(MeanHeight, GradientLeavesItOutAndDirectionsKeepIt) {
+    const Surface surface = test::reference_surface("c1_N16_T16_rms0.5");
+    for (bool frictionless : {false, true}) {
+        SpectralBlock block(test::paper_block(16, 8, 0), Communicator(), frictionless);
+        const Interface interface(surface, block.tile(), 2.6, test::paper_interface());
+        std::mt19937_64 random(5);
+        const auto start = test::random_displacement(block, random, 0.1);
+        auto along = test::random_displacement(block, random, 1.0);
+        block.displace(1.0, start.waves, start.sites);
+        constexpr double held_at = -0.3, h = 1e-5;
+        block.hold_mean_height(held_at);
+        block.settle();
+        EXPECT_NEAR(block.mean_height(), held_at, 1e-15);
+        block.keep_mean_height(along.waves, along.sites);
+        const auto energy = [&] {
+            return block.elastic_energy() +
+                   interface.sweep(block.lowest_layer(), block.interface_force(), 3.9, true)
+                       .energy.value();
+        };
+        energy();
+        auto g = block.new_waves<double>();
+        block.gradient(7.0, g); // a load has nothing to press on
+        EXPECT_EQ(g.row(block.components() - 1, 0)[0], 0.0);
+        const double slope = dot(g, along.waves);
+        block.displace(h, along.waves, along.sites);
+        const double above = energy();
+        double sum = 0.0;
+        const auto z = block.lowest_layer().z;
+        for (int y = 0; y < z.ny; ++y)
+            for (int x = 0; x < z.nx; ++x)
+                sum += z(x, y);
+        EXPECT_NEAR(sum / 256.0, held_at, 1e-11);
+        block.displace(-2.0 * h, along.waves, along.sites);
+        EXPECT_GT(std::abs(slope), 0.01);
+        EXPECT_NEAR(slope, (above - energy()) / (2.0 * h), 2e-6 * (10.0 + std::abs(slope)));
+    }
+}
+
+TEST(MeanHeight, LevelsAndWavesAgree) {
+    const auto series = [](bool spectral) {
+        Case c(test::paper_block(16, 4, 0), test::reference_surface("c1_N16_T16_rms0.5"), spectral);
+        c.block->set_uniform(0.0);
+        std::vector<RelaxedState> states;
+        for (int n = 0; n <= 14; ++n)
+            states.push_back(relax_at(c, n <= 7 ? -6.0 - 0.7 * n : -10.9 + 0.7 * (n - 7), 1e-7));
+        return states;
+    };
+    const auto a = series(false), b = series(true);
+    double strongest = 0.0;
+    for (const RelaxedState& s : a)
+        strongest = std::max(strongest, -s.force);
+    EXPECT_GT(strongest, 5.0);
+    for (std::size_t n = 0; n < a.size(); ++n) {
+        EXPECT_NEAR(a[n].force, b[n].force, 1e-6 * strongest) << n;
+        EXPECT_NEAR(a[n].interface_energy, b[n].interface_energy, 1e-5) << n;
+        EXPECT_NEAR(a[n].interface_energy + a[n].elastic_energy,
+                    b[n].interface_energy + b[n].elastic_energy, 1e-6)
+            << n;
+        EXPECT_EQ(a[n].in_contact, b[n].in_contact) << n;
+    }
+}
+
+TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
+    // Soft and gently rough: under a held top plane it snaps as a whole.
+    constexpr double tolerance = 1e-4;
+    Case c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"), true);
+    QuasistaticPath path = path_of(c, tolerance);
+    path.start();
+    const auto in = follow(path, Leg::approach);
+    const RelaxedState state = let_go(c);
+    path.put_back();
+    const auto out = follow(path, Leg::pull_off);
+    const double bound = -state.interface_energy - state.elastic_energy;
+    const double allowed = tolerance * c.sites() * (in.front().top - in.back().top);
+    EXPECT_EQ(path.dissipation().total(), 0.0);
+    EXPECT_NEAR(path.approach_work(), bound, allowed);
+    EXPECT_NEAR(path.pull_off_work(), -bound, allowed);
+
+    Case d(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"), true);
+    QuasistaticPath falling = d.path(tolerance);
+    falling.start();
+    follow(falling, Leg::approach);
+    const RelaxedState same = let_go(d);
+    EXPECT_GT(falling.dissipation().total(), 0.1 * bound);
+    EXPECT_NEAR(state.interface_energy + state.elastic_energy,
+                same.interface_energy + same.elastic_energy, 1e-6 * bound);
+    EXPECT_NEAR(state.mean_height, same.mean_height, 1e-4);
+    EXPECT_EQ(state.in_contact, same.in_contact);
+    std::printf("mean height: state %.4f, approach %+.1e, pull-off %+.1e; top: approach %+.3f eV\n",
+                bound, path.approach_work() - bound, path.pull_off_work() + bound,
+                falling.approach_work() - bound);
+}
+
+TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
+    for (bool spectral : {true, false}) {
+        // Rough enough for single contacts to snap.
+        Case c(test::paper_block(32, spectral ? 200 : 40, spectral ? 0 : 4),
+               test::reference_surface("c4_N32_T16_rms3"), spectral);
+        constexpr double tolerance = 2e-4;
+        QuasistaticPath path = path_of(c, tolerance);
+        path.start();
+        const auto in = follow(path, Leg::approach);
+        const double state = -energy(path.now());
+        const auto out = follow(path, Leg::pull_off);
+        const Dissipation& lost = path.dissipation();
+        const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
+        std::printf("lost %.3f eV in, %.3f out, %lld events, %zu points; approach %+.1e, pull-off "
+                    "%+.1e, of %.3f eV\n",
+                    lost.approach, lost.pull_off, lost.events, in.size() + out.size(),
+                    path.approach_work() + lost.approach - state,
+                    path.pull_off_work() + state + lost.pull_off, state);
+        ASSERT_GT(lost.total(), 0.1);
+        EXPECT_NEAR(path.approach_work() + lost.approach, state, tolerance * c.sites() * way);
+        EXPECT_NEAR(-path.pull_off_work() - lost.pull_off, state, tolerance * c.sites() * back);
+        EXPECT_NEAR(-path.approach_work() - path.pull_off_work(), lost.total(),
+                    tolerance * c.sites() * (way + back));
+        EXPECT_LT(std::abs(path.now().residual), 1e-3);
+        EXPECT_NEAR(energy(path.now()), 0.0, 1e-3 * std::abs(state) + 1e-3);
+    }
+}
+
+TEST(MeanHeight, EndsAtItsLoadWhereTheForceFallsWithTheHeight) {
+    for (double pressure : {0.0, 1.0, -5.0}) { // GPa; the largest tension is 9
+        Case c(test::paper_block(10, 200, 0), test::flat_surface(10), true);
+        const double load = pressure * units::gigapascal * 6.76 * c.sites();
+        QuasistaticPath path = path_of(c, 1e-5, load);
+        path.start();
+        follow(path, Leg::approach);
+        EXPECT_NEAR(path.now().force, load, 0.25e-5 * c.sites());
+        EXPECT_LT(path.now().mean_height, 3.4) << "the inner branch";
+    }
+}
+
+TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
+    // Where a relaxation with the top plane free has ended, under a load and the block pressed
+    // together by it, the path holds the layer where it is.
+    Case c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"), true);
+    c.block->set_uniform(-9.0);
+    RelaxOptions o;
+    o.tolerance = 1e-6;
+    o.load = 20.0;
+    Phases phases;
+    const RelaxedState pressed = c.block->relax(c.interface, c.interface.start_height(), o, phases);
+    ASSERT_TRUE(pressed.converged);
+    QuasistaticPath path = path_of(c, 1e-4);
+    path.hold_here();
+    EXPECT_NEAR(path.now().force, 20.0, 0.01);
+    EXPECT_NEAR(path.now().mean_height, c.interface.start_height() + pressed.mean_height, 1e-9);
+    const double bound = -energy(path.now());
+    const auto out = follow(path, Leg::pull_off);
+    EXPECT_EQ(path.dissipation().total(), 0.0);
+    EXPECT_NEAR(path.pull_off_work(), -bound,
+                1e-4 * c.sites() * (out.back().top - out.front().top));
+}

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Quasi-static paths of small contacts, and flat on flat as a problem in one dimension.
+#pragma once
+
+#include "engine/equilibrium/quasistatic.hpp"
+#include "support/cases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace asperity::test {
+
+/// A block over a surface, and the path of equilibria.
+struct PathCase {
+    BlockOptions options;
+    Surface surface;
+    ProcessGrid grid = serial_grid(options);
+    Interface interface;
+    std::unique_ptr<Equilibrium> block;
+
+    PathCase(const BlockOptions& o, Surface s, bool spectral, double cutoff = 4.0)
+        : options(o), surface(std::move(s)),
+          interface(surface, grid.tile(0), o.spacing, paper_interface(cutoff)),
+          block(spectral ? spectral_at_rest(o, Communicator())
+                         : at_rest(Block(o, Communicator(), grid))) {}
+
+    QuasistaticPath path(double tolerance, double step = 0.25, double load = 0.0,
+                         Hold hold = Hold::top) {
+        PathOptions p;
+        p.hold = hold;
+        p.step = step;
+        p.tolerance = tolerance;
+        p.load = load;
+        p.reference_height = interface.start_height();
+        return QuasistaticPath(*block, interface, p);
+    }
+    double sites() const { return static_cast<double>(options.sites) * options.sites; }
+    /// Of the whole block under uniform stretch, eV/Å^2.
+    double spring() const {
+        return (options.lame() + 2.0 * options.shear_modulus()) * sites() * options.spacing /
+               options.thickness;
+    }
+};
+
+/// All points of a leg.
+inline std::vector<StepRecord> follow(QuasistaticPath& path, Leg leg) {
+    std::vector<StepRecord> points = {path.now()};
+    using Outcome = QuasistaticPath::Outcome;
+    for (Outcome o = Outcome::point; o == Outcome::point;) {
+        o = path.advance(leg);
+        points.push_back(path.now());
+        if (points.size() > 5000) ADD_FAILURE() << "no end";
+        if (points.size() > 5000) break;
+    }
+    return points;
+}
+
+inline double energy(const StepRecord& r) { return r.interface_energy + r.elastic_energy; }
+
+/// Flat on flat as one coordinate: N^2 sites at gap z on the spring of the block.
+struct OneDimension {
+    const PathCase& c;
+    double force(double z) const { return c.sites() * pair(z).force[2]; }
+    double potential(double z) const { return c.sites() * pair(z).energy; }
+    /// Where pairs of a flat layer leave the cutoff together, the force jumps: by this much within
+    /// 1e-3 Å of z. A point may stand in the jump, some pairs in reach and some not.
+    double jump(double z) const {
+        constexpr double h = 1e-3;
+        const double across = std::abs(force(z + h) - force(z - h));
+        const double beside =
+            std::abs(force(z + 2 * h) - force(z + h)) + std::abs(force(z - h) - force(z - 2 * h));
+        return across > 10.0 * beside ? across : 0.0;
+    }
+    /// Displacement of the top plane at which z is an equilibrium.
+    double top(double z) const { return z - c.interface.start_height() - force(z) / c.spring(); }
+    double total(double z, double top_at) const {
+        const double stretch = z - c.interface.start_height() - top_at;
+        return potential(z) + 0.5 * c.spring() * stretch * stretch;
+    }
+    /// The z in [from, to] where top() is least (sign 1) or greatest (-1): d force/dz = spring.
+    double turning_point(double from, double to, double sign) const {
+        double best = from;
+        for (double z = from; z < to; z += 1e-3)
+            if (sign * top(z) < sign * top(best)) best = z;
+        double a = best - 1e-3, b = best + 1e-3;
+        for (int i = 0; i < 60; ++i) {
+            const double g = (std::sqrt(5.0) - 1.0) / 2.0, x = b - g * (b - a), y = a + g * (b - a);
+            (sign * top(x) < sign * top(y) ? b : a) = sign * top(x) < sign * top(y) ? y : x;
+        }
+        return 0.5 * (a + b);
+    }
+    /// The equilibrium at this top between from and to.
+    double other(double top_at, double from, double to) const {
+        const bool rising = top(to) > top(from);
+        for (int i = 0; i < 80; ++i) {
+            const double z = 0.5 * (from + to);
+            ((top(z) < top_at) == rising ? from : to) = z;
+        }
+        return 0.5 * (from + to);
+    }
+
+private:
+    PairSum pair(double z) const {
+        return flat_pair_sum(c.interface.options(), c.options.spacing, c.options.sites,
+                             c.options.sites, z);
+    }
+};
+
+} // namespace asperity::test
