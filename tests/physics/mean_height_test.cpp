@@ -69,7 +69,9 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
             const auto in = follow(path, Leg::approach);
             const double state = -energy(path.now()), way = -path.now().top;
             const auto out = follow(path, Leg::pull_off);
-            EXPECT_EQ(path.dissipation().total(), 0.0);
+            // Where pairs of a flat layer leave the cutoff together F jumps, and what a polynomial
+            // misses there may be taken for a fall.
+            EXPECT_LT(path.dissipation().total(), 0.1 * tolerance * c.sites() * way);
             EXPECT_NEAR(path.approach_work(), state, tolerance * c.sites() * way);
             EXPECT_NEAR(path.pull_off_work(), -state, tolerance * c.sites() * way);
             int unstable = 0;
@@ -212,10 +214,16 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
 }
 
 TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
-    for (bool spectral : {true, false}) {
-        // Rough enough for single contacts to snap.
-        Case c(test::paper_block(32, spectral ? 200 : 40, spectral ? 0 : 4),
-               test::reference_surface("c4_N32_T16_rms3"), spectral);
+    // Wide enough for the surface to snap in patches.
+    struct Model {
+        const char* map;
+        int sites, thickness, layers;
+    };
+    for (const Model& m :
+         {Model{"c7_N64_T64_rms2", 64, 64, 0}, Model{"c3_N32_T32_rms1.5", 32, 32, 0},
+          Model{"c3_N32_T32_rms1.5", 32, 32, 4}}) {
+        Case c(test::paper_block(m.sites, m.thickness, m.layers), test::reference_surface(m.map),
+               m.layers == 0);
         constexpr double tolerance = 2e-4;
         QuasistaticPath path = path_of(c, tolerance);
         path.start();
