@@ -107,7 +107,7 @@ io::Schema bind(Scene& scene) {
     schema.choice<Hold>("hold", drive.hold,
                         {{"top", Hold::top}, {"mean-height", Hold::mean_height}},
                         "what is moved from point to point (quasistatic): the top plane, or the "
-                        "mean height of the lowest layer, which a soft block cannot fall through");
+                        "lowest layer's mean height, at which no block snaps as a whole");
     schema.number("step", drive.step, "Å", positive(),
                   "largest displacement of what is held per point (quasistatic)");
     schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet");

@@ -214,17 +214,19 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
 }
 
 TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
-    // Wide enough for the surface to snap in patches.
+    // Gently rough and wide, the surface snaps in patches; rougher or narrower it hardly does.
     struct Model {
         const char* map;
-        int sites, thickness, layers;
+        double factor;
+        int sites, layers;
+        double least; ///< share of the state's energy that must be lost
     };
     for (const Model& m :
-         {Model{"c7_N64_T64_rms2", 64, 64, 0}, Model{"c3_N32_T32_rms1.5", 32, 32, 0},
-          Model{"c3_N32_T32_rms1.5", 32, 32, 4}}) {
-        Case c(test::paper_block(m.sites, m.thickness, m.layers), test::reference_surface(m.map),
-               m.layers == 0);
-        constexpr double tolerance = 2e-4;
+         {Model{"c7_N64_T64_rms2", 0.25, 64, 0, 0.01}, Model{"c3_N32_T32_rms1.5", 0.15, 32, 4, 0.0},
+          Model{"c3_N32_T32_rms1.5", 1.0, 32, 4, 0.0}}) {
+        Case c(test::paper_block(m.sites, m.sites, m.layers),
+               test::reference_surface(m.map, m.factor), m.layers == 0);
+        constexpr double tolerance = 5e-4;
         QuasistaticPath path = path_of(c, tolerance);
         path.start();
         const auto in = follow(path, Leg::approach);
@@ -237,11 +239,12 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
                     lost.approach, lost.pull_off, lost.events, in.size() + out.size(),
                     path.approach_work() + lost.approach - state,
                     path.pull_off_work() + state + lost.pull_off, state);
-        ASSERT_GT(lost.total(), 0.1);
-        EXPECT_NEAR(path.approach_work() + lost.approach, state, tolerance * c.sites() * way);
-        EXPECT_NEAR(-path.pull_off_work() - lost.pull_off, state, tolerance * c.sites() * back);
+        EXPECT_GE(lost.total(), m.least * state);
+        const double allowed = 0.2 * tolerance * c.sites();
+        EXPECT_NEAR(path.approach_work() + lost.approach, state, allowed * way);
+        EXPECT_NEAR(-path.pull_off_work() - lost.pull_off, state, allowed * back);
         EXPECT_NEAR(-path.approach_work() - path.pull_off_work(), lost.total(),
-                    tolerance * c.sites() * (way + back));
+                    allowed * (way + back));
         EXPECT_LT(std::abs(path.now().residual), 1e-3);
         EXPECT_NEAR(energy(path.now()), 0.0, 1e-3 * std::abs(state) + 1e-3);
     }

@@ -51,13 +51,13 @@ Surface flat_surface(int sites) {
         std::vector<double>(static_cast<std::size_t>(sites) * static_cast<std::size_t>(sites)));
 }
 
-Surface reference_surface(const std::string& name) {
+Surface reference_surface(const std::string& name, double factor) {
     const std::string path = std::string(ASPERITY_TEST_DATA) + "/" + name + ".txt";
     std::ifstream file(path);
     if (!file) throw std::runtime_error("cannot open " + path);
     std::vector<double> heights;
     for (double h; file >> h;)
-        heights.push_back(h);
+        heights.push_back(factor * h);
     return surface_of(std::move(heights));
 }
 

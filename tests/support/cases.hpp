@@ -20,8 +20,8 @@ BlockOptions paper_block(int sites, int thickness, int layers_per_level);
 InterfaceOptions paper_interface(double cutoff_in_r0 = 4.0);
 
 Surface flat_surface(int sites);
-/// A map of tests/physics/data, at its own size.
-Surface reference_surface(const std::string& name);
+/// A map of tests/physics/data, at its own size, its heights times a factor.
+Surface reference_surface(const std::string& name, double factor = 1.0);
 
 ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicator);
 inline ProcessGrid serial_grid(const BlockOptions& options) {
