@@ -56,7 +56,7 @@ for key in approach pull_off; do
     near "$state" "$(sed -n "/\"work_of_adhesion\"/,/}/s/.*\"$key\": \([0-9.]*\),*/\1/p" held/result.json)" 0.5 "held, $key"
 done
 expect 75 run path.toml --progress off --out held-parts --wall-limit 0.2s "${held[@]}"
-expect 3 run path.toml --progress off --out held-parts --resume auto
+expect 2 run path.toml --progress off --out held-parts --resume auto
 expect 0 run path.toml --progress off --out held-parts --resume auto "${held[@]}"
 for key in approach pull_off; do near "$(number held $key)" "$(number held-parts $key)" 0.1 "held, $key"; done
 expect 0 check path.toml "${held[@]}" 'drive.path=["zero-load"]' 'output.fields=[]'
