@@ -100,8 +100,9 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
                             "is asked for (a quarter of drive.tolerance)",
                             state.residual, state.iterations, 0.25 * options_.tolerance),
                 "a looser drive.tolerance");
+        // Also where the attraction was too weak to be told from the slack.
         const bool beyond =
-            leg == Leg::approach && record_.force <= aim && state.force > aim + slack;
+            leg == Leg::approach && record_.force <= aim + slack && state.force > aim + slack;
         if (state.converged && beyond && !last_try) {
             const double part = (aim - record_.force) / (state.force - record_.force);
             length_ *= std::clamp(part, 0.02, 0.98);

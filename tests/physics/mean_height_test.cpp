@@ -262,6 +262,21 @@ TEST(MeanHeight, EndsAtItsLoadWhereTheForceFallsWithTheHeight) {
     }
 }
 
+TEST(MeanHeight, LandsWhereTheAttractionIsLostInTheTolerance) {
+    // Very rough: less attraction than a quarter of the tolerance for each site.
+    constexpr double tolerance = 2e-2;
+    Case c(test::paper_block(16, 16, 0), test::reference_surface("c1_N16_T16_rms0.5", 20.0), true);
+    QuasistaticPath path = path_of(c, tolerance);
+    path.start();
+    const auto in = follow(path, Leg::approach);
+    double strongest = 0.0;
+    for (const StepRecord& r : in)
+        strongest = std::max(strongest, -r.force);
+    EXPECT_GT(strongest, 0.01);
+    EXPECT_LT(strongest, 0.25 * tolerance * c.sites());
+    EXPECT_LT(std::abs(path.now().force), 0.26 * tolerance * c.sites());
+}
+
 TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     // Where a relaxation with the top plane free has ended, under a load and the block pressed
     // together by it, the path holds the layer where it is.
