@@ -88,12 +88,14 @@ bool Progress::due() const {
 void Progress::update(const State& state) {
     if (mode_ == ProgressMode::off) return;
     const auto now = Clock::now();
-    if (first_steps_ < 0) { // rates count from the first update: setting up is no stepping
+    // Rates count from the first update (setting up is no stepping) of this count of steps.
+    if (first_steps_ < 0 || state.steps < last_steps_) {
         first_steps_ = state.steps;
         first_time_ = state.time_fs;
         first_fraction_ = state.fraction;
         start_ = now;
     }
+    last_steps_ = state.steps;
     if (!due()) return;
     last_print_ = now;
     const double seconds = std::chrono::duration<double>(now - start_).count();
@@ -111,6 +113,7 @@ void Progress::update(const State& state) {
 }
 
 void Progress::say(const std::string& sentence) {
+    first_steps_ = -1; // what follows is of another kind and speed
     if (mode_ == ProgressMode::off) return;
     finish();
     fmt::print(to_, "{}\n", sentence);

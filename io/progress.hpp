@@ -39,7 +39,7 @@ public:
     /// True when enough time has passed that update() would print: build the phase text only then.
     bool due() const;
     void update(const State& state);
-    /// A sentence of its own ("pull-off begins"), whatever the mode but off.
+    /// A sentence of its own ("pull-off begins"), whatever the mode but off. Rates are counted anew.
     void say(const std::string& sentence);
     /// Clears the bar. Called by the destructor too.
     void finish();
@@ -53,6 +53,7 @@ private:
     Clock::time_point start_;
     Clock::time_point last_print_;
     long long first_steps_ = -1;
+    long long last_steps_ = 0;
     double first_time_ = 0.0;
     double first_fraction_ = -1.0;
     bool bar_drawn_ = false;
