@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <set>
+#include <map>
 #include <utility>
 
 namespace asperity {
@@ -88,15 +88,15 @@ public:
 
     bool run(CostTable& table, std::size_t first) {
         std::vector<SweepJob> jobs;
-        std::vector<std::size_t> job_of; // rows may share a run
-        std::set<std::string> known;
+        std::vector<std::size_t> job_of; // settings that make one scene are one run
         for (std::size_t i = first; i < table.rows.size(); ++i) {
             SweepJob job = job_for(table.rows[i]);
+            const auto at = made_.try_emplace(scene_json(job.scene).dump(-1), job).first;
             const auto same = std::find_if(jobs.begin(), jobs.end(), [&](const SweepJob& other) {
-                return other.directory == job.directory;
+                return other.directory == at->second.directory;
             });
             job_of.push_back(static_cast<std::size_t>(same - jobs.begin()));
-            if (same == jobs.end()) jobs.push_back(std::move(job));
+            if (same == jobs.end()) jobs.push_back(at->second);
         }
         std::vector<PointOutcome> outcomes;
         for (const SweepJob& job : jobs)
@@ -122,7 +122,7 @@ public:
     }
 
 private:
-    /// Named by what it sets, so that equal settings are one run.
+    /// Named by what it sets.
     SweepJob job_for(const CostRow& row) const {
         SweepJob job;
         Setting sorted = row.setting;
@@ -151,6 +151,7 @@ private:
 
     const CostOptions& options_;
     std::string directory_, text_;
+    std::map<std::string, SweepJob> made_; ///< by what the scene says
 };
 
 void add_knobs(CostTable& table) {

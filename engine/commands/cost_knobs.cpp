@@ -77,11 +77,12 @@ void cutoffs(const Scene& scene, std::vector<Knob>& knobs) {
     knobs.push_back(tail);
 }
 
-Knob layers() {
+/// exact: the block that leaves out none of the layers.
+Knob layers(const std::string& exact) {
     Knob knob{"layers",
               "layers per level",
               {},
-              KnobValue{"lattice", {"block.model=lattice"}, 0.0},
+              KnobValue{exact, {"block.model=" + exact}, 0.0},
               true,
               -2.0,
               "about -2 (docs/model.md: stiffness of waves)",
@@ -195,7 +196,8 @@ CostCase cost_case(const Scene& scene) {
     CostCase all;
     // What is exact without time: the lattice's own answer, wave by wave, where there is one.
     const bool spectral = scene.block.strain == Strain::linear;
-    const std::string exact = spectral ? "block.model=spectral" : "block.model=lattice";
+    const std::string best_block = spectral ? "spectral" : "lattice";
+    const std::string exact = "block.model=" + best_block;
     const Setting at_rest = {"drive.mode=quasistatic"};
     const double widest = widest_cutoff(scene);
     all.reference = {exact, "interface.tail=true", "interface.cutoff=" + number(widest),
@@ -205,16 +207,16 @@ CostCase cost_case(const Scene& scene) {
         all.reference.insert(all.reference.end(), {"drive.mode=quasistatic",
                                                    "drive.step=" + number(0.5 * scene.drive.step)});
     }
-    all.reference_text =
-        fmt::format("{} block, {}cutoff {} Å and tail, double precision, tolerance {} eV/Å",
-                    spectral ? "spectral" : "lattice",
-                    ways.legs ? fmt::format("no inertia (velocity to 0), steps of {} Å, ",
-                                            number(0.5 * scene.drive.step))
-                              : "",
-                    number(widest), number(0.1 * scene.drive.tolerance));
+    all.reference_text = fmt::format(
+        "{} block, {}cutoff {} Å and tail, double precision, tolerance {} eV/Å", best_block,
+        ways.legs ? fmt::format("no inertia (velocity to 0), steps of {} Å, ",
+                                number(0.5 * scene.drive.step))
+                  : "",
+        number(widest), number(0.1 * scene.drive.tolerance));
 
     cutoffs(scene, all.knobs);
-    if (scene.block.model != BlockModel::spectral) all.knobs.push_back(layers());
+    if (scene.block.model != BlockModel::spectral)
+        all.knobs.push_back(layers(ways.dynamic ? "lattice" : best_block));
     all.knobs.push_back(thickness(scene));
     all.knobs.push_back(precision());
     if (ways.dynamic) {

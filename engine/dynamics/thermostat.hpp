@@ -5,9 +5,15 @@
 //
 // The damping that the scene asks for gets its fluctuating partner: after the kick each damped
 // node's velocity receives sigma xi with sigma^2 = 2 Gamma k_B T dt / m / (1 + Gamma dt/2)^2
-// (Bruenger, Brooks and Karplus 1984), so configurations are sampled at T with an error of order
-// dt^2. xi is drawn from a counter-based generator keyed by seed, step and node: the same bits on
-// any number of ranks and threads. A scene at T = 0 has no thermostat object at all.
+// (Bruenger, Brooks and Karplus 1984). Of a spring mode of frequency w the recursion's stationary
+// moments are those of
+//
+//   T / (1 - (w dt/2)^2)       displacements, and velocities at half steps;
+//   T / (1 + Gamma dt/2)^2     the record's kinetic energy: velocities at whole steps, without the
+//                              noise of the present step, half of which they would have.
+//
+// xi is drawn from a counter-based generator keyed by seed, step and node: the same bits on any
+// number of ranks and threads. A scene at T = 0 has no thermostat object at all.
 #pragma once
 
 #include "engine/block/block.hpp"

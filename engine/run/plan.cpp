@@ -221,6 +221,12 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
     if (plan.steps > 0)
         fmt::print(to, "steps       {} of {:.4g} fs{}\n", plan.steps, setup.simulation.dt,
                    plan.steps == scene.drive.max_steps ? " (drive.max_steps)" : "");
+    if (const auto longer = longer_timestep(scene); plan.steps > 0 && longer)
+        fmt::print(to,
+                   "            drive.timestep = {:g} would take {:.2g} times fewer, for up to "
+                   "{:.2g} % of error (docs/accuracy.md)\n",
+                   longer->timestep, longer->timestep / scene.drive.timestep,
+                   100.0 * longer->error);
     if (plan.iterations > 0)
         fmt::print(to, "iterations  some {} in the relaxation (from experience)\n",
                    plan.iterations);

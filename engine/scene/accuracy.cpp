@@ -215,6 +215,18 @@ void choose_accuracy(Scene& scene, io::Problems& problems) {
     scene.choice = std::move(choice);
 }
 
+std::optional<LongerStep> longer_timestep(const Scene& scene) {
+    io::Problems outside;
+    check_coverage(scene, outside);
+    if (scene.without_time() || !outside.list().empty()) return std::nullopt;
+    LongerStep longest = {0.0, 0.0};
+    for (const calibration::Row& row : calibration::rows)
+        if (row.dial == Dial::timestep && row.value > longest.timestep)
+            longest = {row.value, row.path};
+    if (2.0 * scene.drive.timestep >= longest.timestep) return std::nullopt;
+    return longest;
+}
+
 std::vector<std::string> accuracy_lines(const AccuracyChoice& choice) {
     std::string chosen, kept;
     for (const auto& [key, value] : choice.settings)

@@ -11,6 +11,8 @@
 
 #include "engine/scene/scene.hpp"
 
+#include <optional>
+
 namespace asperity {
 
 /// Sets what is chosen and scene.choice. Adds a problem where the calibration does not cover the
@@ -20,6 +22,15 @@ void choose_accuracy(Scene& scene, io::Problems& problems);
 /// What was chosen, for people, and for result.json.
 std::vector<std::string> accuracy_lines(const AccuracyChoice& choice);
 io::JsonValue accuracy_json(const AccuracyChoice& choice);
+
+/// A time step that would do as well.
+struct LongerStep {
+    double timestep; ///< fs
+    double error;    ///< largest relative error that it made in the calibration
+};
+/// The longest calibrated one, for a scene in time that the calibration covers and that takes less
+/// than half of it. None: there is nothing to gain, or nothing is known.
+std::optional<LongerStep> longer_timestep(const Scene& scene);
 
 /// Elastic energy of full contact with a self-affine surface, meV/Å²: (E*/4) <q h²>, the spectrum
 /// up to the grid's Nyquist wavevector. What adhesion has to pay, and the measure of how rough is

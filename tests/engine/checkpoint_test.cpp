@@ -23,7 +23,8 @@ namespace {
 
 const Communicator& world() { return test::world(); }
 
-constexpr double start_height = 7.5; ///< Å: in the attraction; contact at step 139
+constexpr double start_height =
+    7.5; ///< Å: in the attraction, outside of the wall; contact at step 139
 
 SimulationOptions options() {
     SimulationOptions o;

@@ -76,8 +76,18 @@ Surface moved(const Surface& surface, const Symmetry& symmetry) {
 struct Block16 {
     const char* name;
     int thickness, layers, coarsest; ///< layers a level (0: lattice); edge of the coarsest cells
+    bool finite_strain;
+
+    BlockOptions options() const {
+        BlockOptions o = test::paper_block(16, thickness, layers);
+        o.finite_strain = finite_strain;
+        return o;
+    }
 };
-constexpr std::array blocks = {Block16{"lattice", 6, 0, 1}, Block16{"multiscale", 14, 2, 4}};
+constexpr std::array blocks = {Block16{"lattice", 6, 0, 1, false},
+                               Block16{"multiscale", 14, 2, 4, false},
+                               Block16{"lattice at finite strain", 6, 0, 1, true},
+                               Block16{"multiscale at finite strain", 14, 2, 4, true}};
 
 InterfaceOptions interface_with(InterfaceMethod method, bool tail) {
     InterfaceOptions o = test::paper_interface();
@@ -90,7 +100,7 @@ InterfaceOptions interface_with(InterfaceMethod method, bool tail) {
 std::vector<double> path(const Block16& block, const InterfaceOptions& interface,
                          const Surface& surface) {
     SimulationOptions options;
-    options.block = test::paper_block(16, block.thickness, block.layers);
+    options.block = block.options();
     options.interface = interface;
     options.drive.velocity = 1e-3;
     options.damping = 5e-4;
@@ -147,7 +157,7 @@ TEST(Symmetry, ARelaxedStateIsThatOfTheMovedSurface) {
     const Surface surface = test::reference_surface("c2_N16_T8_rms1.5");
     const InterfaceOptions interface = interface_with(InterfaceMethod::automatic, false);
     for (const Block16& block : blocks) {
-        const BlockOptions options = test::paper_block(16, block.thickness, block.layers);
+        const BlockOptions options = block.options();
         const auto one = test::relax_from_attraction(options, interface, surface, 1e-6);
         ASSERT_TRUE(one.state.converged);
         for (const Symmetry& symmetry : symmetries(block.coarsest)) {
@@ -175,7 +185,7 @@ TEST(Symmetry, AFlatContactStaysFlat) {
     for (const Block16& block : blocks)
         for (const auto& [method_name, method] : methods) {
             SimulationOptions options;
-            options.block = test::paper_block(16, block.thickness, block.layers);
+            options.block = block.options();
             options.interface = interface_with(method, true);
             options.drive.velocity = 1e-3;
             Simulation s(options, test::flat_surface(16), Communicator(),
@@ -216,7 +226,7 @@ TEST(Gradient, BlockAndInterfaceHaveOneEnergy) {
             for (bool tail : {false, true})
                 for (double height : {3.4, 4.6})
                     for (bool lift : {false, true}) {
-                        ElasticOperator k(test::paper_block(16, block.thickness, block.layers));
+                        ElasticOperator k(block.options());
                         InterfaceOptions options = interface_with(method, tail);
                         options.potential.cutoff = 2.5 * options.potential.r0;
                         const Interface interface(surface, k.block().grid().tile(0), 2.6, options);
@@ -297,7 +307,7 @@ TEST(Momentum, ChangesByTheForcesAlone) {
         for (double damping : {0.0, 2e-3})
             for (bool tail : {false, true}) {
                 SimulationOptions options;
-                options.block = test::paper_block(16, block.thickness, block.layers);
+                options.block = block.options();
                 options.interface = interface_with(InterfaceMethod::automatic, tail);
                 options.drive.velocity = 5e-4;
                 options.damping = damping;
