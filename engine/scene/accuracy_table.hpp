@@ -26,11 +26,11 @@ struct Row {
 
 inline constexpr std::array rows = {
     Row{Dial::layers, 2, 0.026, 0.026, 0.87},
-    Row{Dial::layers, 3, 0.0093, 0.011, 1.01},
+    Row{Dial::layers, 3, 0.0093, 0.011, 1.02},
     Row{Dial::layers, 4, 0.0082, 0.011, 1.03},
-    Row{Dial::layers, 6, 0.0038, 0.0038, 1.40},
-    Row{Dial::layers, 8, 0.0019, 0.0021, 1.68},
-    Row{Dial::layers, 0, 0, 0, 4.76},
+    Row{Dial::layers, 6, 0.0038, 0.0038, 1.68},
+    Row{Dial::layers, 8, 0.0046, 0.0046, 2.06},
+    Row{Dial::layers, 0, 0, 0, 17.41},
     Row{Dial::precision, 0, 1.1e-07, 1.7e-07, 0.93},
     Row{Dial::timestep, 60, 8.7e-08, 0.00045, 0.20},
     Row{Dial::timestep, 50, 7.7e-08, 0.00057, 0.22},

@@ -23,7 +23,11 @@ for rms in 0.5 1 2; do
 done
 member "wide" timestep,layers,precision surface.rms=1.5 surface.sites=48 block.thickness=48 surface.seed=2
 # Half in contact, a quarter of the adhesion left.
-member "sparse" layers surface.rms=3 surface.sites=128 block.thickness=128 drive.velocity=5 drive.timestep=40
+sparse="surface.rms=3 surface.sites=128 block.thickness=128 drive.velocity=5 drive.timestep=40"
+# shellcheck disable=SC2086 # words
+member "sparse" layers $sparse
+# shellcheck disable=SC2086
+member "sparse-state" layers $sparse drive.path=zero-load
 
 cat "$place"/*/cost.csv | python3 -c '
 import csv, sys
