@@ -23,7 +23,7 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 add_library(asperity_flags INTERFACE)
 # No contraction behind our back: where a fused multiply-add is meant, the kernel says so. The same
 # node then gets the same bits whichever loop, rank or thread computes it.
-target_compile_options(asperity_flags INTERFACE -ffp-contract=off)
+target_compile_options(asperity_flags INTERFACE -ffp-contract=off -fopenmp-simd)
 add_library(asperity_warnings INTERFACE)
 target_compile_options(asperity_warnings INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi

@@ -12,6 +12,7 @@
 
 #include "decomposition/communicator.hpp"
 #include "decomposition/tile.hpp"
+#include "kernels/surface_rows.hpp"
 
 #include <array>
 #include <cstddef>
@@ -88,27 +89,6 @@ private:
     std::unique_ptr<T[], Free> data_;
 };
 
-/// One row's part of sum_q conj(a_q).b_q.
-template <class A, class B>
-double row_dot(const A* a, const B* b, int sites) {
-    const auto term = [&](int i) { return static_cast<double>(a[i]) * static_cast<double>(b[i]); };
-    constexpr int lanes = 8; // chains that do not wait for one another
-    const int length = 2 * (sites / 2 + 1);
-    double lane[lanes] = {};
-    int i = 0;
-    for (; i + lanes <= length; i += lanes)
-        for (int k = 0; k < lanes; ++k)
-            lane[k] += term(i + k);
-    for (int k = 0; i < length; ++i, ++k)
-        lane[k] += term(i);
-    double all = 0.0;
-    for (double v : lane)
-        all += v;
-    double once = term(0) + term(1); // columns that have no mirror image
-    if (sites % 2 == 0) once += term(length - 2) + term(length - 1);
-    return 2.0 * all - once;
-}
-
 /// Sums over all waves: row by row, then in the order of rows, then of ranks, whatever the number
 /// of threads.
 class RowSums {
@@ -141,13 +121,8 @@ template <class From, class To>
 void combine(double a, const Waves<From>& from, double keep, Waves<To>& to) {
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < from.rows(); ++y)
-        for (int c = 0; c < from.components(); ++c) {
-            const From* x = from.row(c, y);
-            To* v = to.row(c, y);
-            for (int i = 0; i < from.length(); ++i)
-                v[i] = static_cast<To>(a * static_cast<double>(x[i]) +
-                                       keep * static_cast<double>(v[i]));
-        }
+        for (int c = 0; c < from.components(); ++c)
+            combine_row(a, from.row(c, y), keep, to.row(c, y), from.length());
 }
 
 } // namespace asperity

@@ -100,7 +100,7 @@ struct ReachBounds {
     double offset_margin = 0.0; ///< largest sideways displacement the tables allow for, Å
 };
 
-/// The substrate's heights as the sweeps read them; one of the two views is empty.
+/// The substrate's heights as the sweeps read them; a view that no sweep asks for is empty.
 struct SubstrateHeights {
     PlaneView<const double> height;      ///< over the datum, Å
     PlaneView<const std::int32_t> fixed; ///< over the datum, in units of fixed_quantum

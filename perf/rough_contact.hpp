@@ -50,7 +50,8 @@ struct RoughContact {
     RoughContact(int sites, double rms, bool frictionless = false)
         : surface(rough_surface(sites, rms)),
           block(paper_block(sites), Communicator(), frictionless),
-          interface(surface, block.tile(), block.options().spacing, {}) {
+          interface(surface, block.tile(), block.options().spacing,
+                    {.potential = {}, .single_too = true}) {
         block.set_uniform(0.0);
         height = interface.start_height();
         double strongest = 0.0;

@@ -151,13 +151,14 @@ SubstrateHeights Interface::heights_on(const Tile& atoms, int halo) {
     };
     SubstrateHeights heights;
     heights.datum = highest_;
-    if (options_.mixed) {
+    if (options_.mixed || options_.single_too) {
         fill(fixed_height_, [](double h) {
             return static_cast<std::int32_t>(
                 std::nearbyint(std::max(h, -fixed_depth) / fixed_quantum));
         });
         heights.fixed = fixed_height_.plane(0);
-    } else {
+    }
+    if (!options_.mixed) {
         fill(height_, [](double h) { return h; });
         heights.height = height_.plane(0);
     }
@@ -212,14 +213,14 @@ void Interface::build_rows() {
 
 InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
                                const VectorPlane<double>& force, double reference_height,
-                               bool observe) const {
+                               bool observe, bool in_single) const {
     return sweep_sites({displacement, force, spacing_, reference_height, tile_.x0, tile_.y0, {}},
-                       observe);
+                       observe, options_.mixed || (in_single && options_.single_too));
 }
 
-InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe) const {
+InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe, bool mixed) const {
     const auto pick = [&](const auto& sweeps) {
-        return (options_.mixed ? sweeps.in_mixed : sweeps.plain)[observe];
+        return (mixed ? sweeps.in_mixed : sweeps.plain)[observe];
     };
     const auto lattice = pick(interface_kernels().lattice);
     const auto rows = pick(interface_kernels().rows);
@@ -259,7 +260,7 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
     Field<double> nearest(tile_, 1);
     InterfaceSites sites{displacement, force.plane(0), spacing_,        reference_height,
                          tile_.x0,     tile_.y0,       nearest.plane(0)};
-    sweep_sites(sites, true);
+    sweep_sites(sites, true, options_.mixed);
 
     InterfaceMaps maps;
     maps.nx = tile_.nx;

@@ -34,6 +34,7 @@ struct InterfaceOptions {
     bool tail = false; ///< continuum correction beyond the cutoff
     bool mixed =
         false; ///< pairs in single precision, sums in double; the reference knows only double
+    bool single_too = false; ///< a double sweep may now and then be asked for in mixed precision
     InterfaceMethod method = InterfaceMethod::automatic;
     bool skip = true; ///< false: visit all offsets or atoms everywhere (same bits; for tests)
 };
@@ -78,10 +79,11 @@ public:
               const InterfaceOptions& options);
 
     /// Forces of the substrate on the tile's sites (overwritten) and their sums over the tile.
-    /// Energy, contacts and nearest distances only if observed.
+    /// Energy, contacts and nearest distances only if observed. in_single: in mixed precision,
+    /// where the options have it (forces good to some 1e-6 eV/Å).
     InterfaceSums sweep(const VectorPlane<const double>& displacement,
-                        const VectorPlane<double>& force, double reference_height,
-                        bool observe) const;
+                        const VectorPlane<double>& force, double reference_height, bool observe,
+                        bool in_single = false) const;
 
     /// Per-site maps of the state; makes a sweep of its own.
     InterfaceMaps maps(const VectorPlane<const double>& displacement,
@@ -100,7 +102,7 @@ public:
     const InterfaceWork& work() const { return work_; }
 
 private:
-    InterfaceSums sweep_sites(const InterfaceSites& sites, bool observe) const;
+    InterfaceSums sweep_sites(const InterfaceSites& sites, bool observe, bool mixed) const;
     void build_reach();
     void build_lattice();
     void build_rows();

@@ -21,7 +21,7 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
         return static_cast<float>((here(x, y) - there(x, y)) / step);
     };
     // Along z all sites go with the block.
-    interface.sweep(u, force_.plane(0), reference_height + step, false);
+    interface.sweep(u, force_.plane(0), reference_height + step, false, true);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < u.x.ny; ++y)
         for (int x = 0; x < u.x.nx; ++x) {
@@ -44,7 +44,7 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
                 d.z(x, y) = u.z(x, y);
             }
         interface.sweep(std::as_const(displaced_).plane(0), force_.plane(0), reference_height,
-                        false);
+                        false, true);
 #pragma omp parallel for schedule(static)
         for (int y = 0; y < u.x.ny; ++y)
             for (int x = 0; x < u.x.nx; ++x) {

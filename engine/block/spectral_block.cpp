@@ -10,63 +10,32 @@ namespace asperity {
 
 namespace {
 
-enum Entry { xx, yy, zz, xy, xz, yz, entries };
+using Entry = MatrixRow<double>::Entry;
+using enum MatrixRow<double>::Entry;
 
-/// What one row of waves sees of a table over the quadrant: with the signs of its q_y.
+/// What row n_y of N sees of a table over the quadrant: [entry][ny][nx], or the one number of a
+/// wave.
 template <class T>
-struct MatrixRow {
-    const T* at[entries];
-    T sign; ///< of q_y: on xy and yz
-
-    /// table: [entry][ny][nx], or the one number of a wave; n_y of the row out of N.
-    MatrixRow(const std::vector<T>& table, std::size_t columns, int row, int sites)
-        : sign(2 * row > sites ? T(-1) : T(1)) {
-        const std::size_t size = columns * columns;
-        const T* from =
-            table.data() + static_cast<std::size_t>(std::min(row, sites - row)) * columns;
-        for (std::size_t e = 0; e < entries; ++e)
-            at[e] = from + (table.size() == size ? 0 : e * size);
-    }
-};
-
-/// f <- m u + norm f of wave i, where m acts on (u_x, u_y, i u_z). Real and imaginary parts.
-template <class M, class U, class F>
-ASPERITY_INLINE void multiply(const MatrixRow<M>& m, int i, const U* const u[3], M norm,
-                              F* const f[3]) {
-    const M cross = m.sign * m.at[xy][i], along = m.at[xz][i], across = m.sign * m.at[yz][i];
-    M x[2], y[2], z[2];
-    for (int k = 0; k < 2; ++k) {
-        x[k] = static_cast<M>(u[0][2 * i + k]);
-        y[k] = static_cast<M>(u[1][2 * i + k]);
-        z[k] = static_cast<M>(u[2][2 * i + k]);
-    }
-    const M w[2] = {-z[1], z[0]}; // i u_z
-    for (int k = 0; k < 2; ++k) {
-        const M turned = along * x[1 - k] + across * y[1 - k];
-        const M fx = m.at[xx][i] * x[k] + cross * y[k] + along * w[k];
-        const M fy = cross * x[k] + m.at[yy][i] * y[k] + across * w[k];
-        const M fz = m.at[zz][i] * z[k] + (k == 0 ? turned : -turned);
-        f[0][2 * i + k] = static_cast<F>(fx + norm * static_cast<M>(f[0][2 * i + k]));
-        f[1][2 * i + k] = static_cast<F>(fy + norm * static_cast<M>(f[1][2 * i + k]));
-        f[2][2 * i + k] = static_cast<F>(fz + norm * static_cast<M>(f[2][2 * i + k]));
-    }
+MatrixRow<T> matrix_row(const std::vector<T>& table, std::size_t columns, int row, int sites) {
+    const std::size_t size = columns * columns;
+    const T* from = table.data() + static_cast<std::size_t>(std::min(row, sites - row)) * columns;
+    MatrixRow<T> m;
+    for (std::size_t e = 0; e < entries; ++e)
+        m.at[e] = from + (table.size() == size ? 0 : e * size);
+    m.sign = 2 * row > sites ? T(-1) : T(1);
+    return m;
 }
 
-/// The same for a row, of three components or one.
+/// f <- m u + norm f for row y of some waves.
 template <class M, class U, class F>
-void multiply_row(const MatrixRow<M>& m, int y, const Waves<U>& u, M norm, Waves<F>& f) {
-    if (u.components() == 1) {
-        const U* from = u.row(0, y);
-        F* to = f.row(0, y);
-        for (int i = 0; i < u.length(); ++i)
-            to[i] = static_cast<F>(m.at[zz][i / 2] * static_cast<M>(from[i]) +
-                                   norm * static_cast<M>(to[i]));
-        return;
+void multiply_waves(const MatrixRow<M>& m, int y, const Waves<U>& u, double norm, Waves<F>& f) {
+    const U* from[3] = {};
+    F* to[3] = {};
+    for (int c = 0; c < u.components(); ++c) {
+        from[c] = u.row(c, y);
+        to[c] = f.row(c, y);
     }
-    const U* const from[3] = {u.row(0, y), u.row(1, y), u.row(2, y)};
-    F* const to[3] = {f.row(0, y), f.row(1, y), f.row(2, y)};
-    for (int i = 0; i < u.columns(); ++i)
-        multiply(m, i, from, norm, to);
+    multiply_row(m, u.columns(), u.components(), from, norm, to);
 }
 
 /// S of every wave, or what is left of it without friction.
@@ -177,7 +146,7 @@ void SpectralBlock::gradient(double load, Waves<double>& g) const {
 
 template <class T>
 void SpectralBlock::stiffen_row(int y, const Waves<T>& u, double norm, Waves<T>& f) const {
-    multiply_row(MatrixRow<double>(table_, columns_, slab_.first + y, slab_.sites), y, u, norm, f);
+    multiply_waves(matrix_row(table_, columns_, slab_.first + y, slab_.sites), y, u, norm, f);
 }
 template void SpectralBlock::stiffen_row(int, const Waves<float>&, double, Waves<float>&) const;
 template void SpectralBlock::stiffen_row(int, const Waves<double>&, double, Waves<double>&) const;
@@ -193,27 +162,31 @@ double SpectralBlock::elastic_energy() const {
     return 0.5 * dot(u, su);
 }
 
-void SpectralBlock::at_sites(Waves<float>& waves, SiteField<float>& field) const {
+template <class T>
+void SpectralBlock::at_sites(Waves<T>& waves, SiteField<T>& field) const {
     for (int c = 0; c < components_; ++c)
-        single_.backward(waves, c, field[static_cast<std::size_t>(c)].plane(0));
+        transform<T>().backward(waves, c, field[static_cast<std::size_t>(c)].plane(0));
 }
+template void SpectralBlock::at_sites(Waves<float>&, SiteField<float>&) const;
+template void SpectralBlock::at_sites(Waves<double>&, SiteField<double>&) const;
 
 void SpectralBlock::to_waves(const SiteField<float>& field, Waves<float>& waves) const {
     for (int c = 0; c < components_; ++c)
         single_.forward(field[static_cast<std::size_t>(c)].plane(0), waves, c);
 }
 
-void SpectralBlock::displace(double t, const Waves<float>& d, const SiteField<float>& at_sites) {
-    combine(t, d, 1.0, waves_);
+template <class T>
+void SpectralBlock::displace(double t, const Waves<T>& d, const SiteField<T>& at_sites) {
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < slab_.rows; ++y)
         for (int c = 0; c < components_; ++c) {
-            double* u = moving(layer_.plane(0), c).line(y);
-            const float* by = at_sites[static_cast<std::size_t>(c)].plane(0).line(y);
-            for (int x = 0; x < slab_.sites; ++x)
-                u[x] += t * static_cast<double>(by[x]);
+            combine_row(t, d.row(c, y), 1.0, waves_.row(c, y), d.length());
+            combine_row(t, at_sites[static_cast<std::size_t>(c)].plane(0).line(y), 1.0,
+                        moving(layer_.plane(0), c).line(y), slab_.sites);
         }
 }
+template void SpectralBlock::displace(double, const Waves<float>&, const SiteField<float>&);
+template void SpectralBlock::displace(double, const Waves<double>&, const SiteField<double>&);
 
 void SpectralBlock::keep_mean_height(Waves<float>& d, SiteField<float>& at_sites) const {
     if (!mean_height_is_held()) return;
@@ -280,11 +253,12 @@ Preconditioner::Preconditioner(const SpectralBlock& block, double k)
         }
 }
 
-template <class From>
-void Preconditioner::apply_row(int y, const Waves<From>& from, Waves<float>& to) const {
-    multiply_row(MatrixRow<float>(table_, columns_, first_ + y, sites_), y, from, 0.0f, to);
+template <class From, class To>
+void Preconditioner::apply_row(int y, const Waves<From>& from, Waves<To>& to) const {
+    multiply_waves(matrix_row(table_, columns_, first_ + y, sites_), y, from, 0.0, to);
 }
 template void Preconditioner::apply_row(int, const Waves<float>&, Waves<float>&) const;
 template void Preconditioner::apply_row(int, const Waves<double>&, Waves<float>&) const;
+template void Preconditioner::apply_row(int, const Waves<double>&, Waves<double>&) const;
 
 } // namespace asperity

@@ -33,6 +33,7 @@
 #include "engine/block/block.hpp"
 #include "kernels/surface_stiffness.hpp"
 
+#include <type_traits>
 #include <vector>
 
 namespace asperity {
@@ -93,11 +94,13 @@ public:
     double elastic_energy() const;
 
     /// The field of some waves, which are lost. Collective.
-    void at_sites(Waves<float>& waves, SiteField<float>& field) const;
+    template <class T>
+    void at_sites(Waves<T>& waves, SiteField<T>& field) const;
     /// The waves of a field, times a factor N^2. Collective.
     void to_waves(const SiteField<float>& field, Waves<float>& waves) const;
     /// u <- u + t d, given both as waves and at the sites.
-    void displace(double t, const Waves<float>& d, const SiteField<float>& at_sites);
+    template <class T>
+    void displace(double t, const Waves<T>& d, const SiteField<T>& at_sites);
     /// Takes out of a displacement, given both ways, what would change a mean height that is held.
     /// Collective.
     void keep_mean_height(Waves<float>& d, SiteField<float>& at_sites) const;
@@ -118,6 +121,13 @@ private:
     PlaneView<T> moving(const VectorPlane<T>& field, int component) const {
         const PlaneView<T> all[3] = {field.x, field.y, field.z};
         return all[component + 3 - components_];
+    }
+    template <class T>
+    const SurfaceTransform<T>& transform() const {
+        if constexpr (std::is_same_v<T, double>)
+            return transform_;
+        else
+            return single_;
     }
 
     BlockOptions options_;
@@ -141,8 +151,8 @@ class Preconditioner {
 public:
     Preconditioner(const SpectralBlock& block, double k);
     /// to <- (S + k)^-1 from, row y of the slab; the two may be the same.
-    template <class From>
-    void apply_row(int y, const Waves<From>& from, Waves<float>& to) const;
+    template <class From, class To>
+    void apply_row(int y, const Waves<From>& from, Waves<To>& to) const;
 
 private:
     int sites_, first_;

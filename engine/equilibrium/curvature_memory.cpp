@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/equilibrium/curvature_memory.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -48,7 +47,6 @@ double CurvatureMemory::learn(const Waves<double>& g, double t, const Waves<floa
         wg.push_back(p.wg);
     }
     const double gz_before = gz_;
-    const auto scale = static_cast<float>(t);
     // w = z - z_before, on the way of one look.
     const std::size_t known = pairs_.size();
     RowSums sums(block_.slab(), 5 + 2 * known);
@@ -57,11 +55,8 @@ double CurvatureMemory::learn(const Waves<double>& g, double t, const Waves<floa
         double* sum = sums.row(y);
         const int sites = g.slab().sites, length = g.length();
         for (int c = 0; c < g.components(); ++c) {
-            std::copy_n(z_.row(c, y), length, pair.w.row(c, y));
-            const float* step = d.row(c, y);
-            float* s = pair.s.row(c, y);
-            for (int i = 0; i < length; ++i)
-                s[i] = scale * step[i];
+            combine_row(1.0, z_.row(c, y), 0.0, pair.w.row(c, y), length);
+            combine_row(t, d.row(c, y), 0.0, pair.s.row(c, y), length);
         }
         preconditioner_.apply_row(y, g, z_);
         for (int c = 0; c < g.components(); ++c) {
@@ -71,8 +66,7 @@ double CurvatureMemory::learn(const Waves<double>& g, double t, const Waves<floa
             sum[0] += row_dot(at, at, sites);
             sum[1] += row_dot(at, z, sites);
             sum[2] += row_dot(at, w, sites); // g.z_before
-            for (int i = 0; i < length; ++i)
-                w[i] = z[i] - w[i];
+            combine_row(1.0, z, -1.0, w, length);
             sum[3] += row_dot(at, pair.s.row(c, y), sites);
             sum[4] += row_dot(at, w, sites);
             for (std::size_t j = 0; j < known; ++j) {
@@ -122,7 +116,7 @@ CurvatureMemory::Pair CurvatureMemory::make_pair() {
     return pair;
 }
 
-double CurvatureMemory::direction(const Waves<double>& g, Waves<float>& d) const {
+double CurvatureMemory::direction(Waves<float>& d, Waves<float>& copy) const {
     const std::size_t known = pairs_.size();
     // s_i.y_j and w_i.y_j, i older than j, are kept by the younger.
     const auto wy = [&](std::size_t i, std::size_t j) {
@@ -146,21 +140,26 @@ double CurvatureMemory::direction(const Waves<double>& g, Waves<float>& d) const
     double slope = -gz_;
     for (std::size_t j = 0; j < known; ++j)
         slope += alpha[j] * pairs_[j].wg - gamma[j] * pairs_[j].sg;
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < g.rows(); ++y)
-        for (int c = 0; c < g.components(); ++c) {
-            float* to = d.row(c, y);
-            const float* z = z_.row(c, y);
-            for (int i = 0; i < g.length(); ++i)
-                to[i] = -z[i];
-            for (std::size_t j = 0; j < known; ++j) {
-                const float *s = pairs_[j].s.row(c, y), *w = pairs_[j].w.row(c, y);
-                const auto along_w = static_cast<float>(alpha[j]);
-                const auto along_s = static_cast<float>(gamma[j]);
-                for (int i = 0; i < g.length(); ++i)
-                    to[i] += along_w * w[i] - along_s * s[i];
+    std::vector<float> weight = {-1.0f};
+    for (std::size_t j = 0; j < known; ++j) {
+        weight.push_back(static_cast<float>(alpha[j]));
+        weight.push_back(static_cast<float>(-gamma[j]));
+    }
+#pragma omp parallel
+    {
+        std::vector<const float*> from(weight.size());
+#pragma omp for schedule(static)
+        for (int y = 0; y < d.rows(); ++y)
+            for (int c = 0; c < d.components(); ++c) {
+                from[0] = z_.row(c, y);
+                for (std::size_t j = 0; j < known; ++j) {
+                    from[2 * j + 1] = pairs_[j].w.row(c, y);
+                    from[2 * j + 2] = pairs_[j].s.row(c, y);
+                }
+                weigh_rows(from.data(), weight.data(), static_cast<int>(weight.size()), d.row(c, y),
+                           copy.row(c, y), d.length());
             }
-        }
+    }
     return slope;
 }
 

@@ -32,9 +32,9 @@ public:
     /// The same where a step t d has led here since the last look, and the slope d.g was
     /// slope_before there. What is learnt is left out where the energy curves down along d.
     double learn(const Waves<double>& g, double t, const Waves<float>& d, double slope_before);
-    /// d <- -H g with H the inverse Hessian as far as it is known and g as last looked at. Returns
-    /// the slope g.d.
-    double direction(const Waves<double>& g, Waves<float>& d) const;
+    /// d and its copy <- -H g with H the inverse Hessian as far as it is known and g as last looked
+    /// at. Returns the slope g.d.
+    double direction(Waves<float>& d, Waves<float>& copy) const;
     /// d.g at the end of the step last learnt from.
     double slope() const { return slope_; }
     void forget() { pairs_.clear(); }

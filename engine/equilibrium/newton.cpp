@@ -45,17 +45,12 @@ double Newton::multiply() {
 }
 
 double Newton::advance(double a, Waves<float>& d) {
-    const auto step = static_cast<float>(a);
     RowSums sums(block_.slab(), 1);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < r_.rows(); ++y) {
         for (int c = 0; c < r_.components(); ++c) {
-            float *to = d.row(c, y), *r = r_.row(c, y);
-            const float *p = p_.row(c, y), *q = q_.row(c, y);
-            for (int i = 0; i < r_.length(); ++i) {
-                to[i] += step * p[i];
-                r[i] -= step * q[i];
-            }
+            combine_row(a, p_.row(c, y), 1.0, d.row(c, y), r_.length());
+            combine_row(-a, q_.row(c, y), 1.0, r_.row(c, y), r_.length());
         }
         preconditioner_.apply_row(y, r_, z_);
         for (int c = 0; c < r_.components(); ++c)

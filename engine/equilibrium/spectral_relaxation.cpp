@@ -16,24 +16,23 @@ namespace {
 
 constexpr std::size_t remembered_pairs = 6;
 
-/// Squared length of a field's vector at (x, y).
-double squared_length(const SiteField<float>& field, int x, int y) {
-    double sum = 0.0;
-    for (const Field<float>& f : field) {
-        const double v = static_cast<double>(f.plane(0)(x, y));
-        sum += v * v;
-    }
-    return sum;
+/// Rows of a field's components.
+std::array<float*, 3> lines(SiteField<float>& field, int y) {
+    std::array<float*, 3> rows{};
+    for (std::size_t c = 0; c < field.size(); ++c)
+        rows[c] = field[c].plane(0).line(y);
+    return rows;
 }
 
 /// Length of the longest vector of a field. Collective.
-double largest(const Communicator& ranks, const SiteField<float>& field) {
+double largest(const Communicator& ranks, SiteField<float>& field) {
     const PlaneView<const float> f = field[0].plane(0);
     double longest = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : longest)
     for (int y = 0; y < f.ny; ++y)
-        for (int x = 0; x < f.nx; ++x)
-            longest = std::max(longest, squared_length(field, x, y));
+        longest =
+            std::max(longest, static_cast<double>(longest_squared(
+                                  lines(field, y).data(), static_cast<int>(field.size()), f.nx)));
     ranks.max(std::span(&longest, 1));
     return std::sqrt(longest);
 }
@@ -44,14 +43,9 @@ bool clip(const Communicator& ranks, double bound, SiteField<float>& field) {
     double clipped = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : clipped)
     for (int y = 0; y < f.ny; ++y)
-        for (int x = 0; x < f.nx; ++x) {
-            const double length2 = squared_length(field, x, y);
-            if (!(length2 > bound * bound)) continue;
-            const auto q = static_cast<float>(bound / std::sqrt(length2));
-            for (Field<float>& component : field)
-                component.plane(0)(x, y) *= q;
+        if (clip_row(static_cast<float>(bound), lines(field, y).data(),
+                     static_cast<int>(field.size()), f.nx))
             clipped = 1.0;
-        }
     ranks.max(std::span(&clipped, 1));
     return clipped > 0.0;
 }
@@ -79,6 +73,7 @@ public:
     }
     /// The residual of waves that agree with the sites to the last digit; energies in sums().
     double conclude() {
+        rough_ = false;
         block_.settle();
         evaluate(true);
         note(memory_.look(g_));
@@ -90,14 +85,14 @@ public:
     bool step(long long iteration) {
         if (iteration % 16 == 15) block_.settle(); // before single precision shows
         const bool newton = iteration >= newton_from_ && newton_direction(iteration);
-        if (!newton) remembered_direction();
+        double slope = newton ? dot(g_, d_) : remembered_direction();
         if (clip(ranks_, options_.max_move, at_sites_)) {
             const double sites = block_.options().sites;
             block_.to_waves(at_sites_, d_);
             combine(0.0, d_, 1.0 / (sites * sites), d_);
             block_.keep_mean_height(d_, at_sites_);
+            slope = dot(g_, d_);
         }
-        const double slope = dot(g_, d_);
         if (!(slope < 0.0)) return turn_back(newton, iteration);
 
         double step = 1.0, there = move(step, slope);
@@ -116,8 +111,8 @@ private:
     void evaluate(bool observe) {
         {
             const auto t = phases_.time(Phase::interface);
-            sums_ =
-                interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, observe);
+            sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_,
+                                     observe, rough_ && !observe);
         }
         const auto t = phases_.time(Phase::advance);
         block_.gradient(options_.load, g_);
@@ -133,6 +128,7 @@ private:
     void note(double gradient2) {
         rms_ = std::sqrt(gradient2) / block_.options().sites;
         strongest_ = std::max(strongest_, rms_);
+        rough_ = rough_ && rms_ > rough_enough;
     }
     double largest_residual() {
         const auto t = phases_.time(Phase::sums);
@@ -141,11 +137,12 @@ private:
         return largest(ranks_, at_sites_);
     }
 
-    void remembered_direction() {
+    /// Returns its slope.
+    double remembered_direction() {
         const auto t = phases_.time(Phase::sums);
-        memory_.direction(g_, d_);
-        combine(1.0, d_, 0.0, work_);
+        const double slope = memory_.direction(d_, work_);
         block_.at_sites(work_, at_sites_);
+        return slope;
     }
     /// Newton's direction, if it is of use: the energy is convex along it and no site is sent far
     /// away (where it is, the state is still moving, and Newton must wait).
@@ -175,6 +172,8 @@ private:
         return true;
     }
 
+    /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
+    static constexpr double rough_enough = 1e-5;
     static constexpr long long patience = 10; ///< iterations before Newton is tried again
 
     SpectralBlock& block_;
@@ -193,6 +192,7 @@ private:
     double rms_ = 0.0;       ///< mean residual, eV/Å
     double strongest_ = 0.0; ///< the greatest of them so far
     long long newton_from_ = 0;
+    bool rough_ = true;
 };
 
 } // namespace

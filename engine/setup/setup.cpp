@@ -82,6 +82,7 @@ Setup make_setup(const Scene& scene, int ranks) {
     interface.potential = {scene.interface.epsilon, scene.interface.r0, scene.interface.cutoff};
     interface.tail = on(Effect::tail);
     interface.mixed = scene.numerics.precision == Precision::mixed;
+    interface.single_too = scene.block.model == BlockModel::spectral && !interface.mixed;
     const int substrate = substrate_sites(block.sites, scene.surface.lattice_ratio);
     try {
         setup.flat = flat_reference(interface, block.spacing, block.sites, substrate);

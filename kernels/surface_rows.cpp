@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Plain loops: what they need of wide registers the compiler finds, once it is allowed to.
+#include "kernels/surface_rows.hpp"
+
+#include "kernels/variant.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+namespace asperity::ASPERITY_VARIANT {
+
+namespace {
+
+template <class A, class B>
+double dot(const A* a, const B* b, int sites) {
+    const auto term = [&](int i) { return static_cast<double>(a[i]) * static_cast<double>(b[i]); };
+    const int length = 2 * (sites / 2 + 1);
+    double all = 0.0;
+#pragma omp simd reduction(+ : all)
+    for (int i = 0; i < length; ++i)
+        all += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+    double once = term(0) + term(1); // columns that have no mirror image
+    if (sites % 2 == 0) once += term(length - 2) + term(length - 1);
+    return 2.0 * all - once;
+}
+
+template <class From, class To>
+void combine(double a, const From* from, double keep, To* to, int n) {
+    using T = std::common_type_t<From, To>;
+    const T factor = static_cast<T>(a), kept = static_cast<T>(keep);
+    if (keep == 0.0) {
+#pragma omp simd
+        for (int i = 0; i < n; ++i)
+            to[i] = static_cast<To>(factor * static_cast<T>(from[i]));
+        return;
+    }
+#pragma omp simd
+    for (int i = 0; i < n; ++i)
+        to[i] = static_cast<To>(factor * static_cast<T>(from[i]) + kept * static_cast<T>(to[i]));
+}
+
+/// Arithmetic in the type of the table, but no wider than what it acts on.
+template <bool keep, class M, class U, class F>
+void multiply_three(const MatrixRow<M>& m, int waves, const U* const* u, double norm_,
+                    F* const* f) {
+    using T = std::conditional_t<std::is_same_v<U, float>, float, M>;
+    using E = typename MatrixRow<M>::Entry;
+    const M *xx = m.at[E::xx], *yy = m.at[E::yy], *zz = m.at[E::zz];
+    const M *xy = m.at[E::xy], *xz = m.at[E::xz], *yz = m.at[E::yz];
+    const U *ux = u[0], *uy = u[1], *uz = u[2];
+    F *fx = f[0], *fy = f[1], *fz = f[2];
+    const T sign = static_cast<T>(m.sign), norm = static_cast<T>(norm_);
+#pragma omp simd
+    for (int i = 0; i < waves; ++i) {
+        const T cross = sign * static_cast<T>(xy[i]), across = sign * static_cast<T>(yz[i]);
+        const T along = static_cast<T>(xz[i]), a = static_cast<T>(xx[i]);
+        const T b = static_cast<T>(yy[i]), c = static_cast<T>(zz[i]);
+        const T x0 = static_cast<T>(ux[2 * i]), x1 = static_cast<T>(ux[2 * i + 1]);
+        const T y0 = static_cast<T>(uy[2 * i]), y1 = static_cast<T>(uy[2 * i + 1]);
+        const T z0 = static_cast<T>(uz[2 * i]), z1 = static_cast<T>(uz[2 * i + 1]);
+        // w = i u_z = (-z1, z0); the third row, of i f_z, likewise.
+        T gx0 = a * x0 + cross * y0 - along * z1, gx1 = a * x1 + cross * y1 + along * z0;
+        T gy0 = cross * x0 + b * y0 - across * z1, gy1 = cross * x1 + b * y1 + across * z0;
+        T gz0 = c * z0 + along * x1 + across * y1, gz1 = c * z1 - along * x0 - across * y0;
+        if constexpr (keep) {
+            gx0 += norm * static_cast<T>(fx[2 * i]);
+            gx1 += norm * static_cast<T>(fx[2 * i + 1]);
+            gy0 += norm * static_cast<T>(fy[2 * i]);
+            gy1 += norm * static_cast<T>(fy[2 * i + 1]);
+            gz0 += norm * static_cast<T>(fz[2 * i]);
+            gz1 += norm * static_cast<T>(fz[2 * i + 1]);
+        }
+        fx[2 * i] = static_cast<F>(gx0);
+        fx[2 * i + 1] = static_cast<F>(gx1);
+        fy[2 * i] = static_cast<F>(gy0);
+        fy[2 * i + 1] = static_cast<F>(gy1);
+        fz[2 * i] = static_cast<F>(gz0);
+        fz[2 * i + 1] = static_cast<F>(gz1);
+    }
+}
+
+template <class M, class U, class F>
+void multiply(const MatrixRow<M>& m, int waves, int components, const U* const* u, double norm,
+              F* const* f) {
+    if (components == 3) {
+        if (norm == 0.0)
+            multiply_three<false>(m, waves, u, norm, f);
+        else
+            multiply_three<true>(m, waves, u, norm, f);
+        return;
+    }
+    const M* zz = m.at[MatrixRow<M>::zz];
+    const U* from = u[0];
+    F* to = f[0];
+    for (int i = 0; i < 2 * waves; ++i) {
+        const double kept = norm == 0.0 ? 0.0 : norm * static_cast<double>(to[i]);
+        to[i] =
+            static_cast<F>(static_cast<double>(zz[i / 2]) * static_cast<double>(from[i]) + kept);
+    }
+}
+
+void weigh(const float* const* from, const float* weight, int count, float* to, float* copy,
+           int n) {
+    constexpr int piece = 128; // stays in the nearest cache while the rows pass by
+    for (int begin = 0; begin < n; begin += piece) {
+        const int size = n - begin < piece ? n - begin : piece;
+        float sum[piece] = {};
+        for (int j = 0; j < count; ++j) {
+            const float *row = from[j] + begin, w = weight[j];
+#pragma omp simd
+            for (int i = 0; i < size; ++i)
+                sum[i] += w * row[i];
+        }
+        for (int i = 0; i < size; ++i)
+            to[begin + i] = copy[begin + i] = sum[i];
+    }
+}
+
+float longest(const float* const* v, int components, int n) {
+    float most = 0.0f;
+    if (components == 1) {
+        const float* z = v[0];
+#pragma omp simd reduction(max : most)
+        for (int i = 0; i < n; ++i)
+            most = z[i] * z[i] > most ? z[i] * z[i] : most;
+        return most;
+    }
+    const float *x = v[0], *y = v[1], *z = v[2];
+#pragma omp simd reduction(max : most)
+    for (int i = 0; i < n; ++i) {
+        const float length2 = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+        most = length2 > most ? length2 : most;
+    }
+    return most;
+}
+
+bool clip(float bound, float* const* v, int components, int n) {
+    if (!(longest(v, components, n) > bound * bound)) return false;
+    for (int i = 0; i < n; ++i) {
+        float length2 = 0.0f;
+        for (int c = 0; c < components; ++c)
+            length2 += v[c][i] * v[c][i];
+        if (!(length2 > bound * bound)) continue;
+        const float q = bound / std::sqrt(length2);
+        for (int c = 0; c < components; ++c)
+            v[c][i] *= q;
+    }
+    return true;
+}
+
+} // namespace
+
+RowKernels surface_rows() {
+    return {dot<double, double>,
+            dot<double, float>,
+            dot<float, float>,
+            combine<double, double>,
+            combine<double, float>,
+            combine<float, double>,
+            combine<float, float>,
+            multiply<double, double, double>,
+            multiply<double, float, float>,
+            multiply<float, double, double>,
+            multiply<float, double, float>,
+            multiply<float, float, float>,
+            weigh,
+            longest,
+            clip};
+}
+
+} // namespace asperity::ASPERITY_VARIANT
