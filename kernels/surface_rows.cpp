@@ -6,6 +6,7 @@
 
 #include "kernels/variant.hpp"
 
+#include <bit>
 #include <cmath>
 #include <type_traits>
 
@@ -13,14 +14,25 @@ namespace asperity::ASPERITY_VARIANT {
 
 namespace {
 
+inline double wide(double v) { return v; }
+inline double wide(float v) { return static_cast<double>(v); }
+inline float single(ShortFloat v) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(v.bits) << 16);
+}
+inline double wide(ShortFloat v) { return static_cast<double>(single(v)); }
+inline ShortFloat shortened(float v) {
+    const auto bits = std::bit_cast<std::uint32_t>(v);
+    return {static_cast<std::uint16_t>((bits + 0x7fffu + (bits >> 16 & 1u)) >> 16)}; // ties to even
+}
+
 template <class A, class B>
 double dot(const A* a, const B* b, int sites) {
-    const auto term = [&](int i) { return static_cast<double>(a[i]) * static_cast<double>(b[i]); };
+    const auto term = [&](int i) { return wide(a[i]) * wide(b[i]); };
     const int length = 2 * (sites / 2 + 1);
     double all = 0.0;
 #pragma omp simd reduction(+ : all)
     for (int i = 0; i < length; ++i)
-        all += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+        all += wide(a[i]) * wide(b[i]);
     double once = term(0) + term(1); // columns that have no mirror image
     if (sites % 2 == 0) once += term(length - 2) + term(length - 1);
     return 2.0 * all - once;
@@ -101,21 +113,33 @@ void multiply(const MatrixRow<M>& m, int waves, int components, const U* const* 
     }
 }
 
-void weigh(const float* const* from, const float* weight, int count, float* to, float* copy,
-           int n) {
-    constexpr int piece = 128; // stays in the nearest cache while the rows pass by
+void weigh(double a, const float* first, const ShortFloat* const* from, const float* weight,
+           int count, float* to, int n) {
+    constexpr int piece = 1024; // a row or most of it, and in the nearest cache
+    const auto factor = static_cast<float>(a);
     for (int begin = 0; begin < n; begin += piece) {
         const int size = n - begin < piece ? n - begin : piece;
-        float sum[piece] = {};
+        float sum[piece];
+#pragma omp simd
+        for (int i = 0; i < size; ++i)
+            sum[i] = factor * first[begin + i];
         for (int j = 0; j < count; ++j) {
-            const float *row = from[j] + begin, w = weight[j];
+            const ShortFloat* row = from[j] + begin;
+            const float w = weight[j];
 #pragma omp simd
             for (int i = 0; i < size; ++i)
-                sum[i] += w * row[i];
+                sum[i] += w * single(row[i]);
         }
         for (int i = 0; i < size; ++i)
-            to[begin + i] = copy[begin + i] = sum[i];
+            to[begin + i] = sum[i];
     }
+}
+
+void shorten(double a, const float* x, double b, const float* y, ShortFloat* to, int n) {
+    const auto of_x = static_cast<float>(a), of_y = static_cast<float>(b);
+#pragma omp simd
+    for (int i = 0; i < n; ++i)
+        to[i] = shortened(of_x * x[i] + of_y * y[i]);
 }
 
 float longest(const float* const* v, int components, int n) {
@@ -136,8 +160,8 @@ float longest(const float* const* v, int components, int n) {
     return most;
 }
 
-bool clip(float bound, float* const* v, int components, int n) {
-    if (!(longest(v, components, n) > bound * bound)) return false;
+void clip(float bound, float* const* v, int components, int n) {
+    if (!(longest(v, components, n) > bound * bound)) return;
     for (int i = 0; i < n; ++i) {
         float length2 = 0.0f;
         for (int c = 0; c < components; ++c)
@@ -147,7 +171,6 @@ bool clip(float bound, float* const* v, int components, int n) {
         for (int c = 0; c < components; ++c)
             v[c][i] *= q;
     }
-    return true;
 }
 
 } // namespace
@@ -156,6 +179,7 @@ RowKernels surface_rows() {
     return {dot<double, double>,
             dot<double, float>,
             dot<float, float>,
+            dot<double, ShortFloat>,
             combine<double, double>,
             combine<double, float>,
             combine<float, double>,
@@ -166,6 +190,7 @@ RowKernels surface_rows() {
             multiply<float, double, float>,
             multiply<float, float, float>,
             weigh,
+            shorten,
             longest,
             clip};
 }

@@ -47,42 +47,46 @@ double CurvatureMemory::learn(const Waves<double>& g, double t, const Waves<floa
         wg.push_back(p.wg);
     }
     const double gz_before = gz_;
-    // w = z - z_before, on the way of one look.
     const std::size_t known = pairs_.size();
-    RowSums sums(block_.slab(), 5 + 2 * known);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < g.rows(); ++y) {
-        double* sum = sums.row(y);
+    RowSums sums(block_.slab(), 6 + 2 * known);
+#pragma omp parallel
+    {
         const int sites = g.slab().sites, length = g.length();
-        for (int c = 0; c < g.components(); ++c) {
-            combine_row(1.0, z_.row(c, y), 0.0, pair.w.row(c, y), length);
-            combine_row(t, d.row(c, y), 0.0, pair.s.row(c, y), length);
-        }
-        preconditioner_.apply_row(y, g, z_);
-        for (int c = 0; c < g.components(); ++c) {
-            const double* at = g.row(c, y);
-            float* w = pair.w.row(c, y);
-            const float* z = z_.row(c, y);
-            sum[0] += row_dot(at, at, sites);
-            sum[1] += row_dot(at, z, sites);
-            sum[2] += row_dot(at, w, sites); // g.z_before
-            combine_row(1.0, z, -1.0, w, length);
-            sum[3] += row_dot(at, pair.s.row(c, y), sites);
-            sum[4] += row_dot(at, w, sites);
-            for (std::size_t j = 0; j < known; ++j) {
-                sum[5 + 2 * j] += row_dot(at, pairs_[j].s.row(c, y), sites);
-                sum[6 + 2 * j] += row_dot(at, pairs_[j].w.row(c, y), sites);
+        std::vector<float> before(static_cast<std::size_t>(g.components() * length)); // z of a row
+        const auto z_before = [&](int c) { return before.data() + c * length; };
+#pragma omp for schedule(static)
+        for (int y = 0; y < g.rows(); ++y) {
+            double* sum = sums.row(y);
+            for (int c = 0; c < g.components(); ++c)
+                combine_row(1.0, z_.row(c, y), 0.0, z_before(c), length);
+            preconditioner_.apply_row(y, g, z_);
+            for (int c = 0; c < g.components(); ++c) {
+                const double* at = g.row(c, y);
+                const float* z = z_.row(c, y);
+                ShortFloat *s = pair.s.row(c, y), *w = pair.w.row(c, y);
+                shorten_row(t, d.row(c, y), 0.0, z, s, length);
+                shorten_row(1.0, z, -1.0, z_before(c), w, length);
+                sum[0] += row_dot(at, at, sites);
+                sum[1] += row_dot(at, z, sites);
+                sum[2] += row_dot(at, z_before(c), sites);
+                sum[3] += row_dot(at, d.row(c, y), sites);
+                sum[4] += row_dot(at, s, sites);
+                sum[5] += row_dot(at, w, sites);
+                for (std::size_t j = 0; j < known; ++j) {
+                    sum[6 + 2 * j] += row_dot(at, pairs_[j].s.row(c, y), sites);
+                    sum[7 + 2 * j] += row_dot(at, pairs_[j].w.row(c, y), sites);
+                }
             }
         }
     }
     const std::vector<double> all = sums.total();
     gz_ = all[1];
-    pair.sg = all[3];
-    slope_ = pair.sg / t;
-    pair.wg = all[4];
+    slope_ = all[3];
+    pair.sg = all[4];
+    pair.wg = all[5];
     for (std::size_t j = 0; j < known; ++j) {
-        pairs_[j].sg = all[5 + 2 * j];
-        pairs_[j].wg = all[6 + 2 * j];
+        pairs_[j].sg = all[6 + 2 * j];
+        pairs_[j].wg = all[7 + 2 * j];
         pair.sy.push_back(pairs_[j].sg - sg[j]);
         pair.wy.push_back(pairs_[j].wg - wg[j]);
     }
@@ -108,7 +112,10 @@ CurvatureMemory::Pair CurvatureMemory::make_pair() {
         }
     }
     if (spare_.empty())
-        return {.s = block_.new_waves<float>(), .w = block_.new_waves<float>(), .sy = {}, .wy = {}};
+        return {.s = block_.new_waves<ShortFloat>(),
+                .w = block_.new_waves<ShortFloat>(),
+                .sy = {},
+                .wy = {}};
     Pair pair = std::move(spare_.back());
     spare_.pop_back();
     pair.sy.clear();
@@ -116,7 +123,7 @@ CurvatureMemory::Pair CurvatureMemory::make_pair() {
     return pair;
 }
 
-double CurvatureMemory::direction(Waves<float>& d, Waves<float>& copy) const {
+void CurvatureMemory::direction(Waves<float>& d) const {
     const std::size_t known = pairs_.size();
     // s_i.y_j and w_i.y_j, i older than j, are kept by the younger.
     const auto wy = [&](std::size_t i, std::size_t j) {
@@ -137,32 +144,27 @@ double CurvatureMemory::direction(Waves<float>& d, Waves<float>& copy) const {
             yr += gamma[j] * pairs_[i].sy[j];
         gamma[i] = alpha[i] - pairs_[i].rho * yr;
     }
-    double slope = -gz_;
-    for (std::size_t j = 0; j < known; ++j)
-        slope += alpha[j] * pairs_[j].wg - gamma[j] * pairs_[j].sg;
-    std::vector<float> weight = {-1.0f};
+    std::vector<float> weight;
     for (std::size_t j = 0; j < known; ++j) {
         weight.push_back(static_cast<float>(alpha[j]));
         weight.push_back(static_cast<float>(-gamma[j]));
     }
 #pragma omp parallel
     {
-        std::vector<const float*> from(weight.size());
+        std::vector<const ShortFloat*> from(weight.size());
 #pragma omp for schedule(static)
         for (int y = 0; y < d.rows(); ++y)
             for (int c = 0; c < d.components(); ++c) {
-                from[0] = z_.row(c, y);
                 for (std::size_t j = 0; j < known; ++j) {
-                    from[2 * j + 1] = pairs_[j].w.row(c, y);
-                    from[2 * j + 2] = pairs_[j].s.row(c, y);
+                    from[2 * j] = pairs_[j].w.row(c, y);
+                    from[2 * j + 1] = pairs_[j].s.row(c, y);
                 }
-                weigh_rows(from.data(), weight.data(), static_cast<int>(weight.size()), d.row(c, y),
-                           copy.row(c, y), d.length());
+                weigh_rows(-1.0, z_.row(c, y), from.data(), weight.data(),
+                           static_cast<int>(weight.size()), d.row(c, y), d.length());
             }
     }
-    return slope;
 }
 
-std::size_t CurvatureMemory::bytes() const { return (2 * limit_ + 3) * z_.bytes(); }
+std::size_t CurvatureMemory::bytes() const { return (limit_ + 2) * z_.bytes(); }
 
 } // namespace asperity

@@ -20,7 +20,7 @@ bool Newton::direction(const Interface& interface, double reference_height, doub
     const double enough = forcing * forcing * rz;
     for (int i = 0; i < most_products && rz > enough; ++i) {
         const double curvature = multiply();
-        if (!(curvature > 0.0)) return false;
+        if (!(curvature > 0.0)) return i > 0;
         const double next = advance(rz / curvature, d);
         combine(1.0, z_, next / rz, p_);
         rz = next;

@@ -16,8 +16,9 @@ public:
     Newton(const SpectralBlock& block, const Preconditioner& preconditioner);
 
     /// The direction where the block stands, its interface_force() and gradient being up to date,
-    /// to a residual of `forcing` times the gradient (both measured by the preconditioner). False,
-    /// and no direction, where the energy curves down on the way to it. Collective.
+    /// to a residual of `forcing` times the gradient (both measured by the preconditioner), or as
+    /// far as the energy does not curve down on the way to it. False, and no direction, where it
+    /// does so at once. Collective.
     bool direction(const Interface& interface, double reference_height, double forcing,
                    const Waves<double>& g, Waves<float>& d);
     std::size_t bytes() const;

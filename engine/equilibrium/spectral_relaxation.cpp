@@ -37,17 +37,13 @@ double largest(const Communicator& ranks, SiteField<float>& field) {
     return std::sqrt(longest);
 }
 
-/// Shortens what is longer than bound at each site. True if anything was. Collective.
-bool clip(const Communicator& ranks, double bound, SiteField<float>& field) {
+/// Shortens what is longer than bound at each site.
+void clip(double bound, SiteField<float>& field) {
     const PlaneView<const float> f = field[0].plane(0);
-    double clipped = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : clipped)
+#pragma omp parallel for schedule(static)
     for (int y = 0; y < f.ny; ++y)
-        if (clip_row(static_cast<float>(bound), lines(field, y).data(),
-                     static_cast<int>(field.size()), f.nx))
-            clipped = 1.0;
-    ranks.max(std::span(&clipped, 1));
-    return clipped > 0.0;
+        clip_row(static_cast<float>(bound), lines(field, y).data(), static_cast<int>(field.size()),
+                 f.nx);
 }
 
 /// The descent: where it is, what is left, and how it goes on.
@@ -85,14 +81,9 @@ public:
     bool step(long long iteration) {
         if (iteration % 16 == 15) block_.settle(); // before single precision shows
         const bool newton = iteration >= newton_from_ && newton_direction(iteration);
-        double slope = newton ? dot(g_, d_) : remembered_direction();
-        if (clip(ranks_, options_.max_move, at_sites_)) {
-            const double sites = block_.options().sites;
-            block_.to_waves(at_sites_, d_);
-            combine(0.0, d_, 1.0 / (sites * sites), d_);
-            block_.keep_mean_height(d_, at_sites_);
-            slope = dot(g_, d_);
-        }
+        if (!newton) remembered_direction();
+        clip(options_.max_move, at_sites_);
+        const double slope = take_direction();
         if (!(slope < 0.0)) return turn_back(newton, iteration);
 
         double step = 1.0, there = move(step, slope);
@@ -137,29 +128,36 @@ private:
         return largest(ranks_, at_sites_);
     }
 
-    /// Returns its slope.
-    double remembered_direction() {
+    void remembered_direction() {
         const auto t = phases_.time(Phase::sums);
-        const double slope = memory_.direction(d_, work_);
+        memory_.direction(work_);
         block_.at_sites(work_, at_sites_);
-        return slope;
     }
-    /// Newton's direction, if it is of use: the energy is convex along it and no site is sent far
-    /// away (where it is, the state is still moving, and Newton must wait).
+    /// Newton's direction, if it is of use: the forces are no longer those of a fall, and no site
+    /// is sent far away (where it is, the state is still moving, and Newton must wait).
     bool newton_direction(long long iteration) {
-        const double near = std::max(0.03 * strongest_, 20.0 * options_.tolerance);
-        if (iteration > 0 && rms_ > near) return false;
+        const double near = iteration > 0 ? std::max(0.1 * strongest_, 20.0 * options_.tolerance)
+                                          : 1e-2; // eV/Å: a point close to an equilibrium
+        if (rms_ > near) return false;
         const auto t = phases_.time(Phase::relax);
-        // The nearer the end, the more exact: what is left of the gradient, by then quadratically
-        // small.
-        const double forcing = std::clamp(std::sqrt(rms_), 0.1, 0.3);
-        if (newton_.direction(interface_, height_, forcing, g_, d_)) {
-            combine(1.0, d_, 0.0, work_);
+        // While steps are cut to max_move, half of the gradient is enough; at the end a tenth is
+        // left of it.
+        const double forcing = rms_ > 1e-3 ? 0.5 : 0.1;
+        if (newton_.direction(interface_, height_, forcing, g_, work_)) {
             block_.at_sites(work_, at_sites_);
-            if (largest(ranks_, at_sites_) <= 2.0 * options_.max_move) return true;
+            if (largest(ranks_, at_sites_) <= far) return true;
         }
         newton_from_ = iteration + patience;
         return false;
+    }
+    /// The direction at the sites, as waves. Returns its slope.
+    double take_direction() {
+        const auto t = phases_.time(Phase::sums);
+        block_.to_waves(at_sites_, d_);
+        const double sites = block_.options().sites;
+        combine(0.0, d_, 1.0 / (sites * sites), d_);
+        block_.keep_mean_height(d_, at_sites_);
+        return dot(g_, d_);
     }
     /// The direction, clipped, does not go down: what it was made of is forgotten.
     bool turn_back(bool newton, long long iteration) {
@@ -174,6 +172,7 @@ private:
 
     /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
     static constexpr double rough_enough = 1e-5;
+    static constexpr double far = 2.0; ///< Å: of Newton's direction, before it is cut to max_move
     static constexpr long long patience = 10; ///< iterations before Newton is tried again
 
     SpectralBlock& block_;
@@ -230,12 +229,12 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
 
 std::size_t spectral_relaxation_bytes(const SpectralBlock& block) {
     // Vectors of the sites: in double, the gradient, a displaced layer with its force; in single,
-    // direction, pairs (and what makes them), Newton's four and its map, and its sites.
+    // direction, pairs (two in one) with what makes them, Newton's four and its map, and its sites.
     const std::size_t sites = block.tile().nx * static_cast<std::size_t>(block.tile().ny);
     const auto c = static_cast<std::size_t>(block.components());
     const std::size_t map = c == 1 ? 1 : 6;
     return sites * (sizeof(double) * (c + (c == 1 ? 3 : 6)) +
-                    sizeof(float) * (c * (3 + 2 * remembered_pairs + 3 + 5) + map));
+                    sizeof(float) * (c * (3 + remembered_pairs + 2 + 5) + map));
 }
 
 } // namespace asperity

@@ -7,15 +7,18 @@
 // energy is anything but a bowl. Here the direction is that of limited-memory BFGS (Nocedal, Math.
 // Comp. 35, 773, 1980) preconditioned with (S(q) + k)^-1, k about the interface's stiffness of a
 // site: with it long and short waves relax alike. Each site is moved by max_move at most, whatever
-// the others do. An iteration costs one sweep of the interface and six real transforms, three
-// more where a site was held back.
+// the others do. An iteration costs one sweep of the interface and nine real transforms.
 //
-// Then the contacts are made, and what is left is to solve a smooth problem with soft spots. Here
-// the direction is Newton's. The substrate is rigid, so the interface's Hessian is a map of 3 x 3
-// matrices, had by three sweeps (interface_stiffness.hpp), and the elastic one is S: (S + H) d = -g
-// is solved by conjugate gradients with the same preconditioner, without sweeps and in single
-// precision. A handful of such steps replaces hundreds of the others. Where the energy curves down,
-// or Newton would send a site far away, the first movement goes on.
+// Once the forces have fallen to a tenth of their largest, the contacts are made but for the
+// deepest valleys, and what is left is a smooth problem with soft spots. Here the direction is
+// Newton's. The substrate is rigid, so the interface's Hessian is a map of 3 x 3 matrices, had by
+// three sweeps (interface_stiffness.hpp), and the elastic one is S: (S + H) d = -g is solved by
+// conjugate gradients with the same preconditioner, without sweeps and in single precision, loosely
+// while sites still fall, and cut to max_move as well. Where the energy curves down at once, or
+// Newton would send a site far away, the first movement goes on.
+//
+// Sweeps are in mixed precision (where the interface is made for it) until the forces are near
+// their error; the last ones, and the state that is reported, are in the interface's own.
 //
 // The minimum that is found is the one downhill: steps go down, no site moves further than max_move
 // in an iteration, and where the force along a step has turned round, the step is cut back to where
