@@ -115,18 +115,29 @@ void multiply(const MatrixRow<M>& m, int waves, int components, const U* const* 
 
 void weigh(double a, const float* first, const ShortFloat* const* from, const float* weight,
            int count, float* to, int n) {
-    constexpr int piece = 1024; // a row or most of it, and in the nearest cache
+    constexpr int piece = 1024; // of a row, in the nearest cache while the others pass by
     const auto factor = static_cast<float>(a);
     for (int begin = 0; begin < n; begin += piece) {
         const int size = n - begin < piece ? n - begin : piece;
-        float sum[piece];
-#pragma omp simd
+        alignas(64) float sum[piece];
+#pragma omp simd aligned(sum : 64)
         for (int i = 0; i < size; ++i)
             sum[i] = factor * first[begin + i];
-        for (int j = 0; j < count; ++j) {
+        int j = 0;
+        for (; j + 4 <= count; j += 4) { // four at a time: sums are loaded and stored less
+            const ShortFloat *p = from[j] + begin, *q = from[j + 1] + begin;
+            const ShortFloat *r = from[j + 2] + begin, *s = from[j + 3] + begin;
+            const float of_p = weight[j], of_q = weight[j + 1];
+            const float of_r = weight[j + 2], of_s = weight[j + 3];
+#pragma omp simd aligned(sum : 64)
+            for (int i = 0; i < size; ++i)
+                sum[i] += (of_p * single(p[i]) + of_q * single(q[i])) +
+                          (of_r * single(r[i]) + of_s * single(s[i]));
+        }
+        for (; j < count; ++j) {
             const ShortFloat* row = from[j] + begin;
             const float w = weight[j];
-#pragma omp simd
+#pragma omp simd aligned(sum : 64)
             for (int i = 0; i < size; ++i)
                 sum[i] += w * single(row[i]);
         }

@@ -119,17 +119,17 @@ TEST(SurfaceRows, ShortNumbersAreTheNearest) {
 }
 
 TEST(SurfaceRows, WeighedRowsAddUp) {
-    // Longer than a piece, and with a rest.
+    // Longer than a piece, and with a rest; six rows, of which four go together.
     const int n = 2100;
     std::mt19937_64 random(9);
     const auto first = numbers<float>(n, random), x = numbers<float>(n, random);
     std::vector<ShortFloat> a(static_cast<std::size_t>(n)), b(a);
     shorten_row(1.0, x.data(), 0.0, x.data(), a.data(), n);
     shorten_row(2.0, x.data(), 0.0, x.data(), b.data(), n); // exactly twice as much
-    const ShortFloat* const rows[2] = {a.data(), b.data()};
-    const float weight[2] = {4.0f, -2.0f};
+    const ShortFloat* const rows[6] = {a.data(), b.data(), a.data(), b.data(), a.data(), b.data()};
+    const float weight[6] = {1.0f, -2.0f, 4.0f, 1.0f, -5.0f, 1.0f}; // 4 of a is 2 of b
     std::vector<float> sum(static_cast<std::size_t>(n));
-    weigh_rows(-1.0, first.data(), rows, weight, 2, sum.data(), n);
+    weigh_rows(-1.0, first.data(), rows, weight, 6, sum.data(), n);
     for (std::size_t i = 0; i < sum.size(); ++i)
         ASSERT_NEAR(sum[i], -first[i], 1e-6) << i;
 }
