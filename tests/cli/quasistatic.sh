@@ -42,7 +42,7 @@ done
 ! command -v h5ls >/dev/null || ! h5ls whole/run.h5/series/time >/dev/null 2>&1 || fail "a time without time"
 
 # A wall limit ends it at a point, wherever it is then.
-expect 75 run path.toml --progress off --out parts --wall-limit 0.2s
+expect 75 run path.toml --progress off --out parts --wall-limit 0.05s
 grep -q '"stopped": "wall_limit"' parts/result.json || fail "run.stopped is not wall_limit"
 expect 0 run path.toml --progress off --out parts --resume auto
 for key in approach pull_off; do near "$(number whole $key)" "$(number parts $key)" 0.1 "$key"; done
@@ -55,7 +55,7 @@ near "$state" "$(number held binding_energy)" 0.1 "the state after a held mean h
 for key in approach pull_off; do
     near "$state" "$(sed -n "/\"work_of_adhesion\"/,/}/s/.*\"$key\": \([0-9.]*\),*/\1/p" held/result.json)" 0.5 "held, $key"
 done
-expect 75 run path.toml --progress off --out held-parts --wall-limit 0.2s "${held[@]}"
+expect 75 run path.toml --progress off --out held-parts --wall-limit 0.05s "${held[@]}"
 expect 2 run path.toml --progress off --out held-parts --resume auto
 expect 0 run path.toml --progress off --out held-parts --resume auto "${held[@]}"
 for key in approach pull_off; do near "$(number held $key)" "$(number held-parts $key)" 0.1 "held, $key"; done

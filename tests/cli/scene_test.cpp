@@ -64,6 +64,7 @@ TEST(Scene, DefaultsAreThePapers) {
         {"interface.tail", "false"},
         {"interface.frictionless", "false"},
         {"drive.mode", "\"dynamic\""},
+        {"drive.hold", "\"top\""},
         {"drive.path", "[\"approach\", \"pull-off\"]"},
         {"drive.velocity", "5.0"},
         {"drive.step", "0.25"},
