@@ -95,16 +95,20 @@ std::vector<Cells> cells_of(const SweepTable& table) {
     return list;
 }
 
-/// "3 done", "2 done, 1 failed"; of theory alone its status.
+/// "3 done", "2 done, 1 failed"; of theory alone "2 adhesive, 1 no contact".
 std::string status_of(const SweepGroup& group, bool simulated) {
     if (group.points.size() == 1) return status_of(*group.points.front(), simulated);
-    std::string text;
-    for (const char* state : {"done", "failed", "waiting"}) {
-        const auto n =
-            std::count_if(group.points.begin(), group.points.end(),
-                          [&](const SweepPoint* p) { return status_of(*p, true) == state; });
-        if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, state);
+    std::vector<std::pair<std::string, int>> counts; // in the order of the points
+    for (const SweepPoint* p : group.points) {
+        const std::string status = status_of(*p, simulated);
+        auto at = std::find_if(counts.begin(), counts.end(),
+                               [&](const auto& c) { return c.first == status; });
+        if (at == counts.end()) at = counts.insert(at, {status, 0});
+        ++at->second;
     }
+    std::string text;
+    for (const auto& [status, n] : counts)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, status);
     return text;
 }
 

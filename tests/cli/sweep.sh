@@ -61,6 +61,8 @@ expect 2 sweep state.toml --set block.thickness=12 --out one
 says "holds the result of another scene"
 expect 0 sweep state.toml --theory-only --set surface.rms=0.2:0.6:0.2 --out theory
 says "3 points in" # seeds mean nothing to the theory of a target spectrum
+expect 0 sweep state.toml --theory-only --set theory.spectrum=realised --out realised
+says "2 adhesive"
 
 # Several scenes, one set of plots.
 sed 's/0.2, 0.4/0.3, 0.5/' state.toml >other.toml
