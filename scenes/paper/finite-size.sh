@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The paper's second explanation for adhesion beyond its theory, "the small system size", put to the test: states at zero
-# load in boxes of 128 to 1024 sites, each beside the theory of its own surface's spectrum. An hour or two on one
+# load in boxes of 128 to 1024 sites, each beside the theory of its own surface's spectrum. Half an hour on one
 # core. Started again, it goes on.
 #
 #     scenes/paper/finite-size.sh results/finite-size
