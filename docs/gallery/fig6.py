@@ -15,8 +15,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 runs, picture = sys.argv[1:3], sys.argv[3]
-figure, axes = plt.subplots(2, 2, figsize=(8.4, 7.6), dpi=100, constrained_layout=True)
-reach = 8.0  # Å of gap that the colours tell apart
+figure, axes = plt.subplots(2, 2, figsize=(8.4, 7.6), dpi=80, constrained_layout=True)
+reach = 25.0  # Å of gap that the colours tell apart
 for row, directory in enumerate(runs):
     result = json.load(open(directory + "/result.json"))
     rms = result["scene"]["surface"]["rms"]
@@ -30,7 +30,7 @@ for row, directory in enumerate(runs):
             colours[contact > 0] = matplotlib.colors.to_rgba("#d55e00")
             axis.imshow(colours, origin="lower", extent=(0, edge, 0, edge), interpolation="nearest")
             letter = "abcd"[2 * row + column]
-            when = "zero load" if column == 0 else "0.14 ns, 7 Å later"
+            when = "zero load" if column == 0 else "7 Å later"
             axis.set_title(f"({letter}) rms {rms:g} Å, {when}: {int((contact > 0).sum())} sites in contact", fontsize=9)
             axis.set_xlabel("nm")
 scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, reach), "YlGnBu_r")
