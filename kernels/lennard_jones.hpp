@@ -48,12 +48,6 @@ struct LennardJones {
         const double s6 = s2 * s2 * s2;
         return 24.0 * epsilon * s6 * (2.0 * s6 - 1.0) * inverse;
     }
-    /// V''(r), eV/Å^2.
-    double stiffness(double r) const {
-        const double s2 = r0 * r0 / (r * r);
-        const double s6 = s2 * s2 * s2;
-        return 4.0 * epsilon * s6 * (156.0 * s6 - 42.0) / (r * r);
-    }
 };
 
 } // namespace asperity

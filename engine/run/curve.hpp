@@ -11,7 +11,7 @@
 // on flat.
 #pragma once
 
-#include "engine/block/interface.hpp"
+#include "engine/block/flat_reference.hpp"
 #include "engine/scene/scene.hpp"
 #include "io/plot.hpp"
 #include "io/result.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/theory_case.hpp"
 
-#include "engine/block/interface.hpp"
+#include "engine/block/flat_reference.hpp"
 #include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"

@@ -6,6 +6,7 @@
 // Everything that can be known to be wrong before the first step is found here.
 #pragma once
 
+#include "engine/block/flat_reference.hpp"
 #include "engine/dynamics/simulation.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/surface.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Flat on flat: the numbers of model.md section 4.
-#include "engine/block/interface.hpp"
+#include "engine/block/flat_reference.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -338,7 +338,8 @@ TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
         EXPECT_EQ(maps.contact[i], 1);
         EXPECT_NEAR(maps.distance[i], nearest, 1e-12);
         EXPECT_NEAR(maps.gap[i], 3.2, 1e-12);
-        EXPECT_NEAR(maps.pressure[i], sums.force_z.value() / (n * n) / (a * a) * 160.21766, 1e-9);
+        EXPECT_NEAR(maps.pressure[i], sums.force_z.value() / (n * n) / (a * a) * 160.21766208,
+                    1e-9);
     }
     const InterfaceMaps far = interface.maps(u.plane(0), 20.0);
     EXPECT_EQ(far.contact[0], 0);

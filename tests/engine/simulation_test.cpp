@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The drive's decisions, and the books that a simulation keeps.
+#include "engine/block/flat_reference.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 // The relaxed state under zero load against numbers from elsewhere: flat on flat for each cutoff
 // (model.md section 4), and rough maps relaxed by an independent program
 // (tests/physics/data/README.md).
+#include "engine/block/flat_reference.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/block/flat_reference.hpp"
+
+#include "engine/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace asperity {
+
+namespace {
+
+/// Registries sampled along an axis: all that occur, or enough that the average is exact to
+/// rounding (the corrugation's harmonics die out exponentially; beyond 24 points they are below
+/// 1e-16).
+int registries(int sites, int substrate_sites) {
+    return std::min(sites / std::gcd(sites, substrate_sites), 24);
+}
+
+} // namespace
+
+PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
+                      int substrate_sites, double gap) {
+    const double level = 0.0; // a single atom, repeated
+    const double b = spacing * sites / substrate_sites;
+    const SubstrateMap map{&level, 1, b};
+    const int count = registries(sites, substrate_sites);
+    PairSum mean;
+    for (int j = 0; j < count; ++j)
+        for (int i = 0; i < count; ++i) {
+            const PairSum p = pair_sum(map, options.potential, 0.5 * spacing + i * b / count,
+                                       0.5 * spacing + j * b / count, gap);
+            mean.force[2] += p.force[2] / (count * count);
+            mean.energy += p.energy / (count * count);
+            mean.nearest_r2 = std::min(mean.nearest_r2, p.nearest_r2);
+        }
+    if (options.tail) {
+        const TailCorrection tail{options.potential, 1.0 / (b * b)};
+        mean.force[2] += tail.force(gap);
+        mean.energy += tail.energy(gap);
+    }
+    return mean;
+}
+
+FlatReference flat_reference(const InterfaceOptions& options, double spacing, int sites,
+                             int substrate_sites) {
+    const auto force = [&](double gap) {
+        return flat_pair_sum(options, spacing, sites, substrate_sites, gap).force[2];
+    };
+    const double r0 = options.potential.r0;
+    // The minimum: where the force turns from pushing to pulling, by bisection.
+    double low = 0.4 * r0, high = 1.2 * r0;
+    if (!(force(low) > 0.0 && force(high) < 0.0))
+        throw std::invalid_argument(fmt::format(
+            "interface: flat on flat has no minimum of energy between {:.3f} and {:.3f} Å for "
+            "r0 = {} Å, cutoff = {} Å, spacing = {} Å; choose r0 not far from the spacing and a "
+            "cutoff of at least 1.5 r0",
+            low, high, r0, options.potential.cutoff, spacing));
+    while (high - low > 1e-12 * r0) {
+        const double middle = 0.5 * (low + high);
+        (force(middle) > 0.0 ? low : high) = middle;
+    }
+    FlatReference flat;
+    flat.separation = 0.5 * (low + high);
+    const double area = spacing * spacing;
+    const PairSum there = flat_pair_sum(options, spacing, sites, substrate_sites, flat.separation);
+    flat.work_of_adhesion = -units::milli_per_unit * there.energy / area;
+    const double h = 1e-4 * r0;
+    flat.stiffness = -(force(flat.separation + h) - force(flat.separation - h)) / (2.0 * h * area);
+    // The largest tension: golden-section search outwards of the minimum.
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    double left = flat.separation, right = flat.separation + 0.5 * r0;
+    while (right - left > 1e-9 * r0) {
+        const double inner = right - golden * (right - left),
+                     outer = left + golden * (right - left);
+        (force(inner) < force(outer) ? right : left) = force(inner) < force(outer) ? outer : inner;
+    }
+    flat.tension_separation = 0.5 * (left + right);
+    flat.largest_tension = -force(flat.tension_separation) / area / units::gigapascal;
+    return flat;
+}
+
+} // namespace asperity
