@@ -74,115 +74,172 @@ long long expected_steps(const Scene& scene, const Setup& setup, double start) {
     return scene.drive.max_steps > 0 ? std::min(steps, scene.drive.max_steps) : steps;
 }
 
+namespace {
+
+/// Fills in a plan: what a scene has to do, times the rates of this process.
+class Estimate {
+public:
+    Estimate(Plan& plan, const Scene& scene) : plan_(plan), scene_(scene) {
+        const auto begin = std::chrono::steady_clock::now();
+        surface_ = scene_surface(scene);
+        surface_seconds_ =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        rates_ = measure_rates(scene, plan.setup, surface_);
+        plan.rates = rates_.origin;
+        count_work();
+        count_bytes();
+    }
+
+    /// Before the first step: the surface and the tables made from it.
+    void making() {
+        const double atoms = static_cast<double>(surface_.height.size());
+        plan_.making = {16.0 * atoms * plan_.ranks,
+                        surface_seconds_ + share_ * sites_ * rates_.making};
+    }
+
+    void interface() {
+        const double site = rates_.far + in_contact_ * (rates_.near - rates_.far);
+        const double touched = share_ * sites_ * steps_;
+        plan_.interface = {rates_.interface_bytes * sites_, touched * site};
+        if (on(Effect::tail)) cost(Effect::tail) = {8.0 * sites_, touched * rates_.tail};
+        cost(Effect::skipping) = {8.0 * interface_rings * sites_ / interface_block,
+                                  -touched * (1.0 - in_contact_) * (rates_.near - rates_.far)};
+    }
+
+    /// The block on its way in time.
+    void motion() {
+        if (!on(Effect::inertia)) return;
+        const double node_steps = share_ * steps_ * nodes_, site_steps = share_ * steps_ * sites_;
+        cost(Effect::inertia) = {motion_, node_steps * rates_.node + site_steps * rates_.rest};
+        cost(Effect::lateral).bytes = 2.0 * (at_rest_ + motion_) / 3.0;
+        if (on(Effect::damping)) cost(Effect::damping).seconds = node_steps * rates_.damping;
+        if (on(Effect::temperature)) cost(Effect::temperature).seconds = node_steps * rates_.noise;
+        const double rows = steps_ / static_cast<double>(scene_.output.series);
+        cost(Effect::observation) = {motion_, share_ * rows * nodes_ * rates_.observation};
+        if (on(Effect::coarse_levels))
+            cost(Effect::coarse_levels).seconds =
+                share_ * steps_ * coarse_ * rates_.node + site_steps * rates_.hanging;
+    }
+
+    /// Relaxations: of the state at zero load, or at every point of a path without time.
+    void relaxation() {
+        EffectCost& all = cost(Effect::relaxation);
+        if (on(Effect::relaxation)) {
+            plan_.iterations = usual_iterations(scene_, start_, plan_.setup);
+            all = {spectral_ ? rates_.relaxation_bytes * sites_ : at_rest_ + motion_,
+                   share_ * iterations() * nodes_ * rates_.iteration};
+        }
+        if (on(Effect::coarse_levels)) cost(Effect::coarse_levels).bytes = coarse_bytes_;
+        if (on(Effect::inertia)) return;
+        // All there is is the relaxation.
+        if (on(Effect::lateral)) cost(Effect::lateral).bytes = 2.0 * all.bytes / 3.0;
+        if (on(Effect::coarse_levels))
+            cost(Effect::coarse_levels).seconds = all.seconds * coarse_ / nodes_;
+    }
+
+    void finite_strain() {
+        if (!on(Effect::finite_strain)) return;
+        EffectCost& finite = cost(Effect::finite_strain);
+        finite.seconds = share_ * (steps_ + iterations()) * nodes_ * rates_.finite;
+        for (int rank = 0; rank < plan_.ranks && on(Effect::inertia); ++rank)
+            finite.bytes += static_cast<double>(
+                Block::finite_bytes_for(block_options(), grid_of(rank), plan_.threads));
+    }
+
+    void output() {
+        if (on(Effect::maps)) cost(Effect::maps) = {56.0 * sites_, 56.0 * sites_ / disk};
+        if (on(Effect::theory)) cost(Effect::theory).seconds = theory_seconds;
+    }
+
+    /// Those that are part of another line (coarse levels, skipping, lateral, the time of finite
+    /// strain) do not count twice.
+    void add_up() {
+        plan_.bytes =
+            plan_.making.bytes + plan_.interface.bytes + cost(Effect::finite_strain).bytes;
+        plan_.seconds = plan_.making.seconds + plan_.interface.seconds;
+        for (Effect e : {Effect::inertia, Effect::damping, Effect::temperature, Effect::tail,
+                         Effect::relaxation, Effect::observation, Effect::maps, Effect::theory}) {
+            plan_.bytes += cost(e).bytes;
+            plan_.seconds += cost(e).seconds;
+        }
+        if (on(Effect::inertia)) plan_.bytes += at_rest_;
+        if (on(Effect::coarse_levels)) plan_.seconds += share_ * steps_ * sites_ * rates_.hanging;
+        if (!on(Effect::checkpoints)) return;
+        const double files = std::floor(plan_.seconds / scene_.output.checkpoint);
+        cost(Effect::checkpoints).seconds = files * 48.0 * nodes_ / disk;
+        plan_.seconds += cost(Effect::checkpoints).seconds;
+    }
+
+private:
+    /// Steps, nodes and sites, and what the slowest rank has of them.
+    void count_work() {
+        const Setup& setup = plan_.setup;
+        const double measured_threads = omp_get_max_threads();
+        const double uneven = 1.0 + make_grid(scene_, setup, plan_.ranks, 0).imbalance();
+        share_ = uneven / plan_.ranks * measured_threads / plan_.threads;
+        sites_ = static_cast<double>(scene_.surface.sites) * scene_.surface.sites;
+        nodes_ = spectral_ ? sites_ : nodes_of(setup.levels);
+        coarse_ = nodes_ - sites_ * (spectral_ ? 1 : setup.levels.front().cells);
+        start_ =
+            surface_.statistics.highest + (on(Effect::tail) ? 4.0 : 1.0) * scene_.interface.cutoff;
+        plan_.steps = expected_steps(scene_, setup, start_);
+        steps_ = static_cast<double>(plan_.steps);
+        const double turning =
+            setup.simulation.drive.pull_off && steps_ > 0.0
+                ? std::min(1.0, expected_way(setup, start_).turn / (steps_ * setup.simulation.dt))
+                : 0.0;
+        // On its way down and up a site's cost goes from that of one out of reach to that of one in
+        // contact; in the turn it is in contact.
+        in_contact_ = turning + 0.5 * (1.0 - turning);
+    }
+
+    /// Memory of the block of levels, on all ranks.
+    void count_bytes() {
+        for (int rank = 0; rank < plan_.ranks && !spectral_; ++rank) {
+            const Block::Memory m = Block::memory_for(block_options(), grid_of(rank));
+            at_rest_ += static_cast<double>(m.bytes - m.motion);
+            motion_ += static_cast<double>(m.motion);
+            coarse_bytes_ += static_cast<double>(m.coarse);
+        }
+    }
+
+    bool on(Effect effect) const { return plan_.setup.effects.on(effect); }
+    EffectCost& cost(Effect effect) { return plan_.costs[static_cast<std::size_t>(effect)]; }
+    double iterations() const { return static_cast<double>(plan_.iterations); }
+    const BlockOptions& block_options() const { return plan_.setup.simulation.block; }
+    ProcessGrid grid_of(int rank) const {
+        return make_grid(scene_, plan_.setup, plan_.ranks, rank);
+    }
+
+    Plan& plan_;
+    const Scene& scene_;
+    const bool spectral_ = scene_.block.model == BlockModel::spectral;
+    Surface surface_;
+    double surface_seconds_ = 0.0; ///< to make it
+    Rates rates_;
+    double share_ = 1.0; ///< of the work, on the slowest rank with its threads, over this process
+    double sites_ = 0.0, nodes_ = 0.0, coarse_ = 0.0; ///< coarse: nodes above level 0
+    double steps_ = 0.0;
+    double start_ = 0.0;      ///< height from which the block comes down, Å
+    double in_contact_ = 0.5; ///< fraction of the steps that a site is in contact
+    double at_rest_ = 0.0, motion_ = 0.0, coarse_bytes_ = 0.0; ///< of the block, bytes
+};
+
+} // namespace
+
 Plan make_plan(const Scene& scene, int ranks, int threads) {
     Plan plan;
     plan.setup = make_setup(scene, ranks);
     plan.ranks = ranks;
     plan.threads = threads;
-    const Setup& setup = plan.setup;
-    const auto on = [&](Effect e) { return setup.effects.on(e); };
-    const bool spectral = scene.block.model == BlockModel::spectral;
-    const auto begin = std::chrono::steady_clock::now();
-    const Surface surface = scene_surface(scene);
-    const double surface_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const Rates rates = measure_rates(scene, setup, surface);
-    plan.rates = rates.origin;
-
-    // What the slowest rank has to do, in units of what this process does in the same time.
-    const double measured_threads = omp_get_max_threads();
-    const double uneven = 1.0 + make_grid(scene, setup, ranks, 0).imbalance();
-    const double share = uneven / ranks * measured_threads / threads;
-    const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
-    const double nodes = spectral ? sites : nodes_of(setup.levels);
-    const double coarse = nodes - sites * (spectral ? 1 : setup.levels.front().cells);
-    const double start =
-        surface.statistics.highest + (on(Effect::tail) ? 4.0 : 1.0) * scene.interface.cutoff;
-    plan.steps = expected_steps(scene, setup, start);
-    const auto cost = [&](Effect effect) -> EffectCost& {
-        return plan.costs[static_cast<std::size_t>(effect)];
-    };
-    const double steps = static_cast<double>(plan.steps);
-    const double turning =
-        setup.simulation.drive.pull_off && steps > 0.0
-            ? std::min(1.0, expected_way(setup, start).turn / (steps * setup.simulation.dt))
-            : 0.0;
-    // On its way down and up a site's cost goes from that of one out of reach to that of one in
-    // contact; in the turn it is in contact.
-    const double in_contact = turning + 0.5 * (1.0 - turning);
-    const double site = rates.far + in_contact * (rates.near - rates.far);
-    const double touched = share * sites * steps;
-
-    Block::Memory block;
-    for (int rank = 0; rank < ranks && !spectral; ++rank) {
-        const Block::Memory m = Block::memory_for(
-            setup.simulation.block,
-            ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(setup.levels.size())));
-        block.bytes += m.bytes, block.motion += m.motion, block.coarse += m.coarse;
-    }
-    const double at_rest = static_cast<double>(block.bytes - block.motion);
-    const double motion = static_cast<double>(block.motion);
-    plan.interface = {rates.interface_bytes * sites, touched * site};
-    if (on(Effect::inertia)) {
-        cost(Effect::inertia) = {motion, share * steps * (nodes * rates.node + sites * rates.rest)};
-        cost(Effect::lateral) = {2.0 * (at_rest + motion) / 3.0, 0.0};
-        cost(Effect::damping) = {0.0,
-                                 on(Effect::damping) ? share * steps * nodes * rates.damping : 0.0};
-        if (on(Effect::temperature))
-            cost(Effect::temperature) = {0.0, share * steps * nodes * rates.noise};
-        const double rows = steps / static_cast<double>(scene.output.series);
-        cost(Effect::observation) = {motion, share * rows * nodes * rates.observation};
-    }
-    if (on(Effect::coarse_levels))
-        cost(Effect::coarse_levels) = {static_cast<double>(block.coarse),
-                                       share * steps *
-                                           (coarse * rates.node + sites * rates.hanging)};
-    if (on(Effect::tail)) cost(Effect::tail) = {8.0 * sites, touched * rates.tail};
-    cost(Effect::skipping) = {8.0 * interface_rings * sites / interface_block,
-                              -touched * (1.0 - in_contact) * (rates.near - rates.far)};
-    if (on(Effect::relaxation)) {
-        plan.iterations = usual_iterations(scene, start, setup);
-        cost(Effect::relaxation) = {spectral ? rates.relaxation_bytes * sites : at_rest + motion,
-                                    share * static_cast<double>(plan.iterations) * nodes *
-                                        rates.iteration};
-    }
-    if (!on(Effect::inertia)) { // all there is is the relaxation
-        const EffectCost& all = cost(Effect::relaxation);
-        if (on(Effect::lateral)) cost(Effect::lateral).bytes = 2.0 * all.bytes / 3.0;
-        if (on(Effect::coarse_levels))
-            cost(Effect::coarse_levels).seconds = all.seconds * coarse / nodes;
-    }
-    if (on(Effect::finite_strain)) {
-        cost(Effect::finite_strain).seconds =
-            share * (steps + static_cast<double>(plan.iterations)) * nodes * rates.finite;
-        for (int rank = 0; rank < ranks && on(Effect::inertia); ++rank)
-            cost(Effect::finite_strain).bytes += static_cast<double>(
-                Block::finite_bytes_for(setup.simulation.block,
-                                        ProcessGrid(ranks, rank, scene.surface.sites,
-                                                    static_cast<int>(setup.levels.size())),
-                                        threads));
-    }
-    if (on(Effect::maps)) cost(Effect::maps) = {56.0 * sites, 56.0 * sites / disk};
-    plan.making = {16.0 * static_cast<double>(surface.height.size()) * ranks,
-                   surface_seconds + share * sites * rates.making};
-    if (on(Effect::theory)) cost(Effect::theory).seconds = theory_seconds;
-
-    // Those that are part of another line (coarse levels, skipping, lateral, the time of finite
-    // strain) do not count twice.
-    plan.bytes = plan.making.bytes + plan.interface.bytes + cost(Effect::finite_strain).bytes;
-    plan.seconds = plan.making.seconds + plan.interface.seconds;
-    for (Effect e : {Effect::inertia, Effect::damping, Effect::temperature, Effect::tail,
-                     Effect::relaxation, Effect::observation, Effect::maps, Effect::theory}) {
-        plan.bytes += cost(e).bytes;
-        plan.seconds += cost(e).seconds;
-    }
-    if (on(Effect::inertia)) plan.bytes += at_rest;
-    if (on(Effect::coarse_levels)) plan.seconds += share * steps * sites * rates.hanging;
-    if (on(Effect::checkpoints)) {
-        const double files = std::floor(plan.seconds / scene.output.checkpoint);
-        cost(Effect::checkpoints).seconds = files * 48.0 * nodes / disk;
-        plan.seconds += cost(Effect::checkpoints).seconds;
-    }
+    Estimate estimate(plan, scene);
+    estimate.making();
+    estimate.interface();
+    estimate.motion();
+    estimate.relaxation();
+    estimate.finite_strain();
+    estimate.output();
+    estimate.add_up();
     return plan;
 }
 
