@@ -13,7 +13,6 @@
 #include "engine/commands/sweep.hpp"
 #include "engine/commands/theory_command.hpp"
 #include "engine/run/run.hpp"
-#include "engine/setup/setup.hpp"
 
 #include "decomposition/communicator.hpp"
 #include "io/error.hpp"
@@ -71,11 +70,7 @@ const std::vector<Command> commands = {
       takes::progress},
      [](const Arguments& given, const Communicator& world) {
          const RunOptions options = run_options(given);
-         const Scene scene = scene_of(given);
-         io::Problems problems = scene.problems();
-         not_yet(scene, problems);
-         problems.throw_if_any();
-         return run(scene, options, world);
+         return run(scene_of(given), options, world);
      }},
     {"check",
      "look for mistakes in a scene without running it",

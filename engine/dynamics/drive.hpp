@@ -6,7 +6,7 @@
 // It comes down at constant velocity until the total normal force on the lowest layer has gone
 // through attraction and back to the load asked for (zero), then turns round and goes up until the
 // force is gone. The turn is a smooth ramp: a sudden change of velocity by dv would send a plane
-// stress wave rho c dv (0.4 GPa for 2 x 5 m/s) through the block, which the interface would feel as
+// stress wave rho c dv (0.6 GPa for 2 x 5 m/s) through the block, which the interface would feel as
 // a load.
 #pragma once
 
