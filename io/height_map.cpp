@@ -151,6 +151,9 @@ Matrix read_hdf5(const std::string& path, const std::string& named, HeightMap& m
                    fmt::format("the height in row {}, column {} is {}", i / matrix.columns + 1,
                                i % matrix.columns + 1, matrix.values[i]),
                    "an atom needs a place", "fill the holes of the map before");
+    for (const std::string& place : {std::string("/"), dataset})
+        if (file.has_attribute(place, "origin"))
+            map.origin = file.read_text_attribute(place, "origin");
     if (unit == "auto")
         unit =
             file.has_attribute(dataset, "unit") ? file.read_text_attribute(dataset, "unit") : "Å";
@@ -235,6 +238,7 @@ void write_height_map(const std::string& file, const HeightMap& map) {
         Hdf5File out(temporary, Hdf5File::Mode::create);
         out.write<double>("/heights", {sites, sites}, map.heights);
         out.write_attribute("/heights", "unit", "Å");
+        if (!map.origin.empty()) out.write_attribute("/heights", "origin", map.origin);
         if (map.size) {
             out.write_attribute("/heights", "size_x", *map.size);
             out.write_attribute("/heights", "size_y", *map.size);

@@ -6,7 +6,8 @@
 // Text: one row of the map a line, numbers separated by blanks, tabs, commas or semicolons; #
 // starts a comment. Row r is y = r, column c is x = c. HDF5: the two-dimensional data set of the
 // file, or the one named after a colon ("map.h5:/topography"); attributes unit, size_x, size_y are
-// used where present (sizes in the same unit as the heights).
+// used where present (sizes in the same unit as the heights); attribute origin, of the data set or
+// of the file, says whose map it is.
 //
 // A map must be square, whole and finite. What is wrong with it is a mistake of the scene that
 // names it (exit 2), told with the line and column, or the row and column in HDF5.
@@ -24,6 +25,7 @@ struct HeightMap {
     std::optional<double> size;  ///< edge of the map, Å, where the file tells it
     std::string unit = "Å";      ///< the heights had in the file
     std::string source;          ///< the file (and data set)
+    std::string origin;          ///< whose map it is, where the file tells it; HDF5 only
 };
 
 /// unit "auto": what the file says, else Å. Throws SceneError.

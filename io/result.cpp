@@ -50,6 +50,7 @@ JsonValue result_json(const ResultRecord& record) {
     const auto& s = record.surface;
     put_group(root, "surface",
               group({{"rms", s.rms}, {"rms_slope", s.rms_slope}, {"min", s.min}, {"max", s.max}}));
+    if (!s.origin.empty()) root["surface"]["origin"] = s.origin;
     root.put("delta_gamma", record.delta_gamma);
     root.put("binding_energy", record.binding_energy);
     const auto& w = record.work_of_adhesion;

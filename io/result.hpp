@@ -26,6 +26,7 @@ struct ResultRecord {
 
     struct Surface {
         Quantity rms, rms_slope, min, max; ///< Å, -, Å, Å
+        std::string origin;                ///< whose map it is; empty: not told
     } surface;
 
     Quantity delta_gamma;    ///< flat reference, meV/Å^2, same cutoff and sites

@@ -57,7 +57,8 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
 
     const SurfaceStatistics& statistics = surface.statistics;
     const std::string map = (std::filesystem::path(place.directory) / "heights.h5").string();
-    io::write_height_map(map, {surface.sites, surface.height, surface.length, "Å", ""});
+    io::write_height_map(map,
+                         {surface.sites, surface.height, surface.length, "Å", "", surface.origin});
     io::Hdf5File file(map, io::Hdf5File::Mode::edit);
     std::vector<double> q, realised, target;
     for (const SpectrumBin& bin : statistics.spectrum) {
@@ -77,7 +78,8 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
     io::ResultRecord record;
     record.name = scene.name;
     record.scene = scene_json(scene);
-    record.surface = {statistics.rms, statistics.rms_slope, statistics.lowest, statistics.highest};
+    record.surface = {statistics.rms, statistics.rms_slope, statistics.lowest, statistics.highest,
+                      surface.origin};
     io::write_result(place.directory, record);
 
     io::Table table({"surface", "", ""});

@@ -215,7 +215,10 @@ io::HtmlPage run_page(const StoredRun& run, ReportFiles& files) {
     write_times(page, run);
     if (!run.toml.empty()) {
         page.section("scene", "The scene");
-        page.paragraph("Every key with the value that was used. Saved as a file, it runs again.");
+        const bool measured = run.scene && run.scene->surface.kind == SurfaceKind::file;
+        page.paragraph(
+            fmt::format("Every key with the value that was used. Saved as a file, it runs again{}.",
+                        measured ? ", with the map beside it" : ""));
         page.preformatted(run.toml);
     }
     page.section("provenance", "Provenance");

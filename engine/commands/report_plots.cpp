@@ -159,6 +159,22 @@ std::optional<io::Plot> contact_plot(const StoredRun& run) {
     return plot;
 }
 
+namespace {
+
+/// As run.h5 holds it, since the map that it was made from need not be there any more; of a sphere,
+/// whose heights hold the cap, made again.
+Surface surface_of(const StoredRun& run, const Scene& scene) {
+    if (scene.surface.radius || run.height.empty()) return scene_surface(scene);
+    SurfaceOptions options;
+    options.kind = SurfaceKind::file;
+    options.sites = run.substrate_sites;
+    options.length = scene.edge();
+    options.rms = 0.0;
+    return surface_from_heights(options, run.height, run.substrate_sites, run.substrate_sites);
+}
+
+} // namespace
+
 std::optional<io::Plot> roughness_plot(const StoredRun& run) {
     const double flat = run.number("delta_gamma").value_or(0.0);
     const double rms = run.number("surface.rms").value_or(run.number("theory.h_rms").value_or(0.0));
@@ -175,7 +191,7 @@ std::optional<io::Plot> roughness_plot(const StoredRun& run) {
     if (run.scene && run.scene->surface.kind != SurfaceKind::flat) try {
             Scene scene = *run.scene;
             std::optional<Surface> surface;
-            if (theory_needs_surface(scene)) surface = scene_surface(scene);
+            if (theory_needs_surface(scene)) surface = surface_of(run, scene);
             scene.surface.rms_given = true; // a measured map is scaled as well
             constexpr int points = 32;
             for (int i = 1; i <= points; ++i) {

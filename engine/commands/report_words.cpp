@@ -273,6 +273,7 @@ std::vector<std::vector<std::string>> provenance(const io::JsonValue& result) {
             rows.push_back({name, before + value->text()});
         if (value->is_number()) rows.push_back({name, fmt::format("{:.10g}", value->number())});
     };
+    add("measured surface", "surface.origin");
     add("version", "run.version", "Asperity ");
     add("git", "run.git");
     add("compiler", "run.compiler");

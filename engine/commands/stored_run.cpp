@@ -135,7 +135,7 @@ StoredRun read_run(const std::string& directory) {
     if (const io::JsonValue* scene = run.result.find("scene"); scene && scene->is_object()) {
         run.toml = io::toml_of(*scene);
         try {
-            run.scene = read_scene_text(run.toml, json);
+            run.scene = read_stored_scene(run.toml, json);
             run.scene->name = run.text("name");
             run.title = run.scene->title();
         } catch (const io::Error& error) {

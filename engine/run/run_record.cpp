@@ -22,7 +22,7 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
     r.name = scene.name;
     r.scene = scene_json(scene);
     const auto& s = surface.statistics;
-    r.surface = {s.rms, s.rms_slope, s.lowest, s.highest};
+    r.surface = {s.rms, s.rms_slope, s.lowest, s.highest, surface.origin};
     r.delta_gamma = setup.flat.work_of_adhesion;
     r.work_of_adhesion.approach = findings.approach;
     r.work_of_adhesion.pull_off = findings.pull_off;

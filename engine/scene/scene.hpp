@@ -57,7 +57,8 @@ struct Scene {
         Amplitudes amplitudes = Amplitudes::gaussian;
         long long seed = 1;
         std::optional<double> radius;    ///< Å; empty: not curved
-        std::string file = "heights.h5"; ///< after reading: a path that can be opened from here
+        std::string file = "heights.h5"; ///< as the scene gives it
+        std::string map;                 ///< after reading: where that was found; empty: nowhere
         std::optional<double>
             file_size; ///< edge of the map, Å; empty: what the file says, else the box
         std::string file_unit = "auto"; ///< of the heights; "auto": what the file says, else Å
@@ -157,6 +158,8 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
 /// The same from a text in memory; file is the name shown in messages.
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides = {});
+/// The scene that a result holds. A measured map need not be there any more.
+Scene read_stored_scene(const std::string& text, const std::string& file);
 
 /// Contradictions between keys, added to the list.
 void check_scene(const Scene& scene, io::Problems& problems);

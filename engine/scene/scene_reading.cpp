@@ -29,7 +29,7 @@ void find_map(Scene& scene, io::Problems& problems) {
     std::error_code error;
     for (const fs::path& place : places)
         if (fs::is_regular_file(place, error)) {
-            scene.surface.file = fs::absolute(place).lexically_normal().string() + dataset;
+            scene.surface.map = fs::absolute(place).lexically_normal().string() + dataset;
             return;
         }
     std::string looked = places[0].string();
@@ -43,10 +43,8 @@ void find_map(Scene& scene, io::Problems& problems) {
         "give the path of a height map, relative to the scene or to the working directory");
 }
 
-} // namespace
-
-Scene read_scene_text(const std::string& text, const std::string& file,
-                      const std::vector<std::string>& overrides) {
+Scene read(const std::string& text, const std::string& file,
+           const std::vector<std::string>& overrides, bool needs_map) {
     Scene scene;
     scene.file = file;
     scene.name = std::filesystem::path(file).stem().string();
@@ -66,7 +64,9 @@ Scene read_scene_text(const std::string& text, const std::string& file,
     // Keys that could not be read still have their defaults, so the checks between keys can go on;
     // what they find about such a key is left out, it has been complained about already.
     io::Problems contradictions = scene.problems();
-    if (scene.surface.kind == SurfaceKind::file) find_map(scene, contradictions);
+    io::Problems missing = scene.problems();
+    if (scene.surface.kind == SurfaceKind::file)
+        find_map(scene, needs_map ? contradictions : missing);
     check_scene(scene, contradictions);
     for (const io::Problem& problem : contradictions.list()) {
         const bool told =
@@ -76,6 +76,17 @@ Scene read_scene_text(const std::string& text, const std::string& file,
     }
     wrong.throw_if_any();
     return scene;
+}
+
+} // namespace
+
+Scene read_scene_text(const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides) {
+    return read(text, file, overrides, true);
+}
+
+Scene read_stored_scene(const std::string& text, const std::string& file) {
+    return read(text, file, {}, false);
 }
 
 Scene read_scene(const std::string& file, const std::vector<std::string>& overrides) {

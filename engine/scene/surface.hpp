@@ -61,6 +61,7 @@ struct Surface {
     double radius = 0.0;        ///< of the cap that the heights hold, Å; 0: none
     std::vector<double> height; ///< height[y * sites + x] of the atom at (x, y) length / sites, Å
     SurfaceStatistics statistics;
+    std::string origin;             ///< of a measured map: whose it is, where its file says so
     std::vector<std::string> notes; ///< what was clipped or resampled, in words
 };
 

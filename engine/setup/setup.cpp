@@ -29,7 +29,7 @@ Surface scene_surface(const Scene& scene) {
     options.radius = s.radius.value_or(0.0);
     try {
         if (s.kind != SurfaceKind::file) return make_surface(options);
-        io::HeightMap map = io::read_height_map(s.file, s.file_unit);
+        io::HeightMap map = io::read_height_map(s.map, s.file_unit);
         options.map_edge = s.file_size.value_or(map.size.value_or(0.0));
         const int covered = sites_of_map(options);
         if (map.sites != covered && s.resample == Resample::none)
@@ -44,6 +44,7 @@ Surface scene_surface(const Scene& scene) {
         const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
         Surface surface =
             surface_from_heights(options, std::move(map.heights), map.sites, map.sites);
+        surface.origin = std::move(map.origin);
         surface.notes.insert(
             surface.notes.begin(),
             fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",

@@ -278,14 +278,16 @@ TEST(Scene, MapsAreFoundBesideTheScene) {
     std::ofstream(folder / "maps/m.txt") << "0\n";
     std::ofstream(folder / "s.toml") << "surface.kind = \"file\"\nsurface.file = \"maps/m.txt\"\n";
     Scene s = read_scene((folder / "s.toml").string());
-    EXPECT_EQ(s.surface.file, (folder / "maps/m.txt").string());
+    EXPECT_EQ(s.surface.map, (folder / "maps/m.txt").string());
+    EXPECT_EQ(scene_json(s).find("surface.file")->text(), "maps/m.txt"); // as it was given
     EXPECT_FALSE(s.surface.rms_given);
     EXPECT_EQ(scene_json(s).find("surface.rms"),
               nullptr); // read back, the map stays as high as it is
     s = read_scene((folder / "s.toml").string(), {"surface.file=maps/m.txt:/x", "surface.rms=2"});
-    EXPECT_EQ(s.surface.file, (folder / "maps/m.txt:/x").string());
+    EXPECT_EQ(s.surface.map, (folder / "maps/m.txt:/x").string());
     EXPECT_NE(scene_json(s).find("surface.rms"), nullptr);
     fs::remove_all(folder);
+    EXPECT_EQ(read_stored_scene(scene_toml(s), "result.json").surface.map, "");
 
     io::Problem p = only("surface.kind = \"file\"\nsurface.file = \"none.h5\"\n");
     EXPECT_EQ(p.where, "s.toml:2:16");

@@ -37,7 +37,7 @@ TEST(HeightMap, RowsAreYAndColumnsAreX) {
 
 TEST(HeightMap, RoundTripsAreExact) {
     const Scratch scratch;
-    HeightMap map{4, {}, 41.6, "Å", ""};
+    HeightMap map{4, {}, 41.6, "Å", "", "somebody's, CC BY 4.0"};
     for (int i = 0; i < 16; ++i)
         map.heights.push_back(std::sin(1.0 + i) * 1e-3);
     for (const char* name : {"m.txt", "m.csv", "m.h5"}) {
@@ -47,6 +47,7 @@ TEST(HeightMap, RoundTripsAreExact) {
         EXPECT_EQ(back.heights, map.heights) << name;
     }
     EXPECT_EQ(read_height_map(scratch / "m.h5").size, 41.6);
+    EXPECT_EQ(read_height_map(scratch / "m.h5").origin, map.origin);
     EXPECT_FALSE(std::filesystem::exists(scratch / "m.h5.tmp"));
     EXPECT_THROW(write_height_map(scratch / "no/dir.h5", map), FileError);
     EXPECT_THROW(write_height_map(scratch / "no/dir.txt", map), FileError);

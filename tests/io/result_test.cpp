@@ -13,7 +13,7 @@ namespace {
 TEST(Result, HasTheNamesOfTheContract) {
     ResultRecord r;
     r.scene["surface"]["sites"] = 128;
-    r.surface = {1, 2, 3, 4};
+    r.surface = {1, 2, 3, 4, "somebody's"};
     r.delta_gamma = r.binding_energy = 5;
     r.work_of_adhesion = {6, 7, 8};
     r.contact_fraction = r.pushed_fraction = r.pull_off_force = 0.5;
@@ -34,6 +34,7 @@ TEST(Result, HasTheNamesOfTheContract) {
                              "surface.rms_slope",
                              "surface.min",
                              "surface.max",
+                             "surface.origin",
                              "delta_gamma",
                              "binding_energy",
                              "work_of_adhesion.approach",
