@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// result.json: what a command found, in the names of the contract.
+// result.json: what a command found.
 //
-// ResultRecord mirrors the contract key by key; what was not computed stays empty and is left out
+// ResultRecord mirrors the file key by key; what was not computed stays empty and is left out
 // of the file. A run that fails writes its record too, with the reason. The file appears whole or
 // not at all (written beside its place, then renamed), and a directory that already holds a result
 // is never written over without being asked.
@@ -72,7 +72,7 @@ struct ResultRecord {
     std::vector<std::pair<std::string, JsonValue>> extra;
 };
 
-/// The record in the layout of the contract.
+/// The record in the layout of the file.
 JsonValue result_json(const ResultRecord& record);
 
 /// Writes directory/result.json, whole or not at all. Throws FileError.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Energy and forces of one cubic cell, straight from the definition (model.md section 5): scalar
+// Energy and forces of one cubic cell, straight from the definition (docs/model.md): scalar
 // functions for host and device. The reference loops call them on the host; on an accelerator a
 // thread a cell can.
 //

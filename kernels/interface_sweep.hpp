@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Lennard-Jones forces between the block's lowest layer and the rigid substrate: the contract.
+// Lennard-Jones forces between the block's lowest layer and the rigid substrate.
 //
 // Three sweeps give the same answer:
 //   reference  every site against every substrate atom in reach by an explicit loop over pairs,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The pair potential of the interface (model.md section 4):
+// The pair potential of the interface (docs/model.md):
 //
 //     V(r) = 4 epsilon [(r0/r)^12 - (r0/r)^6] - V(r_c)   for r < r_c,   0 beyond.
 //

@@ -126,7 +126,7 @@ void write_surface(io::HtmlPage& page, ReportFiles& files, const StoredRun& run)
                                "with the attraction across the gaps), and this run’s numbers."}});
 }
 
-/// Every number of the contract that is there.
+/// Every number of the result that is there.
 void write_numbers(io::HtmlPage& page, const StoredRun& run) {
     const double flat = run.number("delta_gamma").value_or(0.0);
     // Of a sphere, the nominal area says nothing, and so does energy over it.

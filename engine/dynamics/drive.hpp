@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What moves the rigid top plane (model.md section 6).
+// What moves the rigid top plane (docs/model.md).
 //
 // It comes down at constant velocity until the total normal force on the lowest layer has gone
 // through attraction and back to the load asked for (zero), then turns round and goes up until the

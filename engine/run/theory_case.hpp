@@ -61,7 +61,7 @@ struct TheoryNumbers {
 /// Throws io::SceneError where the theory cannot work with the scene.
 TheoryNumbers solve_theory(const TheoryCase& what);
 
-/// `theory` of a result: the contract's keys, and ours beside them.
+/// Fills in `theory` of a result.
 void record_theory(const TheoryCase& what, const TheoryNumbers& numbers, io::ResultRecord& record);
 
 /// The same for a run, which the theory must never make fail: what went wrong becomes theory.note.

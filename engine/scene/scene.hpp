@@ -5,8 +5,8 @@
 //
 // Scene{} is the paper's flat case. bind() ties every field to its key, unit, range and line of
 // documentation; that list is the only place where keys are named, and the reader, `asperity
-// defaults`, result.json and docs/scene.md all follow from it. Names and defaults are a contract
-// (interface.md).
+// defaults`, result.json and docs/scene.md all follow from it. Names and defaults do not change
+// from release to release: tests/cli/scene_test.cpp has them all.
 #pragma once
 
 #include "engine/scene/surface.hpp"
@@ -163,7 +163,7 @@ Scene read_stored_scene(const std::string& text, const std::string& file);
 
 /// Contradictions between keys, added to the list.
 void check_scene(const Scene& scene, io::Problems& problems);
-/// Keys of the contract that this release reads but cannot act upon yet, added to the list.
+/// What this release reads but cannot act upon yet, added to the list.
 void not_yet(const Scene& scene, io::Problems& problems);
 /// Worth knowing, not wrong (a spectrum clipped at Nyquist, ...): one sentence each.
 std::vector<std::string> notes(const Scene& scene);

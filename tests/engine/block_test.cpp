@@ -329,7 +329,7 @@ TEST(BlockFrequency, HighestOfTheBulk) {
 }
 
 TEST(BlockModuli, OfThePaper) {
-    // model.md section 5, in GPa.
+    // docs/model.md, in GPa.
     const BlockOptions o = test::paper_block(8, 8, 0);
     const double gpa = 160.21766208;
     EXPECT_NEAR(o.lame() * gpa, 142.711, 5e-4);

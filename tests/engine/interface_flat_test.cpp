@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Flat on flat: the numbers of model.md section 4.
+// Flat on flat: the numbers of docs/model.md.
 #include "engine/block/flat_reference.hpp"
 
 #include <gtest/gtest.h>

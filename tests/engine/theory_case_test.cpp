@@ -49,7 +49,7 @@ TEST(TheoryOfAScene, GivesTheNumbersOfThePaper) {
         EXPECT_NEAR(n.state.area, row.area, 2e-5) << row.rms;
         EXPECT_NEAR(n.gamma_full_contact, 100.0 * row.full, 2e-3) << row.rms;
         EXPECT_GT(n.gamma_eff_with_gaps, n.gamma_eff);
-        EXPECT_NEAR(what.flat, 98.86, 5e-3); // model.md section 4
+        EXPECT_NEAR(what.flat, 98.86, 5e-3); // docs/model.md
     }
 }
 
