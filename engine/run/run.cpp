@@ -80,16 +80,15 @@ private:
         march();
     }
 
-    /// The loop over time.
+    /// The loop over time: step, guard, record, tell the drive; a leg that has ended is concluded
+    /// one step later.
     void march() {
         std::optional<Leg> ended; // the leg that the last step ended
         while (ended || !simulation_.drive().done()) {
-            const bool last =
-                scene_.drive.max_steps > 0 && simulation_.steps() + 1 >= scene_.drive.max_steps;
             const bool due = simulation_.steps() % scene_.output.series == 0;
+            const bool last = next_step_is_last();
             if (due && !ended && time_to_stop()) return;
-            if (scene_.output.trajectory && simulation_.steps() % *scene_.output.trajectory == 0)
-                record_frame();
+            if (frame_is_due()) record_frame();
             // The step after a leg and the last of all are observed, so that the guard has seen the
             // energy balance before anything is concluded.
             const StepRecord& now = simulation_.step(due || ended || last);
@@ -108,6 +107,13 @@ private:
                 return;
             }
         }
+    }
+
+    bool next_step_is_last() const {
+        return scene_.drive.max_steps > 0 && simulation_.steps() + 1 >= scene_.drive.max_steps;
+    }
+    bool frame_is_due() const {
+        return scene_.output.trajectory && simulation_.steps() % *scene_.output.trajectory == 0;
     }
 
     /// Tells the drive what the step felt. The leg that ended with it, if one did.
