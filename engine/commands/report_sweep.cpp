@@ -48,6 +48,7 @@ struct Points {
     std::vector<io::Plot> curves;
     std::vector<std::string> names; ///< of the curves
     std::vector<std::string> links; ///< a page a row of the table
+    std::string origin;             ///< of a measured surface: whose it is
 };
 
 Points look_at_points(const StoredSweep& sweep, const std::string& directory) {
@@ -62,6 +63,7 @@ Points look_at_points(const StoredSweep& sweep, const std::string& directory) {
         if (!fs::exists(place / "result.json", error)) continue; // the table was sent alone
         const StoredRun run = read_run(place.string());
         keep_page(run);
+        if (found.origin.empty()) found.origin = run.text("surface.origin");
         const std::string link = fs::relative(place / "report.html", directory).generic_string();
         found.links.back() = link;
         for (const StoredState& state : run.states)
@@ -213,6 +215,7 @@ void write_table(io::HtmlPage& page, const StoredSweep& sweep, const Points& poi
     if (stride > 1)
         page.paragraph(fmt::format("Every {}th of {} lines; all are in sweep.csv.", stride, n));
     if (!points.maps.empty()) page.thumbnails(points.maps);
+    if (!points.origin.empty()) page.paragraph("Measured surface: " + points.origin + ".");
 }
 
 } // namespace

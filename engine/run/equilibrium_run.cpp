@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace asperity {
 
@@ -61,7 +62,7 @@ private:
 
     /// Point by point. False where it was stopped.
     bool follow_leg(Leg leg) {
-        if (!begin_leg(leg)) return false;
+        begin_leg(leg);
         while (!at_end_) {
             if (scene_.drive.max_steps > 0 && path_.now().step >= scene_.drive.max_steps) {
                 stopped_ = "max_steps";
@@ -78,20 +79,16 @@ private:
         return conclude(leg);
     }
 
-    bool begin_leg(Leg leg) {
+    void begin_leg(Leg leg) {
         leg_ = leg;
-        if (resumed_) {
-            resumed_ = false;
-            return true;
-        }
+        if (std::exchange(resumed_, false)) return;
         if (part_ == 0)
             path_.start();
         else if (scene_.drive.path[part_ - 1] == PathPart::zero_load)
             path_.hold_here();
         else
-            return true; // the path goes on from where it stands
+            return; // the path goes on from where it stands
         recorder_->row(path_.now(), leg == Leg::pull_off, scene_.surface.sites);
-        return true;
     }
 
     void note_point(Leg leg) {

@@ -99,6 +99,14 @@ holds both/report.html '<h1>other, state</h1>' 'other: state at zero load' 'href
 expect 0 run small.toml --progress off --out sphere --set surface.radius=100 surface.rms=0.2 output.series=10
 expect 0 report sphere
 holds sphere/report.html 'R = 100 Å</h1>' 'smooth sphere, Maugis-Dugdale with images' 'by JKR' 'pull-off force' 'force F (nN)'
+# A measured surface: whose it is; and the map need not be there any more.
+cp "$source"/scenes/measured/uncd* .
+expect 0 run uncd.toml --progress off --out measured --set surface.sites=24 surface.file_size=62.4 surface.rms=0.5
+grep -qF '"file": "uncd_afm_100nm_512.h5"' measured/result.json || fail "the map's path is not as it was given"
+rm uncd_afm_100nm_512.h5
+expect 0 report measured
+holds measured/report.html 'measured surface' 'L. Pastewka, CC BY 4.0' 'a measured substrate' 'with the map beside it'
+[ "$(grep -o 'theory' measured/report/roughness.csv | wc -l)" -gt 0 ] || fail "no theory over the stored surface"
 # What has no name has its directory's; text is text.
 cp -r bare 'a <b> & c' && echo '{"delta_gamma": 1}' >'a <b> & c/result.json'
 expect 0 report 'a <b> & c'
