@@ -166,6 +166,7 @@ int theory_command(const Scene& scene, const std::string& out) {
     io::ResultRecord record;
     record.name = scene.name;
     record.scene = scene_json(scene);
+    record.surface.origin = what.origin;
     record.delta_gamma = what.flat;
     record_theory(what, numbers, record);
     if (beyond.critical) {

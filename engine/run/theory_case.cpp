@@ -76,6 +76,7 @@ Spectrum target_of(const Scene& scene, TheoryCase& out) {
 /// ring starts at q_L, the longest wave there is, and the last ends at Nyquist; C is such that each
 /// ring has the variance of its waves.
 Spectrum realised_of(const Scene& scene, const Surface& surface, TheoryCase& out) {
+    out.origin = surface.origin;
     const auto& bins = surface.statistics.spectrum;
     const double q_unit = 2.0 * std::numbers::pi / surface.length;
     const double nyquist = 0.5 * surface.sites;

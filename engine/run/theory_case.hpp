@@ -37,6 +37,7 @@ struct TheoryCase {
     std::optional<double> q0;       ///< roll-off wavevector, 1/Å; a measured map has none
     std::optional<double> radius;   ///< of the spherical cap, Å
     std::vector<std::string> notes; ///< what was clipped or left out, in words
+    std::string origin;             ///< of a measured surface: whose it is, where its file says so
 };
 
 /// The theory of this scene follows the surface itself, not the target spectrum.

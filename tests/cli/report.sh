@@ -103,6 +103,8 @@ holds sphere/report.html 'R = 100 Å</h1>' 'smooth sphere, Maugis-Dugdale with i
 cp "$source"/scenes/measured/uncd* .
 expect 0 run uncd.toml --progress off --out measured --set surface.sites=24 surface.file_size=62.4 surface.rms=0.5
 grep -qF '"file": "uncd_afm_100nm_512.h5"' measured/result.json || fail "the map's path is not as it was given"
+expect 0 theory uncd.toml --out measured-theory --set surface.sites=24 surface.file_size=62.4 surface.rms=0.5
+grep -qF 'L. Pastewka' measured-theory/result.json || fail "the theory of a measured surface does not say whose it is"
 rm uncd_afm_100nm_512.h5
 expect 0 report measured
 holds measured/report.html 'measured surface' 'L. Pastewka, CC BY 4.0' 'a measured substrate' 'with the map beside it'
