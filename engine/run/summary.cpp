@@ -3,7 +3,9 @@
 #include "engine/run/summary.hpp"
 
 #include "engine/scene/accuracy.hpp"
+#include "engine/units.hpp"
 #include "io/table.hpp"
+#include "theory/jkr.hpp"
 
 #include <fmt/format.h>
 
@@ -95,7 +97,7 @@ void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const 
                number(share(findings.approach), 4), number(share(findings.pull_off), 4),
                number(share(state), 4)});
     if (const auto& lost = findings.dissipated) {
-        const double per_area = 1e3 / (scene.edge() * scene.edge());
+        const double per_area = units::milli_per_unit / (scene.edge() * scene.edge());
         table.row({"lost where it fell, meV/Å²",
                    scene.has(PathPart::approach) ? number(per_area * lost->approach) : "-",
                    scene.has(PathPart::pull_off) ? number(per_area * lost->pull_off) : "-", ""});
@@ -110,7 +112,8 @@ void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const 
         const auto jkr = [&](double f, bool there) -> std::string {
             return there && f > 0.0
                        ? fmt::format("{:.2f}",
-                                     1e3 * f / (1.5 * 3.14159265358979 * *scene.surface.radius))
+                                     units::milli_per_unit *
+                                         theory::jkr::work_from_pull_off(f, *scene.surface.radius))
                        : "-";
         };
         table.row({"  as a JKR sphere, meV/Å²",

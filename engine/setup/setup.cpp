@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <stdexcept>
 
 namespace asperity {
@@ -117,10 +118,10 @@ Setup make_setup(const Scene& scene, int ranks) {
             fmt::format(
                 "the block's fastest vibration has a period of {:.4g} fs, and velocity Verlet "
                 "diverges for steps longer than 1/pi of it",
-                3.14159265 * setup.longest_timestep),
+                std::numbers::pi * setup.longest_timestep),
             fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a "
                         "fraction of a percent",
-                        0.314159 * setup.longest_timestep));
+                        0.1 * std::numbers::pi * setup.longest_timestep));
     try {
         const ProcessGrid grid = make_grid(scene, setup, ranks, 0);
         if (grid.imbalance() > 0.1)
