@@ -39,7 +39,8 @@ public:
     /// True when enough time has passed that update() would print: build the phase text only then.
     bool due() const;
     void update(const State& state);
-    /// A sentence of its own ("pull-off begins"), whatever the mode but off. Rates are counted anew.
+    /// A sentence of its own ("pull-off begins"), whatever the mode but off. Rates are counted
+    /// anew.
     void say(const std::string& sentence);
     /// Clears the bar. Called by the destructor too.
     void finish();
