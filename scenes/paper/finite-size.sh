@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The paper's second explanation for adhesion beyond its theory, "the small system size", put to the test: states at zero
-# load in boxes of 128 to 512 sites, each beside the theory of its own surface's spectrum. Ten minutes on one
+# load in boxes of 128 to 1024 sites, each beside the theory of its own surface's spectrum. Half an hour on one
 # core. Started again, it goes on.
 #
 #     scenes/paper/finite-size.sh results/finite-size
@@ -22,9 +22,9 @@ size() { # NAME SITES ROLLOFF ROUGHNESSES SEEDS
 size scaled-128 128 3 1.5,3 1,2,3,4,5,6
 size scaled-256 256 3 2.1213,4.2426 1,2,3,4
 size scaled-512 512 3 3,6 1,2,3
-# The paper's roughness in a narrower box: the same wavevectors in 1/Å, fewer of each. (In a wider one, some minutes
-# a point: size same-1024 1024 6 3,6 1,2,3)
+# The paper's roughness in a narrower and a wider box: the same wavevectors in 1/Å, fewer and more of each.
 size same-256 256 1.5 3,6 1,2,3,4
+size same-1024 1024 6 3,6 1,2,3
 
 awk 'FNR == 1 { n = split(FILENAME, part, "/"); if (NR == 1) print "variant," $0; next }
      { print part[n - 1] "," $0 }' "$place"/*/sweep.csv >"$place/finite-size.csv"
