@@ -53,6 +53,31 @@ RelaxedState relax_at(Case& c, double z, double tolerance) {
 
 } // namespace
 
+TEST(MeanHeight, StaysWhereItIsHeldWhileItRelaxes) {
+    // Far from equilibrium: sites are cut to the largest move, and what is cut off has a mean.
+    for (bool spectral : {true, false}) {
+        Case c(test::paper_block(32, 200, spectral ? 0 : 4),
+               test::reference_surface("c3_N32_T32_rms1.5"), spectral);
+        const double z = -9.0;
+        c.block->hold_mean_height(z);
+        c.block->settle();
+        int looks = 0; // at every tenth iteration
+        double drift = 0.0;
+        RelaxOptions o;
+        o.tolerance = 1e-4;
+        o.report = [&](long long, double) {
+            ++looks;
+            drift = std::max(drift, std::abs(c.block->mean_height() - z));
+            return false;
+        };
+        Phases phases;
+        c.block->relax(c.interface, c.interface.start_height(), o, phases);
+        std::printf("%d looks, drift %.1e\n", looks, drift);
+        EXPECT_GE(looks, 2);
+        EXPECT_LT(drift, 1e-5); // directions are in single precision
+    }
+}
+
 TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
     // Under a held top plane these blocks fall in and off (quasistatic_test).
     struct Model {
