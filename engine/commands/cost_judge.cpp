@@ -64,6 +64,11 @@ CostNumbers cost_errors(const CostNumbers& measured, const CostNumbers& referenc
 double largest_error(const CostNumbers& measured, const CostNumbers& reference, Question question) {
     const CostNumbers errors = cost_errors(measured, reference);
     const auto [begin, end] = range_of(question);
+    // A reference that followed no path says nothing of one.
+    const auto works = reference.begin() + static_cast<std::ptrdiff_t>(CostQuantity::approach);
+    if (question == Question::path &&
+        std::all_of(works, reference.end(), [](double value) { return std::isnan(value); }))
+        return nothing;
     double largest = nothing;
     for (std::size_t q = begin; q < end; ++q) {
         if (std::isnan(reference[q]) || reference[q] == 0.0) continue;

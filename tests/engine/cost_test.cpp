@@ -40,6 +40,7 @@ TEST(CostErrors, ThatWhichWasNotFollowedAnswersNothing) {
     const CostNumbers state_only = {0.51, 0.9, nothing, nothing, nothing};
     EXPECT_NEAR(largest_error(state_only, reference, Question::state), 0.02, 1e-12);
     EXPECT_TRUE(std::isnan(largest_error(state_only, reference, Question::path)));
+    EXPECT_TRUE(std::isnan(largest_error(state_only, state_only, Question::path)));
     // What the reference itself lacks is not asked for.
     const CostNumbers approach_only = {0.5, 0.9, 0.5, nothing, nothing};
     EXPECT_NEAR(largest_error({0.5, 0.9, 0.45, nothing, nothing}, approach_only, Question::path),
