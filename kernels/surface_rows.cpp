@@ -6,7 +6,6 @@
 
 #include "kernels/variant.hpp"
 
-#include <bit>
 #include <cmath>
 #include <type_traits>
 
@@ -16,14 +15,6 @@ namespace {
 
 inline double wide(double v) { return v; }
 inline double wide(float v) { return static_cast<double>(v); }
-inline float single(ShortFloat v) {
-    return std::bit_cast<float>(static_cast<std::uint32_t>(v.bits) << 16);
-}
-inline double wide(ShortFloat v) { return static_cast<double>(single(v)); }
-inline ShortFloat shortened(float v) {
-    const auto bits = std::bit_cast<std::uint32_t>(v);
-    return {static_cast<std::uint16_t>((bits + 0x7fffu + (bits >> 16 & 1u)) >> 16)}; // ties to even
-}
 
 template <class A, class B>
 double dot(const A* a, const B* b, int sites) {
@@ -113,46 +104,6 @@ void multiply(const MatrixRow<M>& m, int waves, int components, const U* const* 
     }
 }
 
-void weigh(double a, const float* first, const ShortFloat* const* from, const float* weight,
-           int count, float* to, int n) {
-    constexpr int piece = 1024; // of a row, in the nearest cache while the others pass by
-    const auto factor = static_cast<float>(a);
-    for (int begin = 0; begin < n; begin += piece) {
-        const int size = n - begin < piece ? n - begin : piece;
-        alignas(64) float sum[piece];
-#pragma omp simd aligned(sum : 64)
-        for (int i = 0; i < size; ++i)
-            sum[i] = factor * first[begin + i];
-        int j = 0;
-        for (; j + 4 <= count; j += 4) { // four at a time: sums are loaded and stored less
-            const ShortFloat *p = from[j] + begin, *q = from[j + 1] + begin;
-            const ShortFloat *r = from[j + 2] + begin, *s = from[j + 3] + begin;
-            const float of_p = weight[j], of_q = weight[j + 1];
-            const float of_r = weight[j + 2], of_s = weight[j + 3];
-#pragma omp simd aligned(sum : 64)
-            for (int i = 0; i < size; ++i)
-                sum[i] += (of_p * single(p[i]) + of_q * single(q[i])) +
-                          (of_r * single(r[i]) + of_s * single(s[i]));
-        }
-        for (; j < count; ++j) {
-            const ShortFloat* row = from[j] + begin;
-            const float w = weight[j];
-#pragma omp simd aligned(sum : 64)
-            for (int i = 0; i < size; ++i)
-                sum[i] += w * single(row[i]);
-        }
-        for (int i = 0; i < size; ++i)
-            to[begin + i] = sum[i];
-    }
-}
-
-void shorten(double a, const float* x, double b, const float* y, ShortFloat* to, int n) {
-    const auto of_x = static_cast<float>(a), of_y = static_cast<float>(b);
-#pragma omp simd
-    for (int i = 0; i < n; ++i)
-        to[i] = shortened(of_x * x[i] + of_y * y[i]);
-}
-
 float longest(const float* const* v, int components, int n) {
     float most = 0.0f;
     if (components == 1) {
@@ -172,7 +123,6 @@ float longest(const float* const* v, int components, int n) {
 }
 
 void clip(float bound, float* const* v, int components, int n) {
-    if (!(longest(v, components, n) > bound * bound)) return;
     for (int i = 0; i < n; ++i) {
         float length2 = 0.0f;
         for (int c = 0; c < components; ++c)
@@ -184,13 +134,58 @@ void clip(float bound, float* const* v, int components, int n) {
     }
 }
 
+void tie(double k, double norm, const double* u, const double* f, float* to, int n) {
+#pragma omp simd
+    for (int i = 0; i < n; ++i)
+        to[i] = static_cast<float>(norm * (k * u[i] + f[i]));
+}
+
+template <int components>
+float move(const BallRow& row, const BallRule& rule, int n) {
+    float most = 0.0f, fastest = 0.0f;
+#pragma omp simd reduction(max : most, fastest)
+    for (int i = 0; i < n; ++i) {
+        float way[components], along = 0.0f, away2 = 0.0f, speed2 = 0.0f;
+        for (int c = 0; c < components; ++c) {
+            way[c] = static_cast<float>(static_cast<double>(row.goal[c][i]) - row.u[c][i]);
+            along += way[c] * row.momentum[c][i];
+            away2 += way[c] * way[c];
+        }
+        const float raised = rule.raise * row.gain[i];
+        const float gain = along < 0.0f         ? rule.cut * row.gain[i]
+                           : raised < rule.most ? raised
+                                                : rule.most;
+        const float keep = along < 0.0f ? 0.0f : rule.keep;
+        for (int c = 0; c < components; ++c) {
+            const float m = gain * way[c] + keep * row.momentum[c][i];
+            row.momentum[c][i] = m;
+            speed2 += m * m;
+        }
+        row.gain[i] = gain;
+        most = away2 > most ? away2 : most;
+        fastest = speed2 > fastest ? speed2 : fastest;
+    }
+    if (fastest > rule.bound * rule.bound) clip(rule.bound, row.momentum, components, n);
+    for (int c = 0; c < components; ++c) {
+        double* u = row.u[c];
+        const float* m = row.momentum[c];
+#pragma omp simd
+        for (int i = 0; i < n; ++i)
+            u[i] += static_cast<double>(m[i]);
+    }
+    return most;
+}
+
+float ball(const BallRow& row, const BallRule& rule, int components, int n) {
+    return components == 1 ? move<1>(row, rule, n) : move<3>(row, rule, n);
+}
+
 } // namespace
 
 RowKernels surface_rows() {
     return {dot<double, double>,
             dot<double, float>,
             dot<float, float>,
-            dot<double, ShortFloat>,
             combine<double, double>,
             combine<double, float>,
             combine<float, double>,
@@ -200,10 +195,9 @@ RowKernels surface_rows() {
             multiply<float, double, double>,
             multiply<float, double, float>,
             multiply<float, float, float>,
-            weigh,
-            shorten,
             longest,
-            clip};
+            tie,
+            ball};
 }
 
 } // namespace asperity::ASPERITY_VARIANT

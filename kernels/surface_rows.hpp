@@ -9,15 +9,7 @@
 // same on any number of threads, others on another level.
 #pragma once
 
-#include <cstdint>
-
 namespace asperity {
-
-/// A number in two bytes: the upper half of a float, good to 1/256 of itself. For what is only to
-/// be remembered roughly, where memory traffic is the cost.
-struct ShortFloat {
-    std::uint16_t bits = 0;
-};
 
 /// What one row of waves sees of a table of 3 x 3 matrices, each acting on (u_x, u_y, i u_z).
 template <class T>
@@ -25,6 +17,21 @@ struct MatrixRow {
     enum Entry { xx, yy, zz, xy, xz, yz, entries };
     const T* at[entries]; ///< [wave]; of one component only zz is looked at
     T sign;               ///< of q_y: on xy and yz
+};
+
+/// A row of sites on their way downhill (engine/equilibrium/heavy_ball.hpp), by components.
+struct BallRow {
+    const float* goal[3]; ///< where each would go, Å
+    double* u[3];         ///< where it is
+    float* momentum[3];   ///< how far it went last
+    float* gain;          ///< how much of its way to the goal it takes
+};
+/// How momentum and gain are kept.
+struct BallRule {
+    float keep;       ///< of the momentum
+    float cut, raise; ///< of the gain: where the goal lies back, and elsewhere
+    float most;       ///< of the gain
+    float bound;      ///< of a move, Å
 };
 
 /// The rows' arithmetic for one processor level.
@@ -39,7 +46,6 @@ struct RowKernels {
     Dot<double, double> dot_double;
     Dot<double, float> dot_mixed;
     Dot<float, float> dot_float;
-    Dot<double, ShortFloat> dot_short;
     Combine<double, double> combine_double;
     Combine<double, float> combine_narrow;
     Combine<float, double> combine_wide;
@@ -49,10 +55,9 @@ struct RowKernels {
     Multiply<float, double, double> condition_double;
     Multiply<float, double, float> condition_mixed;
     Multiply<float, float, float> condition_float;
-    void (*weigh)(double, const float*, const ShortFloat* const*, const float*, int, float*, int);
-    void (*shorten)(double, const float*, double, const float*, ShortFloat*, int);
     float (*longest)(const float* const*, int, int);
-    void (*clip)(float, float* const*, int, int);
+    void (*tie)(double, double, const double*, const double*, float*, int);
+    float (*ball)(const BallRow&, const BallRule&, int, int);
 };
 
 /// The kernels for the running processor (processor_level()).
@@ -67,9 +72,6 @@ inline double row_dot(const double* a, const float* b, int sites) {
 }
 inline double row_dot(const float* a, const float* b, int sites) {
     return row_kernels().dot_float(a, b, sites);
-}
-inline double row_dot(const double* a, const ShortFloat* b, int sites) {
-    return row_kernels().dot_short(a, b, sites);
 }
 
 /// to <- a from + keep to, n numbers; what is not kept is not looked at.
@@ -108,22 +110,17 @@ inline void multiply_row(const MatrixRow<float>& m, int waves, int components,
     row_kernels().condition_float(m, waves, components, u, norm, f);
 }
 
-/// to <- a first + sum_j weight[j] from[j], n numbers of each of `count` rows.
-inline void weigh_rows(double a, const float* first, const ShortFloat* const* from,
-                       const float* weight, int count, float* to, int n) {
-    row_kernels().weigh(a, first, from, weight, count, to, n);
-}
-/// to <- a x + b y, rounded to the nearest.
-inline void shorten_row(double a, const float* x, double b, const float* y, ShortFloat* to, int n) {
-    row_kernels().shorten(a, x, b, y, to, n);
-}
 /// The greatest squared length of a row of vectors, given by components.
 inline float longest_squared(const float* const* v, int components, int n) {
     return row_kernels().longest(v, components, n);
 }
-/// Shortens those that are longer than bound.
-inline void clip_row(float bound, float* const* v, int components, int n) {
-    row_kernels().clip(bound, v, components, n);
+/// to <- norm (k u + f), n numbers.
+inline void tie_row(double k, double norm, const double* u, const double* f, float* to, int n) {
+    row_kernels().tie(k, norm, u, f, to, n);
+}
+/// Moves the sites. Returns the greatest squared distance from a goal.
+inline float move_row(const BallRow& row, const BallRule& rule, int components, int n) {
+    return row_kernels().ball(row, rule, components, n);
 }
 
 } // namespace asperity

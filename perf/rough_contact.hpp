@@ -73,7 +73,7 @@ struct RoughContact {
 inline RelaxOptions spectral_options(double tolerance) {
     RelaxOptions options;
     options.tolerance = tolerance;
-    options.max_move = 0.2;
+    options.max_move = 0.3;
     return options;
 }
 

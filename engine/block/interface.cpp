@@ -97,6 +97,7 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
 }
 
 /// For each block of sites and each ring of lateral distance: the greatest and least height in it.
+/// An atom counts in all rings between the nearest and the farthest point of the block's row.
 void Interface::build_reach() {
     const double widest = options_.potential.cutoff + margin_;
     reach_.offset_margin = margin_;
@@ -106,26 +107,45 @@ void Interface::build_reach() {
                               static_cast<std::size_t>(tile_.ny) * interface_rings;
     reach_highest_.assign(rings, nothing_there);
     reach_lowest_.assign(rings, -nothing_there);
+    const double b = map_.spacing;
+    // Slightly wider, so that rounding leaves no atom out.
+    const double reach = widest + 1e-3;
+    const auto ring = [&](double lateral) {
+        return std::clamp(static_cast<int>(lateral / reach_.ring_width), 0, interface_rings - 1);
+    };
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < tile_.ny; ++y)
-        for (int x = 0; x < tile_.nx; ++x) {
-            const std::size_t block =
+        for (int block = 0; block < reach_.blocks; ++block) {
+            const std::size_t first =
                 (static_cast<std::size_t>(y) * static_cast<std::size_t>(reach_.blocks) +
-                 static_cast<std::size_t>(x / interface_block)) *
+                 static_cast<std::size_t>(block)) *
                 interface_rings;
-            // Slightly beyond the widest reach, so that rounding leaves no atom out.
-            for_atoms_around(
-                map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_,
-                widest + 1e-3, [&](double lateral, double h) {
+            double *highest = &reach_highest_[first], *lowest = &reach_lowest_[first];
+            const int last = std::min(tile_.nx, (block + 1) * interface_block) - 1;
+            const double left = (tile_.x0 + block * interface_block + 0.5) * spacing_;
+            const double right = (tile_.x0 + last + 0.5) * spacing_;
+            const double site_y = (tile_.y0 + y + 0.5) * spacing_;
+            const int j_last = static_cast<int>(std::ceil((site_y + reach) / b));
+            for (int j = static_cast<int>(std::floor((site_y - reach) / b)); j <= j_last; ++j) {
+                const double* row =
+                    map_.height + static_cast<std::ptrdiff_t>(periodic(j, map_.sites)) * map_.sites;
+                const double dy = site_y - j * b;
+                if (std::abs(dy) > reach) continue;
+                const double half = std::sqrt(reach * reach - dy * dy);
+                const int i_last = static_cast<int>(std::floor((right + half) / b));
+                for (int i = static_cast<int>(std::ceil((left - half) / b)); i <= i_last; ++i) {
+                    const double x = i * b, h = row[periodic(i, map_.sites)];
+                    const double nearest = std::max({left - x, x - right, 0.0});
+                    const double farthest = std::min(std::max(x - left, right - x), half);
                     // An atom on the border of two rings counts in both.
-                    const double scaled = lateral / reach_.ring_width;
-                    for (double edge : {scaled - 1e-9, scaled + 1e-9}) {
-                        const auto ring = static_cast<std::size_t>(
-                            std::clamp(static_cast<int>(edge), 0, interface_rings - 1));
-                        reach_highest_[block + ring] = std::max(reach_highest_[block + ring], h);
-                        reach_lowest_[block + ring] = std::min(reach_lowest_[block + ring], h);
+                    const int from = ring(std::sqrt(nearest * nearest + dy * dy) - 1e-9);
+                    const int to = ring(std::sqrt(farthest * farthest + dy * dy) + 1e-9);
+                    for (int r = from; r <= to; ++r) {
+                        highest[r] = std::max(highest[r], h);
+                        lowest[r] = std::min(lowest[r], h);
                     }
-                });
+                }
+            }
         }
     if (!options_.skip) {
         reach_highest_.assign(rings, -nothing_there);

@@ -2,19 +2,38 @@
 // SPDX-License-Identifier: MIT
 #include "engine/block/interface_stiffness.hpp"
 
+#include "decomposition/global_sum.hpp"
+
+#include <algorithm>
 #include <utility>
 
 namespace asperity {
 
-InterfaceStiffness::InterfaceStiffness(const Tile& tile, int components) : force_(tile, 1, 0) {
+InterfaceStiffness::InterfaceStiffness(const Tile& tile, int components)
+    : sites_(tile.sites), force_(tile, 1, 0) {
     for (int e = 0; e < (components == 1 ? 1 : 6); ++e)
         map_.emplace_back(tile, 1, 0);
     if (components > 1) displaced_ = VectorField<double>(tile, 1, 0);
 }
 
+namespace {
+constexpr double step = 1e-3; // Å
+}
+
+double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<const double>& u,
+                                const VectorPlane<const double>& force, double reference_height,
+                                const Communicator& ranks) {
+    interface.sweep(u, force_.plane(0), reference_height + step, false, true);
+    const PlaneView<const double> here = force.z, there = std::as_const(force_).plane(0).z;
+    ExactSum sum;
+    for (int y = 0; y < here.ny; ++y)
+        for (int x = 0; x < here.nx; ++x)
+            sum.add(std::max(0.0, (here(x, y) - there(x, y)) / step));
+    return global_sum(ranks, sum) / (sites_ * sites_);
+}
+
 void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<const double>& u,
                                  const VectorPlane<const double>& force, double reference_height) {
-    constexpr double step = 1e-3; // Å
     const VectorPlane<const double> moved = std::as_const(force_).plane(0);
     const auto stiffness = [](const PlaneView<const double>& there,
                               const PlaneView<const double>& here, int x, int y) {

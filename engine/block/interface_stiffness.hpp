@@ -24,6 +24,10 @@ public:
     /// At these displacements, where the force is as given.
     void measure(const Interface& interface, const VectorPlane<const double>& u,
                  const VectorPlane<const double>& force, double reference_height);
+    /// The mean over all sites of -dF_z/du_z, where that is positive, alone. Collective.
+    double mean(const Interface& interface, const VectorPlane<const double>& u,
+                const VectorPlane<const double>& force, double reference_height,
+                const Communicator& ranks);
     /// v <- H v at every site; v has as many components.
     void apply(SiteField<float>& v) const;
     std::size_t bytes() const;
@@ -32,6 +36,7 @@ private:
     enum Entry { zz, xx, yy, xy, xz, yz };
     PlaneView<const float> entry(Entry e) const { return map_[e].plane(0); }
 
+    double sites_;                          ///< across the box
     SiteField<float> map_;                  ///< eV/Å^2, by Entry
     VectorField<double> displaced_, force_; ///< displaced_: of three components
 };

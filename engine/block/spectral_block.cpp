@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/block/spectral_block.hpp"
 
+#include "decomposition/global_sum.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -188,32 +190,52 @@ void SpectralBlock::displace(double t, const Waves<T>& d, const SiteField<T>& at
 template void SpectralBlock::displace(double, const Waves<float>&, const SiteField<float>&);
 template void SpectralBlock::displace(double, const Waves<double>&, const SiteField<double>&);
 
-void SpectralBlock::keep_mean_height(Waves<float>& d, SiteField<float>& at_sites) const {
-    if (!mean_height_is_held()) return;
+void SpectralBlock::respond(const Preconditioner& preconditioner, double load, Waves<float>& waves,
+                            SiteField<float>& goal) const {
+    const double sites = options_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        for (int c = 0; c < components_; ++c)
+            tie_row(k, norm, moving(layer_.plane(0), c).line(y), moving(force_.plane(0), c).line(y),
+                    goal[static_cast<std::size_t>(c)].plane(0).line(y), slab_.sites);
+    to_waves(goal, waves);
     const int normal = components_ - 1;
-    double mean = 0.0;
-    if (slab_.holds_uniform()) mean = std::exchange(d.row(normal, 0)[0], 0.0f);
-    slab_.ranks.broadcast(std::span(&mean, 1));
-    const auto by = static_cast<float>(mean);
-    const PlaneView<float> z = at_sites[static_cast<std::size_t>(normal)].plane(0);
+    if (slab_.holds_uniform()) {
+        double mean = -norm * load;
+        if (top_is_held()) mean += uniform_ * held_at_;
+        waves.row(normal, 0)[0] += static_cast<float>(mean);
+    }
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        preconditioner.apply_row(y, waves, waves);
+    if (mean_height_is_held() && slab_.holds_uniform())
+        waves.row(normal, 0)[0] = static_cast<float>(held_at_);
+    at_sites(waves, goal);
+}
+
+void SpectralBlock::keep_mean_height() {
+    if (!mean_height_is_held()) return;
+    const double sites = options_.sites;
+    const PlaneView<double> z = layer_.z.plane(0);
+    ExactSum sum;
     for (int y = 0; y < z.ny; ++y)
         for (int x = 0; x < z.nx; ++x)
-            z(x, y) -= by;
+            sum.add(z(x, y));
+    const double by = held_at_ - global_sum(slab_.ranks, sum) / (sites * sites);
+    for (int y = 0; y < z.ny; ++y)
+        for (int x = 0; x < z.nx; ++x)
+            z(x, y) += by;
 }
 
 void SpectralBlock::settle() {
+    keep_mean_height();
     const VectorPlane<const double> layer = std::as_const(layer_).plane(0);
     for (int c = 0; c < components_; ++c)
         transform_.forward(moving(layer, c), waves_, c);
     const double sites = options_.sites;
     combine(0.0, waves_, 1.0 / (sites * sites), waves_);
-    if (!mean_height_is_held()) return;
-    const double by = held_at_ - mean_height();
-    if (slab_.holds_uniform()) waves_.row(components_ - 1, 0)[0] = held_at_;
-    const PlaneView<double> z = layer_.z.plane(0);
-    for (int y = 0; y < z.ny; ++y)
-        for (int x = 0; x < z.nx; ++x)
-            z(x, y) += by;
+    if (mean_height_is_held() && slab_.holds_uniform())
+        waves_.row(components_ - 1, 0)[0] = held_at_;
 }
 
 SurfaceMatrix SpectralBlock::stiffness(int nx, int ny) const {
@@ -230,6 +252,11 @@ Preconditioner::Preconditioner(const SpectralBlock& block, double k)
     : sites_(block.slab().sites), first_(block.slab().first),
       columns_(static_cast<std::size_t>(block.slab().columns())),
       entries_(block.components() == 1 ? 1 : entries), table_(entries_ * columns_ * columns_) {
+    tune(block, k);
+}
+
+void Preconditioner::tune(const SpectralBlock& block, double k) {
+    k_ = k;
     const int columns = block.slab().columns();
     const std::size_t size = columns_ * columns_;
 #pragma omp parallel for schedule(static)

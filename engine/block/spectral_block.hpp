@@ -38,6 +38,8 @@
 
 namespace asperity {
 
+class Preconditioner;
+
 class SpectralBlock {
 public:
     /// Collective. Throws std::invalid_argument where there are more ranks than slabs.
@@ -92,6 +94,11 @@ public:
     void stiffen_row(int y, const Waves<T>& u, double norm, Waves<T>& f) const;
     /// U_el, eV. Collective.
     double elastic_energy() const;
+    /// Where the sites would come to rest under the forces of gradient(), did a spring k tie each
+    /// to where it is: goal <- (S + k)^-1 (k u + F + load). The waves are room for work; those of
+    /// the displacement are not looked at. Collective.
+    void respond(const Preconditioner& preconditioner, double load, Waves<float>& waves,
+                 SiteField<float>& goal) const;
 
     /// The field of some waves, which are lost. Collective.
     template <class T>
@@ -101,12 +108,13 @@ public:
     /// u <- u + t d, given both as waves and at the sites.
     template <class T>
     void displace(double t, const Waves<T>& d, const SiteField<T>& at_sites);
-    /// Takes out of a displacement, given both ways, what would change a mean height that is held.
-    /// Collective.
-    void keep_mean_height(Waves<float>& d, SiteField<float>& at_sites) const;
-    /// Makes the waves those of the sites: after a state from outside, or after many displacements,
-    /// which in single precision leave 1e-7 of what has been moved between them. A mean height that
-    /// is held is then what it should be. Collective.
+    /// Component c of those that move, at the sites, to be moved from outside (settle() as above).
+    PlaneView<double> moving_layer(int c) { return moving(layer_.plane(0), c); }
+    /// Puts the sites, moved from outside, back to a mean height that is held. Collective.
+    void keep_mean_height();
+    /// Makes the waves those of the sites: after these were moved from outside, or after many
+    /// displacements, which in single precision leave 1e-7 of what has been moved between them. A
+    /// mean height that is held is then what it should be. Collective.
     void settle();
 
     /// S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2. Frictionless: its one number, as zz.
@@ -150,6 +158,9 @@ private:
 class Preconditioner {
 public:
     Preconditioner(const SpectralBlock& block, double k);
+    /// With another k.
+    void tune(const SpectralBlock& block, double k);
+    double k() const { return k_; }
     /// to <- (S + k)^-1 from, row y of the slab; the two may be the same.
     template <class From, class To>
     void apply_row(int y, const Waves<From>& from, Waves<To>& to) const;
@@ -158,6 +169,7 @@ private:
     int sites_, first_;
     std::size_t columns_, entries_;
     std::vector<float> table_;
+    double k_ = 0.0;
 };
 
 } // namespace asperity

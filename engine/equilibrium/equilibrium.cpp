@@ -106,7 +106,7 @@ public:
     void settle() override { block_.settle(); }
     RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
                        Phases& phases) override {
-        options.max_move = 0.2;
+        options.max_move = 0.3;
         RelaxedState state = asperity::relax(block_, interface, reference_height, options, phases);
         const bool held = block_.top_is_held() || block_.mean_height_is_held();
         if (held || options.load == 0.0) return state;
@@ -156,7 +156,7 @@ double height_of_strongest_attraction(Equilibrium& block, const Interface& inter
     constexpr double stride = 0.1;
     for (double height = best_height;; height -= stride) {
         const InterfaceSums sums =
-            interface.sweep(block.lowest_layer(), block.interface_force(), height, false);
+            interface.sweep(block.lowest_layer(), block.interface_force(), height, false, true);
         const double force = global_sum(ranks, sums.force_z);
         if (force < strongest) strongest = force, best_height = height;
         if (force > 0.0 || height < lowest_atom) return best_height;

@@ -20,7 +20,7 @@ bool Newton::direction(const Interface& interface, double reference_height, doub
     const double enough = forcing * forcing * rz;
     for (int i = 0; i < most_products && rz > enough; ++i) {
         const double curvature = multiply();
-        if (!(curvature > 0.0)) return i > 0;
+        if (!(curvature > 0.0)) return false;
         const double next = advance(rz / curvature, d);
         combine(1.0, z_, next / rz, p_);
         rz = next;
@@ -57,6 +57,11 @@ double Newton::advance(double a, Waves<float>& d) {
             *sums.row(y) += row_dot(r_.row(c, y), z_.row(c, y), r_.slab().sites);
     }
     return sums.total()[0];
+}
+
+double Newton::mean_stiffness(const Interface& interface, double reference_height) {
+    return stiffness_.mean(interface, block_.lowest_layer(), block_.interface_force(),
+                           reference_height, block_.communicator());
 }
 
 std::size_t Newton::bytes() const {

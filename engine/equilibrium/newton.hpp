@@ -16,11 +16,12 @@ public:
     Newton(const SpectralBlock& block, const Preconditioner& preconditioner);
 
     /// The direction where the block stands, its interface_force() and gradient being up to date,
-    /// to a residual of `forcing` times the gradient (both measured by the preconditioner), or as
-    /// far as the energy does not curve down on the way to it. False, and no direction, where it
-    /// does so at once. Collective.
+    /// to a residual of `forcing` times the gradient, both measured by the preconditioner. False,
+    /// and no direction, where the energy curves down on the way to it. Collective.
     bool direction(const Interface& interface, double reference_height, double forcing,
                    const Waves<double>& g, Waves<float>& d);
+    /// How stiffly the interface holds a site where the block stands, on average. Collective.
+    double mean_stiffness(const Interface& interface, double reference_height);
     std::size_t bytes() const;
 
 private:

@@ -3,47 +3,32 @@
 #include "engine/equilibrium/spectral_relaxation.hpp"
 
 #include "decomposition/global_sum.hpp"
-#include "engine/equilibrium/curvature_memory.hpp"
+#include "engine/equilibrium/heavy_ball.hpp"
 #include "engine/equilibrium/newton.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace asperity {
 
 namespace {
-
-constexpr std::size_t remembered_pairs = 6;
-
-/// Rows of a field's components.
-std::array<float*, 3> lines(SiteField<float>& field, int y) {
-    std::array<float*, 3> rows{};
-    for (std::size_t c = 0; c < field.size(); ++c)
-        rows[c] = field[c].plane(0).line(y);
-    return rows;
-}
 
 /// Length of the longest vector of a field. Collective.
 double largest(const Communicator& ranks, SiteField<float>& field) {
     const PlaneView<const float> f = field[0].plane(0);
     double longest = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : longest)
-    for (int y = 0; y < f.ny; ++y)
-        longest =
-            std::max(longest, static_cast<double>(longest_squared(
-                                  lines(field, y).data(), static_cast<int>(field.size()), f.nx)));
+    for (int y = 0; y < f.ny; ++y) {
+        std::array<float*, 3> rows{};
+        for (std::size_t c = 0; c < field.size(); ++c)
+            rows[c] = field[c].plane(0).line(y);
+        longest = std::max(longest, static_cast<double>(longest_squared(
+                                        rows.data(), static_cast<int>(field.size()), f.nx)));
+    }
     ranks.max(std::span(&longest, 1));
     return std::sqrt(longest);
-}
-
-/// Shortens what is longer than bound at each site.
-void clip(double bound, SiteField<float>& field) {
-    const PlaneView<const float> f = field[0].plane(0);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < f.ny; ++y)
-        clip_row(static_cast<float>(bound), lines(field, y).data(), static_cast<int>(field.size()),
-                 f.nx);
 }
 
 /// The descent: where it is, what is left, and how it goes on.
@@ -52,145 +37,123 @@ public:
     Descent(SpectralBlock& block, const Interface& interface, double reference_height,
             const RelaxOptions& options, Phases& phases)
         : block_(block), interface_(interface), height_(reference_height), options_(options),
-          phases_(phases), ranks_(block.communicator()),
-          // Half of what a bonded site has, for not all are.
-          preconditioner_(block, 0.5 * options.site_stiffness), g_(block.new_waves<double>()),
+          phases_(phases), preconditioner_(block, options.site_stiffness), ball_(block),
+          newton_(block, preconditioner_), g_(block.new_waves<double>()),
           d_(block.new_waves<float>()), work_(block.new_waves<float>()),
-          at_sites_(block.new_field<float>()), memory_(block, preconditioner_, remembered_pairs),
-          newton_(block, preconditioner_) {
-        evaluate(false);
-        note(memory_.look(g_));
+          at_sites_(block.new_field<float>()) {
+        feel();
+        tune();
+        falling_ = !(rms_ < close_by);
+        way_ = rms_ / preconditioner_.k();
     }
 
-    /// The mean residual, or, where that is below the tolerance, the largest of a site.
-    double residual() {
-        if (!(rms_ <= options_.tolerance)) return rms_;
-        return largest_residual();
+    /// Forces where the sites are now, and what they leave.
+    void feel() {
+        sweep(false);
+        if (!falling_) measure();
     }
-    /// The residual of waves that agree with the sites to the last digit; energies in sums().
+    /// The mean residual, or, where that is below the tolerance, the largest of a site, eV/Å. Of a
+    /// fall it is only known how far its sites want to go.
+    double residual() {
+        if (falling_) return options_.site_stiffness * way_;
+        return rms_ <= options_.tolerance ? largest_residual() : rms_;
+    }
+    /// The residual of the state as it is reported; energies in sums().
     double conclude() {
         rough_ = false;
         block_.settle();
-        evaluate(true);
-        note(memory_.look(g_));
+        sweep(true);
+        measure();
         return largest_residual();
     }
     const InterfaceSums& sums() const { return sums_; }
 
-    /// One step downhill. False if there is no way down.
-    bool step(long long iteration) {
-        if (iteration % 16 == 15) block_.settle(); // before single precision shows
-        const bool newton = iteration >= newton_from_ && newton_direction(iteration);
-        if (!newton) remembered_direction();
-        clip(options_.max_move, at_sites_);
-        const double slope = take_direction();
-        if (!(slope < 0.0)) return turn_back(newton, iteration);
-
-        double step = 1.0, there = move(step, slope);
-        // Where the force along the step has turned round, back to where it vanishes.
-        constexpr int most_cuts = 8;
-        for (int cut = 0; cut < most_cuts && !(there <= 0.5 * std::abs(slope)); ++cut) {
-            const double ratio = std::isfinite(there) ? slope / (slope - there) : 0.1;
-            const double shorter = step * std::clamp(ratio, 0.1, 0.7);
-            there = move(shorter - step, there);
-            step = shorter;
-        }
-        return true;
+    /// One step downhill.
+    void step() {
+        if (!falling_ && newton_step()) return;
+        fall();
     }
 
 private:
-    void evaluate(bool observe) {
-        {
-            const auto t = phases_.time(Phase::interface);
-            sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_,
-                                     observe, rough_ && !observe);
-        }
-        const auto t = phases_.time(Phase::advance);
+    void sweep(bool observe) {
+        const auto t = phases_.time(Phase::interface);
+        const bool rough = falling_ || rough_;
+        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, observe,
+                                 rough && !observe);
+    }
+    void measure() {
+        const auto t = phases_.time(Phase::sums);
         block_.gradient(options_.load, g_);
-    }
-    /// By t along the direction, whose slope is given. Returns the slope there.
-    double move(double t, double slope) {
-        block_.displace(t, d_, at_sites_);
-        evaluate(false);
-        const auto timed = phases_.time(Phase::sums);
-        note(memory_.learn(g_, t, d_, slope));
-        return memory_.slope();
-    }
-    void note(double gradient2) {
-        rms_ = std::sqrt(gradient2) / block_.options().sites;
-        strongest_ = std::max(strongest_, rms_);
+        rms_ = std::sqrt(dot(g_, g_)) / block_.options().sites;
         rough_ = rough_ && rms_ > rough_enough;
     }
     double largest_residual() {
         const auto t = phases_.time(Phase::sums);
         combine(1.0, g_, 0.0, work_);
         block_.at_sites(work_, at_sites_);
-        return largest(ranks_, at_sites_);
+        return largest(block_.communicator(), at_sites_);
+    }
+    void tune() {
+        const auto t = phases_.time(Phase::interface);
+        const double k =
+            std::max(least_stiffness, 0.35 * newton_.mean_stiffness(interface_, height_));
+        if (std::abs(k - preconditioner_.k()) > 0.2 * preconditioner_.k())
+            preconditioner_.tune(block_, k);
     }
 
-    void remembered_direction() {
-        const auto t = phases_.time(Phase::sums);
-        memory_.direction(work_);
-        block_.at_sites(work_, at_sites_);
+    void fall() {
+        if (!falling_) fallen_ = 0;
+        falling_ = true;
+        if (fallen_++ % 8 == 7) tune();
+        {
+            const auto t = phases_.time(Phase::advance);
+            way_ = ball_.move(preconditioner_, options_.load, options_.max_move);
+        }
+        if (way_ > near || fallen_ < patience) return;
+        falling_ = false;
+        before_ = std::numeric_limits<double>::infinity();
+        ball_.stop();
+        block_.settle();
     }
-    /// Newton's direction, if it is of use: the forces are no longer those of a fall, and no site
-    /// is sent far away (where it is, the state is still moving, and Newton must wait).
-    bool newton_direction(long long iteration) {
-        const double near = iteration > 0 ? std::max(0.1 * strongest_, 20.0 * options_.tolerance)
-                                          : 1e-2; // eV/Å: a point close to an equilibrium
-        if (rms_ > near) return false;
+    /// False, and no step, if Newton is of no use here: his last step has not halved the residual,
+    /// the energy curves down, or a site is sent further than max_move.
+    bool newton_step() {
         const auto t = phases_.time(Phase::relax);
-        // While steps are cut to max_move, half of the gradient is enough; at the end a tenth is
-        // left of it.
-        const double forcing = rms_ > 1e-3 ? 0.5 : 0.1;
-        if (newton_.direction(interface_, height_, forcing, g_, work_)) {
-            block_.at_sites(work_, at_sites_);
-            if (largest(ranks_, at_sites_) <= far) return true;
-        }
-        newton_from_ = iteration + patience;
-        return false;
-    }
-    /// The direction at the sites, as waves. Returns its slope.
-    double take_direction() {
-        const auto t = phases_.time(Phase::sums);
-        block_.to_waves(at_sites_, d_);
-        const double sites = block_.options().sites;
-        combine(0.0, d_, 1.0 / (sites * sites), d_);
-        block_.keep_mean_height(d_, at_sites_);
-        return dot(g_, d_);
-    }
-    /// The direction, clipped, does not go down: what it was made of is forgotten.
-    bool turn_back(bool newton, long long iteration) {
-        if (newton) {
-            newton_from_ = iteration + patience;
-            return true;
-        }
-        if (memory_.empty()) return false;
-        memory_.forget();
+        if (!(rms_ < 0.5 * before_)) return false;
+        before_ = rms_;
+        if (!newton_.direction(interface_, height_, forcing, g_, d_)) return false;
+        combine(1.0, d_, 0.0, work_);
+        block_.at_sites(work_, at_sites_);
+        if (!(largest(block_.communicator(), at_sites_) <= options_.max_move)) return false;
+        block_.displace(1.0, d_, at_sites_);
         return true;
     }
 
+    static constexpr double close_by = 3e-3;  ///< eV/Å: of an equilibrium, to try Newton at once
+    static constexpr double near = 0.002;     ///< Å: of its goal, to try him after a fall
+    static constexpr long long patience = 10; ///< iterations of a fall before that
+    static constexpr double forcing = 0.1;
+    static constexpr double least_stiffness = 0.02; ///< eV/Å^2: where hardly a site is held yet
     /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
     static constexpr double rough_enough = 1e-5;
-    static constexpr double far = 2.0; ///< Å: of Newton's direction, before it is cut to max_move
-    static constexpr long long patience = 10; ///< iterations before Newton is tried again
 
     SpectralBlock& block_;
     const Interface& interface_;
     double height_;
     const RelaxOptions& options_;
     Phases& phases_;
-    const Communicator& ranks_;
     Preconditioner preconditioner_;
+    HeavyBall ball_;
+    Newton newton_;
     Waves<double> g_;
     Waves<float> d_, work_;
-    SiteField<float> at_sites_; ///< the direction, or the residual
-    CurvatureMemory memory_;
-    Newton newton_;
+    SiteField<float> at_sites_; ///< Newton's direction, or the residual
     InterfaceSums sums_;
-    double rms_ = 0.0;       ///< mean residual, eV/Å
-    double strongest_ = 0.0; ///< the greatest of them so far
-    long long newton_from_ = 0;
+    bool falling_ = false;
+    long long fallen_ = 0;                                    ///< iterations of this fall
+    double way_ = 0.0;                                        ///< the longest to a goal, Å
+    double rms_ = 0.0;                                        ///< mean residual, eV/Å
+    double before_ = std::numeric_limits<double>::infinity(); ///< Newton's last step
     bool rough_ = true;
 };
 
@@ -200,10 +163,19 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
                    const RelaxOptions& options, Phases& phases) {
     Descent descent(block, interface, reference_height, options, phases);
     RelaxedState state;
-    for (bool stuck = false;; ++state.iterations) {
+    // What has not halved in so many iterations will not any more.
+    constexpr long long long_enough = 3000;
+    double smallest = std::numeric_limits<double>::infinity();
+    long long found_at = 0;
+    for (;; ++state.iterations) {
         state.residual = descent.residual();
-        const bool over =
-            stuck || !std::isfinite(state.residual) || state.iterations >= options.max_iterations;
+        if (state.residual < 0.5 * smallest) {
+            smallest = state.residual;
+            found_at = state.iterations;
+        }
+        const bool over = !std::isfinite(state.residual) ||
+                          state.iterations >= options.max_iterations ||
+                          state.iterations > found_at + long_enough;
         state.interrupted = options.report && state.iterations % 10 == 0 &&
                             options.report(state.iterations, state.residual);
         if (over || state.interrupted || state.residual <= options.tolerance) {
@@ -211,7 +183,8 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
             state.converged = state.residual <= options.tolerance;
             if (over || state.interrupted || state.converged) break;
         }
-        stuck = !descent.step(state.iterations);
+        descent.step();
+        descent.feel();
     }
     const InterfaceSums& sums = descent.sums();
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
@@ -229,12 +202,13 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
 
 std::size_t spectral_relaxation_bytes(const SpectralBlock& block) {
     // Vectors of the sites: in double, the gradient, a displaced layer with its force; in single,
-    // direction, pairs (two in one) with what makes them, Newton's four and its map, and its sites.
+    // the ball's goals, momenta, waves and gain, Newton's four and its map, its direction twice,
+    // and three fields of sites.
     const std::size_t sites = block.tile().nx * static_cast<std::size_t>(block.tile().ny);
     const auto c = static_cast<std::size_t>(block.components());
     const std::size_t map = c == 1 ? 1 : 6;
     return sites * (sizeof(double) * (c + (c == 1 ? 3 : 6)) +
-                    sizeof(float) * (c * (3 + remembered_pairs + 2 + 5) + map));
+                    sizeof(float) * (3 * c + 1 + 4 * c + map + 4 * c));
 }
 
 } // namespace asperity

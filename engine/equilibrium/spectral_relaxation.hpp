@@ -1,29 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The relaxed state of a spectral block, in two movements on the waves of its lowest layer.
+// The relaxed state of a spectral block, in two movements.
 //
 // First the surfaces come together: sites snap in one after the other, contact spreads, and the
-// energy is anything but a bowl. Here the direction is that of limited-memory BFGS (Nocedal, Math.
-// Comp. 35, 773, 1980) preconditioned with (S(q) + k)^-1, k about the interface's stiffness of a
-// site: with it long and short waves relax alike. Each site is moved by max_move at most, whatever
-// the others do. An iteration costs one sweep of the interface and nine real transforms.
+// energy is anything but a bowl. However well a step is chosen, it is good for some tenths of an
+// angstrom only, the reach of an attraction; so steps are to be cheap. Every site is a heavy ball
+// of its own (heavy_ball.hpp): one sweep of the interface, two transforms a component, no energy,
+// no search along a line. The stiffness k of the preconditioner follows the interface's mean, so
+// that a block that is held by a few summits comes down as fast as one in full contact settles.
 //
-// Once the forces have fallen to a tenth of their largest, the contacts are made but for the
-// deepest valleys, and what is left is a smooth problem with soft spots. Here the direction is
-// Newton's. The substrate is rigid, so the interface's Hessian is a map of 3 x 3 matrices, had by
-// three sweeps (interface_stiffness.hpp), and the elastic one is S: (S + H) d = -g is solved by
-// conjugate gradients with the same preconditioner, without sweeps and in single precision, loosely
-// while sites still fall, and cut to max_move as well. Where the energy curves down at once, or
-// Newton would send a site far away, the first movement goes on.
+// Once no site has far to go, what is left is a smooth problem with soft spots, and the direction
+// is Newton's. The substrate is rigid, so the interface's Hessian is a map of 3 x 3 matrices, had
+// by three sweeps (interface_stiffness.hpp), and the elastic one is S: (S + H) d = -g is solved by
+// conjugate gradients with the same preconditioner, without sweeps and in single precision, and g
+// is in double. Where the energy curves down, where Newton would send a site further than max_move,
+// or where his last step has not halved the residual, the sites fall on.
 //
-// Sweeps are in mixed precision (where the interface is made for it) until the forces are near
-// their error; the last ones, and the state that is reported, are in the interface's own.
+// Sweeps of the fall are in mixed precision (where the interface is made for it), and so are
+// Newton's until the forces are near their error; the last ones, and the state that is reported,
+// are in the interface's own.
 //
-// The minimum that is found is the one downhill: steps go down, no site moves further than max_move
-// in an iteration, and where the force along a step has turned round, the step is cut back to where
-// it vanishes. A state whose forces cannot be brought below the tolerance is reported as not
-// converged.
+// The minimum that is found is the one downhill: no site moves further than max_move in an
+// iteration, and one that has passed its goal stops. A state whose forces cannot be brought below
+// the tolerance is reported as not converged.
 #pragma once
 
 #include "engine/block/spectral_block.hpp"
@@ -32,7 +32,7 @@
 namespace asperity {
 
 /// Relaxes the block in place, its top plane as it is (held or free; the load acts on a free one).
-/// options.max_move may be larger than FIRE's: 0.2 Å, well below the range of the potential, is
+/// options.max_move may be larger than FIRE's: 0.3 Å, well below the range of the potential, is
 /// usual.
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const RelaxOptions& options, Phases& phases);

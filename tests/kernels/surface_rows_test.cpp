@@ -102,55 +102,72 @@ TEST(SurfaceRows, InnerProductsCountInnerColumnsTwice) {
     }
 }
 
-TEST(SurfaceRows, ShortNumbersAreTheNearest) {
-    const int n = 1000;
-    std::mt19937_64 random(8);
-    const auto x = numbers<float>(n, random), y = numbers<float>(n, random);
-    std::vector<ShortFloat> s(static_cast<std::size_t>(n));
-    shorten_row(3.0, x.data(), -1.0, y.data(), s.data(), n);
-    const float one = 1.0f;
-    const ShortFloat* const row[1] = {s.data()};
-    std::vector<float> back(static_cast<std::size_t>(n)), zero(back);
-    weigh_rows(1.0, zero.data(), row, &one, 1, back.data(), n);
-    for (std::size_t i = 0; i < back.size(); ++i) {
-        const double exact = 3.0 * static_cast<double>(x[i]) - static_cast<double>(y[i]);
-        EXPECT_NEAR(back[i], exact, std::abs(exact) / 256.0);
-    }
-}
-
-TEST(SurfaceRows, WeighedRowsAddUp) {
-    // Longer than a piece, and with a rest; six rows, of which four go together.
-    const int n = 2100;
-    std::mt19937_64 random(9);
-    const auto first = numbers<float>(n, random), x = numbers<float>(n, random);
-    std::vector<ShortFloat> a(static_cast<std::size_t>(n)), b(a);
-    shorten_row(1.0, x.data(), 0.0, x.data(), a.data(), n);
-    shorten_row(2.0, x.data(), 0.0, x.data(), b.data(), n); // exactly twice as much
-    const ShortFloat* const rows[6] = {a.data(), b.data(), a.data(), b.data(), a.data(), b.data()};
-    const float weight[6] = {1.0f, -2.0f, 4.0f, 1.0f, -5.0f, 1.0f}; // 4 of a is 2 of b
-    std::vector<float> sum(static_cast<std::size_t>(n));
-    weigh_rows(-1.0, first.data(), rows, weight, 6, sum.data(), n);
-    for (std::size_t i = 0; i < sum.size(); ++i)
-        ASSERT_NEAR(sum[i], -first[i], 1e-6) << i;
-}
-
-TEST(SurfaceRows, VectorsAreClippedToTheBoundAndKeepTheirDirection) {
+TEST(SurfaceRows, TiesAreSpringsAndForces) {
     const int n = 37;
+    std::mt19937_64 random(8);
+    const auto u = numbers<double>(n, random), f = numbers<double>(n, random);
+    std::vector<float> to(static_cast<std::size_t>(n));
+    tie_row(0.7, 0.25, u.data(), f.data(), to.data(), n);
+    for (std::size_t i = 0; i < to.size(); ++i)
+        EXPECT_NEAR(to[i], 0.25 * (0.7 * u[i] + f[i]), 1e-7);
+}
+
+/// Sites that know their goals, moved by the kernel, against one site written out.
+TEST(SurfaceRows, EverySiteKeepsItsOwnMomentumAndGain) {
+    const BallRule rule{.keep = 0.7f, .cut = 0.5f, .raise = 1.25f, .most = 2.0f, .bound = 0.5f};
+    const int n = 67; // with a rest
     std::mt19937_64 random(10);
     for (int components : {1, 3}) {
-        std::vector<float> v[3], before[3];
-        for (int c = 0; c < 3; ++c)
-            before[c] = v[c] = numbers<float>(n, random);
-        float* const rows[3] = {v[0].data(), v[1].data(), v[2].data()};
-        clip_row(0.5f, rows, components, n);
-        EXPECT_NEAR(longest_squared(rows, components, n), 0.25, 1e-6);
-        for (std::size_t i = 0; i < v[0].size(); ++i) {
-            double length2 = 0.0;
-            for (int c = 0; c < components; ++c)
-                length2 += std::pow(before[c][i], 2);
-            const double kept = std::min(1.0, 0.5 / std::sqrt(length2));
-            for (int c = 0; c < components; ++c)
-                EXPECT_NEAR(v[c][i], kept * before[c][i], 1e-6);
+        std::vector<float> goal[3], momentum[3], gain(n);
+        std::vector<double> u[3];
+        BallRow row{};
+        for (int c = 0; c < components; ++c) {
+            goal[c] = numbers<float>(n, random);
+            momentum[c] = numbers<float>(n, random);
+            u[c] = numbers<double>(n, random);
+            row.goal[c] = goal[c].data();
+            row.momentum[c] = momentum[c].data();
+            row.u[c] = u[c].data();
         }
+        std::uniform_real_distribution<float> any(0.1f, 2.0f);
+        for (float& g : gain)
+            g = any(random);
+        row.gain = gain.data();
+        const auto m_before = std::to_array({momentum[0], momentum[1], momentum[2]});
+        const auto u_before = std::to_array({u[0], u[1], u[2]});
+        const auto gain_before = gain;
+        const float longest = move_row(row, rule, components, n);
+
+        double longest_way2 = 0.0;
+        int backwards = 0, capped = 0, clipped = 0;
+        for (std::size_t i = 0; i < gain.size(); ++i) {
+            double along = 0.0, way2 = 0.0, move2 = 0.0, move[3] = {};
+            for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) {
+                const double way = goal[c][i] - u_before[c][i];
+                along += way * m_before[c][i];
+                way2 += way * way;
+            }
+            const bool back = along < 0.0;
+            const double g = back ? 0.5 * gain_before[i] : std::min(1.25 * gain_before[i], 2.0);
+            backwards += back;
+            capped += !back && 1.25 * gain_before[i] > 2.0;
+            EXPECT_NEAR(gain[i], g, 1e-6);
+            for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) {
+                move[c] = g * (goal[c][i] - u_before[c][i]) + (back ? 0.0 : 0.7 * m_before[c][i]);
+                move2 += move[c] * move[c];
+            }
+            const double kept = std::min(1.0, 0.5 / std::sqrt(move2));
+            clipped += kept < 1.0;
+            for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) {
+                EXPECT_NEAR(momentum[c][i], kept * move[c], 1e-6);
+                EXPECT_NEAR(u[c][i] - u_before[c][i], kept * move[c], 1e-6);
+            }
+            longest_way2 = std::max(longest_way2, way2);
+        }
+        EXPECT_NEAR(longest, longest_way2, 1e-5);
+        EXPECT_GT(backwards, 0);
+        EXPECT_GT(capped, 0);
+        EXPECT_GT(clipped, 0);
+        EXPECT_LT(clipped, n);
     }
 }

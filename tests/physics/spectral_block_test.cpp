@@ -145,6 +145,53 @@ TEST(SpectralBlock, PreconditionerIsAnInverse) {
         }
 }
 
+TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
+    // goal - u = -(S + k)^-1 g, whatever is held, the gradient in double on its own way.
+    constexpr double load = 3.0, k = 0.4;
+    enum class Held { nothing, top, mean_height };
+    for (bool frictionless : {false, true})
+        for (Held held : {Held::nothing, Held::top, Held::mean_height}) {
+            SpectralBlock block(test::paper_block(15, 9, 0), Communicator(), frictionless);
+            std::mt19937_64 random(12);
+            const auto displacement = test::random_displacement(block, random, 0.3);
+            block.displace(1.0, displacement.waves, displacement.sites);
+            if (held == Held::top) block.hold_top(0.25);
+            if (held == Held::mean_height) block.hold_mean_height(-0.1);
+            block.settle();
+            std::normal_distribution<double> normal(0.0, 0.1);
+            const VectorPlane<double> force = block.interface_force();
+            for (const PlaneView<double>& f : {force.x, force.y, force.z})
+                for (int y = 0; y < f.ny; ++y)
+                    for (int x = 0; x < f.nx; ++x)
+                        f(x, y) = normal(random);
+            const double weight = held == Held::nothing ? load : 0.0;
+            const Preconditioner preconditioner(block, k);
+            auto waves = block.new_waves<float>();
+            auto goal = block.new_field<float>();
+            block.respond(preconditioner, weight, waves, goal);
+
+            auto g = block.new_waves<double>();
+            auto response = block.new_waves<double>();
+            block.gradient(weight, g);
+            for (int y = 0; y < g.rows(); ++y)
+                preconditioner.apply_row(y, g, response);
+            auto expected = block.new_field<double>();
+            block.at_sites(response, expected);
+            double largest = 0.0;
+            for (int c = 0; c < block.components(); ++c) {
+                const auto u = block.moving_layer(c);
+                const auto e = expected[static_cast<std::size_t>(c)].plane(0);
+                const auto to = goal[static_cast<std::size_t>(c)].plane(0);
+                for (int y = 0; y < u.ny; ++y)
+                    for (int x = 0; x < u.nx; ++x) {
+                        EXPECT_NEAR(to(x, y) - u(x, y), -e(x, y), 2e-6);
+                        largest = std::max(largest, std::abs(e(x, y)));
+                    }
+            }
+            EXPECT_GT(largest, 0.1);
+        }
+}
+
 TEST(SpectralBlock, WithoutFrictionAWaveIsTheHalfSpace) {
     // Normal forces alone: E* q/2 for long waves on a thick block, and what the whole matrix says
     // of a displacement whose lateral components are free.

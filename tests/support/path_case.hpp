@@ -73,10 +73,9 @@ struct OneDimension {
     /// 1e-3 Å of z. A point may stand in the jump, some pairs in reach and some not.
     double jump(double z) const {
         constexpr double h = 1e-3;
-        const double across = std::abs(force(z + h) - force(z - h));
-        const double beside =
-            std::abs(force(z + 2 * h) - force(z + h)) + std::abs(force(z - h) - force(z - 2 * h));
-        return across > 10.0 * beside ? across : 0.0;
+        const double across = force(z + h) - force(z - h);
+        const double beside = force(z + 2 * h) - force(z + h) + force(z - h) - force(z - 2 * h);
+        return std::abs(across - beside); // of a smooth force third differences, h^3
     }
     /// Displacement of the top plane at which z is an equilibrium.
     double top(double z) const { return z - c.interface.start_height() - force(z) / c.spring(); }

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/heavy_ball.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity {
+
+HeavyBall::HeavyBall(SpectralBlock& block)
+    : block_(block), waves_(block.new_waves<float>()), goal_(block.new_field<float>()),
+      momentum_(block.new_field<float>()), gain_(block.tile(), 1, 0) {
+    const PlaneView<float> gain = gain_.plane(0);
+    for (int y = 0; y < gain.ny; ++y)
+        std::fill(gain.line(y), gain.line(y) + gain.nx, 1.0f);
+}
+
+double HeavyBall::move(const Preconditioner& preconditioner, double load, double bound) {
+    block_.respond(preconditioner, load, waves_, goal_);
+    const BallRule rule{.keep = 0.7f,
+                        .cut = 0.7f,
+                        .raise = 1.06f,
+                        .most = 2.0f,
+                        .bound = static_cast<float>(bound)};
+    const int components = block_.components();
+    const PlaneView<float> gain = gain_.plane(0);
+    double longest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : longest)
+    for (int y = 0; y < gain.ny; ++y) {
+        BallRow row{};
+        for (int c = 0; c < components; ++c) {
+            row.goal[c] = goal_[static_cast<std::size_t>(c)].plane(0).line(y);
+            row.momentum[c] = momentum_[static_cast<std::size_t>(c)].plane(0).line(y);
+            row.u[c] = block_.moving_layer(c).line(y);
+        }
+        row.gain = gain.line(y);
+        longest = std::max(longest, static_cast<double>(move_row(row, rule, components, gain.nx)));
+    }
+    block_.keep_mean_height();
+    block_.communicator().max(std::span(&longest, 1));
+    return std::sqrt(longest);
+}
+
+void HeavyBall::stop() { momentum_ = block_.new_field<float>(); }
+
+std::size_t HeavyBall::bytes() const {
+    return waves_.bytes() + 2 * goal_.size() * goal_[0].bytes() + gain_.bytes();
+}
+
+} // namespace asperity
