@@ -8,7 +8,10 @@
 #include "decomposition/communicator.hpp"
 #include "kernels/exact_sum.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <vector>
 
 namespace asperity {
 
@@ -27,6 +30,23 @@ std::array<double, n> global_sums(const Communicator& ranks, const std::array<Ex
         for (std::size_t k = 0; k < bins; ++k)
             sum.bin[k] = all[bins * i + k];
         values[i] = sum.value();
+    }
+    return values;
+}
+
+/// The same for a number of sums known only when run.
+inline std::vector<double> global_sums(const Communicator& ranks,
+                                       const std::vector<ExactSum>& mine) {
+    constexpr std::size_t bins = ExactSum::bins;
+    std::vector<double> all;
+    for (const ExactSum& sum : mine)
+        all.insert(all.end(), sum.bin, sum.bin + bins);
+    ranks.sum(all);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+        ExactSum sum;
+        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(bins * i), bins, sum.bin);
+        values.push_back(sum.value());
     }
     return values;
 }

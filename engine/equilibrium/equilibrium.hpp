@@ -4,9 +4,10 @@
 // A block at rest over its substrate, whichever of its realisations it is: what a search for the
 // relaxed state, and a path of such states, need of it.
 //
-// The levels of a lattice or multiscale block relax by FIRE (relaxation.hpp), the waves of a
-// spectral one by L-BFGS and Newton (spectral_relaxation.hpp). Both end in the state downhill of
-// where they start; the start is the same.
+// The levels of a lattice or multiscale block relax with momentum over coarse grids
+// (relaxation.hpp), the waves of a spectral one as heavy balls, ended by Newton
+// (spectral_relaxation.hpp). Both end in the state downhill of where they start; the start is the
+// same.
 #pragma once
 
 #include "engine/block/block.hpp"

@@ -3,6 +3,7 @@
 #include "engine/equilibrium/relaxation.hpp"
 
 #include "decomposition/global_sum.hpp"
+#include "engine/equilibrium/coarse_grids.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,19 +14,40 @@ namespace asperity {
 
 namespace {
 
-/// The minimiser's view of the block: positions, fictitious masses, forces, and the top plane.
+// Of the last move kept: grows while that leads downhill, starts again where it does not.
+constexpr double least_momentum = 0.8, most_momentum = 0.95, lost = 0.98;
+constexpr double least_stiffness = 0.02; // of the interface under the whole block, eV/Å^2 a site
+constexpr double remembered = 0.9;       // of a site's stiffness, from one iteration to the next
+constexpr double probe = 1e-3;           // to measure it at first, Å
+constexpr double telling = 1e-5; // shorter moves, Å, tell nothing of it for the steps at the cutoff
+
+std::array<double*, 3> rows(const VectorPlane<double>& plane, int y) {
+    return {plane.x.line(y), plane.y.line(y), plane.z.line(y)};
+}
+
+/// The block on its way down: forces, moves, and what is known of the interface's stiffness.
 class Descent {
+    using Means = std::array<double, 3>; ///< of a plane, along x, y, z
+
 public:
     Descent(Block& block, Interface& interface, double reference_height,
             const RelaxOptions& options, Phases& phases)
         : block_(block), interface_(interface), height_(reference_height), options_(options),
-          phases_(phases) {
-        for (const auto& level : block.levels())
-            force_.emplace_back(level.tile, level.plan.cells);
-        const auto& last = block.levels().back();
-        top_mass_ = 0.5 * mass(last) * static_cast<double>(last.plan.sites) * last.plan.sites;
-        for (auto& level : block.levels())
+          phases_(phases), grids_(block) {
+        std::size_t planes = 0;
+        for (Block::Level& level : block.levels()) {
+            first_plane_.push_back(planes);
+            planes += static_cast<std::size_t>(level.plan.cells);
+            nodes_.emplace_back(level.tile, level.plan.cells);
             level.v = VectorField<double>(level.tile, level.plan.cells);
+        }
+        last_force_ = VectorField<double>(block.levels().front().tile, 1);
+        const BlockOptions& o = block.options();
+        sites_ = static_cast<double>(o.sites) * o.sites;
+        sweep(reference_height - probe, false);
+        follow_stiffness([](int, int) { return std::array{0.0, 0.0, 0.0}; });
+        sweep(reference_height, false);
+        follow_stiffness([](int, int) { return std::array{0.0, 0.0, probe}; });
     }
 
     /// Forces at the present positions; the largest on a node. What is left in all of the block
@@ -36,147 +58,232 @@ public:
             const auto t = phases_.time(Phase::interpolate);
             block_.interpolate();
         }
+        sweep(height_, observe);
         {
-            const auto t = phases_.time(Phase::interface);
-            sums_ =
-                interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, observe);
+            const auto t = phases_.time(Phase::advance);
+            block_.forces(nodes_);
+            if (options_.mean_height_held) keep_mean_height();
         }
-        const auto t = phases_.time(Phase::advance);
-        block_.forces(force_);
-        if (options_.mean_height_held) keep_mean_height();
-        ExactSum top;
-        block_.add_top_force(top);
-        const auto [above, below] =
-            global_sums(block_.communicator(), std::array{top, sums_.force_z});
+        const auto t = phases_.time(Phase::sums);
+        const auto moved = std::as_const(block_.levels().front().v).plane(0);
+        follow_stiffness([&](int x, int y) {
+            return std::array{moved.x(x, y), moved.y(x, y), moved.z(x, y)};
+        });
+        const auto [above, below, stiffness, power] =
+            global_sums(block_.communicator(),
+                        std::array{top_sum(), sums_.force_z, stiffness_sum(), power_sum()});
         elastic_top_force_ = above;
         top_force_ = options_.top_held ? 0.0 : above - options_.load;
+        mean_stiffness_ = std::max(0.0, stiffness / sites_);
+        momentum_ =
+            power < 0.0 ? least_momentum : std::min(most_momentum, 1.0 - lost * (1.0 - momentum_));
         const double whole = options_.top_held ? below - above : top_force_;
-
-        double largest = 0.0;
-        for (std::size_t l = 0; l < force_.size(); ++l) {
-            const auto f = std::as_const(force_[l]).view();
-            const auto& level = block_.levels()[l];
-#pragma omp parallel for schedule(static) reduction(max : largest)
-            for (int row = 0; row < level.plan.cells * level.tile.ny; ++row) {
-                const int z = row / level.tile.ny, y = row % level.tile.ny;
-                for (int x = 0; x < level.tile.nx; ++x) {
-                    const double f2 = f.x(x, y, z) * f.x(x, y, z) + f.y(x, y, z) * f.y(x, y, z) +
-                                      f.z(x, y, z) * f.z(x, y, z);
-                    largest = std::max(largest, f2);
-                }
-            }
-        }
-        const double sites = static_cast<double>(block_.options().sites);
-        std::array<double, 1> all = {
-            std::max(std::sqrt(largest), std::abs(whole) / (sites * sites))};
+        std::array<double, 1> all = {std::max(largest_force(), std::abs(whole) / sites_)};
         block_.communicator().max(all);
         return all[0];
     }
 
-    struct Products {
-        double power, speed2, force2; ///< F.v, sum m v^2, sum F^2/m
-    };
-    Products products() const {
-        const auto t = phases_.time(Phase::sums);
-        std::array<ExactSum, 3> sums;
-#pragma omp parallel
+    /// One iteration: steps from the forces, moves from the steps, positions from the moves. Forces
+    /// are lost.
+    void move() {
+        const std::vector<Means> mean = mean_steps();
         {
-            std::array<ExactSum, 3> mine;
-            each_row([&](double m, const double* const f[3], double* const v[3], double* const*,
-                         int nx, bool counted) {
-                if (!counted) return;
-                for (int x = 0; x < nx; ++x) {
-                    const double fv = f[0][x] * v[0][x] + f[1][x] * v[1][x] + f[2][x] * v[2][x];
-                    const double vv = v[0][x] * v[0][x] + v[1][x] * v[1][x] + v[2][x] * v[2][x];
-                    const double ff = f[0][x] * f[0][x] + f[1][x] * f[1][x] + f[2][x] * f[2][x];
-                    mine[0].add(fv);
-                    mine[1].add(m * vv);
-                    mine[2].add(ff / m);
-                }
-            });
-#pragma omp critical(asperity_relax_sums)
-            for (std::size_t i = 0; i < 3; ++i)
-                sums[i].merge(mine[i]);
+            const auto t = phases_.time(Phase::sums);
+            grids_.steps(nodes_);
         }
-        const auto [power, speed2, force2] = global_sums(block_.communicator(), sums);
-        return {power + top_force_ * top_speed_, speed2 + top_mass_ * top_speed_ * top_speed_,
-                force2 + top_force_ * top_force_ / top_mass_};
-    }
-
-    /// v <- keep v + gain F/m, then u <- u + dt v, halos refreshed.
-    void move(double keep, double gain, double dt) {
         {
             const auto t = phases_.time(Phase::advance);
 #pragma omp parallel
-            each_row([&](double m, const double* const f[3], double* const v[3], double* const u[3],
-                         int nx, bool) {
-                const double a = gain / m;
-                for (int c = 0; c < 3; ++c)
-                    for (int x = 0; x < nx; ++x) {
-                        v[c][x] = keep * v[c][x] + a * f[c][x];
-                        u[c][x] += dt * v[c][x];
-                    }
+            each_row([&](std::size_t l, int z, int y, int nx) {
+                const Means& m = mean[first_plane_[l] + static_cast<std::size_t>(z)];
+                const auto step = rows(nodes_[l].plane(z), y),
+                           v = rows(block_.levels()[l].v.plane(z), y);
+                for (std::size_t c = 0; c < 3; ++c)
+                    for (int x = 0; x < nx; ++x)
+                        v[c][x] = momentum_ * v[c][x] + step[c][x] + m[c];
+                cut(v, nx);
+                if (!options_.mean_height_held) displace(l, z, y, nx);
             });
         }
-        top_speed_ = keep * top_speed_ + gain * top_force_ / top_mass_;
-        block_.set_top(block_.top() + dt * top_speed_);
+        if (!options_.top_held)
+            top_move_ = std::clamp(momentum_ * top_move_ + mean.back()[2], -options_.max_move,
+                                   options_.max_move);
+        if (options_.mean_height_held) displace_at_mean_height();
+        block_.set_top(block_.top() + top_move_);
         const auto t = phases_.time(Phase::exchange);
         block_.exchange();
-    }
-
-    /// Largest change of position that v brings in dt.
-    double largest_speed() const {
-        double largest = 0.0;
-#pragma omp parallel reduction(max : largest)
-        each_row([&](double, const double* const*, double* const v[3], double* const*, int nx,
-                     bool) {
-            for (int x = 0; x < nx; ++x)
-                largest =
-                    std::max(largest, v[0][x] * v[0][x] + v[1][x] * v[1][x] + v[2][x] * v[2][x]);
-        });
-        std::array<double, 1> all = {std::max(std::sqrt(largest), std::abs(top_speed_))};
-        block_.communicator().max(all);
-        return all[0];
     }
 
     const InterfaceSums& interface_sums() const { return sums_; }
     double elastic_top_force() const { return elastic_top_force_; }
 
 private:
-    /// Takes the mean normal force off the lowest layer.
-    void keep_mean_height() {
-        const PlaneView<double> z = force_.front().plane(0).z;
+    void sweep(double height, bool observe) {
+        const auto t = phases_.time(Phase::interface);
+        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height, observe);
+    }
+
+    /// How stiff the interface is for each site along its last move (nothing new where it hardly
+    /// moved): a site's force depends on its own place alone.
+    template <class Moved>
+    void follow_stiffness(const Moved& moved) {
+        const auto now = block_.interface_force(), before = last_force_.plane(0);
+        const auto k = grids_.site_stiffness();
+#pragma omp parallel for schedule(static)
+        for (int y = 0; y < k.ny; ++y)
+            for (int x = 0; x < k.nx; ++x) {
+                const auto u = moved(x, y);
+                const double length2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+                const double work = (before.x(x, y) - now.x(x, y)) * u[0] +
+                                    (before.y(x, y) - now.y(x, y)) * u[1] +
+                                    (before.z(x, y) - now.z(x, y)) * u[2];
+                if (length2 > telling * telling)
+                    k(x, y) = std::max(work / length2, remembered * k(x, y));
+                before.x(x, y) = now.x(x, y);
+                before.y(x, y) = now.y(x, y);
+                before.z(x, y) = now.z(x, y);
+            }
+    }
+
+    ExactSum top_sum() const {
+        ExactSum sum;
+        block_.add_top_force(sum);
+        return sum;
+    }
+    ExactSum stiffness_sum() {
+        ExactSum sum;
+        const PlaneView<double> k = grids_.site_stiffness();
+        elastic_kernels().sum(k, 0, k.ny, sum);
+        return sum;
+    }
+    /// Forces on the lowest layer times its last moves.
+    ExactSum power_sum() const {
+        const auto f = nodes_.front().view()[0],
+                   v = std::as_const(block_.levels().front().v).view()[0];
+        ExactSum sum;
+        for (int y = 0; y < f.x.ny; ++y)
+            for (int x = 0; x < f.x.nx; ++x)
+                sum.add(f.x(x, y) * v.x(x, y) + f.y(x, y) * v.y(x, y) + f.z(x, y) * v.z(x, y));
+        return sum;
+    }
+    double largest_force() {
+        double largest2 = 0.0;
+#pragma omp parallel reduction(max : largest2)
+        each_row([&](std::size_t l, int z, int y, int nx) {
+            const auto f = rows(nodes_[l].plane(z), y);
+            for (int x = 0; x < nx; ++x)
+                largest2 =
+                    std::max(largest2, f[0][x] * f[0][x] + f[1][x] * f[1][x] + f[2][x] * f[2][x]);
+        });
+        return std::sqrt(largest2);
+    }
+    /// Steps of the means of all planes, the top plane's last. The block holds them like a chain of
+    /// springs, the interface its lower end; for that chain they are exact.
+    std::vector<Means> mean_steps() {
+        std::vector<ExactSum> sums;
+        std::vector<double> spring; // to the next plane, over that of a cell of edge a
+        each_plane([&](std::size_t l, int z) {
+            const Block::Level& level = block_.levels()[l];
+            const auto f = nodes_[l].plane(z);
+            for (const PlaneView<double>& component : {f.x, f.y, f.z}) {
+                sums.emplace_back();
+                if (block_.counts(level))
+                    elastic_kernels().sum(component, 0, level.tile.ny, sums.back());
+            }
+            spring.push_back(std::ldexp(1.0, -level.plan.level));
+        });
+        const std::vector<double> forces = global_sums(block_.communicator(), sums);
+        const std::size_t n = spring.size();
+        std::vector<Means> step(n + 1, Means{});
+        const BlockOptions& o = block_.options();
+        const double shear = o.shear_modulus() * o.spacing;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double modulus = c == 2 ? o.lame() * o.spacing + 2.0 * shear : shear;
+            const bool top_moves = c == 2 && !options_.top_held;
+            const bool lowest_held = c == 2 && options_.mean_height_held;
+            // Elimination from below: diagonal and force of what is left.
+            std::vector<double> diagonal(n + 1), force(n + 1);
+            double below = mean_stiffness_ + least_stiffness, handed = 0.0;
+            for (std::size_t i = 0; i <= n; ++i) {
+                const double above = i < n ? modulus * spring[i] : 0.0;
+                const double f = i < n ? forces[3 * i + c] : top_force_;
+                diagonal[i] = below + above;
+                force[i] = f / sites_ + handed;
+                if (i == 0 && lowest_held) force[i] = 0.0, diagonal[i] = HUGE_VAL;
+                below = above - above * above / diagonal[i];
+                handed = force[i] * above / diagonal[i];
+            }
+            if (top_moves) step[n][c] = force[n] / diagonal[n];
+            for (std::size_t i = n; i-- > 0;)
+                step[i][c] = (force[i] + modulus * spring[i] * step[i + 1][c]) / diagonal[i];
+        }
+        return step;
+    }
+    double mean(const PlaneView<double>& z) const {
         ExactSum sum;
         elastic_kernels().sum(z, 0, z.ny, sum);
-        const double sites = static_cast<double>(block_.options().sites);
-        const double mean = global_sum(block_.communicator(), sum) / (sites * sites);
+        return global_sum(block_.communicator(), sum) / sites_;
+    }
+    /// Takes the mean normal force off the lowest layer.
+    void keep_mean_height() {
+        const PlaneView<double> z = nodes_.front().plane(0).z;
+        const double held = mean(z);
         for (int y = 0; y < z.ny; ++y)
             for (int x = 0; x < z.nx; ++x)
-                z(x, y) -= mean;
+                z(x, y) -= held;
+    }
+    /// Takes the lowest layer's mean along z out of all moves, which shifts the block and does not
+    /// strain it; all are shortened so that none gets longer than it may.
+    void displace_at_mean_height() {
+        const auto t = phases_.time(Phase::advance);
+        const double drift = mean(block_.levels().front().v.plane(0).z);
+        const double scale = options_.max_move / (options_.max_move + std::abs(drift));
+#pragma omp parallel
+        each_row([&](std::size_t l, int z, int y, int nx) {
+            const auto v = rows(block_.levels()[l].v.plane(z), y);
+            for (int x = 0; x < nx; ++x) {
+                v[0][x] *= scale;
+                v[1][x] *= scale;
+                v[2][x] = scale * (v[2][x] - drift);
+            }
+            displace(l, z, y, nx);
+        });
+        top_move_ = scale * (top_move_ - drift);
+    }
+    /// No node moves further than it may.
+    void cut(const std::array<double*, 3>& v, int nx) const {
+        const double most2 = options_.max_move * options_.max_move;
+        for (int x = 0; x < nx; ++x) {
+            const double length2 = v[0][x] * v[0][x] + v[1][x] * v[1][x] + v[2][x] * v[2][x];
+            if (length2 <= most2) continue;
+            const double scale = options_.max_move / std::sqrt(length2);
+            for (std::size_t c = 0; c < 3; ++c)
+                v[c][x] *= scale;
+        }
+    }
+    void displace(std::size_t l, int z, int y, int nx) {
+        const auto v = rows(block_.levels()[l].v.plane(z), y),
+                   u = rows(block_.levels()[l].u.plane(z), y);
+        for (std::size_t c = 0; c < 3; ++c)
+            for (int x = 0; x < nx; ++x)
+                u[c][x] += v[c][x];
     }
 
-    static double mass(const Block::Level& level) {
-        return static_cast<double>(1 << level.plan.level);
+    template <class Work>
+    void each_plane(const Work& work) const {
+        for (std::size_t l = 0; l < nodes_.size(); ++l)
+            for (int z = 0; z < block_.levels()[l].plan.cells; ++z)
+                work(l, z);
     }
-
-    /// Calls work(mass, f, v, u, nx, counted) for every row of moving nodes; inside a parallel
-    /// region.
+    /// Calls work(level, plane, row, nx) for every row of moving nodes; inside a parallel region.
     template <class Work>
     void each_row(const Work& work) const {
-        for (std::size_t l = 0; l < force_.size(); ++l) {
-            Block::Level& level = block_.levels()[l];
-            const auto f = force_[l].view();
-            const auto v = level.v.view(), u = level.u.view();
-            const bool counted = block_.counts(level);
+        each_plane([&](std::size_t l, int z) {
+            const Tile& tile = block_.levels()[l].tile;
 #pragma omp for schedule(static) nowait
-            for (int row = 0; row < level.plan.cells * level.tile.ny; ++row) {
-                const int z = row / level.tile.ny, y = row % level.tile.ny;
-                const double* const fr[3] = {f.x[z].line(y), f.y[z].line(y), f.z[z].line(y)};
-                double* const vr[3] = {v.x[z].line(y), v.y[z].line(y), v.z[z].line(y)};
-                double* const ur[3] = {u.x[z].line(y), u.y[z].line(y), u.z[z].line(y)};
-                work(mass(level), fr, vr, ur, level.tile.nx, counted);
-            }
-        }
+            for (int y = 0; y < tile.ny; ++y)
+                work(l, z, y, tile.nx);
+        });
     }
 
     Block& block_;
@@ -184,27 +291,24 @@ private:
     double height_;
     const RelaxOptions& options_;
     Phases& phases_;
-    std::vector<VectorField<double>> force_;
+    CoarseGrids grids_;
+    std::vector<VectorField<double>>
+        nodes_;                      ///< forces, then steps; v of the levels: the last moves
+    VectorField<double> last_force_; ///< of the interface
     InterfaceSums sums_;
+    double sites_ = 0.0;
+    std::vector<std::size_t> first_plane_; ///< of each level, all counted from below
     double elastic_top_force_ = 0.0;
-    double top_force_ = 0.0, top_speed_ = 0.0, top_mass_ = 1.0; ///< of the motion
+    double top_force_ = 0.0, top_move_ = 0.0; ///< of the motion
+    double mean_stiffness_ = 0.0;             ///< of the interface, eV/Å^2 a site
+    double momentum_ = least_momentum;
 };
 
 } // namespace
 
 RelaxedState relax(Block& block, Interface& interface, double reference_height,
                    const RelaxOptions& options, Phases& phases) {
-    constexpr int wait = 5; // downhill steps before the step grows
-    constexpr double grow = 1.1, shrink = 0.5, mixing0 = 0.1, forget = 0.99;
-
     Descent descent(block, interface, reference_height, options, phases);
-    // Highest frequency for a fictitious mass of one: sqrt of the largest stiffness of a site.
-    const double stiffest = block.options().highest_frequency(options.site_stiffness) *
-                            std::sqrt(block.options().atom_mass);
-    const double dt_max = 1.0 / stiffest;
-    double dt = 0.5 * dt_max, mixing = mixing0;
-    int downhill = 0;
-
     RelaxedState state;
     for (;; ++state.iterations) {
         state.residual = descent.evaluate(false);
@@ -216,28 +320,7 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
             state.interrupted = true;
             break;
         }
-
-        const auto p = descent.products();
-        double keep = 0.0, gain = 0.0;
-        if (p.power > 0.0 || state.iterations == 0) {
-            // Steer the velocity towards the force, without changing its length.
-            keep = 1.0 - mixing;
-            gain = dt + (p.force2 > 0.0 ? mixing * std::sqrt(p.speed2 / p.force2) : 0.0);
-            if (++downhill > wait) {
-                dt = std::min(dt * grow, dt_max);
-                mixing *= forget;
-            }
-        } else {
-            downhill = 0;
-            dt *= shrink;
-            mixing = mixing0;
-            gain = dt;
-        }
-        // The speed after the kick is at most keep |v| + gain |F/m|: where that may exceed
-        // max_move, kick first and scale, so that no site jumps.
-        const double bound = keep * descent.largest_speed() + gain * state.residual;
-        const double scale = bound * dt > options.max_move ? options.max_move / (bound * dt) : 1.0;
-        descent.move(scale * keep, scale * gain, dt);
+        descent.move();
     }
 
     descent.evaluate(true);

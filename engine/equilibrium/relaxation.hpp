@@ -1,17 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The relaxed state without inertia: FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006).
+// The relaxed state of a block of levels, without inertia: downhill with momentum,
+//
+//     v <- m v + (steps of the forces),      u <- u + v,
+//
+// where the steps of all nodes come from a hierarchy of grids (coarse_grids.hpp) that carries long
+// waves at once, and those of the planes' means from a chain of springs, solved exactly. So the
+// iterations hardly grow with the block. Both know how stiff the interface is at each site: its
+// force there depends on the site's own place, so the last move and the change of force tell. The
+// momentum m grows from 0.8 to 0.95 while it leads the lowest layer downhill, and starts again at
+// 0.8 where it does not.
 //
 // The top plane is rigid. Free to move along z under the external load (zero by default), it ends
 // where the state carries no net force but the load; held, it feels what the block exerts. Or the
 // mean height of the lowest layer is held: its mean force is left out of the descent, and the free
-// top plane comes to rest where none is on it. Masses
-// are fictitious, m ~ 2^l on level l: stiffness grows like 2^l too, so every level has the same
-// highest frequency and a signal crosses a coarse cell as fast as a fine one; the iterations then
-// grow with the number of layers of nodes, not with the thickness.
+// top plane comes to rest where none is on it.
 //
-// No site moves more than max_move in an iteration, and the descent starts from rest: the minimum
+// No node moves more than max_move in an iteration, and the descent starts from rest: the minimum
 // found is the one downhill, not one behind a barrier.
 #pragma once
 
@@ -28,8 +34,8 @@ struct RelaxOptions {
     double load = 0.0;             ///< force pressing the free top plane down, eV/Å
     bool top_held = false;         ///< the top plane stays where it is
     bool mean_height_held = false; ///< of the lowest layer
-    double max_move = 0.05;        ///< Å an iteration
-    double site_stiffness = 2.2;   ///< of the interface, for each site, eV/Å^2: sets the step
+    double max_move = 0.2;         ///< Å an iteration
+    double site_stiffness = 2.2;   ///< of the interface, for each site, eV/Å^2: waves only
     long long max_iterations = 200000;
     /// Called now and then, on all ranks, with the iteration and the residual. True: stop here.
     std::function<bool(long long, double)> report;

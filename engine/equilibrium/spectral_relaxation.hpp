@@ -32,8 +32,7 @@
 namespace asperity {
 
 /// Relaxes the block in place, its top plane as it is (held or free; the load acts on a free one).
-/// options.max_move may be larger than FIRE's: 0.3 Å, well below the range of the potential, is
-/// usual.
+/// options.max_move: 0.3 Å, well below the range of the potential, is usual.
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const RelaxOptions& options, Phases& phases);
 /// What it takes beside the block, bytes.

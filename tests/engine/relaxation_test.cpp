@@ -79,3 +79,24 @@ TEST(Relaxation, SaysWhenItHasNotConverged) {
     EXPECT_EQ(state.iterations, 10);
     EXPECT_GT(state.residual, 1e-8);
 }
+
+TEST(Relaxation, IterationsHardlyGrowWithTheBlock) {
+    // Grids over it carry long waves: without them the larger block takes four times as many.
+    for (int layers : {0, 4}) {
+        const auto iterations = [&](int sites) {
+            SurfaceOptions s;
+            s.kind = SurfaceKind::self_affine;
+            s.sites = sites;
+            s.length = 2.6 * sites;
+            s.rms = 1.0;
+            s.cutoff = 0.5 * sites;
+            const BlockOptions block = test::paper_block(sites, sites, layers);
+            return test::relax_from_attraction(block, test::paper_interface(), make_surface(s),
+                                               1e-4, Communicator())
+                .state.iterations;
+        };
+        const long long few = iterations(16), many = iterations(64);
+        std::printf("%d layers a level: %lld and %lld iterations\n", layers, few, many);
+        EXPECT_LT(many, 2 * few);
+    }
+}
