@@ -27,11 +27,11 @@ long long usual_iterations(const Scene& scene, double start, const Setup& setup)
         (scene.has(PathPart::approach) || scene.has(PathPart::pull_off))) {
         const ExpectedWay way = expected_way(setup, start);
         const double points = 1.5 * (way.down + way.up) / scene.drive.step;
-        return std::llround(points * (scene.block.model == BlockModel::spectral ? 40.0 : 100.0));
+        return std::llround(65.0 * points);
     }
-    if (scene.block.model == BlockModel::spectral) return 150;
-    if (!scene.has(PathPart::zero_load)) return 300; // from contact, which is near
-    return std::llround(80.0 * std::sqrt(scene.surface.sites));
+    if (scene.block.model == BlockModel::spectral) return 130;
+    if (!scene.has(PathPart::zero_load)) return 90; // from contact, which is near
+    return std::llround(13.0 * std::sqrt(scene.surface.sites));
 }
 
 std::string time_text(double seconds) {
