@@ -133,7 +133,7 @@ private:
     static constexpr double near = 0.002;     ///< Å: of its goal, to try him after a fall
     static constexpr long long patience = 10; ///< iterations of a fall before that
     static constexpr double forcing = 0.1;
-    static constexpr double least_stiffness = 0.02; ///< eV/Å^2: where hardly a site is held yet
+    static constexpr double least_stiffness = 2e-4; ///< eV/Å^2: where hardly a site is held yet
     /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
     static constexpr double rough_enough = 1e-5;
 
