@@ -3,10 +3,11 @@
 //
 // The relaxation's own promises: balance of every node, the load carried, nothing decided by where
 // it starts in a basin, an honest answer when it may not go on.
-#include "support/cases.hpp"
+#include "support/path_case.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace asperity;
@@ -30,6 +31,28 @@ struct Contact {
         return relax(block, interface, height, o, phases);
     }
 };
+
+Surface rough_surface(int sites, double rms) {
+    SurfaceOptions s;
+    s.kind = SurfaceKind::self_affine;
+    s.sites = sites;
+    s.length = 2.6 * sites;
+    s.rms = rms;
+    s.cutoff = 0.5 * sites;
+    return make_surface(s);
+}
+
+/// The spectral block from where a relaxation starts.
+RelaxedState relax_waves(int sites, double rms, double tolerance) {
+    test::PathCase c(test::paper_block(sites, sites, 0), rough_surface(sites, rms), true);
+    const double height = height_of_strongest_attraction(
+        *c.block, c.interface, c.surface.statistics.lowest, Communicator());
+    c.block->set_uniform(0.0);
+    RelaxOptions o;
+    o.tolerance = tolerance;
+    Phases phases;
+    return c.block->relax(c.interface, height, o, phases);
+}
 
 } // namespace
 
@@ -84,19 +107,31 @@ TEST(Relaxation, IterationsHardlyGrowWithTheBlock) {
     // Grids over it carry long waves: without them the larger block takes four times as many.
     for (int layers : {0, 4}) {
         const auto iterations = [&](int sites) {
-            SurfaceOptions s;
-            s.kind = SurfaceKind::self_affine;
-            s.sites = sites;
-            s.length = 2.6 * sites;
-            s.rms = 1.0;
-            s.cutoff = 0.5 * sites;
             const BlockOptions block = test::paper_block(sites, sites, layers);
-            return test::relax_from_attraction(block, test::paper_interface(), make_surface(s),
-                                               1e-4, Communicator())
+            return test::relax_from_attraction(block, test::paper_interface(),
+                                               rough_surface(sites, 1.0), 1e-4, Communicator())
                 .state.iterations;
         };
         const long long few = iterations(16), many = iterations(64);
         std::printf("%d layers a level: %lld and %lld iterations\n", layers, few, many);
         EXPECT_LT(many, 2 * few);
     }
+}
+
+TEST(Relaxation, IterationsOfWavesHardlyGrow) {
+    // In full contact, in half of it, and held by a few summits.
+    for (double rms : {1.0, 3.0, 8.0}) {
+        const RelaxedState small = relax_waves(32, rms, 1e-4), large = relax_waves(128, rms, 1e-4);
+        ASSERT_TRUE(small.converged && large.converged);
+        std::printf("rms %.0f A: %lld and %lld iterations\n", rms, small.iterations,
+                    large.iterations);
+        EXPECT_LT(large.iterations, 2 * std::max(100LL, small.iterations));
+    }
+}
+
+TEST(Relaxation, WavesGiveUpWhereNothingGetsBetter) {
+    const RelaxedState s = relax_waves(16, 1.0, 1e-18);
+    EXPECT_FALSE(s.converged);
+    EXPECT_LT(s.iterations, 10000);
+    EXPECT_LT(s.residual, 1e-3);
 }
