@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/equilibrium/quasistatic.hpp"
 
-#include "decomposition/global_largest.hpp"
 #include "io/error.hpp"
 
 #include <fmt/format.h>
@@ -112,7 +111,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         Verdict verdict;
         if (state.converged) verdict = judge(state, top);
         if (last_try) verdict.accepted = true;
-        if (verdict.accepted && verdict.dissipated > 0.0 && predicted) {
+        if (predicted && (verdict.carried || (verdict.accepted && verdict.dissipated > 0.0))) {
             predicted = false;
             continue;
         }
@@ -136,7 +135,9 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
 RelaxedState QuasistaticPath::relax_at(double top, bool predicted) {
     const auto arrays = block_.state();
     last_.restore(arrays);
-    if (predicted) before_.extrapolate((top - record_.top) / (record_.top - before_top_), arrays);
+    constexpr double furthest = 1.0; // Å: of a site in contact, out of which it still comes back
+    const double ratio = (top - record_.top) / (record_.top - before_top_);
+    if (predicted && ratio * moved_ <= furthest) before_.extrapolate(ratio, arrays);
     hold(top);
     block_.settle();
     RelaxOptions options;
@@ -174,6 +175,8 @@ QuasistaticPath::Verdict QuasistaticPath::judge(const RelaxedState& state, doubl
         v.accepted = uncertain <= options_.tolerance * sites_ * options_.step;
     }
     if (v.work - gained > uncertain) v.dissipated = v.work - gained;
+    v.carried = gained - v.work > std::max(uncertain, allowed);
+    v.accepted = v.accepted && !v.carried;
     return v;
 }
 
@@ -195,6 +198,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double top, const Verdic
     else
         trail_.begin(top, state.top_force);
     before_top_ = record_.top;
+    moved_ = largest_move().value;
     std::swap(before_, last_);
     last_.take(block_.state());
     reversible_ = verdict.dissipated == 0.0;
@@ -226,6 +230,19 @@ void QuasistaticPath::set_record(const RelaxedState& state, double top) {
     record_.residual = scale_ > 0.0 ? (record_.work - change - record_.damped) / scale_ : 0.0;
 }
 
+std::function<double(int, int)> QuasistaticPath::moves() const {
+    const auto layer = block_.lowest_layer();
+    const VectorPlane<const double> old = {last_[0].plane(0), last_[1].plane(0), last_[2].plane(0)};
+    return [=](int x, int y) {
+        return std::hypot(layer.x(x, y) - old.x(x, y), layer.y(x, y) - old.y(x, y),
+                          layer.z(x, y) - old.z(x, y));
+    };
+}
+
+LargestSite QuasistaticPath::largest_move() const {
+    return global_largest(block_.communicator(), interface_.tile(), moves());
+}
+
 Jump QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg) const {
     Jump jump;
     jump.energy = energy;
@@ -237,19 +254,14 @@ Jump QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg
     jump.force_after = state.top_force;
     jump.contact_before = static_cast<double>(record_.in_contact);
     jump.contact_after = static_cast<double>(state.in_contact);
-    const auto layer = block_.lowest_layer();
-    const VectorPlane<const double> old = {last_[0].plane(0), last_[1].plane(0), last_[2].plane(0)};
-    const auto moved = [&](int x, int y) {
-        return std::hypot(layer.x(x, y) - old.x(x, y), layer.y(x, y) - old.y(x, y),
-                          layer.z(x, y) - old.z(x, y));
-    };
-    const Communicator& ranks = block_.communicator();
-    const LargestSite most = global_largest(ranks, interface_.tile(), moved);
+    const LargestSite most = largest_move();
     std::array<std::int64_t, 1> count = {0};
+    const auto moved = moves();
+    const auto layer = block_.lowest_layer();
     for (int y = 0; y < layer.x.ny; ++y)
         for (int x = 0; x < layer.x.nx; ++x)
             count[0] += moved(x, y) > 0.5 * most.value;
-    ranks.sum(count);
+    block_.communicator().sum(count);
     jump.site_x = most.x;
     jump.site_y = most.y;
     jump.largest_move = most.value;

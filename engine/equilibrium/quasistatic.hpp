@@ -25,10 +25,12 @@
 // bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
 //
 // Where the last steps were reversible, the next one starts from their linear continuation. A
-// prediction could carry a site across a barrier, so whatever would be booked after one is found
-// again without.
+// prediction could carry a site across a barrier, even through the substrate: none is made where it
+// would move a site further than 1 Å, and whatever would be booked after one, or has gained more
+// energy than the work can have brought, is found again without.
 #pragma once
 
+#include "decomposition/global_largest.hpp"
 #include "engine/dynamics/drive.hpp"
 #include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/dissipation.hpp"
@@ -90,6 +92,7 @@ private:
         double work = 0.0;       ///< of the top plane in this step, eV
         double dissipated = 0.0; ///< eV
         bool smooth = true;      ///< the force did not jump
+        bool carried = false;    ///< more energy than the work can have brought
         double margin = 0.0;     ///< allowed error over the one found: how much the step may grow
     };
     void hold(double top);
@@ -97,6 +100,10 @@ private:
     Verdict judge(const RelaxedState& state, double top) const;
     void accept(const RelaxedState& state, double top, const Verdict& verdict, Leg leg);
     Jump describe(const RelaxedState& state, double energy, Leg leg) const;
+    /// How far each site of the lowest layer has moved since the last point, and the one that has
+    /// most, Å.
+    std::function<double(int, int)> moves() const;
+    LargestSite largest_move() const;
     void set_record(const RelaxedState& state, double top);
     void first_point(double top);
     double smallest_step() const { return options_.step * 0x1p-16; }
@@ -111,6 +118,7 @@ private:
     StateCopy last_, before_; ///< of the last point and the one before it
     double before_top_ = 0.0;
     bool reversible_ = false; ///< the last step was; before_ is good for a prediction
+    double moved_ = 0.0;      ///< in it, the site that moved most, Å
     double length_ = 0.0;     ///< of the next step, Å
     double direction_ = 0.0;  ///< of the last step
     ForceTrail trail_;
