@@ -106,8 +106,4 @@ void InterfaceStiffness::apply(SiteField<float>& v) const {
     }
 }
 
-std::size_t InterfaceStiffness::bytes() const {
-    return map_.size() * map_[0].bytes() + displaced_.bytes() + force_.bytes();
-}
-
 } // namespace asperity

@@ -30,7 +30,6 @@ public:
                 const Communicator& ranks);
     /// v <- H v at every site; v has as many components.
     void apply(SiteField<float>& v) const;
-    std::size_t bytes() const;
 
 private:
     enum Entry { zz, xx, yy, xy, xz, yz };

@@ -43,8 +43,4 @@ double HeavyBall::move(const Preconditioner& preconditioner, double load, double
 
 void HeavyBall::stop() { momentum_ = block_.new_field<float>(); }
 
-std::size_t HeavyBall::bytes() const {
-    return waves_.bytes() + 2 * goal_.size() * goal_[0].bytes() + gain_.bytes();
-}
-
 } // namespace asperity

@@ -35,7 +35,6 @@ public:
     double move(const Preconditioner& preconditioner, double load, double bound);
     /// From rest again; the gains are kept.
     void stop();
-    std::size_t bytes() const;
 
 private:
     SpectralBlock& block_;

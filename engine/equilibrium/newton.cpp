@@ -64,8 +64,4 @@ double Newton::mean_stiffness(const Interface& interface, double reference_heigh
                            reference_height, block_.communicator());
 }
 
-std::size_t Newton::bytes() const {
-    return stiffness_.bytes() + 4 * r_.bytes() + at_sites_.size() * at_sites_[0].bytes();
-}
-
 } // namespace asperity

@@ -22,7 +22,6 @@ public:
                    const Waves<double>& g, Waves<float>& d);
     /// How stiffly the interface holds a site where the block stands, on average. Collective.
     double mean_stiffness(const Interface& interface, double reference_height);
-    std::size_t bytes() const;
 
 private:
     /// q <- (S + H) p. Returns p.q.
