@@ -6,6 +6,7 @@
 
 #include "io/error.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace asperity::io {
@@ -13,6 +14,9 @@ namespace asperity::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Of arrays and objects in one another. Results are six deep; copying and freeing are recursive.
+constexpr int deepest = 64;
 
 Json to_json(const JsonValue& value) {
     if (value.is_bool()) return value.boolean();
@@ -36,6 +40,8 @@ Json to_json(const JsonValue& value) {
 
 JsonValue from_json(const Json& json) {
     if (json.is_boolean()) return json.get<bool>();
+    if (json.is_number_unsigned() && json.get<std::uint64_t>() > INT64_MAX)
+        return json.get<double>();
     if (json.is_number_integer()) return static_cast<long>(json.get<std::int64_t>());
     if (json.is_number()) return json.get<double>();
     if (json.is_string()) return json.get<std::string>();
@@ -91,8 +97,15 @@ std::string JsonValue::dump(int indent) const {
 }
 
 JsonValue JsonValue::parse(std::string_view text, const std::string& file) {
+    const auto limit = [&](int depth, Json::parse_event_t, Json&) {
+        if (depth > deepest)
+            throw FileError(file, "this is no result",
+                            fmt::format("its values are nested more than {} deep", deepest),
+                            "run the scene again");
+        return true;
+    };
     try {
-        return from_json(Json::parse(text));
+        return from_json(Json::parse(text, limit));
     } catch (const Json::exception& error) {
         throw FileError(file, "this is no JSON that can be read", error.what(),
                         "if the file was cut short, run the scene again");

@@ -45,9 +45,12 @@ Problem wrong_type(std::string needed, const Value& value, std::string example) 
             example.empty() ? "" : fmt::format("write, for example, {}", example)};
 }
 
-Problem out_of_range(const Range& range, std::string_view unit) {
-    return {"", "is out of range", fmt::format("allowed: {}", range.text(unit)),
-            "give a value in that range"};
+Problem out_of_range(const Range& range, std::string_view unit, bool other_unit = false) {
+    std::string fix = "give a value in that range";
+    if (other_unit && !unit.empty())
+        fix += fmt::format("; a number without a unit is in {}, another unit is written as in {}",
+                           unit, example_of(unit));
+    return {"", "is out of range", fmt::format("allowed: {}", range.text(unit)), std::move(fix)};
 }
 
 Problem no_such_choice(const std::string& word, const std::vector<std::string>& choices) {
@@ -75,12 +78,16 @@ Problem read_number(const Value& value, const std::string& unit, const Range& ra
     }
     if (!std::isfinite(number))
         return {"", "is not finite", "allowed: " + range.text(unit), "give a finite number"};
-    if (!range.contains(number)) return out_of_range(range, unit);
+    if (!range.contains(number))
+        return out_of_range(range, unit, !value.text && number > range.high);
     into = number;
     return {};
 }
 
 Problem read_integer(const Value& value, const Range& range, long long& into) {
+    if (value.text && value.text->size() > 18 &&
+        value.text->find_first_not_of("+-0123456789_") == std::string::npos)
+        return out_of_range(range, ""); // it does not fit into 64 bits
     if (!value.integer) {
         const std::string example = value.number && std::abs(*value.number) < 1e15
                                         ? fmt::format("{:.0f}", std::round(*value.number))

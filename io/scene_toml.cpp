@@ -11,7 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -20,6 +19,43 @@
 namespace asperity::io {
 
 namespace {
+
+/// A scene is a few kB. What is larger, deeper or more often wrong is not one; without these limits
+/// reading would take all memory, or the stack (a table is freed recursively).
+constexpr std::size_t largest_scene = 4u << 20; ///< bytes
+constexpr int deepest_key = 32;                 ///< parts of a dotted key
+constexpr std::size_t most_problems = 50;       ///< that are told one by one
+
+/// Where in the text a key has more parts than that (its line, from 1), 0 if none has.
+int line_of_deep_key(std::string_view text) {
+    int line = 1, dots = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"' || c == '\'') { // to the end of the string, or of the line if it has none
+            const std::string_view three = c == '"' ? "\"\"\"" : "'''";
+            const bool lines = text.substr(i).starts_with(three);
+            for (i += lines ? 3 : 1; i < text.size(); ++i) {
+                if (text[i] == '\n') ++line;
+                if (c == '"' && text[i] == '\\')
+                    ++i;
+                else if (lines ? text.substr(i).starts_with(three)
+                               : text[i] == c || text[i] == '\n')
+                    break;
+            }
+            if (lines) i += 2;
+            while (lines && i + 1 < text.size() && text[i + 1] == c)
+                ++i; // """ may be preceded by two more quotes
+        } else if (c == '#') {
+            i = std::min(text.find('\n', i), text.size()) - 1;
+        } else if (c == '.') {
+            if (++dots >= deepest_key) return line;
+        } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
+            dots = 0;
+            if (c == '\n') ++line;
+        }
+    }
+    return 0;
+}
 
 Position position_of(const toml::source_region& region, const std::string& file) {
     return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
@@ -43,6 +79,11 @@ Schema::Value value_of(const toml::node& node) {
     return value;
 }
 
+std::string cut(std::string text) {
+    if (text.size() > 60) text = text.substr(0, 57) + "...";
+    return text;
+}
+
 /// The value as the user wrote it, more or less, for messages; long ones are cut.
 std::string shown(const toml::node& node) {
     std::ostringstream text;
@@ -55,8 +96,7 @@ std::string shown(const toml::node& node) {
     std::string result = text.str();
     std::replace(result.begin(), result.end(), '\n', ' ');
     if (result.size() >= 2 && result.front() == '\'') result.front() = result.back() = '"';
-    if (result.size() > 60) result = result.substr(0, 57) + "...";
-    return result;
+    return cut(std::move(result));
 }
 
 /// What the line of a syntax error looks like it was meant to be.
@@ -91,6 +131,10 @@ public:
     }
 
     void text(std::string_view text) {
+        if (const int line = line_of_deep_key(text))
+            return add({file_, line, 1}, "this is no scene",
+                       fmt::format("a key has more than {} parts", deepest_key),
+                       "the keys of a scene are section.name");
         toml::table root;
         try {
             root = toml::parse(text, file_);
@@ -115,6 +159,11 @@ public:
                        "for example --set surface.rms=1.5");
         const Schema::Key* key = schema_.find(path);
         if (!key) return unknown(path, at);
+        // A path may have as many dots as it likes; a table or a second line may not.
+        if (assignment.find_first_of("{\n") != std::string::npos && line_of_deep_key(assignment))
+            return add(at, "this is no value of a key",
+                       fmt::format("it has a key of more than {} parts", deepest_key),
+                       "an override is section.key=value");
         std::string written = assignment.substr(equals + 1);
         // The shell has eaten the quotes: what is no TOML value is a string, and in a list key a
         // list of them.
@@ -154,10 +203,22 @@ public:
         });
         for (auto& [at, problem] : found_)
             problems.add(std::move(problem));
+        if (untold_ > 0)
+            problems.add(Problem{file_, fmt::format("has {} more problems", untold_),
+                                 fmt::format("the first {} found are told", most_problems),
+                                 "is it a scene?"});
     }
 
 private:
+    /// Enough was found; what comes is counted only.
+    bool full() {
+        if (found_.size() < most_problems) return false;
+        ++untold_;
+        return true;
+    }
+
     void add(const Position& at, std::string what, std::string why, std::string fix) {
+        if (full()) return;
         found_.emplace_back(at,
                             Problem{format(at), std::move(what), std::move(why), std::move(fix)});
     }
@@ -230,6 +291,7 @@ private:
     }
 
     void unknown(const std::string& path, const Position& at) {
+        if (full()) return; // before names are compared
         const std::size_t dot = path.find('.');
         const std::string section = dot == std::string::npos ? "" : path.substr(0, dot);
         const std::string name = dot == std::string::npos ? path : path.substr(dot + 1);
@@ -249,7 +311,7 @@ private:
             if (const std::string near = nearest(name, everywhere); !near.empty())
                 for (const Schema::Key& key : schema_.keys())
                     if (key.name == near) meant = key.path();
-        add(at, path + " is no key of a scene",
+        add(at, cut(path) + " is no key of a scene",
             section.empty() ? "every key stands in a [section]"
             : here.empty()  ? fmt::format("there is no section [{}]", section)
                             : fmt::format("[{}] has: {}", section, fmt::join(here, ", ")),
@@ -262,6 +324,7 @@ private:
     Positions& positions_;
     std::vector<std::string> paths_, sections_;
     std::vector<std::pair<Position, Problem>> found_;
+    std::size_t untold_ = 0;
 };
 
 } // namespace
@@ -290,8 +353,14 @@ std::string read_scene_file(const std::string& file) {
     if (std::filesystem::is_directory(file, error))
         throw cannot("it is a directory", "name a .toml file in it");
     std::ifstream stream(file, std::ios::binary);
-    std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
     if (!stream) throw cannot(std::strerror(errno), "check its permissions");
+    std::string text(largest_scene + 1, '\0'); // not the file's size: a pipe has none
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (stream.bad()) throw cannot(std::strerror(errno), "check its permissions");
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > largest_scene)
+        throw cannot(fmt::format("it is larger than {} MB", largest_scene >> 20),
+                     "name a scene: a text of a few kB");
     return text;
 }
 

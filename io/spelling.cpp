@@ -40,8 +40,10 @@ int distance(const std::string& a, const std::string& b) {
 } // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-    const std::string wanted = plain(word);
+    constexpr std::size_t longest_name = 64; // the table of distances grows with the square
     std::string best;
+    if (word.size() > longest_name) return best;
+    const std::string wanted = plain(word);
     int best_distance = 1 + static_cast<int>(wanted.size()) / 3; // at most a third may be wrong
     for (const std::string& candidate : candidates) {
         const std::string other = plain(candidate);

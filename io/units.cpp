@@ -226,9 +226,14 @@ ParsedQuantity parse_quantity(std::string_view text, std::string_view base) {
     std::string_view name(parsed.ptr, static_cast<std::size_t>(end - parsed.ptr));
     skip_blanks(name);
     if (name.empty()) return result; // in the base unit
-    if (name[0] == ',')
-        return wrong("a comma is no decimal point",
-                     fmt::format("write \"{}.{}\"", digits, name.substr(1)));
+    if (name[0] == ',') {
+        const bool one_number = digits.find_first_of(".eE") == std::string::npos &&
+                                name.find(',', 1) == std::string_view::npos;
+        return one_number ? wrong("a comma is no decimal point",
+                                  fmt::format("write \"{}.{}\"", digits, name.substr(1)))
+                          : wrong("it is a list, and one number is needed",
+                                  "several values of a key are for `asperity sweep`");
+    }
     const std::optional<Unit> unit = parse_unit(name);
     if (!unit) return wrong(fmt::format("'{}' is no unit known here", name), usual);
     const Unit target = parse_unit(base).value_or(Unit{});

@@ -70,7 +70,8 @@ io::Schema bind(Scene& scene) {
                                {"multiscale", BlockModel::multiscale},
                                {"spectral", BlockModel::spectral}},
                               "every atom, or coarser with depth, or the static surface response");
-    schema.number("young", block.young, "GPa", positive(), "Young's modulus E");
+    schema.number("young", block.young, "GPa", io::Range{0.0, 1e6, true, false},
+                  "Young's modulus E");
     schema.number("poisson", block.poisson, "", io::Range{-1.0, 0.5, true, true},
                   "Poisson's ratio");
     schema.number("atom_mass", block.atom_mass, "u", positive(), "mass of an atom");

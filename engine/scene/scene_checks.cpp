@@ -28,8 +28,8 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                 "the box is {} x {:.6g} Å = {:.6g} Å wide, and an atom must not meet the same "
                 "neighbour twice",
                 surface.sites, surface.spacing, scene.edge()),
-            fmt::format("take a cutoff of {:.6g} Å at most, or surface.sites = {} at least", half,
-                        static_cast<int>(std::ceil(2.0 * interface.cutoff / surface.spacing)))});
+            fmt::format("take a cutoff of {:.6g} Å at most, or surface.sites = {:.0f} at least",
+                        half, std::ceil(2.0 * interface.cutoff / surface.spacing))});
     const double minimum = std::pow(2.0, 1.0 / 6.0) * interface.r0;
     if (interface.cutoff <= minimum)
         problems.add(

@@ -200,6 +200,8 @@ TEST(Scene, Ranges) {
                             "surface.radius = 0",
                             "surface.seed = -1",
                             "block.young = 0",
+                            "block.young = 77e9", // in Pa
+                            "block.young = 2e6",
                             "block.poisson = 0.5",
                             "block.poisson = -1",
                             "block.thickness = 0",

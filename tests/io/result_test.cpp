@@ -98,6 +98,13 @@ TEST(Result, NumbersKeepTheirBits) {
     EXPECT_TRUE(back.find("nan")->is_null());
     EXPECT_THROW(JsonValue::parse("{\"x\": ", "f.json"), FileError);
     EXPECT_NO_THROW(JsonValue("\xff").dump());
+    EXPECT_EQ(JsonValue::parse("18446744073709551615", "x").number(), 18446744073709551615.0);
+    const std::string deep(50000, '[');
+    EXPECT_THROW(JsonValue::parse(deep + std::string(50000, ']'), "f.json"), FileError);
+    std::string objects;
+    for (int i = 0; i < 50000; ++i)
+        objects += "{\"a\":";
+    EXPECT_THROW(JsonValue::parse(objects + "1" + std::string(50000, '}'), "f.json"), FileError);
 }
 
 TEST(Result, IsWrittenWholeAndNeverOver) {

@@ -315,12 +315,54 @@ TEST(SceneReader, Nearest) {
     EXPECT_EQ(nearest("banana", words), "");
 }
 
+TEST(SceneReader, KeysOfManyParts) {
+    std::string deep = "a";
+    for (int i = 0; i < 100000; ++i)
+        deep += ".a";
+    const Problem p = only("[body]\ncups = 3\n" + deep + " = 1\n");
+    EXPECT_EQ(p.where, "pot.toml:3:1");
+    EXPECT_EQ(p.why, "a key has more than 32 parts");
+    for (const std::string& text :
+         {"[" + deep + "]\nx = 1\n", "x = {" + deep + " = 1}\n",
+          "x = \"\"\"\n\"\\\"\"\"\"\"\n" + deep + " = 1\n", "x = '''\n''''\n" + deep + " = 1\n"})
+        EXPECT_EQ(only(text).why, "a key has more than 32 parts") << text.substr(0, 30);
+    only("", {"body.cups={" + deep + "=1}"});
+    only("", {"body.cups=1\n" + deep + "=1"});
+    // Strings and comments may have as many dots as they like.
+    EXPECT_TRUE(read("[body] # " + deep + "\nmaker = \"" + deep + "\"\n").problems.empty());
+    EXPECT_TRUE(read("[body]\nmaker = '''\n" + deep + "'''\n").problems.empty());
+    EXPECT_TRUE(read("", {"body.maker=../" + deep}).problems.empty());
+}
+
+TEST(SceneReader, ManyProblemsAreCounted) {
+    std::string text = "[body]\n";
+    for (int i = 0; i < 100000; ++i)
+        text += "key" + std::to_string(i) + " = 1\n";
+    const Read result = read(text);
+    ASSERT_EQ(result.problems.size(), 51u);
+    EXPECT_EQ(result.problems.back().what, "has 99950 more problems");
+    const std::string name(3000000, 'k'); // is not compared with every key, letter by letter
+    EXPECT_LT(only("[body]\n" + name + " = 1\n").what.size(), 100u);
+}
+
+TEST(SceneReader, Advice) {
+    EXPECT_EQ(only("", {"body.height=1,5"}).fix, "write \"1.5\"");
+    for (const char* list : {"1.5,2", "1,2,3", "1e3,5"})
+        EXPECT_EQ(only("", {std::string("body.height=") + list}).fix,
+                  "several values of a key are for `asperity sweep`");
+    EXPECT_EQ(only("", {"body.height=77e9"}).fix,
+              "give a value in that range; a number without a unit is in m, another unit is "
+              "written as in \"1 m\"");
+    EXPECT_EQ(only("", {"body.cups=99999999999999999999"}).why, "allowed: 1 to 12");
+}
+
 TEST(SceneReader, FilesThatCannotBeRead) {
     const Scratch scratch;
     EXPECT_THROW(read_scene_file(scratch / "none.toml"), SceneError);
     EXPECT_THROW(read_scene_file(scratch / ""), SceneError);
     EXPECT_EQ(read_scene_file(scratch.write("a.toml", "x\n")), "x\n");
     EXPECT_EQ(read_scene_file(scratch.write("empty.toml", "")), "");
+    EXPECT_THROW(read_scene_file("/dev/zero"), SceneError); // has no end
 }
 
 } // namespace
