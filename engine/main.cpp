@@ -12,6 +12,7 @@
 #include "engine/commands/report.hpp"
 #include "engine/commands/sweep.hpp"
 #include "engine/commands/theory_command.hpp"
+#include "engine/commands/theory_points.hpp"
 #include "engine/run/run.hpp"
 
 #include "decomposition/communicator.hpp"
@@ -74,9 +75,9 @@ const std::vector<Command> commands = {
      }},
     {"check",
      "look for mistakes in a scene without running it",
-     {takes::scene},
+     {takes::scene, takes::json},
      [](const Arguments& given, const Communicator& world) {
-         return check_command(scene_of(given), world);
+         return check_command(scene_of(given), given.json, world);
      }},
     {"plan",
      "what a scene will simulate and what not, and what it will cost; runs nothing",
@@ -92,10 +93,15 @@ const std::vector<Command> commands = {
      }},
     {"theory",
      "the analytic theory of a scene, without simulating it",
-     {takes::scene, takes::out("results/<scene>-theory")},
+     {takes::scene, takes::out("results/<scene>-theory"), takes::json, takes::points},
      [](const Arguments& given, const Communicator& world) {
+         if (!given.points.empty()) {
+             TheoryPoints points{{}, {}, given.points, given.runnable};
+             points.scene = scene_file(given, points.overrides);
+             return on_root(world, [&] { return theory_points_command(points); });
+         }
          const Scene scene = scene_of(given);
-         return on_root(world, [&] { return theory_command(scene, given.out); });
+         return on_root(world, [&] { return theory_command(scene, given.out, given.json); });
      }},
     {"sweep",
      "a scene over several values of its keys: runs, theory, one table",
@@ -134,9 +140,10 @@ const std::vector<Command> commands = {
      }},
     {"defaults",
      "every key of a scene with its default, as TOML",
-     {takes::markdown, takes::plain},
+     {takes::markdown, takes::plain, takes::json},
      [](const Arguments& given, const Communicator& world) {
-         return defaults_command(given.markdown, given.plain, world);
+         return given.json ? schema_command(world)
+                           : defaults_command(given.markdown, given.plain, world);
      }},
     {"info",
      "what this program was built from and runs on",

@@ -137,6 +137,20 @@ void plain(CLI::App& command, Arguments& given) {
     command.add_flag("--plain", given.plain, "without explanations");
 }
 
+void json(CLI::App& command, Arguments& given) {
+    command.add_flag("--json", given.json, "one line of JSON for programs; writes no files");
+}
+
+void points(CLI::App& command, Arguments& given) {
+    command
+        .add_option("--points", given.points,
+                    "many variations in one call: a JSON array of overrides a line (-: standard "
+                    "input), a line of JSON for each")
+        ->type_name("FILE");
+    command.add_flag("--runnable", given.runnable,
+                     "with --points: also check what a run would refuse");
+}
+
 Option out(const std::string& otherwise) {
     return [otherwise](CLI::App& command, Arguments& given) {
         command

@@ -39,9 +39,12 @@ struct Arguments {
     std::string launch;
     std::vector<std::string> knobs;
     std::string format; ///< of an export
+    std::string points; ///< file with overrides, a line each
     bool theory_only = false;
     bool markdown = false;
     bool plain = false;
+    bool json = false;
+    bool runnable = false;
 };
 
 /// The scene named by the words, read and checked with its overrides.
@@ -76,6 +79,8 @@ void knobs(CLI::App& command, Arguments& given);
 void format(CLI::App& command, Arguments& given);
 void markdown(CLI::App& command, Arguments& given);
 void plain(CLI::App& command, Arguments& given);
+void json(CLI::App& command, Arguments& given);
+void points(CLI::App& command, Arguments& given); ///< and --runnable
 Option out(const std::string& otherwise);
 Option wall_limit(const std::string& explanation);
 Option jobs(const std::string& explanation);

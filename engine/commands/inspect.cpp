@@ -4,6 +4,7 @@
 
 #include "decomposition/communicator.hpp"
 #include "engine/run/plan.hpp"
+#include "engine/run/theory_case.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/build_info.hpp"
 #include "io/error.hpp"
@@ -25,7 +26,46 @@
 
 namespace asperity {
 
-int check_command(const Scene& scene, const Communicator& world) {
+namespace {
+
+/// For programs: a sweep asks before it varies the scene, so that what a run of the scene itself
+/// would refuse is listed, not thrown.
+io::JsonValue check_json(const Scene& scene, int ranks) {
+    using io::JsonValue;
+    JsonValue all = JsonValue::object();
+    all["name"] = scene.name;
+    all["scene"] = scene_json(scene);
+    all["sweep"] = JsonValue::array();
+    for (const io::Variation& variation : scene.sweep) {
+        JsonValue one = JsonValue::object();
+        one["key"] = variation.key;
+        one["values"] = variation.values;
+        one["where"] = variation.where;
+        all["sweep"].push_back(std::move(one));
+    }
+    all["theory_needs_surface"] = theory_needs_surface(scene);
+    all["notes"] = JsonValue::array();
+    all["problems"] = JsonValue::array();
+    try {
+        const Setup setup = examine(scene, ranks);
+        all["longest_timestep"] = setup.longest_timestep;
+        for (const std::string& note : setup.notes)
+            all["notes"].push_back(note);
+    } catch (const io::SceneError& error) {
+        for (const io::Problem& problem : error.problems())
+            all["problems"].push_back(io::format(problem));
+    }
+    return all;
+}
+
+} // namespace
+
+int check_command(const Scene& scene, bool json, const Communicator& world) {
+    if (json) {
+        const io::JsonValue all = check_json(scene, world.size());
+        if (world.root()) fmt::print("{}\n", all.dump(-1));
+        return io::exit_code::done;
+    }
     const Setup setup = examine(scene, world.size());
     if (!world.root()) return io::exit_code::done;
     fmt::print("{}: nothing wrong\n", scene.file);
@@ -102,6 +142,43 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
 int defaults_command(bool markdown, bool plain, const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
     fmt::print("{}", markdown ? scene_markdown() : scene_toml(Scene{}, !plain));
+    return io::exit_code::done;
+}
+
+int schema_command(const Communicator& world) {
+    if (!world.root()) return io::exit_code::done;
+    using Kind = io::Schema::Kind;
+    const auto name_of = [](Kind kind) {
+        switch (kind) {
+        case Kind::boolean:
+            return "boolean";
+        case Kind::integer:
+            return "integer";
+        case Kind::number:
+            return "number";
+        case Kind::choice:
+            return "choice";
+        case Kind::list:
+            return "list";
+        case Kind::text:
+            break;
+        }
+        return "text";
+    };
+    Scene defaults;
+    io::JsonValue all = io::JsonValue::object();
+    const io::Schema schema = bind(defaults);
+    for (const io::Schema::Key& key : schema.keys()) {
+        io::JsonValue& one = all[key.path()];
+        one["kind"] = name_of(key.kind);
+        one["unit"] = key.unit;
+        one["default"] = key.load();
+        one["doc"] = key.doc;
+        if (!key.word.empty()) one["word"] = key.word;
+        for (const std::string& choice : key.choices)
+            one["choices"].push_back(choice);
+    }
+    fmt::print("{}\n", all.dump(-1));
     return io::exit_code::done;
 }
 

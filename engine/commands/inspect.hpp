@@ -13,14 +13,17 @@ namespace asperity {
 
 class Communicator;
 
-/// `asperity check`. Throws io::SceneError with all that is wrong, like those below.
-int check_command(const Scene& scene, const Communicator& world);
+/// `asperity check`. Throws io::SceneError with all that is wrong, like those below. json: the
+/// scene as it would be used, its [sweep], notes and limits, as one line.
+int check_command(const Scene& scene, bool json, const Communicator& world);
 /// `asperity plan`; ranks: to plan for, 0: as many as there are.
 int plan_command(const Scene& scene, int ranks, const Communicator& world);
 /// `asperity surface`: heights.h5 and result.json in `out` (empty: results/<scene>-surface).
 int surface_command(const Scene& scene, const std::string& out, const Communicator& world);
 /// `asperity defaults`: as TOML, with or without explanations, or as the page docs/scene.md.
 int defaults_command(bool markdown, bool plain, const Communicator& world);
+/// `asperity defaults --json`: of every key its kind, unit, default, choices and meaning.
+int schema_command(const Communicator& world);
 /// `asperity info`
 int info_command(const Communicator& world);
 

@@ -153,15 +153,11 @@ void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumber
 
 } // namespace
 
-int theory_command(const Scene& scene, const std::string& out) {
+int theory_command(const Scene& scene, const std::string& out, bool json) {
     const auto start = std::chrono::steady_clock::now();
     const TheoryCase what = theory_case(scene);
     const TheoryNumbers numbers = solve_theory(what);
     const Beyond beyond = look_beyond(what, numbers);
-    const io::ResultPlace place = io::choose_result_directory(out, scene.name + "-theory", false);
-    io::make_directory(place.directory);
-    const std::string profile = (std::filesystem::path(place.directory) / "theory.h5").string();
-    write_profile(profile, what, numbers);
 
     io::ResultRecord record;
     record.name = scene.name;
@@ -178,6 +174,13 @@ int theory_command(const Scene& scene, const std::string& out) {
         record.extra.emplace_back("theory.gamma_wall_bound", *beyond.gamma_wall_bound);
     record.run.wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (json) {
+        fmt::print("{}\n", io::result_json(record).dump(-1));
+        return io::exit_code::done;
+    }
+    const io::ResultPlace place = io::choose_result_directory(out, scene.name + "-theory", false);
+    io::make_directory(place.directory);
+    write_profile((std::filesystem::path(place.directory) / "theory.h5").string(), what, numbers);
     io::write_result(place.directory, record);
 
     print_theory(scene, what, numbers, beyond);

@@ -11,8 +11,9 @@
 
 namespace asperity {
 
-/// Writes result.json and theory.h5 into `out` (empty: results/<scene>-theory) and prints a table.
+/// Writes result.json and theory.h5 into `out` (empty: results/<scene>-theory) and prints a table;
+/// json: prints what result.json would hold as one line and writes nothing.
 /// On one rank. Returns the exit code. Throws io::SceneError.
-int theory_command(const Scene& scene, const std::string& out);
+int theory_command(const Scene& scene, const std::string& out, bool json);
 
 } // namespace asperity

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/commands/theory_points.hpp"
+
+#include "engine/run/theory_case.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/setup/setup.hpp"
+#include "io/error.hpp"
+#include "io/result.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <optional>
+
+namespace asperity {
+
+namespace {
+
+using io::JsonValue;
+
+/// Of several scenes in turn: a surface is generated anew only where more than its rms changes.
+class SurfaceCache {
+public:
+    const Surface* of(const Scene& scene) {
+        if (!theory_needs_surface(scene)) return nullptr;
+        JsonValue keys = *scene_json(scene).find("surface");
+        if (scene.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
+        if (const std::string text = keys.dump(-1); !surface_ || text != keys_) {
+            surface_ = scene_surface(scene);
+            keys_ = text;
+        }
+        return &*surface_;
+    }
+
+private:
+    std::optional<Surface> surface_;
+    std::string keys_;
+};
+
+std::vector<std::string> overrides_of(const std::string& line, const std::string& where) {
+    const auto refuse = [&](const std::string& why) {
+        return io::SceneError(io::Problem{where, "is no list of overrides", why,
+                                          "write one JSON array a line: [\"surface.rms=1\"]"});
+    };
+    JsonValue list;
+    try {
+        list = JsonValue::parse(line, where);
+    } catch (const io::Error& error) {
+        throw refuse(error.problems().front().why);
+    }
+    if (!list.is_array()) throw refuse("it is not an array");
+    std::vector<std::string> overrides;
+    for (const JsonValue& item : list.items()) {
+        if (!item.is_text()) throw refuse("an item is not a string");
+        overrides.push_back(item.text());
+    }
+    return overrides;
+}
+
+JsonValue point_json(const Scene& scene, SurfaceCache& surfaces) {
+    const TheoryCase what = theory_case(scene, surfaces.of(scene));
+    const TheoryNumbers numbers = solve_theory(what);
+    io::ResultRecord record;
+    record.name = scene.name;
+    record.scene = scene_json(scene);
+    record.delta_gamma = what.flat;
+    record_theory(what, numbers, record);
+    const JsonValue result = io::result_json(record);
+    JsonValue point = JsonValue::object();
+    for (const char* key : {"name", "scene", "delta_gamma", "theory"})
+        if (const JsonValue* value = result.find(key)) point[key] = *value;
+    point["theory"]["gamma_eff_ratio"] = numbers.state.gamma_ratio;
+    point["theory"]["gamma_eff_ratio_error"] = numbers.state.gamma_ratio_error;
+    point["notes"] = JsonValue::array();
+    for (const std::string& note : what.notes)
+        point["notes"].push_back(note);
+    return point;
+}
+
+JsonValue problems_json(const std::vector<io::Problem>& problems) {
+    JsonValue point = JsonValue::object();
+    for (const io::Problem& problem : problems) {
+        JsonValue one = JsonValue::object();
+        one["where"] = problem.where;
+        one["what"] = problem.what;
+        one["why"] = problem.why;
+        one["fix"] = problem.fix;
+        point["problems"].push_back(std::move(one));
+    }
+    return point;
+}
+
+} // namespace
+
+int theory_points_command(const TheoryPoints& what) {
+    std::ifstream file;
+    if (what.points != "-") {
+        file.open(what.points);
+        if (!file)
+            throw io::FileError(what.points, "cannot be read",
+                                "there is no such file, or it may not be read",
+                                "check the path and its permissions");
+    }
+    std::istream& input = what.points == "-" ? std::cin : file;
+    const std::string text = io::read_scene_file(what.scene);
+    SurfaceCache surfaces;
+    std::string line;
+    for (int number = 1; std::getline(input, line); ++number) {
+        std::vector<std::string> overrides = what.overrides;
+        for (std::string& one : overrides_of(line, fmt::format("{}:{}", what.points, number)))
+            overrides.push_back(std::move(one));
+        JsonValue point;
+        try {
+            const Scene scene = read_scene_text(text, what.scene, overrides);
+            if (what.runnable) examine(scene, 1);
+            point = point_json(scene, surfaces);
+        } catch (const io::SceneError& error) {
+            point = problems_json(error.problems());
+        }
+        fmt::print("{}\n", point.dump(-1));
+    }
+    return io::exit_code::done;
+}
+
+} // namespace asperity

@@ -1,0 +1,31 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Asperity from Python: run scenes, load results, sweep, plot.
+
+    import asperity
+    result = asperity.run("scenes/first-contact.toml", {"surface.rms": 2.0}, out="results/rms-2")
+    result.binding_energy / result.delta_gamma          # meV/Å² over meV/Å²
+    result.series["force"], result.series.unit("force") # numpy array, "eV/Å"
+    result.fields["zero-load"].pressure                 # GPa, [y, x]
+    result.plot.separation()                            # draws into a matplotlib axes
+
+The program does the physics, reads scenes and checks them; this package starts it, reads what it wrote,
+and draws. Errors of the program are the exceptions SceneError, PhysicsError, InputOutputError, Stopped.
+"""
+
+from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, Stopped
+
+__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "Stopped",
+           "load", "run"]
+
+
+def __getattr__(name: str):
+    # numpy and h5py are imported with the first name that needs them, so that --help needs neither.
+    import importlib
+
+    homes = {"Result": "result", "load": "result", "run": "run"}
+    if name in homes:
+        value = getattr(importlib.import_module("." + homes[name], __name__), name)
+        globals()[name] = value  # the module of the same name would hide it
+        return value
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

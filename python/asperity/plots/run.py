@@ -1,0 +1,318 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The plots of one run. Each function draws into an axes and returns whether there was something to draw."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Callable
+
+import h5py
+import numpy as np
+from matplotlib.axes import Axes
+
+from .. import program, scene
+from ..errors import Error, InputOutputError
+from ..result import Result, State
+from ..units import GIGAPASCAL, NANONEWTON
+from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, YELLOW, curve, finish, image
+
+LEGS = (("approach", BLUE), ("pull-off", RED))
+
+
+def _columns(run: Result, *names: str) -> list[np.ndarray] | None:
+    """Columns of the series, if all are there and there is a curve to draw."""
+    if not all(name in run.series for name in names):
+        return None
+    columns = [run.series[name] for name in names]
+    return columns if len(columns[0]) > 1 else None
+
+
+def force_unit(run: Result) -> tuple[float, str]:
+    """What forces are divided by (eV/Å) and the axis label: nN, or GPa where the area means something."""
+    if run.curved or not run.edge:
+        return NANONEWTON, "force $F$ (nN)"
+    return run.edge**2 * GIGAPASCAL, "mean stress $F/A_0$ (GPa)"
+
+
+def _legs(ax: Axes, leg: np.ndarray, x: np.ndarray, y: np.ndarray, name: str = "", lines=("-", DASHES[1])) -> bool:
+    any_drawn = False
+    for number, (words, colour) in enumerate(LEGS):
+        here = leg == number
+        if here.sum() > 1:
+            curve(ax, x[here], y[here], words + name, colour=colour, line=lines[number])
+            any_drawn = True
+    return any_drawn
+
+
+def separation(run: Result, ax: Axes) -> bool:
+    """Force of the substrate over the mean separation, both ways; of a sphere beside smooth ones."""
+    columns = _columns(run, "leg", "mean_height", "force")
+    if columns is None:
+        return False
+    leg, height, force = columns
+    unit, label = force_unit(run)
+    for number, (words, x, y) in enumerate(run.curves):
+        curve(ax, x, y / unit, words if "theory" in words else "theory: " + words,
+              colour=(GREY, YELLOW, YELLOW)[number % 3], line=DASHES[(4, 2, 3)[number % 3]], behind=True)
+    _legs(ax, leg, height, force / unit)
+    least, greatest = force.min(), force.max()
+    felt = height[np.abs(force) > -1e-3 * least]  # beyond, nothing is felt
+    if felt.size and felt.max() > felt.min():
+        room = 0.04 * (felt.max() - felt.min())
+        ax.set_xlim(felt.min() - room, felt.max() + room)
+    if run.curved and least < 0:  # the theory's curves may go much deeper than the run
+        lowest = min([least] + [v for _, _, y in run.curves for v in y if v > 1.5 * least])
+        room = 0.08 * (greatest - least)
+        ax.set_ylim((lowest - room) / unit, (greatest + room) / unit)
+    ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
+    finish(ax, "mean height above the apex (Å)" if run.curved else "mean separation (Å)", label)
+    return True
+
+
+def loading(run: Result, ax: Axes) -> bool:
+    """Force over the displacement of the driven top plane: what a testing machine records."""
+    columns = _columns(run, "leg", "top", "top_force")
+    # With the mean height prescribed, the top plane follows: the plot of the separation again.
+    if columns is None or run.key("drive.hold") == "mean-height":
+        return False
+    leg, top, force = columns
+    unit, label = force_unit(run)
+    done = _legs(ax, leg, top, force / unit)
+    ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
+    finish(ax, "displacement of the top plane (Å)", label)
+    return done
+
+
+def contact(run: Result, ax: Axes) -> bool:
+    """Contact fraction and fraction of repulsive sites over the displacement of the top plane."""
+    columns = _columns(run, "leg", "top", "contact_fraction", "pushed_fraction")
+    if columns is None:
+        return False
+    leg, top, touching, pushed = columns
+    done = _legs(ax, leg, top, touching, ", in contact")
+    _legs(ax, leg, top, pushed, ", repulsive", (DASHES[4], DASHES[2]))
+    ax.set_ylim(bottom=0)
+    finish(ax, "displacement of the top plane (Å)", "fraction of the sites")
+    return done
+
+
+def energy(run: Result, ax: Axes) -> bool:
+    """The energies along the path, per nominal area (meV/Å²) or, of a sphere, whole (eV)."""
+    timed = "time" in run.series
+    along = _columns(run, "time" if timed else "step")
+    if along is None or not run.edge:
+        return False
+    unit = 1.0 if run.curved else 1e3 / run.edge**2
+    for name, label, colour, line in (
+            ("interface_energy", "interface", BLUE, "-"), ("elastic_energy", "elastic", RED, DASHES[1]),
+            ("kinetic_energy", "kinetic", GREEN, DASHES[3]), ("work", "work done", GREY, DASHES[2]),
+            ("damped", "damped", PINK, DASHES[4]), ("dissipated", "dissipated", PINK, DASHES[4])):
+        if name in run.series:
+            curve(ax, along[0], run.series[name] * unit, label, colour=colour, line=line)
+    finish(ax, "time (ps)" if timed else "point of the path",
+           "energy (eV)" if run.curved else "energy per area (meV/Å²)")
+    return True
+
+
+def balance(run: Result, ax: Axes) -> bool:
+    """The residual of the energy balance over time."""
+    columns = _columns(run, "time", "residual")
+    if columns is None:
+        return False
+    curve(ax, columns[0], columns[1] * 1e6)
+    finish(ax, "time (ps)", "residual ($10^{-6}$ of the largest term)")
+    return True
+
+
+def spectrum(run: Result, ax: Axes) -> bool:
+    """The radially averaged power spectrum C(q) of the surface, realised and target."""
+    found = run.substrate.spectrum if run.substrate else None
+    if found is None:
+        return False
+    q, realised, target = found
+    there = realised > 0
+    if not there.any():
+        return False  # flat
+    curve(ax, q[there], realised[there], "realised")
+    if (target > 0).any():
+        curve(ax, q[target > 0], target[target > 0], "target", colour=RED, line=DASHES[1])
+    finish(ax, "wavevector $q$ (1/Å)", "$C(q)$ (Å⁴)", log="xy")
+    return True
+
+
+def roughness(run: Result, ax: Axes) -> bool:
+    """γ_eff/Δγ of the theory over the roughness, with this run's numbers at its own."""
+    flat, rms = run.number("delta_gamma") or 0.0, run.number("surface.rms") or run.number("theory.h_rms") or 0.0
+    if flat <= 0 or rms <= 0:
+        return False
+    for words, x, y, line in theory_over_roughness(run, rms):
+        curve(ax, x, y, words, colour=GREY, line=line, behind=True)
+    names = (("jkr.in_averaged", "approach, by JKR", BLUE, "o"), ("jkr.out", "pull-off, by JKR", RED, "s")) \
+        if run.curved else (("work_of_adhesion.approach", "approach", BLUE, "o"),
+                            ("work_of_adhesion.pull_off", "pull-off", RED, "s"),
+                            ("binding_energy", "state at zero load", GREEN, "^"))
+    for key, label, colour, marker in names:
+        if (value := run.number(key)) is not None:
+            curve(ax, [rms], [value / flat], label, colour=colour, line="", marker=marker, filled=marker != "s")
+    ax.set_xlim(left=0)
+    lowest = min([0.0] + [np.nanmin(c.get_ydata()) for c in ax.lines if np.isfinite(c.get_ydata()).any()])
+    ax.set_ylim(bottom=1.1 * lowest)
+    ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
+    finish(ax, "rms roughness $h_{\\mathrm{rms}}$ (Å)", "$γ_{\\mathrm{eff}}$ / Δγ")
+    return bool(ax.lines)
+
+
+def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list, object]]:
+    """The program's theory of the run's scene at 32 roughnesses up to 1.8 times its own; [] without one."""
+    keys = run.find("scene")
+    if not isinstance(keys, dict) or run.key("surface.kind") == "flat":
+        return []
+    values = [1.8 * rms * i / 32 for i in range(1, 33)]
+    overrides = []
+    try:
+        with scene.scene_file({**keys, "name": "roughness"}) as file, tempfile.TemporaryDirectory() as place:
+            if run.key("surface.kind") == "file":
+                # As run.h5 holds it: the map that it was made from may be gone.
+                if not run.substrate or run.curved:
+                    return []
+                map_file = Path(place) / "heights.h5"
+                with h5py.File(map_file, "w") as made:
+                    made["heights"] = run.substrate.height
+                    made["heights"].attrs["unit"] = "Å"
+                overrides = [f"surface.file={map_file}", f"surface.file_size={run.edge!r}", "surface.detrend=none",
+                             "surface.resample=none", "surface.file_unit=auto"]
+            points = program.theory_points(file, [[*overrides, f"surface.rms={v!r}"] for v in values])
+    except Error:  # a scene that this version refuses, or no program beside the package
+        return []
+    if any("theory" not in p for p in points):
+        return []
+    curves = []
+    for words, line, key in (("theory", "-", "gamma_eff"),
+                             ("renormalised theory", DASHES[3], "renormalised.gamma_eff")):
+        x, y = [], []
+        for value, point in zip(values, points):
+            theory = point["theory"]
+            found = theory
+            for part in key.split("."):
+                found = found.get(part) if isinstance(found, dict) else None
+            if isinstance(found, (int, float)):
+                x.append(value)
+                y.append(found / theory["delta_gamma"])
+        if x:
+            curves.append((words, x, y, line))
+    return curves
+
+
+def states(run: Result, ax: Axes) -> bool:
+    """Energies of all states at zero load over their mean height (drive.states = "all")."""
+    found = run.find("states.all")
+    points = [(s.get("mean_height"), s.get("binding_energy")) for s in found if isinstance(s, dict)] \
+        if isinstance(found, list) else []
+    points = [p for p in points if all(isinstance(v, (int, float)) for v in p)]
+    if len(points) < 2:
+        return False
+    x, y = zip(*points)
+    curve(ax, x, y, line="-", marker="o")
+    finish(ax, "mean height of the lowest layer (Å)", "binding energy (meV/Å²)")
+    return True
+
+
+def _steps(ax: Axes, edges: np.ndarray, density: np.ndarray) -> None:
+    curve(ax, np.repeat(edges, 2)[1:-1], np.repeat(np.where(density > 0, density, np.nan), 2))
+
+
+def gaps(state: State, ax: Axes) -> bool:
+    """The distribution of gaps P(u)."""
+    found = state.gap_distribution
+    if found is None or not (found[1] > 0).any():
+        return False
+    _steps(ax, *found)
+    finish(ax, "gap $u$ (Å)", "$P(u)$ (1/Å)", log="y")
+    return True
+
+
+def pressures(state: State, ax: Axes) -> bool:
+    """The distribution of the interface's pressure over the sites that feel any."""
+    if "pressure" not in state:
+        return False
+    pressure = state["pressure"]
+    felt = pressure[np.isfinite(pressure) & (pressure != 0)]  # a site out of reach feels exactly nothing
+    if felt.size < 100 or not felt.max() > felt.min():
+        return False
+    count, edges = np.histogram(felt, bins=80)
+    _steps(ax, edges, count / (pressure.size * np.diff(edges)))
+    finish(ax, "pressure $p$ (GPa), positive is repulsive", "$P(p)$ (1/GPa)", log="y")
+    return True
+
+
+def height(run: Result, ax: Axes) -> bool:
+    """The substrate from above."""
+    if not run.substrate or not run.edge:
+        return False
+    image(ax, run.substrate.height, run.edge, label="height (Å)", cmap=GAP)
+    return True
+
+
+def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
+    """A map of a state from above: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact."""
+    if name not in state.maps or not run.edge:
+        return False
+    values = state[name]
+    if name == "contact":
+        image(ax, values, run.edge, label="contact", cmap=CONTACT, words=("apart", "in contact"))
+    elif name == "pressure":
+        image(ax, values, run.edge, label="pressure (GPa), positive is repulsive", cmap=PRESSURE)
+    else:
+        # Around a sphere the gap grows without end; beyond the cutoff it does not matter.
+        high = run.number("scene.interface.cutoff") if run.curved and name == "gap" else None
+        image(ax, values, run.edge, label=f"{name} (Å)", cmap=GAP, high=high)
+    return True
+
+
+OF_RUN: dict[str, Callable[[Result, Axes], bool]] = {f.__name__: f for f in (
+    separation, loading, contact, energy, balance, spectrum, roughness, states, height)}
+OF_STATE: dict[str, Callable[[State, Axes], bool]] = {"gaps": gaps, "pressures": pressures}
+
+
+class RunPlots:
+    """result.plot: every plot as a method that takes an axes (or makes one) and returns it.
+
+    Of the run: separation, loading, contact, energy, balance, spectrum, roughness, states, height.
+    Of a state: gaps(state="zero-load"), pressures(...), map("gap", state="zero-load").
+    """
+
+    def __init__(self, run: Result):
+        self._run = run
+
+    def _draw(self, name: str, draw: Callable[[Axes], bool], ax: Axes | None) -> Axes:
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            ax = plt.subplots(layout="constrained")[1]
+        if not draw(ax):
+            raise InputOutputError(str(self._run.directory), f"has nothing for the plot {name!r}",
+                                   "the run wrote no such data", "")
+        return ax
+
+    def __getattr__(self, name: str) -> Callable[..., Axes]:
+        if name in OF_RUN:
+            return lambda ax=None: self._draw(name, lambda a: OF_RUN[name](self._run, a), ax)
+        if name in OF_STATE:
+            return lambda ax=None, state="zero-load": self._draw(
+                name, lambda a: OF_STATE[name](self._state(state), a), ax)
+        raise AttributeError(f"no plot {name!r}; there are {', '.join([*OF_RUN, *OF_STATE, 'map'])}")
+
+    def _state(self, name: str) -> State:
+        if name not in self._run.fields:
+            raise InputOutputError(str(self._run.directory), f"has no state {name!r}",
+                                   f"states: {', '.join(self._run.fields) or 'none'}", "see output.fields")
+        return self._run.fields[name]
+
+    def map(self, name: str, ax: Axes | None = None, state: str = "zero-load") -> Axes:
+        """A map of a state: "gap", "pressure", "contact", ..."""
+        return self._draw(name, lambda a: map_of(self._run, self._state(state), name, a), ax)
+
+    def __dir__(self) -> list[str]:
+        return [*OF_RUN, *OF_STATE, "map"]

@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The C++ program: where it is, how it is called, and what is asked of it (schema, checks, theory)."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from .errors import BY_CODE, InputOutputError, InternalError, SceneError
+
+
+@functools.lru_cache(maxsize=None)
+def path() -> str:
+    """The program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
+
+    In a source tree without a build it is the script `asperity`, which makes one.
+    """
+    package = Path(__file__).resolve().parent
+    places = [os.environ.get("ASPERITY_PROGRAM", "")]
+    for root in package.parents[1:4]:
+        places += [root / "build/release/engine/asperity", root / "asperity", root / "bin/asperity"]
+    for place in places:
+        if place and os.path.isfile(place) and os.access(place, os.X_OK):
+            return str(place)
+    found = shutil.which("asperity")
+    if not found:
+        raise InputOutputError("asperity", "the program was not found",
+                               "neither beside this package nor in PATH",
+                               "build it, or set ASPERITY_PROGRAM to its path")
+    return found
+
+
+def raise_for(code: int, text: str) -> None:
+    """Raises the exception that stands for an exit code, with the program's own message."""
+    if code == 0:
+        return
+    text = re.sub(r"\n\d+ problems?; nothing was written\s*$", "", text.strip())
+    if code < 0:
+        text += f"\nasperity was ended by signal {-code} ({signal.strsignal(-code)})"
+    raise BY_CODE.get(code, InternalError)(text.strip() or f"asperity ended with exit code {code}")
+
+
+def call(arguments: Iterable[str], *, text: str | None = None, before: Iterable[str] = ()) -> str:
+    """Runs the program to its end and returns what it printed. `before`: words of a launcher."""
+    words = [*before, path(), *arguments]
+    try:
+        done = subprocess.run(words, input=text, capture_output=True, text=True, encoding="utf-8")
+    except OSError as error:
+        raise InputOutputError(words[0], "cannot be started", error.strerror or str(error),
+                               "check that it is installed") from None
+    raise_for(done.returncode, done.stderr)
+    return done.stdout
+
+
+def sets(overrides: Iterable[str]) -> list[str]:
+    """["a.b=1", ...] as the words of a command line."""
+    return [word for one in overrides for word in ("--set", one)]
+
+
+@functools.lru_cache(maxsize=None)
+def schema() -> dict[str, dict[str, Any]]:
+    """Every key of a scene: kind, unit, default, doc, choices."""
+    return json.loads(call(["defaults", "--json"]))
+
+
+def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
+    """The scene file as it would be used: name, scene, sweep, notes, problems, longest_timestep (fs)."""
+    return json.loads(call(["check", scene, *sets(overrides), "--json"]))
+
+
+def theory(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
+    """The theory of one scene, with the critical roughness, as result.json would hold it."""
+    return json.loads(call(["theory", scene, *sets(overrides), "--json"]))
+
+
+def theory_points(scene: str, points: list[list[str]], runnable: bool = False) -> list[dict[str, Any]]:
+    """The theory of many variations of a scene; what is wrong with one is in its `problems`."""
+    text = "".join(json.dumps(point) + "\n" for point in points)
+    words = ["theory", scene, "--points", "-"] + (["--runnable"] if runnable else [])
+    lines = call(words, text=text).splitlines()
+    if len(lines) != len(points):
+        raise InternalError("asperity theory --points", f"answered {len(lines)} of {len(points)} points")
+    return [json.loads(line) for line in lines]
+
+
+def complaints(points: list[dict[str, Any]], where: dict[str, str] | None = None) -> None:
+    """Raises SceneError with every problem of the points, each once. where: places of swept keys."""
+    found: dict[tuple[str, str], dict] = {}
+    for point in points:
+        for problem in point.get("problems", []):
+            for key, place in (where or {}).items():
+                if problem["where"].startswith(f"--set {key}="):
+                    problem["where"] = place
+            found.setdefault((problem["where"], problem["what"]), problem)
+    if found:
+        raise SceneError.of(list(found.values()))

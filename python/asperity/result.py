@@ -1,0 +1,424 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""A result directory: result.json as attributes, the arrays of run.h5 as they are asked for.
+
+A directory holds what its run came to: a run that failed has a reason and perhaps half a series, one of
+the theory alone has no run.h5. What is not there is absent or empty here; a damaged run.h5 is reported in
+`notes`, and the rest is used.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import math
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from .errors import InputOutputError
+
+LARGEST_ARRAY = 2**28
+"""Values; a data set that claims to be larger is not read."""
+
+
+class Values(Mapping):
+    """A JSON object whose members are attributes too: v.theory.gamma_eff, v["theory"]["gamma_eff"]."""
+
+    def __init__(self, members: Mapping[str, Any]):
+        self._members = members
+
+    def __getitem__(self, key: str) -> Any:
+        value = self._members[key]
+        return Values(value) if isinstance(value, dict) else value
+
+    def __getattr__(self, key: str) -> Any:
+        if key.startswith("_"):
+            raise AttributeError(key)
+        try:
+            return self[key]
+        except KeyError:
+            raise AttributeError(f"the result has no {key!r}; it has {', '.join(self._members)}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._members)
+
+    def __len__(self) -> int:
+        return len(self._members)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._members]
+
+    def __repr__(self) -> str:
+        return json.dumps(self._members, indent=2, ensure_ascii=False)
+
+    def find(self, name: str) -> Any:
+        """A value by its path, "theory.gamma_eff"; None where there is none."""
+        value: Any = self._members
+        for part in name.split("."):
+            if not isinstance(value, dict) or part not in value:
+                return None
+            value = value[part]
+        return value
+
+    def number(self, name: str) -> float | None:
+        """The same if it is a finite number."""
+        value = self.find(name)
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            return None
+        try:
+            number = float(value)
+        except OverflowError:
+            return None
+        return number if math.isfinite(number) else None
+
+    def text(self, name: str) -> str:
+        """The same if it is a string, else ""."""
+        value = self.find(name)
+        return value if isinstance(value, str) else ""
+
+    def numbers(self) -> dict[str, float]:
+        """All numbers by their paths, in the order of the file."""
+        found: dict[str, float] = {}
+
+        def collect(members: Mapping[str, Any], before: str) -> None:
+            for key, value in members.items():
+                if isinstance(value, dict):
+                    collect(value, f"{before}{key}.")
+                elif isinstance(value, (int, float)) and not isinstance(value, bool):
+                    found[before + key] = float(value)
+
+        collect(self._members, "")
+        return found
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """A file with a JSON object. Raises InputOutputError for anything else."""
+    def refuse(why: str) -> InputOutputError:
+        return InputOutputError(str(path), "cannot be read", why, "was it damaged, or written by hand?")
+    try:
+        value = json.loads(path.read_bytes())
+    except OSError as error:
+        raise InputOutputError(str(path), "cannot be read", error.strerror or str(error),
+                               "check the path and its permissions") from None
+    except RecursionError:
+        raise refuse("it is nested too deeply") from None
+    except (ValueError, UnicodeDecodeError) as error:
+        raise refuse(f"it is not JSON: {error}") from None
+    return value if isinstance(value, dict) else {}
+
+
+def expect(directory: Path, *files: str) -> None:
+    """Raises InputOutputError unless the directory holds one of these files."""
+    example = "name a directory that a run has written, for example results/first-contact"
+    if not directory.is_dir():
+        raise InputOutputError(str(directory), "is no result directory",
+                               "it is a file" if directory.exists() else "there is no such directory", example)
+    if not any((directory / file).exists() for file in files):
+        raise InputOutputError(str(directory), "holds no result",
+                               f"{' and '.join(files)} {'is' if len(files) == 1 else 'are'} not in it",
+                               example + "; a run that was killed leaves no result.json before it is resumed")
+
+
+class RunFile:
+    """run.h5 of a directory. Every read is checked; what cannot be read raises InputOutputError."""
+
+    def __init__(self, path: Path):
+        self.path = path
+
+    def _read(self, action):
+        if not self.path.exists():
+            raise InputOutputError(str(self.path), "cannot be read", "there is no such file",
+                                   "the theory alone and a run that failed early have none")
+        try:
+            with h5py.File(self.path, "r") as file:
+                return action(file)
+        except InputOutputError:
+            raise
+        except Exception as error:  # h5py raises OSError, KeyError, RuntimeError, ValueError, TypeError
+            why = str(error).splitlines()[0] if str(error) else type(error).__name__
+            if not h5py.is_hdf5(self.path):
+                why = "it is not an HDF5 file"
+            raise InputOutputError(str(self.path), "cannot be read", why,
+                                   "run the scene again, or resume it from its checkpoint") from None
+
+    def members(self, group: str) -> list[str]:
+        """Names in a group; none if there is no such group."""
+        def names(file):
+            found = file.get(group)
+            return list(found) if isinstance(found, h5py.Group) else []
+        return self._read(names) if self.path.exists() else []
+
+    def array(self, name: str, dimensions: int, frame: int | None = None) -> np.ndarray:
+        """A data set of numbers of so many dimensions; of a frame, that element of the first one."""
+        def values(file):
+            found = file[name]
+            if not isinstance(found, h5py.Dataset) or found.dtype.kind not in "fiub":
+                raise ValueError(f"{name} is no data set of numbers")
+            shape = found.shape if frame is None else (found.shape or ())[1:]
+            if shape is None or len(shape) != dimensions:
+                raise ValueError(f"{name} has the shape {found.shape}, not {dimensions} dimensions")
+            if math.prod(shape) > LARGEST_ARRAY:
+                raise ValueError(f"{name} has {math.prod(shape)} values")
+            return np.asarray(found[()] if frame is None else found[frame])
+        return self._read(values)
+
+    def attribute(self, name: str, key: str) -> Any:
+        """An attribute of a data set or group; None if there is none."""
+        def value(file):
+            found = file[name].attrs.get(key)
+            return found.decode() if isinstance(found, bytes) else found
+        return self._read(value)
+
+
+class Series(Mapping):
+    """The path of a run: columns by name, numpy arrays of equal length. `unit(name)`, `frame()`."""
+
+    def __init__(self, file: RunFile):
+        self._file = file
+        self._names = file.members("/series")
+
+    @functools.cached_property
+    def _columns(self) -> dict[str, np.ndarray]:
+        columns = {name: self._file.array(f"/series/{name}", 1).astype(float) for name in self._names}
+        rows = min((len(c) for c in columns.values()), default=0)
+        return {name: column[:rows] for name, column in columns.items()}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def unit(self, name: str) -> str:
+        """The unit of a column; "" of a pure number."""
+        return str(self._file.attribute(f"/series/{name}", "unit") or "")
+
+    def frame(self):
+        """The columns as a pandas DataFrame."""
+        import pandas
+
+        return pandas.DataFrame(dict(self))
+
+
+class State:
+    """The maps of one state as attributes: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact.
+
+    Each is an array [y, x], read when it is asked for. `maps` are the names of those that are there.
+    """
+
+    def __init__(self, file: RunFile, name: str):
+        self.name = name
+        self._file = file
+        self._group = f"/fields/{name}"
+        self._names = file.members(self._group)
+        self._maps: dict[str, np.ndarray] = {}
+
+    @property
+    def maps(self) -> list[str]:
+        return [n for n in self._names if n not in ("gap_edges", "gap_density")]
+
+    @functools.cached_property
+    def reference_height(self) -> float:
+        """z of undisplaced sites, Å."""
+        value = self._file.attribute(self._group, "reference_height")
+        return float(value) if isinstance(value, (float, int, np.number)) else 0.0
+
+    @functools.cached_property
+    def gap_distribution(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """P(u): edges of the bins (Å) and density (1/Å)."""
+        if not {"gap_edges", "gap_density"} <= set(self._names):
+            return None
+        edges, density = (self._file.array(f"{self._group}/{n}", 1) for n in ("gap_edges", "gap_density"))
+        return (edges, density) if len(edges) == len(density) + 1 else None
+
+    def unit(self, name: str) -> str:
+        return str(self._file.attribute(f"{self._group}/{name}", "unit") or "")
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._names
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._names:
+            raise KeyError(name)
+        if name not in self._maps:
+            values = self._file.array(f"{self._group}/{name}", 2)
+            if values.shape[0] != values.shape[1] or not values.size:
+                raise InputOutputError(str(self._file.path), f"{self._group}/{name} is no square map",
+                                       f"its shape is {values.shape}", "was the file written by another program?")
+            self._maps[name] = values
+        return self._maps[name]
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"state {self.name!r} has no map {name!r}; it has {', '.join(self.maps)}") from None
+
+
+class Fields(Mapping):
+    """The states whose maps were written, by name: "zero-load", "pull-off", "step-1000", ..."""
+
+    def __init__(self, file: RunFile):
+        self._states = {name: State(file, name) for name in file.members("/fields")}
+
+    def __getitem__(self, name: str) -> State:
+        return self._states[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._states)
+
+    def __len__(self) -> int:
+        return len(self._states)
+
+
+class Substrate:
+    """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4)."""
+
+    def __init__(self, file: RunFile):
+        self._file = file
+        self._names = file.members("/substrate")
+
+    def __bool__(self) -> bool:
+        return "height" in self._names
+
+    @functools.cached_property
+    def height(self) -> np.ndarray:
+        values = self._file.array("/substrate/height", 2).astype(float)
+        if values.shape[0] != values.shape[1] or not values.size:
+            raise InputOutputError(str(self._file.path), "/substrate/height is no square map",
+                                   f"its shape is {values.shape}", "was the file written by another program?")
+        return values
+
+    @functools.cached_property
+    def spectrum(self) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+        names = ("spectrum_q", "spectrum", "spectrum_target")
+        if not set(names) <= set(self._names):
+            return None
+        q, realised, target = (self._file.array(f"/substrate/{n}", 1) for n in names)
+        return (q, realised, target) if len(q) == len(realised) == len(target) else None
+
+
+class Result(Values):
+    """One run: the keys of result.json as attributes, and
+
+    series      columns along the path, e.g. series["force"] (eV/Å)
+    fields      maps of states, e.g. fields["zero-load"].pressure (GPa), arrays [y, x]
+    substrate   its height and spectrum
+    units       the unit of each number, in the same nesting as the numbers
+    plot        plots into axes: plot.separation(ax), plot.map("gap", ax=ax), ...
+    notes       what could not be read
+    """
+
+    def __init__(self, directory: str | os.PathLike):
+        self.directory = Path(directory)
+        expect(self.directory, "result.json")
+        super().__init__(read_json(self.directory / "result.json"))
+        self.notes: list[str] = []
+        file = self.file = RunFile(self.directory / "run.h5")
+        try:
+            self.series, self.fields, self.substrate = Series(file), Fields(file), Substrate(file)
+            dict(self.series)
+        except InputOutputError as error:
+            self.notes.append(f"run.h5 cannot be read to its end ({str(error).split('why: ')[-1].splitlines()[0]}).")
+            self.file = RunFile(self.directory / "no run.h5")
+            self.series, self.fields = Series(self.file), Fields(self.file)
+            self.substrate = Substrate(self.file)
+
+    @property
+    def units(self) -> Values:
+        units = self._members.get("units")
+        return Values(units if isinstance(units, dict) else {})
+
+    def unit(self, name: str) -> str:
+        """The unit of a number by its path; "" of a pure number or if the file does not tell."""
+        return self.units.text(name)
+
+    def key(self, name: str, otherwise: Any = None) -> Any:
+        """A key of the scene that was used, "surface.sites"."""
+        value = self.find("scene." + name)
+        return otherwise if value is None else value
+
+    @functools.cached_property
+    def curves(self) -> list[tuple[str, np.ndarray, np.ndarray]]:
+        """Theory beside the path of a curved scene: label, mean height (Å), force (eV/Å)."""
+        found = []
+        for name in self.file.members("/curves"):
+            label = self.file.attribute(f"/curves/{name}", "label")
+            x, y = (self.file.array(f"/curves/{name}/{n}", 1) for n in ("height", "force"))
+            found.append((str(label or name), x, y))
+        return found
+
+    @property
+    def edge(self) -> float:
+        """Width of the box, Å; 0 without a scene."""
+        return (self.number("scene.surface.sites") or 0.0) * (self.number("scene.surface.spacing") or 0.0)
+
+    @property
+    def curved(self) -> bool:
+        return self.radius is not None
+
+    @property
+    def radius(self) -> float | None:
+        """Of a spherical cap, Å."""
+        return self.number("scene.surface.radius")
+
+    @property
+    def failure_text(self) -> str:
+        """Why the run failed; "" if it did not."""
+        if "failure" not in self._members:
+            return ""
+        return self.text("failure.reason") or json.dumps(self._members["failure"])[:2000]
+
+    @property
+    def stopped(self) -> str:
+        """Why the run ended before its end ("signal", "wall_limit", "max_steps"); "" if it did not."""
+        return self.text("run.stopped")
+
+    @property
+    def title(self) -> str:
+        """The scene in one line; of a result without one the directory's name."""
+        name = self.text("name")
+        sites = self.number("scene.surface.sites")
+        if not name or not sites:
+            return name or self.directory.resolve().name
+        kind, rms = self.text("scene.surface.kind"), self.number("scene.surface.rms")
+        if kind == "flat":
+            what = "flat"
+        elif rms is None:
+            what = "as measured" if kind == "file" else "rough"
+        else:
+            what = f"rms {rms:.4g} Å" if rms > 0 else "smooth"
+        radius = f", R = {self.radius:.4g} Å" if self.radius else ""
+        return f"{name}: {what}, {sites:.0f} × {sites:.0f}{radius}"
+
+    @property
+    def plot(self):
+        from .plots.run import RunPlots
+
+        return RunPlots(self)
+
+    def report(self) -> Path:
+        """Writes report.html into the directory; its path."""
+        from .report import write_run_page
+
+        return write_run_page(self).path
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{k}={v:.4g}" for k in ("binding_energy", "contact_fraction", "delta_gamma")
+                          if (v := self.number(k)) is not None)
+        return f"<Result {self.directory}: {found}>"
+
+
+def load(directory: str | os.PathLike) -> Result:
+    """The result in a directory. Raises InputOutputError where there is none."""
+    return Result(directory)

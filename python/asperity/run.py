@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Running a scene from Python."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import tempfile
+from pathlib import Path
+
+from . import program
+from .errors import InputOutputError
+from .result import Result
+from .scene import Overrides, SceneLike, assignments, scene_file
+
+
+def default_directory(name: str) -> Path:
+    """results/<name>, or the first of results/<name>-2, -3, ... that does not exist yet."""
+    first = place = Path("results") / name
+    number = 2
+    while place.exists():
+        place, number = first.with_name(f"{first.name}-{number}"), number + 1
+    return place
+
+
+def launcher(ranks: int) -> list[str]:
+    """The words before the program for so many ranks."""
+    if ranks == 1:
+        return []
+    root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
+    return ["mpirun", "--oversubscribe", *root, "-n", str(ranks)]
+
+
+def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None,
+        ranks: int = 1) -> Result:
+    """Simulates a scene and returns its Result.
+
+    scene      a TOML file, or a dictionary of its sections: {"surface": {"sites": 64}}
+    overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/scene.md
+    out        the result directory; None: results/<scene>, or the next name that is free
+    ranks      MPI ranks
+
+    An interruption (Ctrl-C) lets the run write a checkpoint first. Raises SceneError, PhysicsError,
+    InputOutputError or Stopped with the program's message.
+    """
+    with scene_file(scene) as file:
+        place = Path(out) if out is not None else default_directory(Path(file).stem)
+        words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "off",
+                 *program.sets(assignments(overrides))]
+        with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as said:
+            try:
+                child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said,
+                                         start_new_session=True)
+            except OSError as error:
+                raise InputOutputError(words[0], "cannot be started", error.strerror or str(error),
+                                       "check that it is installed") from None
+            try:
+                code = child.wait()
+            except KeyboardInterrupt:
+                child.send_signal(signal.SIGUSR1)  # mpirun passes it on
+                child.wait()
+                raise
+            said.seek(0)
+            text = said.read()
+        if code == 75 and not text.strip():
+            text = f"{place}: the run stopped early\n    why: a signal or a limit ended it\n" \
+                   f"    fix: resume it: asperity run {file} --out {place} --resume auto"
+        program.raise_for(code, text)
+    return Result(place)

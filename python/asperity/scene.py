@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Scenes as dictionaries: their text, their overrides, and a file of them for the program."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, Union
+
+SceneLike = Union[str, Path, Mapping[str, Any]]
+Overrides = Union[Mapping[str, Any], list]
+
+
+def toml_value(value: Any) -> str:
+    """A value as it stands in TOML; a JSON string is a TOML string as well."""
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(toml_value(v) for v in value) + "]"
+    if hasattr(value, "item"):  # a number of numpy
+        value = value.item()
+    if isinstance(value, Path):
+        value = str(value)
+    return json.dumps(value, ensure_ascii=False)
+
+
+def toml_of(scene: Mapping[str, Any]) -> str:
+    """The TOML text of {"surface": {"rms": 1}, ...}; keys may also be whole: {"surface.rms": 1}."""
+    lines, sections = [], []
+    for name, value in scene.items():
+        if isinstance(value, Mapping):
+            sections.append(f"[{name}]")
+            sections += [f"{key} = {toml_value(v)}" for key, v in value.items() if v is not None]
+            sections.append("")
+        elif value is not None:
+            lines.append(f"{name} = {toml_value(value)}")
+    return "\n".join(lines + [""] * bool(lines) + sections)
+
+
+def assignments(overrides: Overrides | None) -> list[str]:
+    """Overrides as "key=value"; a mapping or a list of such strings."""
+    if not isinstance(overrides, Mapping):
+        return list(overrides or [])
+    return [f"{key}={v if isinstance(v, str) else toml_value(v)}" for key, v in overrides.items()]
+
+
+@contextlib.contextmanager
+def scene_file(scene: SceneLike) -> Iterator[str]:
+    """The file of a scene; of a dictionary a temporary one, named by its entry "name"."""
+    if not isinstance(scene, Mapping):
+        yield str(scene)
+        return
+    sections = {key: value for key, value in scene.items() if key != "name"}
+    with tempfile.TemporaryDirectory(prefix="asperity-") as directory:
+        file = Path(directory) / f"{scene.get('name', 'scene')}.toml"
+        file.write_text(toml_of(sections), encoding="utf-8")
+        yield str(file)

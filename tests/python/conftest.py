@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The package from this source tree, the program of $ASPERITY_PROGRAM, and a few small results."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+os.environ.setdefault("ASPERITY_PROGRAM", str(ROOT / "build/release/engine/asperity"))
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.setdefault("MPLBACKEND", "agg")
+
+import asperity  # noqa: E402
+
+SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
+STATE = {"name": "state", "surface": {"sites": 24}, "block": {"model": "spectral"}, "drive": {"path": ["zero-load"]}}
+
+
+def command(*words, expect=0, cwd=None, env=None):
+    """Runs the program; the text that it prints. The exit code must be `expect`."""
+    done = subprocess.run([os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, capture_output=True, text=True,
+                          env={**os.environ, **(env or {})})
+    assert done.returncode == expect, f"exit {done.returncode}: {words}\n{done.stdout}{done.stderr}"
+    return done.stdout + done.stderr
+
+
+@pytest.fixture(scope="session")
+def results(tmp_path_factory):
+    return tmp_path_factory.mktemp("a place")  # with a space in its name
+
+
+@pytest.fixture(scope="session")
+def path_run(results):
+    """Approach and pull-off with a trajectory."""
+    return asperity.run(SMALL, {"output.trajectory": 300, "output.velocities": True}, out=results / "path")
+
+
+@pytest.fixture(scope="session")
+def state_run(results):
+    return asperity.run(STATE, {"surface.rms": 0.5}, out=results / "state")
+
+
+@pytest.fixture(scope="session")
+def sphere_run(results):
+    return asperity.run(SMALL, {"surface.radius": 100.0, "surface.rms": 0.2, "output.series": 10},
+                        out=results / "sphere")

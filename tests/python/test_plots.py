@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Plots: what is drawn, in which units, and the files that are written."""
+
+import io
+
+import matplotlib.image
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import asperity
+from asperity import units
+from asperity.plots import files, style
+from asperity.plots import run as run_plots
+
+
+def axes():
+    return Figure().add_subplot()
+
+
+def test_forces_of_flat_solids_are_stresses(path_run):
+    ax = path_run.plot.separation(axes())
+    curves = {c.label: c for c in style.drawn(ax).curves}
+    assert set(curves) == {"approach", "pull-off"}
+    leg, force = path_run.series["leg"], path_run.series["force"]
+    # eV/Å over Å² in GPa: 1 eV/Å^3 = 160.2176634 GPa
+    assert curves["pull-off"].y == pytest.approx(force[leg == 1] / path_run.edge**2 * 160.2176634)
+    assert (curves["approach"].x == path_run.series["mean_height"][leg == 0]).all()
+    assert "GPa" in ax.get_ylabel()
+
+
+def test_forces_of_spheres_are_forces(sphere_run):
+    ax = sphere_run.plot.separation(axes())
+    curves = {c.label: c for c in style.drawn(ax).curves}
+    force = sphere_run.series["force"][sphere_run.series["leg"] == 0]
+    assert curves["approach"].y == pytest.approx(force * 1.602176634)  # 1 eV/Å = 1.602176634 nN
+    assert "nN" in ax.get_ylabel()
+
+
+def test_energies_are_per_area(path_run):
+    curves = {c.label: c for c in style.drawn(path_run.plot.energy(axes())).curves}
+    assert curves["interface"].y == pytest.approx(1e3 * path_run.series["interface_energy"] / path_run.edge**2)
+
+
+def test_the_theory_over_roughness_meets_the_runs_own(path_run):
+    ax = path_run.plot.roughness(axes())
+    theory = next(c for c in style.drawn(ax).curves if c.label == "theory")
+    at_own = np.interp(path_run.surface.rms, theory.x, theory.y)
+    assert at_own == pytest.approx(path_run.theory.gamma_eff / path_run.delta_gamma, abs=2e-4)
+    assert theory.x[-1] == pytest.approx(1.8 * path_run.surface.rms)
+
+
+def test_distributions_are_normalised(path_run):
+    state = path_run.fields["zero-load"]
+    one = style.drawn(path_run.plot.pressures(axes())).curves[0]
+    y = np.nan_to_num(one.y)
+    share = np.sum(y[::2] * (one.x[1::2] - one.x[::2]))
+    assert share == pytest.approx(np.mean(state.pressure != 0), rel=1e-9)
+
+
+def test_maps_are_seen_from_above(path_run):
+    ax = path_run.plot.map("gap", axes())
+    shown = ax.images[0]
+    assert shown.origin == "lower" and (shown.get_array() == path_run.fields["zero-load"].gap).all()
+    assert shown.get_extent() == pytest.approx([0, 8.32, 0, 8.32])  # nm
+
+
+def test_what_is_not_there_is_a_message(state_run):
+    with pytest.raises(asperity.InputOutputError, match="separation"):
+        state_run.plot.separation(axes())
+    with pytest.raises(asperity.InputOutputError, match="states: zero-load"):
+        state_run.plot.map("gap", axes(), state="pull-off")
+    with pytest.raises(AttributeError, match="separation"):
+        state_run.plot.sepration
+
+
+def luminance(colour):
+    r, g, b = (int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5))
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b
+
+
+@pytest.mark.parametrize("name", ["separation", "contact", "energy", "spectrum", "roughness"])
+def test_curves_can_be_told_apart_in_grey(path_run, name):
+    """No two curves of a plot share dashes, marker and brightness."""
+    ax = getattr(path_run.plot, name)(axes())
+    looks = []
+    for line in ax.lines:
+        if line.get_label().startswith("_"):
+            continue
+        # matplotlib keeps the pattern of dashes in a private name
+        looks.append((str(line._unscaled_dash_pattern), line.get_marker(), round(luminance(line.get_color()), 1)))
+    assert len(looks) > 1 and len(set(looks)) == len(looks), looks
+
+
+def test_files_hold_the_curves(path_run, tmp_path):
+    fig = files.make(lambda ax: run_plots.separation(path_run, ax))
+    written = files.save(fig, tmp_path / "separation")
+    assert [p.name for p in written] == ["separation.png", "separation.pdf", "separation.svg"]
+    picture = matplotlib.image.imread(written[0])
+    assert picture.shape[1] > 800 and picture[..., :3].std() > 0.05
+    assert written[1].read_bytes().startswith(b"%PDF-") and b"/Subtype /Image" not in written[1].read_bytes()  # vectors
+    assert b"<path" in written[2].read_bytes()
+    text = files.csv(fig)
+    table = np.genfromtxt(io.StringIO(text), delimiter=",", skip_header=1)
+    leg = path_run.series["leg"]
+    approach = table[:, 1][np.isfinite(table[:, 1])]
+    assert approach == pytest.approx(path_run.series["force"][leg == 0] / path_run.edge**2 / units.GIGAPASCAL, rel=1e-8)
+    assert text.startswith('"mean separation (Å)","approach: mean stress F/A_0 (GPa)"')
+    fig = files.make(lambda ax: run_plots.map_of(path_run, path_run.fields["zero-load"], "gap", ax))
+    assert np.genfromtxt(io.StringIO(files.csv(fig)), delimiter=",").shape == (32, 32)

@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Running scenes and reading results: values, arrays, units, errors, damaged files."""
+
+import json
+import shutil
+
+import h5py
+import numpy as np
+import pytest
+
+import asperity
+from asperity import program, scene
+from conftest import SMALL
+
+
+def test_a_result_is_what_the_files_hold(path_run):
+    stored = json.loads((path_run.directory / "result.json").read_text())
+    assert path_run.binding_energy == stored["binding_energy"]
+    assert path_run.work_of_adhesion.pull_off == stored["work_of_adhesion"]["pull_off"]
+    assert path_run["theory"]["gamma_eff"] == path_run.number("theory.gamma_eff")
+    assert set(path_run) == set(stored)
+    with h5py.File(path_run.directory / "run.h5") as file:
+        assert (path_run.series["force"] == file["series/force"][:]).all()
+        pressure = file["fields/zero-load/pressure"][:]
+        assert (path_run.fields["zero-load"].pressure == pressure).all()
+        assert (path_run.substrate.height == file["substrate/height"][:]).all()
+    assert pressure[3, 5] != pressure[5, 3]  # or the test could not tell x from y
+    assert path_run.series.unit("force") == "eV/Å"
+    assert path_run.fields["zero-load"].unit("pressure") == "GPa"
+    assert path_run.title == "small: rms 0.5 Å, 32 × 32"
+    with pytest.raises(AttributeError, match="binding_energy"):
+        path_run.binding_enrgy
+    with pytest.raises(AttributeError, match="pressure"):
+        path_run.fields["zero-load"].presure
+
+
+def test_numbers_are_found_by_their_paths(path_run):
+    numbers = path_run.numbers()
+    assert numbers["energy.residual"] == path_run.energy.residual
+    assert "scene.surface.radius" not in numbers  # "none"
+    assert path_run.number("scene.surface.radius") is None
+    assert path_run.number("theory.converged") is None  # a truth is no number
+
+
+def test_overrides_and_dictionaries_reach_the_program():
+    text = scene.toml_of({"surface": {"sites": 64, "rms": np.float64(0.25)}, "drive": {"path": ["zero-load"]},
+                          "block.model": "spectral"})
+    assert text.startswith('block.model = "spectral"\n')
+    with scene.scene_file({"name": "as named", "surface": {"sites": 64, "file": None}, "block.young": "80 GPa"}) as file:
+        found = program.check(file, scene.assignments({"surface.rms": "0.3 nm", "drive.path": ["zero-load"]}))
+    assert found["name"] == "as named" and not found["problems"]
+    assert found["scene"]["surface"]["rms"] == pytest.approx(3.0)
+    assert found["scene"]["block"]["young"] == 80.0
+    assert found["scene"]["drive"]["path"] == ["zero-load"]
+
+
+def test_the_schema_is_the_programs():
+    keys = program.schema()
+    assert keys["surface.rms"]["unit"] == "Å" and keys["surface.rms"]["kind"] == "number"
+    assert "spectral" in keys["block.model"]["choices"]
+    assert all(set(k) >= {"kind", "unit", "default", "doc"} for k in keys.values())
+
+
+def test_errors_of_the_program_are_exceptions(tmp_path):
+    with pytest.raises(asperity.SceneError) as error:
+        asperity.run({**SMALL, "surface": {"rsm": 1, "sites": -3}}, out=tmp_path / "bad")
+    assert "did you mean surface.rms?" in str(error.value) and "surface.sites" in str(error.value)
+    assert "nothing was written" not in str(error.value) and not (tmp_path / "bad").exists()
+    with pytest.raises(asperity.PhysicsError, match="why:"):
+        asperity.run(SMALL, {"drive.timestep": 70, "drive.velocity": 3000}, out=tmp_path / "fast")
+    assert "drive" in asperity.load(tmp_path / "fast").failure_text
+    with pytest.raises(asperity.InputOutputError, match="there is no such directory"):
+        asperity.load(tmp_path / "gone")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(asperity.InputOutputError, match="holds no result"):
+        asperity.load(tmp_path / "empty")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(asperity.InputOutputError):
+        asperity.run(SMALL, out=tmp_path / "file" / "x")
+
+
+def test_a_directory_that_is_taken_is_not_written_over(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    short = {"drive.max_steps": 3}
+    first, second = asperity.run(SMALL, short), asperity.run(SMALL, short)
+    assert [str(r.directory) for r in (first, second)] == ["results/small", "results/small-2"]
+    with pytest.raises(asperity.SceneError):
+        asperity.run(SMALL, short, out=first.directory)
+
+
+def test_ranks_change_nothing_but_their_number(tmp_path, state_run):
+    if not shutil.which("mpirun"):
+        pytest.fail("mpirun is needed by the program itself")
+    lattice = {"block.model": "multiscale", "surface.rms": 0.5}
+    one, two = (asperity.run({**SMALL, "drive": {"path": ["zero-load"]}}, lattice, out=tmp_path / str(n), ranks=n)
+                for n in (1, 2))
+    assert (one.run.ranks, two.run.ranks) == (1, 2)
+    assert one.binding_energy == two.binding_energy
+
+
+HOSTILE = ["{", "[1, 2]", "null", '{"scene": [1, ', "[" * 50_000, '{"a":' * 50_000, "\x00\xff",
+           '{"scene": 3, "run": {"stopped": 3}, "theory": [], "binding_energy": "x", "delta_gamma": 1e999}',
+           '{"name": {}, "scene": {"surface": {"sites": "x", "spacing": [], "rms": {}}}, "failure": [1]}',
+           '{"delta_gamma": %s}' % ("9" * 400)]
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
+def test_damaged_json_is_a_message_or_an_empty_result(tmp_path, text):
+    (tmp_path / "result.json").write_bytes(text.encode("latin-1"))
+    try:
+        found = asperity.load(tmp_path)
+    except asperity.InputOutputError as error:
+        assert "why:" in str(error)
+        return
+    assert isinstance(found.title, str) and isinstance(found.failure_text, str) and found.edge == 0
+    assert found.number("delta_gamma") is None and found.stopped == ""
+
+
+def damaged(path_run, tmp_path, change):
+    copy = tmp_path / "copy"
+    shutil.copytree(path_run.directory, copy, ignore=shutil.ignore_patterns("report*", "export"))
+    change(copy / "run.h5")
+    return asperity.load(copy)
+
+
+def test_a_damaged_run_file_is_noted_and_the_rest_is_used(path_run, tmp_path):
+    found = damaged(path_run, tmp_path, lambda f: f.write_text("nonsense"))
+    assert "it is not an HDF5 file" in found.notes[0]
+    assert not found.series and not found.fields and not found.substrate
+    assert found.binding_energy == path_run.binding_energy
+
+
+@pytest.mark.parametrize("shape", [(), (3000, 1), (4, 4, 4), (0, 0)])
+def test_an_array_of_another_shape_is_a_message(path_run, tmp_path, shape):
+    def change(name):
+        with h5py.File(name, "r+") as file:
+            for place in ("substrate/height", "fields/zero-load/pressure"):
+                del file[place]
+                file[place] = np.zeros(shape)
+    found = damaged(path_run, tmp_path, change)
+    with pytest.raises(asperity.InputOutputError, match="height"):
+        found.substrate.height
+    with pytest.raises(asperity.InputOutputError, match="pressure"):
+        found.fields["zero-load"].pressure
+    assert (found.fields["zero-load"].gap == path_run.fields["zero-load"].gap).all()
+
+
+def test_words_and_groups_in_place_of_numbers_are_a_message(path_run, tmp_path):
+    def change(name):
+        with h5py.File(name, "r+") as file:
+            del file["series/force"], file["substrate/height"]
+            file["series/force"] = "words"
+            file.create_group("substrate/height")
+    found = damaged(path_run, tmp_path, change)
+    assert found.notes and not found.series
+
+
+def test_a_huge_array_is_not_read(path_run, tmp_path):
+    def change(name):
+        with h5py.File(name, "r+") as file:
+            del file["substrate/height"]
+            file.create_dataset("substrate/height", shape=(100_000, 100_000), chunks=(1000, 1000))
+    with pytest.raises(asperity.InputOutputError, match="values"):
+        damaged(path_run, tmp_path, change).substrate.height
