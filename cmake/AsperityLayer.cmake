@@ -7,9 +7,6 @@
 #   #include "<name>/x.hpp" works, and an include that points upwards does not compile.
 #   Sources named under VARIANTS are compiled once for each x86-64 level and picked at start
 #   (kernels/variant.hpp).
-#
-# asperity_test(<name> SOURCES ... LINK ... [LABELS ...] [RANKS ...] [TIMEOUT s])
-#   A GoogleTest program. With RANKS it is run once for each number of ranks, under mpirun.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -66,29 +63,4 @@ function(asperity_layer name)
         target_compile_definitions(asperity_${name} PRIVATE
             ASPERITY_HAS_X86_VARIANTS=$<BOOL:${ASPERITY_VARIANTS}>)
     endif()
-endfunction()
-
-function(asperity_test name)
-    cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS;RANKS" ${ARGN})
-    if(NOT ARG_TIMEOUT)
-        set(ARG_TIMEOUT 300)
-    endif()
-    add_executable(${name} ${ARG_SOURCES})
-    target_link_libraries(${name} PRIVATE asperity_warnings ${ARG_LINK})
-    if(NOT ARG_RANKS)
-        target_link_libraries(${name} PRIVATE GTest::gtest GTest::gtest_main)
-        add_test(NAME ${name} COMMAND ${name})
-        set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
-                             ENVIRONMENT "OMP_NUM_THREADS=2;OMP_WAIT_POLICY=passive")
-        return()
-    endif()
-    target_link_libraries(${name} PRIVATE GTest::gtest)
-    foreach(ranks IN LISTS ARG_RANKS)
-        add_test(NAME ${name}_ranks${ranks}
-                 COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root --bind-to none
-                         -n ${ranks} $<TARGET_FILE:${name}>)
-        set_tests_properties(${name}_ranks${ranks} PROPERTIES LABELS "${ARG_LABELS};mpi"
-                             TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${ranks}
-                             ENVIRONMENT "OMP_NUM_THREADS=1;OMP_WAIT_POLICY=passive")
-    endforeach()
 endfunction()

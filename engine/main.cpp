@@ -13,9 +13,11 @@
 #include "engine/commands/sweep.hpp"
 #include "engine/commands/theory_command.hpp"
 #include "engine/commands/theory_points.hpp"
+#include "engine/commit.hpp"
 #include "engine/run/run.hpp"
 
 #include "decomposition/communicator.hpp"
+#include "io/build_info.hpp"
 #include "io/error.hpp"
 
 #include <algorithm>
@@ -167,6 +169,7 @@ void choose_threads() {
 
 int main(int argc, char** argv) {
     using namespace asperity;
+    io::set_commit(build_commit);
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
     choose_threads();

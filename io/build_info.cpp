@@ -1,11 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-//
-// git_hash.hpp is written at build time (git_hash.cmake), and only this unit sees it, so a commit
-// rebuilds one file.
 #include "io/build_info.hpp"
-
-#include "git_hash.hpp"
 
 #include <fstream>
 #include <thread>
@@ -15,6 +10,17 @@
 
 namespace asperity::io {
 
+namespace {
+
+std::string& commit() {
+    static std::string commit = "unknown";
+    return commit;
+}
+
+} // namespace
+
+void set_commit(const std::string& described) { commit() = described; }
+
 BuildInfo build_info() {
     unsigned major = 0, minor = 0, release = 0;
     const bool known = H5get_libversion(&major, &minor, &release) >= 0;
@@ -23,7 +29,7 @@ BuildInfo build_info() {
 #else
     const std::string compiler = "g++ " __VERSION__;
 #endif
-    return {ASPERITY_VERSION, ASPERITY_GIT_HASH, compiler, ASPERITY_FLAGS,
+    return {ASPERITY_VERSION, commit(), compiler, ASPERITY_FLAGS,
             known ? fmt::format("{}.{}.{}", major, minor, release) : "unknown"};
 }
 

@@ -10,13 +10,17 @@
 namespace asperity::io {
 
 struct BuildInfo {
-    std::string version;  ///< of the project
-    std::string git;      ///< commit, with "-dirty" if the tree had changes; "unknown" outside git
+    std::string version; ///< of the project
+    std::string
+        git; ///< commit, with "-dirty" if the tree had changes; "unknown" outside git and in tests
     std::string compiler; ///< name and version
     std::string flags;    ///< build type and options
     std::string hdf5;     ///< version of the library in use
 };
 BuildInfo build_info();
+
+/// States the commit; a program calls it first in main(). Until then `git` is "unknown".
+void set_commit(const std::string& described);
 
 /// The processor that runs it and how many it sees: "AMD EPYC 9B14, 2 processors".
 std::string machine();

@@ -6,7 +6,7 @@
 // Scene{} is the paper's flat case. bind() ties every field to its key, unit, range and line of
 // documentation; that list is the only place where keys are named, and the reader, `asperity
 // defaults`, result.json and docs/scene.md all follow from it. Names and defaults do not change
-// from release to release: tests/cli/scene_test.cpp has them all.
+// from release to release: tests/engine/scene_test.cpp has them all.
 #pragma once
 
 #include "engine/scene/surface.hpp"

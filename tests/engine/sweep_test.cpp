@@ -12,7 +12,7 @@
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/plot.hpp"
-#include "io/scratch.hpp"
+#include "support/scratch.hpp"
 
 #include <cmath>
 #include <filesystem>

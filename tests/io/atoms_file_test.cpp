@@ -7,7 +7,7 @@
 #include "io/h5md.hpp"
 #include "io/xdmf.hpp"
 
-#include "scratch.hpp"
+#include "support/scratch.hpp"
 
 #include <fstream>
 #include <sstream>

@@ -5,7 +5,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/series.hpp"
 
-#include "scratch.hpp"
+#include "support/scratch.hpp"
 
 #include <cmath>
 #include <numeric>

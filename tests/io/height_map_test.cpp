@@ -4,7 +4,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/height_map.hpp"
 
-#include "scratch.hpp"
+#include "support/scratch.hpp"
 
 #include <cmath>
 #include <limits>

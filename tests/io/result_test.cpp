@@ -3,7 +3,7 @@
 #include "io/error.hpp"
 #include "io/result.hpp"
 
-#include "scratch.hpp"
+#include "support/scratch.hpp"
 
 #include <limits>
 

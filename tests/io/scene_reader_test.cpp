@@ -5,7 +5,7 @@
 #include "io/scene_reader.hpp"
 #include "io/spelling.hpp"
 
-#include "scratch.hpp"
+#include "support/scratch.hpp"
 
 #include <gtest/gtest.h>
 

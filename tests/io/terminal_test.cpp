@@ -4,7 +4,7 @@
 #include "io/progress.hpp"
 #include "io/table.hpp"
 
-#include "scratch.hpp"
+#include "support/scratch.hpp"
 
 #include <cstdlib>
 

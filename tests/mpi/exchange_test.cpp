@@ -5,7 +5,7 @@
 // every rank knows what every other must have sent; copies are compared bit for bit.
 #include "decomposition/field.hpp"
 #include "decomposition/halo_exchange.hpp"
-#include "support/parallel_main.hpp"
+#include "support/world.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "support/cases.hpp"
-#include "support/parallel_main.hpp"
+#include "support/world.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 // + 11 + 11 rows, odd offsets) and hold the other two whole. Deep: five levels down to 2 x 2 nodes;
 // two and four ranks cut four of them and hold the last one whole.
 #include "support/cases.hpp"
-#include "support/parallel_main.hpp"
+#include "support/world.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -5,7 +5,7 @@
 // slab it shares and a whole surface of its own. Sizes that the ranks divide, and that they do not.
 #include "engine/equilibrium/spectral_relaxation.hpp"
 #include "support/cases.hpp"
-#include "support/parallel_main.hpp"
+#include "support/world.hpp"
 
 #include <gtest/gtest.h>
 

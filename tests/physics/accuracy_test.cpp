@@ -8,7 +8,7 @@
 #include "engine/scene/accuracy.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
-#include "io/scratch.hpp"
+#include "support/scratch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "paper.hpp"
+#include "support/paper_contact.hpp"
 #include "theory/error.hpp"
 #include "theory/gap_attraction.hpp"
 

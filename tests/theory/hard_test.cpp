@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "paper.hpp"
+#include "support/paper_contact.hpp"
 #include "theory/error.hpp"
 
 namespace asperity::theory {

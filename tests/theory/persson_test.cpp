@@ -12,7 +12,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <gtest/gtest.h>
 
-#include "paper.hpp"
+#include "support/paper_contact.hpp"
 #include "theory/error.hpp"
 #include "theory/shooting.hpp"
 

@@ -6,7 +6,7 @@
 #include "engine/run/checkpoint.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
-#include "support/parallel_main.hpp"
+#include "support/world.hpp"
 
 #include <gtest/gtest.h>
 

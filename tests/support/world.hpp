@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// main() of the tests that run on several ranks. All ranks run all tests; the program fails if any
-// rank saw a failure, and the ranks but the first print nothing else.
+// The ranks that run the tests (support/main.cpp).
 #pragma once
 
 #include "decomposition/communicator.hpp"

@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+#
+# asperity_test_program(<folder> LINK ...)
+#   One GoogleTest program of the suites of tests/<folder>, test_<folder>. Its arguments name the
+#   files whose tests it runs (support/main.cpp).
+#
+# asperity_suite(<name> <folder>/<file> LABELS ... [THREADS n] [RANKS n ...] [KERNELS level ...]
+#                [LONG] [TIMEOUT s] [ENVIRONMENT NAME=VALUE ...])
+#   Adds tests/<folder>/<file>.cpp to the folder's program, and the tests of that file to ctest under
+#   <name>; THREADS is 1 unless given. With RANKS it is run once for each number of ranks, as
+#   <name>_ranks<n>. KERNELS repeats it with the kernels of other processor levels, as <name>_<level>.
+#   LONG repeats it with ASPERITY_LONG=1 and the label "long", as <name less _test>_long.
+#
+# asperity_check_suites()
+#   An error if a file tests/*/*_test.cpp belongs to no suite.
+
+function(asperity_test_program folder)
+    cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+    add_executable(test_${folder})
+    target_link_libraries(test_${folder} PRIVATE asperity_warnings asperity_test_main ${ARG_LINK})
+    target_compile_definitions(test_${folder} PRIVATE ASPERITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endfunction()
+
+function(asperity_suite name file)
+    cmake_parse_arguments(ARG "LONG" "THREADS;TIMEOUT" "LABELS;RANKS;KERNELS;ENVIRONMENT" ${ARGN})
+    if(ARG_UNPARSED_ARGUMENTS)
+        message(FATAL_ERROR "asperity_suite(${name}): unknown ${ARG_UNPARSED_ARGUMENTS}")
+    endif()
+    if(NOT ARG_THREADS)
+        set(ARG_THREADS 1)
+    endif()
+    if(NOT ARG_TIMEOUT)
+        set(ARG_TIMEOUT 300)
+    endif()
+    get_filename_component(folder ${file} DIRECTORY)
+    get_filename_component(stem ${file} NAME)
+    target_sources(test_${folder} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${file}.cpp)
+    set_property(GLOBAL APPEND PROPERTY ASPERITY_SUITES ${CMAKE_CURRENT_SOURCE_DIR}/${file}.cpp)
+    # Threads that wait must sleep: spinning takes the processor from the thread that is waited for.
+    set(environment OMP_NUM_THREADS=${ARG_THREADS} OMP_WAIT_POLICY=passive ${ARG_ENVIRONMENT})
+    set(command $<TARGET_FILE:test_${folder}> ${stem})
+    if(ARG_RANKS)
+        foreach(ranks IN LISTS ARG_RANKS)
+            add_test(NAME ${name}_ranks${ranks}
+                     COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root --bind-to none
+                             -n ${ranks} ${command})
+            set_tests_properties(${name}_ranks${ranks} PROPERTIES LABELS "${ARG_LABELS};mpi"
+                TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${ranks} ENVIRONMENT "${environment}")
+        endforeach()
+        return()
+    endif()
+    add_test(NAME ${name} COMMAND ${command})
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+                                            ENVIRONMENT "${environment}")
+    foreach(level IN LISTS ARG_KERNELS)
+        if(level IN_LIST ASPERITY_VARIANTS)
+            add_test(NAME ${name}_${level} COMMAND ${command})
+            set_tests_properties(${name}_${level} PROPERTIES LABELS "${ARG_LABELS}"
+                TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${environment};ASPERITY_KERNELS=${level}")
+        endif()
+    endforeach()
+    if(ARG_LONG)
+        string(REGEX REPLACE "_test$" "_long" long_name ${name})
+        add_test(NAME ${long_name} COMMAND ${command})
+        set_tests_properties(${long_name} PROPERTIES LABELS long TIMEOUT 3600
+                                                     ENVIRONMENT "${environment};ASPERITY_LONG=1")
+    endif()
+endfunction()
+
+function(asperity_check_suites)
+    get_property(listed GLOBAL PROPERTY ASPERITY_SUITES)
+    file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*/*_test.cpp)
+    list(REMOVE_ITEM found ${listed})
+    if(found)
+        message(FATAL_ERROR "Tests that no suite in tests/CMakeLists.txt names: ${found}")
+    endif()
+endfunction()
