@@ -92,12 +92,8 @@ struct KickSums {
     ExactSum dissipated; ///< sum of m Gamma dt |v_n - V|^2, eV (damped planes)
     ExactSum dragged; ///< sum of m Gamma dt (v_n - V)_z, eV fs/Å (damped planes): momentum given to
                       ///< the medium
-    long long nodes = 0;  ///< advanced
-    long long damped = 0; ///< of these, against the medium
 
     void merge(const KickSums& other) {
-        nodes += other.nodes;
-        damped += other.damped;
         kinetic.merge(other.kinetic);
         dissipated.merge(other.dissipated);
         dragged.merge(other.dragged);

@@ -151,8 +151,6 @@ public:
     /// Of these, what a path in time at finite strain needs: nothing before its first step.
     std::size_t finite_bytes() const;
     static std::size_t finite_bytes_for(const BlockOptions&, const ProcessGrid&, int threads);
-    /// Forces at finite strain so far, counted in nodes.
-    long long finite_nodes() const { return finite_nodes_; }
     /// The first three numbers, without making the block.
     struct Memory {
         std::size_t bytes = 0, motion = 0, coarse = 0;
@@ -172,7 +170,6 @@ private:
     double top_ = 0.0;
     /// Forces at finite strain: of each thread, two planes of a band of rows.
     std::vector<VectorField<double>> scratch_;
-    long long finite_nodes_ = 0;
 
     static Tile scratch_tile(const ProcessGrid& grid, int levels);
     LevelSeam seam(std::size_t fine) const;

@@ -89,7 +89,6 @@ void Block::sweep(const Work& work) {
         Level& level = levels_[l];
         const int ny = level.tile.ny;
         const long long nodes = static_cast<long long>(level.tile.nx) * ny * level.plan.cells;
-        if (options_.finite_strain) finite_nodes_ += nodes;
         std::optional<Restriction> restriction;
         if (l + 1 < levels_.size()) {
             Level& coarse = levels_[l + 1];
@@ -203,7 +202,6 @@ struct Advance {
         elastic_kernels().kick(u, z, level.stencil(z), rows.begin, rows.end,
                                std::as_const(level.incoming).plane(0), kick, next, level.v.view(),
                                sums);
-        count(level, kick, rows, sums);
     }
     /// Two planes of this thread's scratch in turn.
     VectorPlane<double> place(const Block::Level&, int z, Rows rows) const {
@@ -214,9 +212,8 @@ struct Advance {
     }
     void complete(Block::Level& level, int z, Rows rows, const VectorPlane<double>& force,
                   KickSums& sums) const {
-        const Kick kick = coefficients(level, z);
-        finite_kernels().kick(force, z, rows.begin, rows.end, kick, level.v.view(), sums);
-        count(level, kick, rows, sums);
+        finite_kernels().kick(force, z, rows.begin, rows.end, coefficients(level, z),
+                              level.v.view(), sums);
     }
     /// No force on a band needs its rows of plane z any more: those that no other band needs.
     void leave(Block::Level& level, int z, Rows rows, Rows share) const {
@@ -234,11 +231,6 @@ struct Advance {
     }
 
 private:
-    static void count(const Block::Level& level, const Kick& kick, Rows rows, KickSums& sums) {
-        const long long nodes = static_cast<long long>(level.tile.nx) * (rows.end - rows.begin);
-        sums.nodes += nodes;
-        if (kick.damped) sums.damped += nodes;
-    }
     void drift(Block::Level& level, int z, Rows rows) const {
         elastic_kernels().drift(std::as_const(level.v).plane(z), dt, rows.begin, rows.end,
                                 level.u.plane(z));

@@ -266,10 +266,6 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe, 
 #pragma omp critical(asperity_interface_sums)
         total.merge(mine);
     }
-    const long long swept = static_cast<long long>(tile_.nx) * tile_.ny;
-    work_.sites += swept;
-    work_.in_reach += total.in_reach;
-    if (options_.tail) work_.tails += swept;
     return total;
 }
 

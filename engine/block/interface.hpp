@@ -56,13 +56,6 @@ struct InterfaceMaps {
     std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
 };
 
-/// Work of an interface since it was made: of its own tile.
-struct InterfaceWork {
-    long long sites = 0;    ///< swept
-    long long in_reach = 0; ///< of these, those that were not skipped
-    long long tails = 0;    ///< continuum corrections added
-};
-
 class Interface {
 public:
     /// spacing: a, the block's lattice constant, Å. The surface is copied as far as it is needed.
@@ -89,8 +82,6 @@ public:
     const InterfaceOptions& options() const { return options_; }
     std::size_t bytes() const;
     std::size_t tail_bytes() const { return mean_height_.empty() ? 0 : mean_height_.bytes(); }
-    std::size_t reach_bytes() const { return reach_highest_.size() * sizeof(double); }
-    const InterfaceWork& work() const { return work_; }
 
 private:
     InterfaceSums sweep_sites(const InterfaceSites& sites, bool observe, bool mixed) const;
@@ -117,7 +108,6 @@ private:
     RowSubstrate rows_;
     Field<double> mean_height_; ///< tail: of the atoms within the cutoff sideways
     TailCorrection tail_;
-    mutable InterfaceWork work_; ///< counted between sweeps, by one thread
 
 public:
     // The views point into the object's own arrays.

@@ -43,7 +43,6 @@ const StepRecord& Simulation::step(bool observe) {
     phases_.during(Phase::exchange, [&] { block_.exchange(); });
     phases_.during(Phase::sums, [&] { keep_books(); });
     ++step_;
-    ++work_.steps;
     return record_;
 }
 
@@ -62,9 +61,6 @@ void Simulation::kick_and_drift(bool observe) {
     kick_sums_ = {};
     block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
                    kick_sums_);
-    work_.nodes += kick_sums_.nodes;
-    work_.damped += kick_sums_.damped;
-    if (observe) ++work_.observed;
     top_force_ = {};
     block_.add_top_force(top_force_);
     block_.set_top(block_.top() + options_.dt * velocity);

@@ -56,14 +56,6 @@ struct Ledger {
     double work() const { return top_work + drag_work + heat; }
 };
 
-/// Work of a simulation since it was made, on this rank.
-struct StepWork {
-    long long steps = 0;
-    long long nodes = 0;    ///< advanced
-    long long damped = 0;   ///< of these, against the medium
-    long long observed = 0; ///< steps whose energies were summed
-};
-
 class Simulation {
 public:
     Simulation(const SimulationOptions& options, const Surface& substrate,
@@ -88,7 +80,6 @@ public:
     const Interface& interface() const { return interface_; }
     Phases& phases() { return phases_; }
     const Phases& phases() const { return phases_; }
-    const StepWork& work() const { return work_; }
     const Communicator& communicator() const { return block_.communicator(); }
 
     /// Of the last observed step: (work - change of energy - damped) over the largest of these
@@ -112,7 +103,6 @@ private:
     Drive drive_;
     std::optional<Thermostat> thermostat_; ///< only if the scene has a temperature
     Phases phases_;
-    StepWork work_;
 
     double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
     long long step_ = 0;

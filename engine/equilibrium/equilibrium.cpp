@@ -65,8 +65,6 @@ public:
         return asperity::relax(block_, interface, reference_height, options, phases);
     }
     std::size_t bytes() const override { return block_.bytes(); }
-    std::size_t coarse_bytes() const override { return block_.coarse_bytes(); }
-    long long finite_nodes() const override { return block_.finite_nodes(); }
 
 private:
     /// All that moves, the free top plane apart, by this much along z.
@@ -124,8 +122,6 @@ public:
     std::size_t bytes() const override {
         return block_.bytes() + spectral_relaxation_bytes(block_);
     }
-    std::size_t coarse_bytes() const override { return 0; }
-    long long finite_nodes() const override { return 0; }
 
 private:
     SpectralBlock block_;

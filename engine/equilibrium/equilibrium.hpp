@@ -49,10 +49,6 @@ public:
     virtual RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
                                Phases& phases) = 0;
     virtual std::size_t bytes() const = 0;
-    /// Of these, in levels coarser than the first.
-    virtual std::size_t coarse_bytes() const = 0;
-    /// Forces at finite strain, counted in nodes.
-    virtual long long finite_nodes() const = 0;
 };
 
 /// A block of levels, taken over.

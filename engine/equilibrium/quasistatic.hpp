@@ -78,7 +78,6 @@ public:
     long long iterations() const { return iterations_; }
     /// Puts the block back to the last point, from wherever it was taken.
     void put_back();
-    std::size_t bytes() const { return last_.bytes() + before_.bytes(); }
 
     /// Everything but the displacements, for checkpoints; put back by resume().
     template <class Visitor>

@@ -38,11 +38,4 @@ void StateCopy::extrapolate(double ratio, const std::vector<StateArray>& arrays)
     }
 }
 
-std::size_t StateCopy::bytes() const {
-    std::size_t total = 0;
-    for (const Field<double>& copy : copies_)
-        total += copy.bytes();
-    return total;
-}
-
 } // namespace asperity

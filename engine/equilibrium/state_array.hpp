@@ -31,7 +31,6 @@ public:
     bool empty() const { return copies_.empty(); }
     void clear() { copies_.clear(); }
     const Field<double>& operator[](std::size_t i) const { return copies_[i]; }
-    std::size_t bytes() const;
 
 private:
     std::vector<Field<double>> copies_;

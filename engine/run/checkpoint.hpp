@@ -67,7 +67,6 @@ public:
     /// Puts the simulation back to the state taken.
     void restore(Simulation& simulation) const;
     long long step() const { return step_; }
-    std::size_t bytes() const { return fields_.bytes(); }
 
 private:
     StateCopy fields_;

@@ -8,7 +8,6 @@
 #include "engine/equilibrium/equilibrium.hpp"
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/run/run_frame.hpp"
-#include "engine/run/run_record.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
@@ -165,22 +164,6 @@ private:
             r.energy.elastic = findings_.zero_load->elastic * area;
             r.energy.interface = -findings_.zero_load->pairwise * area;
         }
-    }
-
-    EffectBooks books() const override {
-        EffectBooks done = common_books(surface_, interface_, findings_);
-        done[Effect::relaxation].calls += path_.iterations();
-        done[Effect::relaxation].bytes = block_->bytes() + path_.bytes();
-        const long long iterations = done[Effect::relaxation].calls;
-        if (!scene_.interface.frictionless)
-            done[Effect::lateral] = {iterations, 2 * block_->bytes() / 3};
-        done[Effect::finite_strain] = {block_->finite_nodes(), 0};
-        done[Effect::coarse_levels] = {block_->coarse_bytes() > 0 ? iterations : 0,
-                                       block_->coarse_bytes()};
-        done[Effect::observation] = {static_cast<long long>(recorder_->rows()), 0};
-        done[Effect::checkpoints] = {phases_[Phase::checkpoint].calls, 0};
-        done[Effect::maps] = {recorder_->maps(), 0};
-        return done;
     }
 
     // Checkpoints: the displacements, where on the path they stand, and what was found.

@@ -293,8 +293,7 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
     fmt::print(
         to, "Coarse levels, lateral displacements and what finite strain takes longer are parts of "
             "inertia or\nrelaxation; what skipping saves is not in the interface's line. Nothing "
-            "was run, nothing was written.\nA run says afterwards whether it kept to this list: "
-            "run.effects in result.json.\n");
+            "was run, nothing was written.\n");
 }
 
 } // namespace asperity

@@ -100,7 +100,7 @@ void measure_steps(const Piece& piece, Rates& rates) {
     rates.making = since(begin) / sites;
     const auto spent = [&](Phase p) { return simulation.phases()[p].seconds; };
     simulation.step(false);
-    const double nodes = static_cast<double>(simulation.work().nodes);
+    const double nodes = nodes_of(plan_levels(piece.options.block));
     // The best of some steps, phase by phase.
     const std::array phases = {Phase::advance,  Phase::thermostat, Phase::interpolate,
                                Phase::exchange, Phase::sums,       Phase::observe};

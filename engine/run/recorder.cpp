@@ -151,7 +151,6 @@ void Recorder::row(const StepRecord& record, bool pulling, int sites) {
 void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
                       const ProcessGrid& grid, const Interface& interface,
                       double reference_height) {
-    ++maps_;
     const InterfaceMaps maps = interface.maps(layer, reference_height);
     std::vector<double> contact(maps.contact.begin(), maps.contact.end());
     const auto gap = whole(communicator_, grid, maps.gap);
@@ -211,7 +210,6 @@ void Recorder::begin_trajectory(const Simulation& simulation, bool velocities) {
 }
 
 void Recorder::frame(const Simulation& simulation) {
-    ++frames_;
     const Block::Level& level = simulation.block().levels().front();
     const ProcessGrid& grid = simulation.block().grid();
     const auto whole_layer = [&](const VectorPlane<const double>& plane) {

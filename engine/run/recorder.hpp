@@ -27,8 +27,6 @@ public:
     /// energy and no damping, and no columns for them). sites: N.
     void row(const StepRecord& record, bool pulling, int sites);
     std::uint64_t rows() const { return rows_; }
-    long long maps() const { return maps_; }     ///< states whose maps were written
-    long long frames() const { return frames_; } ///< of the trajectory, by this run
     /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface, double reference_height);
@@ -47,7 +45,6 @@ private:
     std::optional<io::H5mdTrajectory> trajectory_; ///< root only
     bool velocities_ = false;
     std::uint64_t rows_ = 0;
-    long long maps_ = 0, frames_ = 0;
 };
 
 } // namespace asperity

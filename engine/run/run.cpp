@@ -10,7 +10,6 @@
 #include "engine/run/checkpoint.hpp"
 #include "engine/run/equilibrium_run.hpp"
 #include "engine/run/run_frame.hpp"
-#include "engine/run/run_record.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
@@ -49,26 +48,6 @@ private:
         const StepRecord& now = simulation_.now(); // energies of the last observed step
         r.energy = {now.residual,         now.work,  now.kinetic_energy, now.elastic_energy,
                     now.interface_energy, now.damped};
-    }
-
-    EffectBooks books() const override {
-        EffectBooks done = common_books(surface_, simulation_.interface(), findings_);
-        const StepWork& work = simulation_.work();
-        const Phases& phases = simulation_.phases();
-        done[Effect::inertia] = {work.nodes, simulation_.block().motion_bytes()};
-        done[Effect::lateral] = {work.steps, 2 * simulation_.block().bytes() / 3};
-        done[Effect::damping] = {work.damped, 0};
-        done[Effect::temperature] = {phases[Phase::thermostat].calls, 0};
-        done[Effect::finite_strain] = {simulation_.block().finite_nodes(),
-                                       simulation_.block().finite_bytes()};
-        done[Effect::coarse_levels] = {phases[Phase::interpolate].calls,
-                                       simulation_.block().coarse_bytes()};
-        done[Effect::relaxation].bytes = relaxation_bytes_;
-        done[Effect::observation] = {work.observed, snapshot_.bytes()};
-        done[Effect::checkpoints] = {phases[Phase::checkpoint].calls, 0};
-        done[Effect::maps] = {recorder_->maps(), 0};
-        done[Effect::trajectory] = {recorder_->frames(), 0};
-        return done;
     }
 
     void follow() override {
@@ -166,7 +145,6 @@ private:
                                show_relaxation(progress_, iteration, residual);
                                return false;
                            });
-        relaxation_bytes_ = copy->bytes();
         if (scene_.writes_field("zero-load"))
             recorder_->fields("zero-load", copy->lowest_layer(), grid_, simulation_.interface(),
                               simulation_.reference_height());
@@ -261,7 +239,6 @@ private:
     Simulation simulation_;
     std::vector<std::pair<double, std::string>> delayed_fields_ = scene_.delayed_fields();
     Snapshot snapshot_;
-    std::size_t relaxation_bytes_ = 0;
     RunScalars snapshot_scalars_;
 };
 

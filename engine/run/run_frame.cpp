@@ -69,8 +69,6 @@ int RunFrame::go() {
     progress_.finish();
     write_record({});
     if (ranks_.root()) {
-        for (const std::string& difference : differences_)
-            fmt::print("  NOT AS PLANNED: {}\n", difference);
         write_curve(directory_, curve_, scene_, setup_.flat);
         print_summary(stdout, scene_, setup_, findings_, energy_residual(), directory_);
         if (!stopped_.empty())
@@ -246,9 +244,7 @@ void RunFrame::write_record(const io::ResultRecord::Failure& failure) {
     r.run.wall_seconds = seconds();
     r.extra.emplace_back("run.processor_seconds", processor_seconds());
     add_phases(phases(), r);
-    const bool whole = stopped_.empty() && failure.exit_code == 0 && !options_.resuming();
     if (recorder_) {
-        differences_ = add_effects(setup_.effects, books(), whole, r);
         recorder_.reset(); // closes run.h5, to be read
         curve_ = read_path(directory_ + "/run.h5");
         add_path(curve_, scene_, r);

@@ -15,7 +15,6 @@
 #include "engine/run/curve.hpp"
 #include "engine/run/recorder.hpp"
 #include "engine/run/run.hpp"
-#include "engine/setup/effects.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
 #include "io/progress.hpp"
@@ -47,7 +46,6 @@ protected:
     virtual void complete(io::ResultRecord& record) const = 0; ///< steps and energies
     virtual void write_state(const std::string& path) = 0;     ///< a checkpoint
     virtual std::string position() const = 0;                  ///< "step 1200"
-    virtual EffectBooks books() const = 0; ///< what was done of each effect, by this rank
 
     enum class Due { nothing, save, stop };
     /// Signals, the wall limit, checkpoints: what has to be done now. The root decides for all;
@@ -108,8 +106,7 @@ private:
         VectorField<double> layer;
     } strongest_;
 
-    std::vector<std::string> differences_; ///< between the effects planned and done
-    PathSeries curve_;                     ///< read back at the end, on the root
+    PathSeries curve_; ///< read back at the end, on the root
     std::uint64_t rows_at_start_ = 0;
     double processor_before_ = 0.0; ///< s, before the checkpoint that was taken up
     double last_checkpoint_ = 0.0;

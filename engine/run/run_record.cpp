@@ -16,6 +16,23 @@
 
 namespace asperity {
 
+namespace {
+
+/// { name: { on, why } }
+io::JsonValue effects_json(const Effects& effects) {
+    io::JsonValue all = io::JsonValue::object();
+    for (std::size_t i = 0; i < effect_count; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        io::JsonValue one = io::JsonValue::object();
+        one["on"] = effects.on(effect);
+        one["why"] = effects.why(effect);
+        all[name(effect)] = std::move(one);
+    }
+    return all;
+}
+
+} // namespace
+
 io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Setup& setup,
                             const Findings& findings, int ranks) {
     io::ResultRecord r;
@@ -75,35 +92,12 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
         r.extra.emplace_back("dissipated", std::move(d));
     }
     add_theory(scene, surface, setup.flat.work_of_adhesion, r);
+    r.extra.emplace_back("run.effects", effects_json(setup.effects));
     r.extra.emplace_back("run.kernels", std::string(name(processor_level())));
     if (scene.choice) r.extra.emplace_back("accuracy", accuracy_json(*scene.choice));
     r.run.ranks = ranks;
     r.run.threads = omp_get_max_threads();
     return r;
-}
-
-EffectBooks common_books(const Surface& surface, const Interface& interface,
-                         const Findings& findings) {
-    EffectBooks done;
-    const InterfaceWork& work = interface.work();
-    done[Effect::skipping] = {work.sites - work.in_reach, interface.reach_bytes()};
-    done[Effect::tail] = {work.tails, interface.tail_bytes()};
-    done[Effect::curvature] = {surface.radius > 0.0 ? 1 : 0, 0};
-    if (findings.zero_load)
-        done[Effect::relaxation].calls = static_cast<long long>(findings.zero_load->iterations);
-    return done;
-}
-
-std::vector<std::string> add_effects(const Effects& planned, EffectBooks done, bool complete,
-                                     io::ResultRecord& record) {
-    done[Effect::theory].calls = record.theory.gamma_eff ? 1 : 0;
-    std::vector<std::string> differences = done.differences(planned, complete);
-    record.extra.emplace_back("run.effects", done.json(planned));
-    io::JsonValue list = io::JsonValue::array();
-    for (const std::string& difference : differences)
-        list.push_back(difference);
-    if (!differences.empty()) record.extra.emplace_back("run.not_as_planned", std::move(list));
-    return differences;
 }
 
 void add_phases(const Phases& phases, io::ResultRecord& record) {

@@ -6,149 +6,143 @@
 
 #include <fmt/format.h>
 
-#include <tuple>
-#include <utility>
-
 namespace asperity {
 
 namespace {
 
-struct Entry {
-    std::string_view name, unit;
-    Occurs occurs;
+using Switch = Effects::Switch;
+
+/// What several rules ask of a scene.
+bool in_time(const Scene& s) { return !s.without_time(); }
+bool follows_path(const Scene& s) { return s.has(PathPart::approach) || s.has(PathPart::pull_off); }
+
+std::string equilibria(const Scene& s) {
+    return s.has(PathPart::zero_load) ? "drive.path = [\"zero-load\"]"
+                                      : "drive.mode = \"quasistatic\"";
+}
+Switch off_without_time(const Scene& s) { return {false, "no time passes: " + equilibria(s)}; }
+
+Switch damping(const Scene& s) {
+    if (!in_time(s)) return off_without_time(s);
+    if (s.drive.damping == 0.0) return {false, "drive.damping = 0"};
+    if (s.drive.damping_from >= 1.0)
+        return {false, fmt::format("drive.damping_from = {:.4g}: no layer is damped",
+                                   s.drive.damping_from)};
+    return {true, fmt::format("drive.damping = {:.4g} 1/ps", s.drive.damping)};
+}
+
+Switch temperature(const Scene& s) {
+    if (!in_time(s)) return off_without_time(s);
+    return {s.drive.temperature > 0.0,
+            fmt::format("drive.temperature = {:.4g} K", s.drive.temperature)};
+}
+
+Switch coarse_levels(const Scene& s) {
+    if (s.block.model == BlockModel::lattice) return {false, "block.model = \"lattice\""};
+    if (s.block.model == BlockModel::spectral) return {false, "block.model = \"spectral\""};
+    BlockOptions block;
+    block.sites = s.surface.sites;
+    block.thickness = s.block.thickness;
+    block.layers_per_level = s.block.layers_per_level;
+    if (plan_levels(block).size() == 1)
+        return {false, fmt::format("{} layers make one level", block.thickness)};
+    return {true,
+            fmt::format("block.model = \"multiscale\", {} layers a level", block.layers_per_level)};
+}
+
+Switch relaxation(const Scene& s) {
+    if (!in_time(s)) return {true, equilibria(s)};
+    return {true, "a copy of the state where the approach ends is relaxed"};
+}
+
+Switch observation(const Scene& s) {
+    if (!follows_path(s)) return off_without_time(s);
+    return {true, in_time(s)
+                      ? fmt::format("output.series = {}: every so many steps", s.output.series)
+                      : "always: at every point of a quasi-static path"};
+}
+
+Switch maps(const Scene& s) {
+    if (s.writes_field("zero-load") || s.writes_field("pull-off") ||
+        (follows_path(s) && s.field_stride()) || !s.delayed_fields().empty())
+        return {true, "output.fields asks for them"};
+    return {false, "output.fields asks for no state of this path"};
+}
+
+struct Rule {
+    Effect effect;
+    std::string_view name;
+    Switch (*decide)(const Scene&);
 };
 
 /// In the order of Effect.
-constexpr std::array<Entry, effect_count> entries = {{
-    {"inertia", "node-steps", Occurs::always},
-    {"lateral displacements", "steps", Occurs::always},
-    {"damping", "node-steps", Occurs::always},
-    {"temperature", "steps", Occurs::always},
-    {"finite strain", "node-steps", Occurs::always},
-    {"coarse levels", "steps", Occurs::always},
-    {"skipping of far sites", "sites", Occurs::when_due},
-    {"long-range tail", "sites", Occurs::always},
-    {"curvature", "surfaces", Occurs::always},
-    {"relaxation", "iterations", Occurs::path_end},
-    {"energies and contact", "steps", Occurs::when_due},
-    {"maps", "maps", Occurs::path_end},
-    {"trajectory", "frames", Occurs::when_due},
-    {"checkpoints", "files", Occurs::when_due},
-    {"theory", "solutions", Occurs::when_due},
+constexpr std::array<Rule, effect_count> rules = {{
+    {Effect::inertia, "inertia",
+     [](const Scene& s) {
+         return in_time(s) ? Switch{true, "drive.path is followed in time"} : off_without_time(s);
+     }},
+    {Effect::lateral, "lateral displacements",
+     [](const Scene& s) {
+         return s.interface.frictionless ? Switch{false, "interface.frictionless = true"}
+                                         : Switch{true, "three components a node"};
+     }},
+    {Effect::damping, "damping", damping},
+    {Effect::temperature, "temperature", temperature},
+    {Effect::finite_strain, "finite strain",
+     [](const Scene& s) {
+         return s.block.strain == Strain::finite ? Switch{true, "block.strain = \"finite\""}
+                                                 : Switch{false, "block.strain = \"linear\""};
+     }},
+    {Effect::coarse_levels, "coarse levels", coarse_levels},
+    {Effect::skipping, "skipping of far sites",
+     [](const Scene&) {
+         return Switch{true, "always: what is beyond interface.cutoff adds exact zeros"};
+     }},
+    {Effect::tail, "long-range tail",
+     [](const Scene& s) {
+         return Switch{s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail)};
+     }},
+    {Effect::curvature, "curvature",
+     [](const Scene& s) {
+         return s.surface.radius
+                    ? Switch{true, fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)}
+                    : Switch{false, "surface.radius = \"none\""};
+     }},
+    {Effect::relaxation, "relaxation", relaxation},
+    {Effect::observation, "energies and contact", observation},
+    {Effect::maps, "maps", maps},
+    {Effect::trajectory, "trajectory",
+     [](const Scene& s) {
+         const auto& every = s.output.trajectory;
+         return every ? Switch{true, fmt::format("output.trajectory = {}", *every)}
+                      : Switch{false, "output.trajectory = \"none\""};
+     }},
+    {Effect::checkpoints, "checkpoints",
+     [](const Scene& s) {
+         return Switch{
+             s.output.checkpoint > 0.0,
+             fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
+     }},
+    {Effect::theory, "theory",
+     [](const Scene&) {
+         return Switch{true, "always: one solution for each result"};
+     }},
 }};
 
-const Entry& entry(Effect effect) { return entries[static_cast<std::size_t>(effect)]; }
-
-bool coarsens(const Scene& scene) {
-    BlockOptions block;
-    block.sites = scene.surface.sites;
-    block.thickness = scene.block.thickness;
-    block.layers_per_level = scene.block.layers_per_level;
-    return scene.block.model == BlockModel::multiscale && plan_levels(block).size() > 1;
+constexpr bool in_order() {
+    for (std::size_t i = 0; i < effect_count; ++i)
+        if (rules[i].effect != static_cast<Effect>(i)) return false;
+    return true;
 }
+static_assert(in_order(), "a rule for each effect, in the order of the enumeration");
 
 } // namespace
 
-std::string_view name(Effect effect) { return entry(effect).name; }
-std::string_view unit_of(Effect effect) { return entry(effect).unit; }
-Occurs occurs(Effect effect) { return entry(effect).occurs; }
-
-void Effects::decide(Effect effect, bool on, std::string why) {
-    decisions_[static_cast<std::size_t>(effect)] = {on, std::move(why)};
-}
+std::string_view name(Effect effect) { return rules[static_cast<std::size_t>(effect)].name; }
 
 Effects::Effects(const Scene& scene) {
-    const auto& [surface, block, drive, output] =
-        std::tie(scene.surface, scene.block, scene.drive, scene.output);
-    // Time passes on a dynamic path; equilibria have none.
-    const bool direct = scene.has(PathPart::zero_load);
-    const bool in_time = !scene.without_time();
-    const std::string equilibria =
-        direct ? "drive.path = [\"zero-load\"]" : "drive.mode = \"quasistatic\"";
-    const std::string timeless = "no time passes: " + equilibria;
-
-    decide(Effect::inertia, in_time, in_time ? "drive.path is followed in time" : timeless);
-    decide(Effect::lateral, !scene.interface.frictionless,
-           scene.interface.frictionless ? "interface.frictionless = true"
-                                        : "three components a node");
-    const bool damped = in_time && drive.damping > 0.0 && drive.damping_from < 1.0;
-    decide(Effect::damping, damped,
-           !in_time ? timeless
-           : damped ? fmt::format("drive.damping = {:.4g} 1/ps", drive.damping)
-           : drive.damping > 0.0
-               ? fmt::format("drive.damping_from = {:.4g} leaves no layer", drive.damping_from)
-               : "drive.damping = 0");
-    const bool warm = in_time && drive.temperature > 0.0;
-    decide(Effect::temperature, warm,
-           in_time ? fmt::format("drive.temperature = {:.4g} K", drive.temperature) : timeless);
-    const bool finite = block.strain == Strain::finite;
-    decide(Effect::finite_strain, finite,
-           finite ? "block.strain = \"finite\"" : "block.strain = \"linear\"");
-    const bool coarse = coarsens(scene);
-    decide(Effect::coarse_levels, coarse,
-           block.model == BlockModel::lattice    ? "block.model = \"lattice\""
-           : block.model == BlockModel::spectral ? "block.model = \"spectral\""
-           : coarse ? fmt::format("block.model = \"multiscale\", {} layers a level",
-                                  block.layers_per_level)
-                    : fmt::format("{} layers make one level", block.thickness));
-    decide(Effect::skipping, true, "always: what is beyond interface.cutoff adds exact zeros");
-    decide(Effect::tail, scene.interface.tail,
-           scene.interface.tail ? "interface.tail = true" : "interface.tail = false");
-    decide(Effect::curvature, surface.radius.has_value(),
-           surface.radius ? fmt::format("surface.radius = {:.6g} Å", *surface.radius)
-                          : "surface.radius = \"none\"");
-    const bool relaxes = !in_time || scene.has(PathPart::approach);
-    decide(Effect::relaxation, relaxes,
-           !in_time  ? equilibria
-           : relaxes ? "drive.path has an approach: a copy of where it ends is relaxed"
-                     : "drive.path has no approach");
-    const bool follows = scene.has(PathPart::approach) || scene.has(PathPart::pull_off);
-    decide(Effect::observation, follows,
-           in_time   ? fmt::format("output.series = {}: every so many steps", output.series)
-           : follows ? "always: at every point of a quasi-static path"
-                     : timeless);
-    const bool maps = (relaxes && scene.writes_field("zero-load")) ||
-                      scene.writes_field("pull-off") || (follows && scene.field_stride());
-    decide(Effect::maps, maps,
-           maps ? "output.fields asks for them" : "output.fields asks for no state of this path");
-    decide(Effect::trajectory, output.trajectory.has_value(),
-           output.trajectory ? fmt::format("output.trajectory = {}", *output.trajectory)
-                             : "output.trajectory = \"none\"");
-    decide(Effect::checkpoints, output.checkpoint > 0.0,
-           fmt::format("output.checkpoint = {:.4g} s of wall time", output.checkpoint));
-    decide(Effect::theory, true, "always: one solution beside the result");
-}
-
-std::vector<std::string> EffectBooks::differences(const Effects& planned, bool complete) const {
-    std::vector<std::string> list;
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        const auto effect = static_cast<Effect>(i);
-        const Done& done = done_[i];
-        if (!planned.on(effect) && (done.calls > 0 || done.bytes > 0))
-            list.push_back(fmt::format("{} was not called for ({}), but took {} {} and {} bytes",
-                                       name(effect), planned.why(effect), done.calls,
-                                       unit_of(effect), done.bytes));
-        const bool must =
-            occurs(effect) == Occurs::always || (occurs(effect) == Occurs::path_end && complete);
-        if (planned.on(effect) && must && done.calls == 0)
-            list.push_back(fmt::format("{} was called for ({}) and did not take place",
-                                       name(effect), planned.why(effect)));
-    }
-    return list;
-}
-
-io::JsonValue EffectBooks::json(const Effects& planned) const {
-    io::JsonValue all = io::JsonValue::object();
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        const auto effect = static_cast<Effect>(i);
-        io::JsonValue one = io::JsonValue::object();
-        one["planned"] = planned.on(effect);
-        one["calls"] = done_[i].calls;
-        one["unit"] = std::string(unit_of(effect));
-        one["bytes"] = static_cast<long long>(done_[i].bytes);
-        all[std::string(name(effect))] = std::move(one);
-    }
-    return all;
+    for (std::size_t i = 0; i < effect_count; ++i)
+        switches_[i] = rules[i].decide(scene);
 }
 
 } // namespace asperity

@@ -36,15 +36,14 @@ io::JsonValue result_of(const std::string& text, const std::vector<std::string>&
 /// Node-steps of the path in time, or nodes times iterations without.
 double work_of(const std::string& text, const std::vector<std::string>& overrides,
                const io::JsonValue& result) {
-    const double steps = result.find("run.effects.inertia.calls")->number();
-    if (steps > 0.0) return steps;
     const Scene scene = read_scene_text(text, "held-out.toml", overrides);
     const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
     double nodes = 0.0;
     for (const LevelPlan& level : make_setup(scene, 1).levels)
         nodes += static_cast<double>(level.sites) * level.sites * level.cells;
     if (scene.block.model == BlockModel::spectral) nodes = sites;
-    return nodes * result.find("run.effects.relaxation.calls")->number();
+    const char* count = scene.without_time() ? "run.iterations" : "run.steps";
+    return nodes * result.find(count)->number();
 }
 
 /// reference: what makes every dial that accuracy turns exact.

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Effects are switched by the scene; one that is off holds no memory, is not called and leaves
+// nothing in the files of a run.
+#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/run/run.hpp"
+#include "engine/setup/setup.hpp"
+#include "io/error.hpp"
+#include "io/hdf5_file.hpp"
+#include "support/cases.hpp"
+#include "support/scratch.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+
+namespace {
+/// Calls of operator new since the program began.
+std::atomic<long long> allocations = 0;
+} // namespace
+
+// Not inlined: gcc warns of free() of what it sees came from new.
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
+    ++allocations;
+    if (void* memory = std::malloc(bytes ? bytes : 1)) return memory;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+using namespace asperity;
+
+namespace {
+
+Scene scene_with(const std::vector<std::string>& overrides) {
+    return read_scene_text("[surface]\nsites = 32\nrms = 1.0\n", "test.toml", overrides);
+}
+
+/// In contact from the first step on.
+Simulation started(const Scene& scene) {
+    const auto setup = make_setup(scene, 1);
+    Simulation s(setup.simulation, scene_surface(scene), Communicator(),
+                 test::serial_grid(setup.simulation.block));
+    s.start(s.interface().start_height() - 10.0);
+    return s;
+}
+Simulation follow(const Scene& scene, int steps) {
+    Simulation s = started(scene);
+    for (int n = 0; n < steps; ++n)
+        s.step(n % 10 == 0);
+    return s;
+}
+
+/// What a run left, to be looked at.
+struct Left {
+    std::string directory, json;
+    std::vector<std::string> groups; ///< of run.h5
+
+    Left(std::string where, const std::vector<std::string>& overrides)
+        : directory(std::move(where)) {
+        RunOptions options;
+        options.out = directory;
+        options.progress = io::ProgressMode::off;
+        EXPECT_EQ(run(scene_with(overrides), options, Communicator()), io::exit_code::done);
+        json = io::contents(directory + "/result.json");
+        groups = io::Hdf5File(directory + "/run.h5", io::Hdf5File::Mode::read).members("/");
+    }
+    bool has_group(const char* name) const {
+        return std::find(groups.begin(), groups.end(), name) != groups.end();
+    }
+    bool has_file(const char* name) const {
+        return std::filesystem::exists(directory + "/" + name);
+    }
+};
+
+/// Memory that a block needs to relax.
+std::size_t relaxing_bytes(const std::vector<std::string>& overrides) {
+    const Scene scene = scene_with(overrides);
+    const Setup setup = make_setup(scene, 1);
+    return make_equilibrium(scene, setup, Communicator(), make_grid(scene, setup, 1, 0))->bytes();
+}
+
+} // namespace
+
+TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
+    const Effects effects(scene_with({"drive.damping=0", "block.model=lattice", "block.thickness=4",
+                                      "output.fields=[]", "output.checkpoint=0"}));
+    for (Effect off :
+         {Effect::damping, Effect::temperature, Effect::finite_strain, Effect::coarse_levels,
+          Effect::tail, Effect::curvature, Effect::maps, Effect::trajectory, Effect::checkpoints})
+        EXPECT_FALSE(effects.on(off)) << name(off);
+    for (Effect on :
+         {Effect::inertia, Effect::lateral, Effect::skipping, Effect::observation, Effect::theory})
+        EXPECT_TRUE(effects.on(on)) << name(on);
+}
+
+TEST(Effects, EachHasAKeyThatSwitchesIt) {
+    const std::vector<std::pair<Effect, std::string>> switched_on = {
+        {Effect::damping, "drive.damping=0.1"},
+        {Effect::temperature, "drive.temperature=100"},
+        {Effect::finite_strain, "block.strain=finite"},
+        {Effect::coarse_levels, "block.model=multiscale"},
+        {Effect::tail, "interface.tail=true"},
+        {Effect::curvature, "surface.radius=200"},
+        {Effect::maps, "output.fields=[\"pull-off\"]"},
+        {Effect::maps, "output.fields=[\"every:5\"]"},
+        {Effect::trajectory, "output.trajectory=10"},
+        {Effect::checkpoints, "output.checkpoint=1"}};
+    const std::vector<std::string> plain = {"drive.damping=1e-6", "block.model=lattice",
+                                            "output.fields=[]", "output.checkpoint=0"};
+    for (const auto& [effect, key] : switched_on) {
+        std::vector<std::string> with = plain;
+        with.push_back(key);
+        const Effects off(scene_with(
+            effect == Effect::damping ? std::vector<std::string>{"drive.damping=0"} : plain)),
+            on(scene_with(with));
+        EXPECT_FALSE(off.on(effect)) << key;
+        EXPECT_TRUE(on.on(effect)) << key;
+        EXPECT_FALSE(on.why(effect).empty()) << key;
+    }
+    const Effects late(scene_with({"output.fields=[\"after-zero-load:3\"]"}));
+    EXPECT_TRUE(late.on(Effect::maps));
+    const Effects timeless(scene_with({"drive.path=zero-load", "drive.temperature=100"}));
+    for (Effect off : {Effect::inertia, Effect::damping, Effect::temperature, Effect::observation})
+        EXPECT_FALSE(timeless.on(off)) << name(off);
+    EXPECT_FALSE(Effects(scene_with({"drive.path=zero-load", "block.model=spectral",
+                                     "interface.frictionless=true"}))
+                     .on(Effect::lateral));
+}
+
+TEST(Effects, OffInAStepIsNoCallAndNoByte) {
+    const Simulation s =
+        follow(scene_with({"drive.damping=0", "block.model=lattice", "block.thickness=4"}), 20);
+    EXPECT_EQ(s.phases()[Phase::thermostat].calls, 0);
+    EXPECT_EQ(s.phases()[Phase::interpolate].calls, 0);
+    EXPECT_EQ(s.block().coarse_bytes(), 0u);
+    EXPECT_EQ(s.block().finite_bytes(), 0u);
+    EXPECT_EQ(s.interface().tail_bytes(), 0u);
+    // Sums that only damping and noise add to.
+    EXPECT_EQ(s.ledger().damped, 0.0);
+    EXPECT_EQ(s.ledger().drag_work, 0.0);
+    EXPECT_EQ(s.ledger().heat, 0.0);
+}
+
+TEST(Effects, OnInAStepTakesPlace) {
+    const Simulation s =
+        follow(scene_with({"drive.damping=0.2", "drive.temperature=100", "interface.tail=true",
+                           "block.thickness=32", "block.strain=finite"}),
+               20);
+    EXPECT_EQ(s.phases()[Phase::thermostat].calls, 20);
+    EXPECT_EQ(s.phases()[Phase::interpolate].calls, 20);
+    EXPECT_GT(s.block().coarse_bytes(), 0u);
+    EXPECT_GT(s.block().finite_bytes(), 0u);
+    EXPECT_GT(s.interface().tail_bytes(), 0u);
+    EXPECT_GT(s.ledger().damped, 0.0);
+    EXPECT_NE(s.ledger().drag_work, 0.0);
+    EXPECT_NE(s.ledger().heat, 0.0);
+}
+
+TEST(Effects, DampingActsOnTheLayersItIsGivenAlone) {
+    // One step of the same state, with and without: the layers below damping_from keep their bits.
+    const std::vector<std::string> lattice = {"block.model=lattice", "block.thickness=8",
+                                              "drive.damping=0"};
+    std::vector<std::string> damped = lattice;
+    damped.back() = "drive.damping=5";
+    damped.emplace_back("drive.damping_from=0.5");
+    Simulation plain = started(scene_with(lattice)), other = started(scene_with(damped));
+    for (Simulation* s : {&plain, &other}) {
+        auto& v = s->block().levels().front().v; // faster than the medium
+        for (int z = 0; z < 8; ++z)
+            v.plane(z).z(3, 5) = 1e-3;
+        s->step(false);
+    }
+    for (int z = 0; z < 8; ++z) {
+        const double without = plain.block().levels().front().v.view()[z].z(3, 5);
+        const double with = other.block().levels().front().v.view()[z].z(3, 5);
+        if (z < 4)
+            EXPECT_EQ(with, without) << z;
+        else
+            EXPECT_LT(std::abs(with), std::abs(without)) << z;
+    }
+}
+
+TEST(Effects, AStepAllocatesNoField) {
+    // Observed or not, with all effects of a step on or off.
+    for (const auto& overrides :
+         {std::vector<std::string>{"drive.damping=0", "block.model=lattice", "block.thickness=4"},
+          std::vector<std::string>{"drive.damping=0.2", "drive.temperature=100",
+                                   "interface.tail=true", "block.thickness=32",
+                                   "block.strain=finite"}}) {
+        Simulation s = started(scene_with(overrides));
+        s.step(true); // room for the threads of finite strain
+        const std::size_t bytes = s.block().bytes() + s.interface().bytes();
+        const long long before = allocations;
+        for (int n = 0; n < 10; ++n)
+            s.step(n % 2 == 0);
+        EXPECT_LE(allocations - before, 10) << "more than the exchange's list of fields";
+        EXPECT_EQ(s.block().bytes() + s.interface().bytes(), bytes);
+    }
+}
+
+TEST(Effects, AStateAtRestHoldsNoVelocities) {
+    const auto setup = make_setup(scene_with({"drive.path=zero-load"}), 1);
+    const ProcessGrid grid = test::serial_grid(setup.simulation.block);
+    const Block moving(setup.simulation.block, Communicator(), grid);
+    const Block still(setup.simulation.block, Communicator(), grid, Motion::at_rest);
+    EXPECT_GT(moving.motion_bytes(), 0u);
+    EXPECT_EQ(still.motion_bytes(), 0u);
+    EXPECT_EQ(still.bytes(), moving.bytes() - moving.motion_bytes());
+    EXPECT_EQ(moving.copy_at_rest().motion_bytes(), 0u);
+}
+
+TEST(Effects, WithoutFrictionThereAreNoLateralDisplacements) {
+    const std::vector<std::string> wall = {"drive.path=zero-load", "block.model=spectral"};
+    std::vector<std::string> frictionless = wall;
+    frictionless.emplace_back("interface.frictionless=true");
+    EXPECT_LT(relaxing_bytes(frictionless), relaxing_bytes(wall) / 2);
+}
+
+TEST(Effects, FarSitesAreLeftOutOfTheSweep) {
+    const Scene scene = scene_with({});
+    const auto setup = make_setup(scene, 1);
+    const Tile tile = test::serial_grid(setup.simulation.block).tile(0);
+    const Interface interface(scene_surface(scene), tile, scene.surface.spacing,
+                              setup.simulation.interface);
+    VectorField<double> layer(tile, 1), force(tile, 1);
+    const auto in_reach = [&](double height) {
+        return interface.sweep(layer.plane(0), force.plane(0), height, false).in_reach;
+    };
+    EXPECT_EQ(in_reach(interface.start_height() + 0.1), 0);
+    EXPECT_EQ(in_reach(3.0), 32 * 32);
+}
+
+TEST(Effects, NoCurvatureIsNoCap) {
+    const Surface plain = scene_surface(scene_with({})),
+                  curved = scene_surface(scene_with({"surface.radius=200"}));
+    EXPECT_EQ(plain.radius, 0.0);
+    EXPECT_EQ(curved.radius, 200.0);
+    EXPECT_NE(plain.height, curved.height);
+}
+
+TEST(Effects, OffInARunLeavesNothing) {
+    const std::vector<std::string> small = {"surface.sites=16", "block.thickness=8",
+                                            "drive.max_steps=20", "output.series=10"};
+    std::vector<std::string> off = small, on = small;
+    for (const char* key : {"output.fields=[]", "output.checkpoint=0"})
+        off.emplace_back(key);
+    for (const char* key : {"output.fields=[\"every:5\"]", "output.trajectory=5"})
+        on.emplace_back(key);
+    const io::Scratch scratch;
+    const Left without(scratch / "without", off), with(scratch / "with", on);
+    EXPECT_FALSE(without.has_group("fields"));
+    EXPECT_FALSE(without.has_group("particles"));
+    EXPECT_FALSE(without.has_file("checkpoint.h5"));
+    EXPECT_EQ(without.json.find("\"checkpoint\": {"), std::string::npos) << "a phase";
+    EXPECT_TRUE(with.has_group("fields"));
+    EXPECT_TRUE(with.has_group("particles"));
+    EXPECT_TRUE(with.has_file("checkpoint.h5"));
+    EXPECT_NE(with.json.find("\"checkpoint\": {"), std::string::npos);
+    EXPECT_NE(without.json.find("\"why\": \"output.trajectory = \\\"none\\\"\""),
+              std::string::npos);
+}
