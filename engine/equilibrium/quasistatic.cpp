@@ -45,7 +45,7 @@ void QuasistaticPath::hold(double top) {
 void QuasistaticPath::first_point(double top) {
     record_.top = top;
     last_.take(block_.state());
-    const RelaxedState state = relax_at(record_.top, false);
+    const RelaxedState state = relax_at(record_.top, false, false);
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
                                fmt::format("the largest force left is {:.2e} eV/Å", state.residual),
@@ -57,12 +57,21 @@ void QuasistaticPath::first_point(double top) {
     trail_.begin(record_.top, state.top_force);
 }
 
+std::vector<StateArray> QuasistaticPath::states() {
+    const auto arrays = block_.state();
+    if (last_.empty()) last_.take(arrays);
+    if (before_.empty()) before_.take(arrays);
+    std::vector<StateArray> list = last_.arrays(arrays, "");
+    for (const StateArray& array : before_.arrays(arrays, "previous_"))
+        list.push_back(array);
+    std::stable_sort(list.begin(), list.end(),
+                     [](const StateArray& a, const StateArray& b) { return a.level < b.level; });
+    return list;
+}
+
 void QuasistaticPath::resume() {
-    hold(record_.top);
-    block_.settle();
-    last_.take(block_.state());
+    put_back();
     record_.observed = true;
-    reversible_ = false;
 }
 
 void QuasistaticPath::put_back() {
@@ -82,12 +91,16 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     }
     const double aim = attracted_ ? options_.load : std::max(options_.load, 0.0);
     const double slack = 0.25 * options_.tolerance * sites_; // what points are relaxed to
+    const double length = length_;
+    const long long iterations = iterations_;
     bool landing = false, predicted = reversible_;
     for (;;) {
         const double top = record_.top + direction * length_;
         const RelaxedState state = relax_at(top, predicted);
         if (state.interrupted) {
             put_back();
+            length_ = length;
+            iterations_ = iterations;
             return Outcome::interrupted;
         }
         const bool last_try = length_ <= smallest_step();
@@ -132,7 +145,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     }
 }
 
-RelaxedState QuasistaticPath::relax_at(double top, bool predicted) {
+RelaxedState QuasistaticPath::relax_at(double top, bool predicted, bool interruptible) {
     const auto arrays = block_.state();
     last_.restore(arrays);
     constexpr double furthest = 1.0; // Å: of a site in contact, out of which it still comes back
@@ -143,7 +156,7 @@ RelaxedState QuasistaticPath::relax_at(double top, bool predicted) {
     RelaxOptions options;
     options.tolerance = 0.25 * options_.tolerance;
     options.site_stiffness = options_.site_stiffness;
-    options.report = options_.report;
+    if (interruptible) options.report = options_.report;
     const RelaxedState state =
         block_.relax(interface_, options_.reference_height, options, phases_);
     iterations_ += state.iterations;

@@ -64,7 +64,8 @@ public:
     enum class Outcome { point, landed, gone, interrupted };
     /// The next point of a leg. landed: the approach has come to its load (the path stands there
     /// exactly); gone: nothing is left of the force on the pull-off. Where a relaxation was
-    /// interrupted, the block is back at the last point. Collective. Throws io::PhysicsError where
+    /// interrupted, block and path are back at the last point, and the next call makes the whole
+    /// point again. Collective. Throws io::PhysicsError where
     /// no equilibrium is found.
     Outcome advance(Leg leg);
 
@@ -79,10 +80,12 @@ public:
     /// Puts the block back to the last point, from wherever it was taken.
     void put_back();
 
-    /// Everything but the displacements, for checkpoints; put back by resume().
+    /// For checkpoints: all numbers of the path, and the displacements at its last two points. A
+    /// path that has read both and is resumed makes the same points, bit for bit, as one that never
+    /// stopped.
     template <class Visitor>
     void visit(Visitor& v);
-    /// The block's displacements have been read, and so has visit(): go on from there.
+    std::vector<StateArray> states();
     void resume();
 
 private:
@@ -95,7 +98,7 @@ private:
         double margin = 0.0;     ///< allowed error over the one found: how much the step may grow
     };
     void hold(double top);
-    RelaxedState relax_at(double top, bool predicted);
+    RelaxedState relax_at(double top, bool predicted, bool interruptible = true);
     Verdict judge(const RelaxedState& state, double top) const;
     void accept(const RelaxedState& state, double top, const Verdict& verdict, Leg leg);
     Jump describe(const RelaxedState& state, double energy, Leg leg) const;
@@ -144,6 +147,9 @@ void QuasistaticPath::visit(Visitor& v) {
     v("work", record_.work);
     v("dissipated", record_.damped);
     v("residual", record_.residual);
+    v("before_top", before_top_);
+    v("reversible", reversible_);
+    v("moved", moved_);
     v("length", length_);
     v("direction", direction_);
     trail_.visit(v);

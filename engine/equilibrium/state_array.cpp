@@ -38,4 +38,14 @@ void StateCopy::extrapolate(double ratio, const std::vector<StateArray>& arrays)
     }
 }
 
+std::vector<StateArray> StateCopy::arrays(const std::vector<StateArray>& like,
+                                          const std::string& prefix) {
+    std::vector<StateArray> list = like;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        list[i].name.insert(list[i].name.rfind('/') + 1, prefix);
+        list[i].field = &copies_[i];
+    }
+    return list;
+}
+
 } // namespace asperity

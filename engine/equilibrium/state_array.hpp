@@ -28,6 +28,9 @@ public:
     void restore(const std::vector<StateArray>& arrays) const;
     /// x <- x + ratio (x - copy) on the owned nodes; halos are left to the caller.
     void extrapolate(double ratio, const std::vector<StateArray>& arrays) const;
+    /// The copies as a list like the one they were taken from, with this before the last part of
+    /// the names: to be written to a checkpoint, or read from one (halos are then not current).
+    std::vector<StateArray> arrays(const std::vector<StateArray>& like, const std::string& prefix);
     bool empty() const { return copies_.empty(); }
     void clear() { copies_.clear(); }
     const Field<double>& operator[](std::size_t i) const { return copies_[i]; }

@@ -112,6 +112,7 @@ private:
             return true;
         }
         findings_.approach = units::milli_per_unit * path_.approach_work() / area;
+        path_.put_back(); // as after a resume, to the same bits
         block_->free_top();
         const bool found = find_state(0.0);
         path_.put_back();
@@ -186,18 +187,20 @@ private:
         if (place.on_path) path_.visit(collect);
         const RunScalars run = run_scalars();
         collect.values.insert(collect.values.end(), run.begin(), run.end());
-        write_checkpoint(path, ranks_, grid_, block_->state(), collect.values, fingerprint_);
+        write_checkpoint(path, ranks_, grid_, place.on_path ? path_.states() : block_->state(),
+                         collect.values, fingerprint_);
     }
     bool take_up() {
         const std::optional<std::string> from = checkpoint_to_take_up();
         if (!from) return false;
-        const RunScalars scalars =
-            read_checkpoint(*from, ranks_, grid_, block_->state(), fingerprint_);
+        const RunScalars scalars = read_checkpoint(*from, ranks_, grid_, {}, fingerprint_);
         RestoreScalars restore{scalars};
         Place place{};
         place.visit(restore);
         part_ = place.part;
         at_end_ = place.at_end;
+        read_checkpoint(*from, ranks_, grid_, place.on_path ? path_.states() : block_->state(),
+                        fingerprint_);
         if (place.on_path) {
             path_.visit(restore);
             path_.resume();
