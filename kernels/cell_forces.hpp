@@ -47,7 +47,7 @@ ASPERITY_HOST_DEVICE inline double linear_cell(const double (&u)[8][3], const Ce
 }
 
 /// Finite strain: springs feel their true length, the dilatation term det F - 1.
-ASPERITY_HOST_DEVICE inline double finite_cell(const double (&u)[8][3], const FiniteCell& c,
+ASPERITY_HOST_DEVICE inline double finite_cell(const double (&u)[8][3], const LevelCell& c,
                                                double (&f)[8][3]) {
     double F[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     for (int p = 0; p < 8; ++p)

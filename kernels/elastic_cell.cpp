@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "kernels/elastic_cell.hpp"
+#include "kernels/elastic_level.hpp"
 
 #include "kernels/cell_geometry.hpp"
 #include "kernels/kick.hpp"
@@ -184,6 +184,11 @@ void force_patch(VectorVolume<const double> u, int z, const Stencil& s, Patch pa
                         });
 }
 
+/// Where the work goes on: plane z, from row y. What it needs is fetched from memory meanwhile.
+struct Following {
+    int z, y;
+};
+
 /// Calls what a place will need into the second cache, a line of each array at a time.
 class Fetch {
 public:
@@ -242,13 +247,6 @@ void kick_rows(VectorVolume<const double> u, int z, const Stencil& s, int y0, in
     kicker.add_to(sums);
 }
 
-void force(VectorVolume<const double> u, int z, const Stencil& s, Patch patch,
-           VectorPlane<double> out) {
-    if (s.below == 0.0) return force_patch<Face::lower>(u, z, s, patch, out);
-    if (s.above == 0.0) return force_patch<Face::upper>(u, z, s, patch, out);
-    force_patch<Face::inner>(u, z, s, patch, out);
-}
-
 template <Face face, bool with_incoming>
 void kick_as(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,
              VectorPlane<const double> incoming, const Kick& plan, Following next,
@@ -260,41 +258,45 @@ void kick_as(VectorVolume<const double> u, int z, const Stencil& s, int y0, int 
     rows(u, z, s, y0, y1, incoming, plan, next, v, sums);
 }
 
-void kick(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,
-          VectorPlane<const double> incoming, const Kick& plan, Following next,
-          VectorVolume<double> v, KickSums& sums) {
-    // A level's upper plane is prescribed, so what is kicked is its lower face or inside.
-    if (s.below == 0.0)
-        kick_as<Face::lower, true>(u, z, s, y0, y1, incoming, plan, next, v, sums);
-    else
-        kick_as<Face::inner, false>(u, z, s, y0, y1, incoming, plan, next, v, sums);
-}
-
-void drift(VectorPlane<const double> v, double dt, int y0, int y1, VectorPlane<double> u) {
-    const V step(dt);
+void forces(const ElasticLevel& level, int y0, int y1, VectorVolume<double> out) {
+    const VectorVolume<const double> u = level.u;
     const int nx = u.x.nx;
-    const auto move = [&](const double* speed, double* place) {
-        const auto moved = [&](int x) { return fma(step, V::load(speed + x), V::load(place + x)); };
-        int x = 0;
-        for (; x + V::width <= nx; x += V::width)
-            moved(x).store(place + x);
-        if (x < nx) moved(x).store_first(place + x, nx - x);
-    };
-    for (int y = y0; y < y1; ++y) {
-        move(v.x.line(y), u.x.line(y));
-        move(v.y.line(y), u.y.line(y));
-        move(v.z.line(y), u.z.line(y));
-    }
+    const Patch nodes = {0, nx, y0, y1};
+    const VectorPlane<double> lowest = out[0];
+    force_patch<Face::lower>(u, 0, level.lower, nodes, lowest);
+    for (int y = y0; y < y1; ++y)
+        for (int x = 0; x < nx; ++x) {
+            lowest.x(x, y) += level.incoming.x(x, y);
+            lowest.y(x, y) += level.incoming.y(x, y);
+            lowest.z(x, y) += level.incoming.z(x, y);
+        }
+    for (int z = 1; z < level.cells; ++z)
+        force_patch<Face::inner>(u, z, level.inner, nodes, out[z]);
+    force_patch<Face::upper>(u, level.cells, level.upper, upper_patch(level, y0, y1),
+                             level.upper_force);
 }
 
-void sum(PlaneView<const double> plane, int y0, int y1, ExactSum& into) {
-    BasicExactSum<V> lanes;
-    for (int y = y0; y < y1; ++y)
-        for (int x = 0; x < plane.nx; x += V::width) {
-            const auto inside = lane_numbers() < V(static_cast<double>(plane.nx - x));
-            lanes.add(select(inside, V::load(plane.line(y) + x), V(0.0)));
-        }
-    collect(lanes, into);
+void advance(const ElasticLevel& level, const LevelKicks& kicks, double dt, Band band,
+             VectorVolume<double>, KickSums& sums) {
+    const VectorVolume<const double> u = level.u;
+    const int cells = level.cells;
+    // Rows of a plane drift when the forces on the planes around it are done.
+    const int from = band.begin > band.first ? band.begin - 1 : band.first + 1;
+    for (int z = 0; z < cells; ++z) {
+        const Following next = z + 1 < cells          ? Following{z + 1, band.begin}
+                               : band.end < band.last ? Following{0, band.end}
+                                                      : Following{z, band.begin};
+        if (z == 0)
+            kick_as<Face::lower, true>(u, z, level.lower, band.begin, band.end, level.incoming,
+                                       kicks(z), next, level.v, sums);
+        else
+            kick_as<Face::inner, false>(u, z, level.inner, band.begin, band.end, level.incoming,
+                                        kicks(z), next, level.v, sums);
+        if (z > 0) drift_rows(level, z - 1, dt, from, band.end - 1);
+    }
+    force_patch<Face::upper>(u, cells, level.upper, upper_patch(level, band.begin, band.end),
+                             level.upper_force);
+    drift_rows(level, cells - 1, dt, from, band.end - 1);
 }
 
 /// Energy of the cells whose lower corners are a pack of nodes, straight from the definition.
@@ -331,21 +333,22 @@ ASPERITY_INLINE V cell_energy(const VectorVolume<const double>& u, std::ptrdiff_
     return V(0.125 * e.k) * (edges + diagonals) + V(0.5 * e.kappa) * (dilatation * dilatation);
 }
 
-void energy(VectorVolume<const double> u, int z, CellElasticity e, int y0, int y1, ExactSum& sum) {
+void energy(VectorVolume<const double> u, const LevelCell& cell, int y0, int y1, ExactSum& sum) {
     BasicExactSum<V> lanes;
-    for (int y = y0; y < y1; ++y) {
-        const auto line = z * u.x.plane + y * u.x.row;
-        for (int x = 0; x < u.x.nx; x += V::width) {
-            const auto inside = lane_numbers() < V(static_cast<double>(u.x.nx - x));
-            lanes.add(select(inside, cell_energy(u, line + x, e), V(0.0)));
+    for (int z = 0; z + 1 < u.x.nz; ++z)
+        for (int y = y0; y < y1; ++y) {
+            const auto line = z * u.x.plane + y * u.x.row;
+            for (int x = 0; x < u.x.nx; x += V::width) {
+                const auto inside = lane_numbers() < V(static_cast<double>(u.x.nx - x));
+                lanes.add(select(inside, cell_energy(u, line + x, cell.elasticity), V(0.0)));
+            }
         }
-    }
     collect(lanes, sum);
 }
 
 } // namespace
 
-extern const ElasticKernels elastic_kernels;
-const ElasticKernels elastic_kernels = {force, kick, drift, sum, energy};
+extern const ElasticKernels small_strain_kernels;
+const ElasticKernels small_strain_kernels = {forces, advance, drift, energy, plane_sum};
 
 } // namespace asperity::ASPERITY_VARIANT

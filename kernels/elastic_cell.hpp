@@ -81,11 +81,6 @@ struct Kick {
     double drag = 0.0;      ///< Gamma m dt, for the dissipated energy, eV fs^2/Å^2
 };
 
-/// Where the work goes on: plane z, from row y. What it needs is fetched from memory meanwhile.
-struct Following {
-    int z, y;
-};
-
 /// What a kick adds up, at the whole step n, v_n = (v_{n-1/2} + v_{n+1/2}) / 2.
 struct KickSums {
     ExactSum kinetic;    ///< sum of m v_n^2 / 2, eV (observed planes)
@@ -104,27 +99,6 @@ struct KickSums {
 struct Patch {
     int x0, x1, y0, y1;
 };
-
-/// The functions compiled for one processor level.
-struct ElasticKernels {
-    /// Force on the nodes of plane z in the patch; overwrites out.
-    void (*force)(VectorVolume<const double> u, int z, const Stencil&, Patch,
-                  VectorPlane<double> out);
-    /// Kick of the nodes of plane z, rows [y0, y1): v is advanced in place.
-    /// incoming: forces from below (interface or hanging plane), or null views.
-    void (*kick)(VectorVolume<const double> u, int z, const Stencil&, int y0, int y1,
-                 VectorPlane<const double> incoming, const Kick&, Following, VectorVolume<double> v,
-                 KickSums&);
-    /// Drift u <- u + dt v of the nodes of rows [y0, y1) of a plane.
-    void (*drift)(VectorPlane<const double> v, double dt, int y0, int y1, VectorPlane<double> u);
-    /// Sum over the owned nodes of rows [y0, y1) of a plane.
-    void (*sum)(PlaneView<const double> plane, int y0, int y1, ExactSum&);
-    /// Elastic energy of the cells between planes z and z+1 with lower corners in rows [y0, y1),
-    /// eV.
-    void (*energy)(VectorVolume<const double> u, int z, CellElasticity, int y0, int y1, ExactSum&);
-};
-
-const ElasticKernels& elastic_kernels();
 
 /// The slow obvious twin: energy and forces cell by cell, spring by spring, straight from the
 /// definition. Adds forces into out (all planes); returns the energy of all cells of the tile whose

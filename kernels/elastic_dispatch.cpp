@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "kernels/elastic_finite.hpp"
+#include "kernels/elastic_level.hpp"
 #include "kernels/level_transfer.hpp"
 #include "kernels/variant.hpp"
 
@@ -8,38 +8,29 @@ namespace asperity {
 
 #if ASPERITY_HAS_X86_VARIANTS
 namespace v2 {
-extern const ElasticKernels elastic_kernels;
-extern const FiniteKernels finite_kernels;
+extern const ElasticKernels small_strain_kernels;
+extern const ElasticKernels finite_strain_kernels;
 extern const TransferKernels transfer_kernels;
 } // namespace v2
 namespace v3 {
-extern const ElasticKernels elastic_kernels;
-extern const FiniteKernels finite_kernels;
+extern const ElasticKernels small_strain_kernels;
+extern const ElasticKernels finite_strain_kernels;
 extern const TransferKernels transfer_kernels;
 } // namespace v3
 namespace v4 {
-extern const ElasticKernels elastic_kernels;
-extern const FiniteKernels finite_kernels;
+extern const ElasticKernels small_strain_kernels;
+extern const ElasticKernels finite_strain_kernels;
 extern const TransferKernels transfer_kernels;
 } // namespace v4
-const ElasticKernels& elastic_kernels() {
+const ElasticKernels& elastic_kernels(CellStrain strain) {
+    const bool finite = strain == CellStrain::finite;
     switch (processor_level()) {
     case ProcessorLevel::v4:
-        return v4::elastic_kernels;
+        return finite ? v4::finite_strain_kernels : v4::small_strain_kernels;
     case ProcessorLevel::v3:
-        return v3::elastic_kernels;
+        return finite ? v3::finite_strain_kernels : v3::small_strain_kernels;
     default:
-        return v2::elastic_kernels;
-    }
-}
-const FiniteKernels& finite_kernels() {
-    switch (processor_level()) {
-    case ProcessorLevel::v4:
-        return v4::finite_kernels;
-    case ProcessorLevel::v3:
-        return v3::finite_kernels;
-    default:
-        return v2::finite_kernels;
+        return finite ? v2::finite_strain_kernels : v2::small_strain_kernels;
     }
 }
 const TransferKernels& transfer_kernels() {
@@ -54,12 +45,14 @@ const TransferKernels& transfer_kernels() {
 }
 #else
 namespace portable {
-extern const ElasticKernels elastic_kernels;
-extern const FiniteKernels finite_kernels;
+extern const ElasticKernels small_strain_kernels;
+extern const ElasticKernels finite_strain_kernels;
 extern const TransferKernels transfer_kernels;
 } // namespace portable
-const ElasticKernels& elastic_kernels() { return portable::elastic_kernels; }
-const FiniteKernels& finite_kernels() { return portable::finite_kernels; }
+const ElasticKernels& elastic_kernels(CellStrain strain) {
+    return strain == CellStrain::finite ? portable::finite_strain_kernels
+                                        : portable::small_strain_kernels;
+}
 const TransferKernels& transfer_kernels() { return portable::transfer_kernels; }
 #endif
 

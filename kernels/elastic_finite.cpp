@@ -6,6 +6,7 @@
 #include "kernels/kick.hpp"
 #include "kernels/simd.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 namespace asperity::ASPERITY_VARIANT {
@@ -49,7 +50,7 @@ struct Cell {
     V edge, inverse_4_edge, pressure; ///< s; 1/(4s); 4 s kappa
     Stiffness inside, surface;        ///< springs shared by all their cells, and by half of them
 
-    explicit Cell(const FiniteCell& c)
+    explicit Cell(const LevelCell& c)
         : edge(c.edge), inverse_4_edge(0.25 / c.edge), pressure(4.0 * c.edge * c.elasticity.kappa),
           inside(c.elasticity.k, c.edge), surface(0.5 * c.elasticity.k, c.edge) {}
 };
@@ -249,7 +250,7 @@ Row row_of(const VectorPlane<double>& force, Patch nodes, int y) {
 
 /// pressed: with a dilatation term; at nu = 1/4 there is none, and no volume to compute.
 template <bool pressed>
-void cell_layer(const VectorVolume<const double>& u, int z, const FiniteCell& constants,
+void cell_layer(const VectorVolume<const double>& u, int z, const LevelCell& constants,
                 Patch lower_nodes, const VectorPlane<double>& lower, Patch upper_nodes,
                 const VectorPlane<double>& upper) {
     const Cell cell(constants);
@@ -264,13 +265,7 @@ void cell_layer(const VectorVolume<const double>& u, int z, const FiniteCell& co
                                  x1});
 }
 
-void cells(VectorVolume<const double> u, int z, const FiniteCell& c, Patch lower_nodes,
-           VectorPlane<double> lower, Patch upper_nodes, VectorPlane<double> upper) {
-    const auto layer = c.elasticity.kappa != 0.0 ? cell_layer<true> : cell_layer<false>;
-    layer(u, z, c, lower_nodes, lower, upper_nodes, upper);
-}
-
-void surface(VectorVolume<const double> u, int z, const FiniteCell& c, Patch nodes,
+void surface(VectorVolume<const double> u, int z, const LevelCell& c, Patch nodes,
              VectorPlane<double> force) {
     const Cell cell(c);
     for (int y = nodes.y0 - 1; y < nodes.y1; ++y)
@@ -292,16 +287,62 @@ void kick_rows(const VectorPlane<const double>& force, int z, int y0, int y1, co
 }
 
 void kick(VectorPlane<const double> force, int z, int y0, int y1, const Kick& plan,
-          VectorVolume<double> v, KickSums& sums) {
+          const VectorVolume<double>& v, KickSums& sums) {
     const auto rows = plan.damped
                           ? (plan.observed ? kick_rows<true, true> : kick_rows<true, false>)
                           : (plan.observed ? kick_rows<false, true> : kick_rows<false, false>);
     rows(force, z, y0, y1, plan, v, sums);
 }
 
+/// Plane by plane through a band: the forces begun on the plane above are handed from one to the
+/// next. place(z): where those on plane z are summed; complete(z, force): they are, and no other
+/// force of the band needs the places of plane z.
+template <class Place, class Complete>
+void sweep_planes(const ElasticLevel& level, int y0, int y1, const Place& place,
+                  const Complete& complete) {
+    const VectorVolume<const double> u = level.u;
+    const int cells = level.cells, nx = u.x.nx;
+    const Patch inside = {0, nx, y0, y1}, beyond = upper_patch(level, y0, y1);
+    const auto layer = level.cell.elasticity.kappa != 0.0 ? cell_layer<true> : cell_layer<false>;
+    VectorPlane<double> lower = place(0);
+    for (int y = y0; y < y1; ++y) {
+        std::copy_n(level.incoming.x.line(y), nx, lower.x.line(y));
+        std::copy_n(level.incoming.y.line(y), nx, lower.y.line(y));
+        std::copy_n(level.incoming.z.line(y), nx, lower.z.line(y));
+    }
+    for (int z = 0; z < cells; ++z) {
+        const bool last = z + 1 == cells;
+        const VectorPlane<double> upper = last ? level.upper_force : place(z + 1);
+        layer(u, z, level.cell, inside, lower, last ? beyond : inside, upper);
+        complete(z, lower);
+        lower = upper;
+    }
+    surface(u, cells, level.cell, beyond, lower);
+}
+
+void forces(const ElasticLevel& level, int y0, int y1, VectorVolume<double> out) {
+    sweep_planes(
+        level, y0, y1, [&](int z) { return out[z]; }, [](int, const VectorPlane<double>&) {});
+}
+
+void advance(const ElasticLevel& level, const LevelKicks& kicks, double dt, Band band,
+             VectorVolume<double> scratch, KickSums& sums) {
+    const int from = band.begin > band.first ? band.begin - 1 : band.first + 1;
+    const auto place = [&](int z) { // the two planes in turn
+        VectorPlane<double> plane = scratch[z & 1];
+        for (PlaneView<double>* component : {&plane.x, &plane.y, &plane.z})
+            component->origin -= band.begin * component->row;
+        return plane;
+    };
+    sweep_planes(level, band.begin, band.end, place, [&](int z, const VectorPlane<double>& force) {
+        kick(force, z, band.begin, band.end, kicks(z), level.v, sums);
+        drift_rows(level, z, dt, from, band.end - 1);
+    });
+}
+
 /// Energy of the cells whose lower corners are a pack of nodes, straight from the definition.
 ASPERITY_INLINE V cell_energy(const VectorVolume<const double>& u, std::ptrdiff_t at,
-                              const Cell& cell, const FiniteCell& c) {
+                              const Cell& cell, const LevelCell& c) {
     Corners corner;
     for (int r = 0; r < 4; ++r) {
         const auto row = at + (r & 1) * u.x.row + (r >> 1) * u.x.plane;
@@ -326,23 +367,23 @@ ASPERITY_INLINE V cell_energy(const VectorVolume<const double>& u, std::ptrdiff_
            V(8.0 * c.edge * c.edge * c.elasticity.kappa) * (theta * theta);
 }
 
-void energy(VectorVolume<const double> u, int z, const FiniteCell& c, int y0, int y1,
-            ExactSum& sum) {
-    const Cell cell(c);
+void energy(VectorVolume<const double> u, const LevelCell& cell, int y0, int y1, ExactSum& sum) {
+    const Cell terms(cell);
     BasicExactSum<V> lanes;
-    for (int y = y0; y < y1; ++y) {
-        const auto line = z * u.x.plane + y * u.x.row;
-        for (int x = 0; x < u.x.nx; x += V::width) {
-            const auto inside = lane_numbers() < V(static_cast<double>(u.x.nx - x));
-            lanes.add(select(inside, cell_energy(u, line + x, cell, c), V(0.0)));
+    for (int z = 0; z + 1 < u.x.nz; ++z)
+        for (int y = y0; y < y1; ++y) {
+            const auto line = z * u.x.plane + y * u.x.row;
+            for (int x = 0; x < u.x.nx; x += V::width) {
+                const auto inside = lane_numbers() < V(static_cast<double>(u.x.nx - x));
+                lanes.add(select(inside, cell_energy(u, line + x, terms, cell), V(0.0)));
+            }
         }
-    }
     collect(lanes, sum);
 }
 
 } // namespace
 
-extern const FiniteKernels finite_kernels;
-const FiniteKernels finite_kernels = {cells, surface, kick, energy};
+extern const ElasticKernels finite_strain_kernels;
+const ElasticKernels finite_strain_kernels = {forces, advance, drift, energy, plane_sum};
 
 } // namespace asperity::ASPERITY_VARIANT

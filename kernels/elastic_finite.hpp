@@ -27,38 +27,11 @@
 // of cells on the border of two bands are done twice.
 #pragma once
 
-#include "kernels/elastic_cell.hpp"
+#include "kernels/elastic_level.hpp"
 
 namespace asperity {
 
-/// A level's cell at finite strain.
-struct FiniteCell {
-    double edge = 0.0;         ///< s, Å
-    CellElasticity elasticity; ///< as for small strain
-};
-
-/// The functions compiled for one processor level.
-struct FiniteKernels {
-    /// The cells between planes z and z + 1: adds to the forces on nodes of plane z, and begins
-    /// (overwrites) those on nodes of plane z + 1.
-    void (*cells)(VectorVolume<const double> u, int z, const FiniteCell&, Patch lower_nodes,
-                  VectorPlane<double> lower, Patch upper_nodes, VectorPlane<double> upper);
-    /// Adds the springs within a level's upper plane z, after the cells below it.
-    void (*surface)(VectorVolume<const double> u, int z, const FiniteCell&, Patch nodes,
-                    VectorPlane<double> force);
-    /// Kick of the nodes of plane z, rows [y0, y1), by these forces: v is advanced in place. The
-    /// drift is that of elastic_cell.hpp.
-    void (*kick)(VectorPlane<const double> force, int z, int y0, int y1, const Kick&,
-                 VectorVolume<double> v, KickSums&);
-    /// Elastic energy of the cells between planes z and z + 1 with lower corners in rows [y0, y1),
-    /// eV.
-    void (*energy)(VectorVolume<const double> u, int z, const FiniteCell&, int y0, int y1,
-                   ExactSum&);
-};
-
-const FiniteKernels& finite_kernels();
-
 /// The slow obvious twin, as elastic_reference() of elastic_cell.hpp.
-double finite_reference(VectorVolume<const double> u, const FiniteCell&, VectorVolume<double> out);
+double finite_reference(VectorVolume<const double> u, const LevelCell&, VectorVolume<double> out);
 
 } // namespace asperity

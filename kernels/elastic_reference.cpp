@@ -39,7 +39,7 @@ double elastic_reference(VectorVolume<const double> u, CellElasticity e, VectorV
     return each_cell(u, out, [&](const auto& at, auto& f) { return linear_cell(at, e, f); });
 }
 
-double finite_reference(VectorVolume<const double> u, const FiniteCell& c,
+double finite_reference(VectorVolume<const double> u, const LevelCell& c,
                         VectorVolume<double> out) {
     return each_cell(u, out, [&](const auto& at, auto& f) { return finite_cell(at, c, f); });
 }

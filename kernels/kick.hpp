@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What becomes of a pack of forces in a time step: the kick, and the step's sums. Shared by the
-// elastic kernels of small and finite strain.
+// What becomes of a pack of forces in a time step: the kick, the drift, and the step's sums. Shared
+// by the elastic kernels of small and finite strain.
 #pragma once
 
-#include "kernels/elastic_cell.hpp"
+#include "kernels/elastic_level.hpp"
 #include "kernels/simd.hpp"
 
 namespace asperity::ASPERITY_VARIANT {
@@ -102,5 +102,41 @@ private:
     double *x_, *y_, *z_;
     BasicExactSum<V> kinetic_, dissipated_, dragged_;
 };
+
+/// Drift u <- u + dt v of rows [y0, y1) of plane z.
+inline void drift_rows(const ElasticLevel& level, int z, double dt, int y0, int y1) {
+    using V = Pack<double>;
+    const V step(dt);
+    const int nx = level.u.x.nx;
+    const auto move = [&](const double* speed, double* place) {
+        const auto moved = [&](int x) { return fma(step, V::load(speed + x), V::load(place + x)); };
+        int x = 0;
+        for (; x + V::width <= nx; x += V::width)
+            moved(x).store(place + x);
+        if (x < nx) moved(x).store_first(place + x, nx - x);
+    };
+    const VectorPlane<double> u = level.u[z], v = level.v[z];
+    for (int y = y0; y < y1; ++y) {
+        move(v.x.line(y), u.x.line(y));
+        move(v.y.line(y), u.y.line(y));
+        move(v.z.line(y), u.z.line(y));
+    }
+}
+
+inline void drift(const ElasticLevel& level, double dt, int y0, int y1) {
+    for (int z = 0; z < level.cells; ++z)
+        drift_rows(level, z, dt, y0, y1);
+}
+
+inline void plane_sum(PlaneView<const double> plane, int y0, int y1, ExactSum& into) {
+    using V = Pack<double>;
+    BasicExactSum<V> lanes;
+    for (int y = y0; y < y1; ++y)
+        for (int x = 0; x < plane.nx; x += V::width) {
+            const auto inside = lane_numbers() < V(static_cast<double>(plane.nx - x));
+            lanes.add(select(inside, V::load(plane.line(y) + x), V(0.0)));
+        }
+    collect(lanes, into);
+}
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -35,30 +35,34 @@ void count(benchmark::State& state, double nodes, int threads) {
     state.counters["fused_GFLOP/s"] = threads * fused_rate(false);
 }
 
-/// Kernels alone: kick and drift of four planes, on one core.
-void kick_and_drift(benchmark::State& state) {
-    const int n = static_cast<int>(state.range(0)), layers = 4, band = 8;
+/// Kernels alone: kick and drift of four planes, forces on the fifth, on one core.
+void advance(benchmark::State& state, CellStrain strain, const LevelCell& cell, bool damped) {
+    const int n = static_cast<int>(state.range(0)), layers = 4, band = Block::band;
     const Tile tile{0, 0, n, n, n};
-    VectorField<double> u(tile, layers + 1), v(tile, layers), incoming(tile, 1);
-    const CellElasticity elasticity{0.441, 0.117};
-    const Stencil lower = make_stencil(elasticity, Face::lower),
-                  inner = make_stencil(elasticity, Face::inner);
+    VectorField<double> u(tile, layers + 1), v(tile, layers), incoming(tile, 1), upper(tile, 1),
+        scratch({0, 0, n, band, n}, 2);
+    const ElasticLevel level = {layers,
+                                u.view(),
+                                v.view(),
+                                incoming.plane(0),
+                                upper.plane(0),
+                                make_stencil(cell.elasticity, Face::lower),
+                                make_stencil(cell.elasticity, Face::inner),
+                                make_stencil(cell.elasticity, Face::upper),
+                                cell};
     Kick kick;
     kick.kick = 1e-6;
-    kick.damped = state.range(1) != 0;
+    kick.damped = damped;
     kick.keep = kick.damped ? 0.999 : 1.0;
     KickSums sums;
     for (auto _ : state)
         for (int y = 0; y < n; y += band)
-            for (int z = 0; z < layers; ++z) {
-                const Following next =
-                    z + 1 < layers ? Following{z + 1, y} : Following{0, y + band};
-                elastic_kernels().kick(std::as_const(u).view(), z, z == 0 ? lower : inner, y,
-                                       y + band, std::as_const(incoming).plane(0), kick, next,
-                                       v.view(), sums);
-                elastic_kernels().drift(std::as_const(v).plane(z), 1e-3, y, y + band, u.plane(z));
-            }
+            elastic_kernels(strain).advance(level, {kick, kick, kick, layers}, 1e-3,
+                                            {y, y + band, 0, n}, scratch.view(), sums);
     count(state, static_cast<double>(n) * n * layers, 1);
+}
+void kick_and_drift(benchmark::State& state) {
+    advance(state, CellStrain::small, {2.6, {0.441, 0.117}}, state.range(1) != 0);
 }
 BENCHMARK(kick_and_drift)
     ->ArgNames({"sites", "damped"})
@@ -67,23 +71,7 @@ BENCHMARK(kick_and_drift)
 
 /// The same at finite strain, with and without a dilatation term.
 void kick_and_drift_finite(benchmark::State& state) {
-    const int n = static_cast<int>(state.range(0)), layers = 4, band = Block::band;
-    const Tile tile{0, 0, n, n, n};
-    VectorField<double> u(tile, layers + 1), v(tile, layers), forces(tile, 2);
-    const FiniteCell cell{2.6, {0.441, state.range(1) != 0 ? 0.117 : 0.0}};
-    Kick kick;
-    kick.kick = 1e-6;
-    KickSums sums;
-    for (auto _ : state)
-        for (int y = 0; y < n; y += band)
-            for (int z = 0; z < layers; ++z) {
-                const Patch rows = {0, n, y, y + band};
-                const auto lower = forces.plane(z & 1), upper = forces.plane((z + 1) & 1);
-                finite_kernels().cells(std::as_const(u).view(), z, cell, rows, lower, rows, upper);
-                finite_kernels().kick(lower, z, y, y + band, kick, v.view(), sums);
-                elastic_kernels().drift(std::as_const(v).plane(z), 1e-3, y, y + band, u.plane(z));
-            }
-    count(state, static_cast<double>(n) * n * layers, 1);
+    advance(state, CellStrain::finite, {2.6, {0.441, state.range(1) != 0 ? 0.117 : 0.0}}, false);
 }
 BENCHMARK(kick_and_drift_finite)
     ->ArgNames({"sites", "dilatation"})

@@ -49,9 +49,12 @@ public:
         const InterfaceSums sums =
             interface_.sweep(std::as_const(u_).plane(0), force_.plane(0), height_, false);
         ExactSum lowest, pulled;
-        KickSums kicks;
         const ElasticKernels& kernels = elastic_kernels();
-        const auto u = std::as_const(u_).view();
+        const ElasticLevel level = {cells_,          u_.view(),     v_.view(),
+                                    force_.plane(0), top_.plane(0), lower_,
+                                    inner_,          upper_,        {}};
+        const LevelKicks kicks = {kick_, kick_, kick_, cells_};
+        const auto z = std::as_const(u_).plane(0).z;
         const int n = tile_.nx;
 #pragma omp parallel
         {
@@ -62,28 +65,14 @@ public:
                       threads = omp_get_num_threads();
             const int begin = std::min(n, 8 * (bands * thread / threads)),
                       end = std::min(n, 8 * (bands * (thread + 1) / threads));
-            const auto drift = [&](int z, int y0, int y1) {
-                kernels.drift(std::as_const(v_).plane(z), options_.dt, y0, y1, u_.plane(z));
-            };
-            for (int y0 = begin; y0 < end; y0 += 8) {
-                const int y1 = std::min(end, y0 + 8), from = std::max(y0 - 1, begin + 1);
-                kernels.sum(u.z[0], y0, y1, mine);
-                for (int z = 0; z < cells_; ++z) {
-                    const Following next = z + 1 < cells_ ? Following{z + 1, y0}
-                                           : y1 < end     ? Following{0, y1}
-                                                          : Following{z, y0};
-                    kernels.kick(u, z, z ? inner_ : lower_, y0, y1, std::as_const(force_).plane(0),
-                                 kick_, next, v_.view(), none);
-                    if (z > 0) drift(z - 1, from, y1 - 1);
-                }
-                kernels.force(u, cells_, upper_, {0, n, y0, y1}, top_.plane(0));
-                drift(cells_ - 1, from, y1 - 1);
+            for (int y = begin; y < end; y += 8) {
+                kernels.sum(z, y, std::min(end, y + 8), mine);
+                kernels.advance(level, kicks, options_.dt, {y, std::min(end, y + 8), begin, end},
+                                {}, none);
             }
 #pragma omp barrier
-            for (int z = 0; z < cells_; ++z) {
-                drift(z, begin, std::min(begin + 1, end));
-                drift(z, std::max(end - 1, begin + 1), end);
-            }
+            kernels.drift(level, options_.dt, begin, std::min(begin + 1, end));
+            kernels.drift(level, options_.dt, std::max(end - 1, begin + 1), end);
 #pragma omp critical
             lowest.merge(mine);
         }

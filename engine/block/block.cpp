@@ -96,6 +96,11 @@ double Block::Level::mass(int z) const {
     return 0.75 * node_mass;
 }
 
+ElasticLevel Block::Level::view(double a) {
+    return {plan.cells, u.view(), v.view(), incoming.plane(0), upper_force.plane(0), lower,
+            inner,      upper,    cell(a)};
+}
+
 Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid,
              Motion motion)
     : options_(options), communicator_(communicator), grid_(grid), halo_(communicator, grid) {
@@ -197,23 +202,17 @@ void Block::add_top_force(ExactSum& sum) const {
 }
 
 void Block::add_elastic_energy(ExactSum& sum) const {
-    const ElasticKernels& kernels = elastic_kernels();
+    const ElasticKernels& kernels = elastic_kernels(strain());
 #pragma omp parallel
     {
         ExactSum mine;
         for (const Level& level : levels_) {
             if (!counts(level)) continue;
+            const LevelCell cell = level.cell(options_.spacing);
             const int ny = level.tile.ny;
 #pragma omp for schedule(static) nowait
-            for (int y0 = 0; y0 < ny; y0 += band)
-                for (int z = 0; z < level.plan.cells; ++z) {
-                    const int y1 = std::min(ny, y0 + band);
-                    if (options_.finite_strain)
-                        finite_kernels().energy(level.u.view(), z,
-                                                level.finite_cell(options_.spacing), y0, y1, mine);
-                    else
-                        kernels.energy(level.u.view(), z, level.elasticity, y0, y1, mine);
-                }
+            for (int y = 0; y < ny; y += band)
+                kernels.energy(level.u.view(), cell, y, std::min(ny, y + band), mine);
         }
 #pragma omp critical(asperity_block_sums)
         sum.merge(mine);

@@ -25,7 +25,7 @@
 #include "decomposition/field.hpp"
 #include "decomposition/halo_exchange.hpp"
 #include "decomposition/process_grid.hpp"
-#include "kernels/elastic_finite.hpp"
+#include "kernels/elastic_level.hpp"
 #include "kernels/level_transfer.hpp"
 
 #include <vector>
@@ -78,11 +78,7 @@ enum class Motion { in_time, at_rest };
 
 class Block {
 public:
-    /// Rows [begin, end) of a tile.
-    struct Rows {
-        int begin, end;
-    };
-    /// Rows are handed to threads in bands of so many.
+    /// Rows are worked on in bands of so many.
     static constexpr int band = 8;
 
     struct Level {
@@ -99,12 +95,16 @@ public:
 
         std::size_t bytes() const;
         double edge(double a) const { return a * (1 << plan.level); }
-        FiniteCell finite_cell(double a) const { return {edge(a), elasticity}; }
         /// Mass of a node of plane z, eV fs^2/Å^2.
         double mass(int z) const;
-        const Stencil& stencil(int z) const {
-            return z == 0 ? lower : z == plan.cells ? upper : inner;
-        }
+        /// Nodes of this tile that move.
+        long long nodes() const { return static_cast<long long>(tile.nx) * tile.ny * plan.cells; }
+        /// The first plane at this share of the block's thickness or above it; plan.cells if none
+        /// is. Decides which nodes are damped, and which feel noise.
+        int first_plane_from(double share_of_thickness, int thickness) const;
+        /// For the kernels; a: the spacing of atoms, Å.
+        LevelCell cell(double a) const { return {edge(a), elasticity}; }
+        ElasticLevel view(double a);
     };
 
     Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid,
@@ -171,18 +171,14 @@ private:
     /// Forces at finite strain: of each thread, two planes of a band of rows.
     std::vector<VectorField<double>> scratch_;
 
+    CellStrain strain() const {
+        return options_.finite_strain ? CellStrain::finite : CellStrain::small;
+    }
     static Tile scratch_tile(const ProcessGrid& grid, int levels);
     LevelSeam seam(std::size_t fine) const;
-    template <class Work>
-    void sweep(const Work& work);
-    template <class Work>
-    void sweep_band(Level& level, Rows rows, Rows share, const Work& work,
-                    typename Work::Sums& sums);
-    template <class Work>
-    void sweep_finite_band(Level& level, Rows rows, Rows share, const Work& work,
-                           typename Work::Sums& sums);
-    void hand_up(std::size_t fine);
-    Kick kick(const Level& level, int z, const StepPlan& plan) const;
+    LevelKicks kicks(const Level& level, const StepPlan& plan) const;
+    void restrict_forces(std::size_t fine);
+    void share_restricted_forces(std::size_t fine);
 };
 
 } // namespace asperity

@@ -32,16 +32,16 @@ void Simulation::start(double height) {
 //   advance       all forces at u(n), level by level; v(n-1/2) -> v(n+1/2); u(n) -> u(n+1)
 //   thermostat    noise on v(n+1/2) and u(n+1), if the scene has a temperature
 //   exchange      halos of u(n+1)
-//   sums          what the ranks summed at n, added up; work and dissipation booked
+//   sums          what the ranks summed at n, added up; work and dissipation integrated
 // The top plane's displacement at n is set at the end of the step before.
 const StepRecord& Simulation::step(bool observe) {
     if (block_.hangs()) phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
     phases_.during(Phase::interface, [&] { sweep_interface(observe); });
     phases_.during(Phase::observe, [&] { collect(observe); });
-    phases_.during(Phase::advance, [&] { kick_and_drift(observe); });
+    phases_.during(Phase::advance, [&] { advance_block(observe); });
     if (thermostat_) phases_.during(Phase::thermostat, [&] { add_noise(); });
     phases_.during(Phase::exchange, [&] { block_.exchange(); });
-    phases_.during(Phase::sums, [&] { keep_books(); });
+    phases_.during(Phase::sums, [&] { update_energy_balance(); });
     ++step_;
     return record_;
 }
@@ -55,7 +55,7 @@ void Simulation::add_noise() {
     heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_);
 }
 
-void Simulation::kick_and_drift(bool observe) {
+void Simulation::advance_block(bool observe) {
     const double middle = (static_cast<double>(step_) + 0.5) * options_.dt;
     const double velocity = drive_.velocity(middle);
     kick_sums_ = {};
@@ -77,7 +77,7 @@ void Simulation::collect(bool observe) {
     record_.time = time();
 }
 
-void Simulation::keep_books() {
+void Simulation::update_energy_balance() {
     // One reduction a step (and one for the counts of an observed one).
     const auto sums = global_sums(communicator(),
                                   std::array{interface_sums_.force_z, lowest_z_, top_force_,
@@ -89,7 +89,7 @@ void Simulation::keep_books() {
     const double mean_height = reference_height_ + lowest / (sites * sites);
     const double velocity = drive_.velocity((static_cast<double>(step_) + 0.5) * options_.dt);
     const double top = block_.top() - options_.dt * velocity; // at n; the block is at n + 1 already
-    if (booked_) {
+    if (has_previous_) {
         // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
         ledger_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
         double& done = drive_.leg() == Leg::approach ? ledger_.approach : ledger_.pull_off;
@@ -101,7 +101,7 @@ void Simulation::keep_books() {
         ledger_.heat += pending_.heat;
     }
 
-    booked_ = true;
+    has_previous_ = true;
     pending_ = {dissipated, velocity * dragged, heat};
 
     record_.top = top;

@@ -92,10 +92,10 @@ public:
 
 private:
     void sweep_interface(bool observe);
-    void kick_and_drift(bool observe);
+    void advance_block(bool observe);
     void add_noise();
     void collect(bool observe);
-    void keep_books();
+    void update_energy_balance();
 
     SimulationOptions options_;
     Block block_;
@@ -110,11 +110,11 @@ private:
     Ledger ledger_;
     std::optional<double> energy_at_start_; ///< set by the first observed step
     double work_at_start_ = 0.0, damped_at_start_ = 0.0;
-    double scale_ = 0.0;  ///< largest energy seen, for the residual
-    bool booked_ = false; ///< a step came before: trapezia can be formed
+    double scale_ = 0.0;        ///< largest energy seen, for the residual
+    bool has_previous_ = false; ///< a step came before: trapezia can be formed
     struct Pending {
         double dissipated = 0.0, drag = 0.0, heat = 0.0;
-    } pending_; ///< of the step before, eV: booked with the next
+    } pending_; ///< of the step before, eV: integrated with the next
 
     // Sums of the step under way, this rank's share.
     InterfaceSums interface_sums_;
@@ -155,7 +155,7 @@ void Simulation::visit(Visitor& v) {
     v("energy.work_at_start", work_at_start_);
     v("energy.damped_at_start", damped_at_start_);
     v("energy.scale", scale_);
-    v("booked", booked_);
+    v("booked", has_previous_);
     v("pending.dissipated", pending_.dissipated);
     v("pending.drag", pending_.drag);
     v("pending.heat", pending_.heat);

@@ -37,19 +37,17 @@ std::array<double, 3> normals(std::uint64_t seed, long long step, int level, int
 
 ExactSum Thermostat::kick(Block& block, double dt, double damping_from, long long step) const {
     ExactSum heat;
-    const double thickness = block.options().thickness;
+    const int thickness = block.options().thickness;
 #pragma omp parallel
     {
         ExactSum mine;
         for (auto& level : block.levels()) {
             const auto v = level.v.view(), u = level.u.view();
             const bool counted = block.counts(level);
+            const int from = level.first_plane_from(damping_from, thickness);
 #pragma omp for schedule(static)
-            for (int row = 0; row < level.plan.cells * level.tile.ny; ++row) {
+            for (int row = from * level.tile.ny; row < level.plan.cells * level.tile.ny; ++row) {
                 const int z = row / level.tile.ny, y = row % level.tile.ny;
-                if (level.depth + z * static_cast<double>(1 << level.plan.level) <
-                    damping_from * thickness)
-                    continue;
                 const double m = level.mass(z);
                 const double sigma =
                     std::sqrt(2.0 * damping_ * units::boltzmann * temperature_ * dt / m) /

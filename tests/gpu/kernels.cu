@@ -67,7 +67,7 @@ struct Linear {
     }
 };
 struct Finite {
-    FiniteCell constants;
+    LevelCell constants;
     __device__ void operator()(const double (&u)[8][3], double (&f)[8][3]) const {
         finite_cell(u, constants, f);
     }
@@ -78,7 +78,7 @@ __global__ void linear_forces(VectorVolume<const double> u, VectorVolume<double>
     gather(u, out, Linear{c});
 }
 __global__ void finite_forces(VectorVolume<const double> u, VectorVolume<double> out,
-                              FiniteCell c) {
+                              LevelCell c) {
     gather(u, out, Finite{c});
 }
 

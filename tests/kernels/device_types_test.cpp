@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What kernels are handed can be copied to a device byte by byte.
-#include "kernels/elastic_finite.hpp"
+#include "kernels/elastic_level.hpp"
 #include "kernels/exact_sum.hpp"
 #include "kernels/interface_sweep.hpp"
 #include "kernels/level_transfer.hpp"
@@ -18,10 +18,10 @@ template <class T>
 class GoesToADevice : public testing::Test {};
 
 using Types = testing::Types<PlaneView<double>, VolumeView<const float>, VectorPlane<const double>,
-                             VectorVolume<double>, CellElasticity, FiniteCell, Stencil, Patch, Kick,
-                             Following, KickSums, ExactSum, LennardJones, InterfaceSites,
-                             InterfaceSums, SubstrateMap, ReachBounds, LatticeSubstrate,
-                             RowSubstrate, TailCorrection, LevelSeam>;
+                             VectorVolume<double>, CellElasticity, LevelCell, ElasticLevel, Band,
+                             Stencil, Patch, Kick, LevelKicks, KickSums, ExactSum, LennardJones,
+                             InterfaceSites, InterfaceSums, SubstrateMap, ReachBounds,
+                             LatticeSubstrate, RowSubstrate, TailCorrection, LevelSeam>;
 TYPED_TEST_SUITE(GoesToADevice, Types);
 
 TYPED_TEST(GoesToADevice, ByteByByte) {

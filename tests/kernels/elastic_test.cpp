@@ -3,7 +3,7 @@
 //
 // The SIMD stencil against the definition of the cell energy, spring by spring.
 #include "decomposition/field.hpp"
-#include "kernels/elastic_cell.hpp"
+#include "kernels/elastic_level.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,11 +19,12 @@ namespace {
 struct Stack {
     Tile tile;
     int cells;
-    VectorField<double> u, force;
+    VectorField<double> u, force, none;
     CellElasticity elasticity{0.441, 0.117};
 
     Stack(int n, int m, int layers, unsigned seed)
-        : tile{0, 0, n, m, n}, cells(layers), u(tile, layers + 1), force(tile, layers + 1) {
+        : tile{0, 0, n, m, n}, cells(layers), u(tile, layers + 1), force(tile, layers + 1),
+          none(tile, 1) {
         std::mt19937_64 random(seed);
         std::uniform_real_distribution<double> uniform(-1.0, 1.0);
         for (auto* f : {&u.x, &u.y, &u.z})
@@ -57,17 +58,19 @@ struct Stack {
         return energy;
     }
     void stencil() {
-        for (int z = 0; z <= cells; ++z)
-            elastic_kernels().force(std::as_const(u).view(), z,
-                                    make_stencil(elasticity, z == 0       ? Face::lower
-                                                             : z == cells ? Face::upper
-                                                                          : Face::inner),
-                                    {0, tile.nx, 0, tile.ny}, force.plane(z));
+        ElasticLevel level;
+        level.cells = cells;
+        level.u = u.view();
+        level.incoming = none.plane(0);
+        level.upper_force = force.plane(cells);
+        level.lower = make_stencil(elasticity, Face::lower);
+        level.inner = make_stencil(elasticity, Face::inner);
+        level.upper = make_stencil(elasticity, Face::upper);
+        elastic_kernels().forces(level, 0, tile.ny, force.view());
     }
     double energy() const {
         ExactSum sum;
-        for (int z = 0; z < cells; ++z)
-            elastic_kernels().energy(u.view(), z, elasticity, 0, tile.ny, sum);
+        elastic_kernels().energy(u.view(), {2.6, elasticity}, 0, tile.ny, sum);
         return sum.value();
     }
 };
