@@ -123,7 +123,7 @@ void write_surface(io::HtmlPage& page, ReportFiles& files, const StoredRun& run)
          {spectrum_plot(run),
           "Radially averaged power spectrum of the surface that was made, and what was asked for."},
          {roughness_plot(run), "Persson’s theory for this scene at other roughnesses (dotted: "
-                               "with the attraction across the gaps), and this run’s numbers."}});
+                               "the renormalised theory), and this run’s numbers."}});
 }
 
 /// Every number of the result that is there.
@@ -159,8 +159,7 @@ void write_numbers(io::HtmlPage& page, const StoredRun& run) {
         {"contact radius at zero load", "contact_radius.zero_load", "Å"},
         {"contact radius at the pull-off force", "contact_radius.pull_off", "Å"},
         {"theory: γ_{eff}", "theory.gamma_eff", energy, flat > 0.0},
-        {"theory: γ_{eff} with attraction across gaps", "theory.gamma_eff_with_gaps", energy,
-         flat > 0.0},
+        {"renormalised theory: γ_{eff}", "theory.renormalised.gamma_eff", energy, flat > 0.0},
         {"theory: γ assuming full contact", "theory.gamma_full_contact", energy, flat > 0.0},
         {"theory: contact fraction", "theory.contact_fraction", ""},
         {"theory: critical rms", "theory.critical_rms", "Å"},

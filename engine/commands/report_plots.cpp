@@ -187,7 +187,7 @@ std::optional<io::Plot> roughness_plot(const StoredRun& run) {
             plot.series.push_back({label, {rms}, {*gamma / flat}, Style::points, colour});
     };
     io::PlotSeries contact{"theory", {}, {}, Style::line, grey};
-    io::PlotSeries gaps{"theory with gaps", {}, {}, Style::dotted, grey};
+    io::PlotSeries renormalised{"renormalised theory", {}, {}, Style::dotted, grey};
     if (run.scene && run.scene->surface.kind != SurfaceKind::flat) try {
             Scene scene = *run.scene;
             std::optional<Surface> surface;
@@ -200,14 +200,14 @@ std::optional<io::Plot> roughness_plot(const StoredRun& run) {
                 const TheoryNumbers n = solve_theory(what);
                 contact.x.push_back(scene.surface.rms);
                 contact.y.push_back(n.state.gamma_ratio);
-                gaps.x.push_back(scene.surface.rms);
-                gaps.y.push_back(n.state.status == theory::Status::no_contact
-                                     ? std::nan("")
-                                     : n.gamma_eff_with_gaps / what.delta_gamma);
+                renormalised.x.push_back(scene.surface.rms);
+                renormalised.y.push_back(n.renormalised && n.renormalised->numbers
+                                             ? n.renormalised->numbers->gamma_eff_ratio
+                                             : std::nan(""));
             }
         } catch (const std::exception&) { // a theory that does not fit the scene: no curve
         }
-    for (io::PlotSeries* s : {&contact, &gaps})
+    for (io::PlotSeries* s : {&contact, &renormalised})
         if (!s->x.empty()) plot.series.push_back(*s);
     if (run.curved()) {
         point("jkr.in_averaged", "approach, by JKR", blue);
@@ -244,7 +244,7 @@ std::optional<io::Plot> spectrum_plot(const StoredRun& run) {
 
 namespace {
 
-/// Density over the bins between edges, as steps. Empty bins are gaps in the line.
+/// Density over the bins between edges, as steps. Empty bins are renormalised in the line.
 io::PlotSeries steps(const std::vector<double>& edges, const std::vector<double>& density) {
     io::PlotSeries s{"", {}, {}, Style::line, blue};
     for (std::size_t i = 0; i < density.size(); ++i)

@@ -187,8 +187,8 @@ std::vector<std::string> findings_in_words(const StoredRun& run) {
     if (const auto theory = run.number("theory.gamma_eff"); theory && flat > 0.0) {
         std::string s = fmt::format("Persson’s theory gives γ_{{eff}} = {} ({} of Δγ)",
                                     meV(*theory), percent(*theory / flat));
-        if (const auto gaps = run.number("theory.gamma_eff_with_gaps"))
-            s += fmt::format(", {} with the attraction across the gaps", meV(*gaps));
+        if (const auto gamma = run.number("theory.renormalised.gamma_eff"))
+            s += fmt::format(", the renormalised theory {}", meV(*gamma));
         if (const auto full = run.number("theory.gamma_full_contact"))
             s += fmt::format(", and {} if contact were full", meV(*full));
         const auto found = run.curved() ? run.number("jkr.out") : state;

@@ -55,7 +55,11 @@ SweepPoint read_point(const JsonValue& json, const std::vector<SweepAxis>& axes)
     n.rms_slope = number(json, "theory.rms_slope");
     n.gamma_eff = number(json, "theory.gamma_eff");
     n.gamma_full_contact = number(json, "theory.gamma_full_contact");
-    n.gamma_eff_with_gaps = number(json, "theory.gamma_eff_with_gaps");
+    RenormalisedNumbers renormalised;
+    renormalised.gamma_eff = number(json, "theory.renormalised.gamma_eff");
+    renormalised.gamma_eff_ratio = number(json, "theory.renormalised.gamma_eff_ratio");
+    renormalised.contact_fraction = number(json, "theory.renormalised.contact_fraction");
+    n.renormalised = RenormalisedResult{renormalised, ""};
     n.state.area = number(json, "theory.contact_fraction");
     n.state.gamma_ratio = n.gamma_eff / point.what.delta_gamma;
     const std::string status = text(json, "theory.status");

@@ -62,8 +62,13 @@ std::vector<Cells> cells_of(const SweepTable& table) {
                 area,
                 {"full contact",
                  [=](const SweepPoint& p) { return of(p, p.numbers.gamma_full_contact); }, 5},
-                {"with gaps",
-                 [=](const SweepPoint& p) { return of(p, p.numbers.gamma_eff_with_gaps); }, 5}};
+                {"renormalised",
+                 [](const SweepPoint& p) {
+                     return p.numbers.renormalised && p.numbers.renormalised->numbers
+                                ? p.numbers.renormalised->numbers->gamma_eff_ratio
+                                : std::nan("");
+                 },
+                 5}};
     const auto share = [](const char* path) {
         return [path](const SweepPoint& p) {
             return result_number(p, path) / result_number(p, "delta_gamma");

@@ -199,12 +199,16 @@ std::vector<io::Plot> sweep_plots(const std::vector<SweepTable>& tables, std::st
     const Trace full{"assuming full contact", Style::dashed, 2, [](const SweepPoint& p) {
                          return over(p.numbers.gamma_full_contact, p.what.delta_gamma);
                      }};
-    // Where there is no contact the first-order extension says nothing.
-    const Trace gaps{"with attraction across gaps", Style::dotted, 1, [](const SweepPoint& p) {
-                         return p.numbers.state.status == theory::Status::no_contact
-                                    ? nothing
-                                    : over(p.numbers.gamma_eff_with_gaps, p.what.delta_gamma);
+    const auto other = [](const char* label, double RenormalisedNumbers::*value) {
+        return Trace{label, Style::dotted, 1, [value](const SweepPoint& p) {
+                         return p.numbers.renormalised && p.numbers.renormalised->numbers
+                                    ? *p.numbers.renormalised->numbers.*value
+                                    : nothing;
                      }};
+    };
+    const Trace renormalised = other("renormalised theory", &RenormalisedNumbers::gamma_eff_ratio);
+    const Trace renormalised_area =
+        other("renormalised theory", &RenormalisedNumbers::contact_fraction);
     const Trace area{"theory", Style::line, plain,
                      [](const SweepPoint& p) { return p.numbers.state.area; }};
     const auto found = [](const char* label, Style style, int colour, const char* path,
@@ -254,12 +258,12 @@ std::vector<io::Plot> sweep_plots(const std::vector<SweepTable>& tables, std::st
     };
     const std::string binding = "γ_{eff} / Δγ", contact = "A / A_{0}";
     if (!simulated) {
-        add("gamma", "Binding energy, theory", binding, {theory, gaps, full}, {});
-        add("area", "Contact area, theory", contact, {area}, {});
+        add("gamma", "Binding energy, theory", binding, {theory, renormalised, full}, {});
+        add("area", "Contact area, theory", contact, {area, renormalised_area}, {});
         add("full-contact", "Binding energy, theory and full contact", binding, {theory, full}, {});
         return plots;
     }
-    add("gamma", "Binding energy", binding, {theory}, simulated_gamma());
+    add("gamma", "Binding energy", binding, {theory, renormalised}, simulated_gamma());
     add("area", "Contact area", contact, {area}, {flat_area});
     add("radius", "Contact radius", "√(contact area / π) (Å)", {},
         {found("at zero load", Style::points, 2, "contact_radius.zero_load"),

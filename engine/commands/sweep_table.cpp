@@ -17,6 +17,12 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 double ratio(const SweepPoint& p, double gamma) { return gamma / p.what.delta_gamma; }
 
+double renormalised(const SweepPoint& p, double RenormalisedNumbers::*value) {
+    return p.numbers.renormalised && p.numbers.renormalised->numbers
+               ? *p.numbers.renormalised->numbers.*value
+               : nothing;
+}
+
 const std::vector<SweepColumn>& theory_columns() {
     static const char* gamma = "meV/Å^2";
     static const std::vector<SweepColumn> list = {
@@ -28,10 +34,16 @@ const std::vector<SweepColumn>& theory_columns() {
          [](const SweepPoint& p) { return p.numbers.gamma_full_contact; }},
         {"gamma_full_contact_ratio", "",
          [](const SweepPoint& p) { return ratio(p, p.numbers.gamma_full_contact); }},
-        {"gamma_eff_with_gaps", gamma,
-         [](const SweepPoint& p) { return p.numbers.gamma_eff_with_gaps; }},
-        {"gamma_eff_with_gaps_ratio", "",
-         [](const SweepPoint& p) { return ratio(p, p.numbers.gamma_eff_with_gaps); }},
+        {"renormalised.gamma_eff", gamma,
+         [](const SweepPoint& p) { return renormalised(p, &RenormalisedNumbers::gamma_eff); }},
+        {"renormalised.gamma_eff_ratio", "",
+         [](const SweepPoint& p) {
+             return renormalised(p, &RenormalisedNumbers::gamma_eff_ratio);
+         }},
+        {"renormalised.contact_fraction", "",
+         [](const SweepPoint& p) {
+             return renormalised(p, &RenormalisedNumbers::contact_fraction);
+         }},
         {"theta", "", [](const SweepPoint& p) { return p.numbers.theta.value_or(nothing); }},
         {"gamma_eff_ratio_error", "",
          [](const SweepPoint& p) { return p.numbers.state.gamma_ratio_error; }},

@@ -60,23 +60,16 @@ void write_profile(const std::string& path, const TheoryCase& what, const Theory
     file.close();
 }
 
-/// What only `asperity theory` asks: where adhesion ends, and what the gaps alone would hold.
+/// What only `asperity theory` asks: where adhesion ends.
 struct Beyond {
     std::optional<theory::CriticalRoughness> critical;
-    std::optional<double> gamma_wall_bound; ///< meV/Å^2
-    std::string note;                       ///< why something is not there
+    std::string note; ///< why something is not there
 };
 
-Beyond look_beyond(const TheoryCase& what, const TheoryNumbers& n) {
+Beyond look_beyond(const TheoryCase& what) {
     Beyond beyond;
     if (what.contact.spectrum.q1() > 0.0 && !what.contact.spectrum.smooth()) try {
             beyond.critical = theory::critical_roughness(what.contact);
-        } catch (const std::exception& error) {
-            beyond.note = error.what();
-        }
-    if (n.state.status == theory::Status::no_contact && what.contact.pressure == 0.0) try {
-            const double gamma = theory::wall_bound(what.contact, what.wall).gamma_with;
-            beyond.gamma_wall_bound = units::milli_per_unit * std::max(0.0, gamma); // apart: 0
         } catch (const std::exception& error) {
             beyond.note = error.what();
         }
@@ -111,12 +104,18 @@ void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumber
     energy(scene.theory.delta_gamma ? "Δγ, as the scene says" : "Δγ, flat on flat",
            what.delta_gamma);
     energy("γ_eff", n.gamma_eff, n.state.gamma_ratio_error);
-    energy("γ_eff with attraction across gaps", n.gamma_eff_with_gaps);
     energy("γ assuming full contact", n.gamma_full_contact);
-    if (beyond.gamma_wall_bound) energy("γ of the gaps alone (DMT-like)", *beyond.gamma_wall_bound);
     energy("elastic energy U_el", units::milli_per_unit * n.state.elastic_energy);
     table.row({"contact area A/A0", "", fmt::format("{:.5f}", n.state.area),
                fmt::format("{:.1e}", n.state.area_error)});
+    if (n.renormalised && n.renormalised->numbers) {
+        const RenormalisedNumbers& r = *n.renormalised->numbers;
+        table.row({"renormalised theory: γ_eff", fmt::format("{:.3f}", r.gamma_eff),
+                   fmt::format("{:.5f}", r.gamma_eff_ratio),
+                   fmt::format("{:.1e}", r.gamma_eff_error / what.flat)});
+        table.row({"  contact area", "", fmt::format("{:.5f}", r.contact_fraction),
+                   fmt::format("{:.1e}", r.contact_fraction_error)});
+    }
     table.print(stdout);
     fmt::print("\n");
     if (beyond.critical)
@@ -146,6 +145,14 @@ void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumber
         fmt::print("                 (in eV and Å: {})\n", n.state.reason);
     if (!n.state.converged)
         fmt::print("                 NOT converged to 1e-5: see the errors in the table\n");
+    if (n.renormalised && n.renormalised->numbers)
+        fmt::print("  renormalised   mean separation {}, largest tension {:.4g} GPa\n",
+                   n.renormalised->numbers->separation
+                       ? fmt::format("{:.3f} Å", *n.renormalised->numbers->separation)
+                       : std::string("undefined, nothing binds"),
+                   n.renormalised->numbers->tension);
+    if (n.renormalised && !n.renormalised->note.empty())
+        fmt::print("  note: {}\n", n.renormalised->note);
     for (const std::string& note : what.notes)
         fmt::print("  note: {}\n", note);
     if (!beyond.note.empty()) fmt::print("  note: {}\n", beyond.note);
@@ -157,7 +164,7 @@ int theory_command(const Scene& scene, const std::string& out, bool json) {
     const auto start = std::chrono::steady_clock::now();
     const TheoryCase what = theory_case(scene);
     const TheoryNumbers numbers = solve_theory(what);
-    const Beyond beyond = look_beyond(what, numbers);
+    const Beyond beyond = look_beyond(what);
 
     io::ResultRecord record;
     record.name = scene.name;
@@ -170,8 +177,6 @@ int theory_command(const Scene& scene, const std::string& out, bool json) {
         record.extra.emplace_back("theory.critical_rms_full_contact",
                                   beyond.critical->full_contact_h_rms);
     }
-    if (beyond.gamma_wall_bound)
-        record.extra.emplace_back("theory.gamma_wall_bound", *beyond.gamma_wall_bound);
     record.run.wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (json) {

@@ -154,10 +154,6 @@ TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional
     out.flat = flat.value_or(0.0);
     out.delta_gamma = scene.theory.delta_gamma.value_or(out.flat);
     out.radius = scene.surface.radius;
-    // Two planes of 1/a² and 1/b² atoms per area: as one lattice constant, √(ab).
-    const double b = scene.edge() / substrate;
-    out.wall = {potential.epsilon, potential.r0, std::sqrt(scene.surface.spacing * b),
-                potential.tail ? 0.0 : potential.cutoff};
     with_scene_errors([&] {
         out.contact.spectrum = spectrum_of(scene, surface, out);
         out.contact.contact_modulus =
@@ -168,6 +164,8 @@ TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional
         out.contact.area_factor = area_factor_of(scene.theory.area_factor);
         theory::check(out.contact);
     });
+    if (scene.theory.renormalised)
+        out.renormalised = renormalised_case(scene, out.contact.spectrum);
     return out;
 }
 
@@ -180,8 +178,7 @@ TheoryNumbers solve_theory(const TheoryCase& what) {
         n.state = theory::solve(c);
         n.gamma_eff = units::milli_per_unit * n.state.gamma_eff;
         n.gamma_full_contact = units::milli_per_unit * theory::full_contact(c).gamma;
-        n.gamma_eff_with_gaps =
-            units::milli_per_unit * theory::gap_attraction(c, n.state, what.wall).gamma_with;
+        if (what.renormalised) n.renormalised = solve_renormalised(*what.renormalised);
         if (what.q0)
             n.theta = theory::adhesion_parameter(c.contact_modulus, n.h_rms, *what.q0,
                                                  c.work_of_adhesion);
@@ -200,7 +197,6 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::ResultRec
         record.extra.emplace_back(std::string("theory.") + name, std::move(value));
     };
     extra("delta_gamma", what.delta_gamma);
-    extra("gamma_eff_with_gaps", n.gamma_eff_with_gaps);
     extra("gamma_eff_error", n.state.gamma_ratio_error * what.delta_gamma);
     extra("contact_fraction_error", n.state.area_error);
     extra("elastic_energy", units::milli_per_unit * n.state.elastic_energy);
@@ -210,6 +206,7 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::ResultRec
     if (n.jkr_pull_off_force) extra("jkr_pull_off_force", *n.jkr_pull_off_force);
     extra("status", std::string(theory::name(n.state.status)));
     extra("converged", n.state.converged);
+    if (n.renormalised) record_renormalised(*n.renormalised, record);
 }
 
 void add_theory(const Scene& scene, const Surface& surface, double flat, io::ResultRecord& record) {

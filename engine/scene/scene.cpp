@@ -147,6 +147,8 @@ io::Schema bind(Scene& scene) {
         {{"target", TheorySpectrum::target}, {"realised", TheorySpectrum::realised}},
         "the spectrum asked for, or that of the surface made");
     schema.boolean("clip", theory.clip, "clip the target spectrum at Nyquist, like the surface");
+    schema.boolean("renormalised", theory.renormalised,
+                   "the renormalised theory too: a tenth of a second");
 
     auto& numerics = scene.numerics;
     schema.section("numerics", "Arithmetic.");

@@ -107,6 +107,7 @@ struct Scene {
         AreaFactor area_factor = AreaFactor::gaussian;
         TheorySpectrum spectrum = TheorySpectrum::target;
         bool clip = true;
+        bool renormalised = true;
     } theory;
 
     struct Numerics {

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/renormalised_case.hpp"
+
+#include "engine/block/block.hpp"
+#include "engine/setup/setup.hpp"
+#include "engine/units.hpp"
+#include "kernels/surface_stiffness.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace asperity {
+
+namespace {
+
+WavePhase phase_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// Of a wave of wavevector q in the direction `angle`, per area.
+theory::WaveStiffness wave_stiffness(const CellElasticity& elasticity, double spacing,
+                                     int thickness, double q, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const SurfaceMatrix m = surface_stiffness(elasticity, phase_of(q * spacing * c),
+                                              phase_of(q * spacing * s), thickness);
+    const double area = spacing * spacing;
+    return {q, m.zz / area, (c * c * m.xx + s * s * m.yy + 2.0 * c * s * m.xy) / area,
+            std::abs(c * m.xz + s * m.yz) / area, 1.0 / inverse(m).zz / area};
+}
+
+} // namespace
+
+theory::FlatInterface flat_interface(const Scene& scene) {
+    const auto& i = scene.interface;
+    const theory::PairPotential pair{i.epsilon, i.r0, i.cutoff, i.tail};
+    const int substrate = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
+    if (substrate == scene.surface.sites)
+        return theory::FlatInterface::hollow_sites(pair, scene.surface.spacing);
+    return theory::FlatInterface::all_registries(pair, scene.surface.spacing,
+                                                 scene.edge() / substrate);
+}
+
+theory::StiffnessTable lattice_stiffness(const Scene& scene) {
+    BlockOptions block;
+    block.spacing = scene.surface.spacing;
+    block.young = scene.block.young * units::gigapascal;
+    block.poisson = scene.block.poisson;
+    const CellElasticity elasticity = block.elasticity(0);
+    const double low = 2.0 * std::numbers::pi / scene.edge();
+    const double high = std::numbers::pi / scene.surface.spacing;
+    constexpr int waves = 48;
+    // The lattice has the symmetry of the square: directions in an eighth of the circle, Gauss.
+    constexpr double nodes[] = {0.112701665379258, 0.5, 0.887298334620742};
+    constexpr double weights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    std::vector<theory::WaveStiffness> table;
+    for (int k = 0; k <= waves; ++k) {
+        theory::WaveStiffness mean;
+        mean.q = k == waves ? high : low * std::pow(high / low, static_cast<double>(k) / waves);
+        for (int d = 0; d < 3; ++d) {
+            const theory::WaveStiffness w =
+                wave_stiffness(elasticity, block.spacing, scene.block.thickness, mean.q,
+                               nodes[d] * std::numbers::pi / 4.0);
+            mean.zz += weights[d] * w.zz;
+            mean.xx += weights[d] * w.xx;
+            mean.xz += weights[d] * w.xz;
+            mean.free_zz += weights[d] * w.free_zz;
+        }
+        table.push_back(mean);
+    }
+    return theory::StiffnessTable(std::move(table));
+}
+
+RenormalisedCase renormalised_case(const Scene& scene, const theory::Spectrum& spectrum) {
+    try {
+        return {theory::RoughInterface{spectrum, flat_interface(scene), lattice_stiffness(scene),
+                                       !scene.interface.frictionless,
+                                       scene.drive.load * units::megapascal},
+                ""};
+    } catch (const std::exception& error) {
+        return {std::nullopt, error.what()};
+    }
+}
+
+RenormalisedResult solve_renormalised(const RenormalisedCase& what) {
+    RenormalisedResult result;
+    result.note = what.note;
+    if (!what.rough) return result;
+    try {
+        const theory::RoughInterface& rough = *what.rough;
+        const theory::RenormalisedState state = theory::solve(rough);
+        const double depth = units::milli_per_unit * rough.flat.work_of_adhesion();
+        RenormalisedNumbers n;
+        n.gamma_eff = units::milli_per_unit * state.gamma_eff;
+        n.gamma_eff_ratio = state.gamma_ratio;
+        n.gamma_eff_error = depth * state.gamma_ratio_error;
+        n.contact_fraction = state.contact_fraction;
+        n.contact_fraction_error = state.contact_error;
+        // Below this the potential is rounding, and its minimum anywhere.
+        if (state.gamma_ratio > 1e-9 || rough.pressure > 0.0) n.separation = state.separation;
+        n.tension = state.tension / units::gigapascal;
+        if (!state.converged)
+            result.note = "the errors are larger than 1e-4 on the finest grid that is tried";
+        result.numbers = n;
+    } catch (const std::exception& error) {
+        result.note = error.what();
+    }
+    return result;
+}
+
+void record_renormalised(const RenormalisedResult& result, io::ResultRecord& record) {
+    const auto extra = [&](const char* name, io::JsonValue value) {
+        record.extra.emplace_back(std::string("theory.renormalised.") + name, std::move(value));
+    };
+    if (result.numbers) {
+        const RenormalisedNumbers& n = *result.numbers;
+        extra("gamma_eff", n.gamma_eff);
+        extra("gamma_eff_ratio", n.gamma_eff_ratio);
+        extra("contact_fraction", n.contact_fraction);
+        if (n.separation) extra("separation", *n.separation);
+        extra("tension", n.tension);
+        extra("gamma_eff_error", n.gamma_eff_error);
+        extra("contact_fraction_error", n.contact_fraction_error);
+    }
+    if (!result.note.empty()) extra("note", result.note);
+}
+
+} // namespace asperity

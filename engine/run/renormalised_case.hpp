@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The renormalised theory (theory/renormalised.hpp) of a scene: its interface, the exact stiffness
+// of its lattice, and `theory.renormalised` of result.json.
+#pragma once
+
+#include "engine/scene/scene.hpp"
+#include "io/result.hpp"
+#include "theory/renormalised.hpp"
+
+#include <optional>
+#include <string>
+
+namespace asperity {
+
+/// The flat interface of the scene.
+theory::FlatInterface flat_interface(const Scene& scene);
+
+/// S(q) of the scene's lattice up to Nyquist, per area, averaged over directions.
+theory::StiffnessTable lattice_stiffness(const Scene& scene);
+
+/// The scene in the terms of theory/ (Å, eV), or why the theory cannot take it.
+struct RenormalisedCase {
+    std::optional<theory::RoughInterface> rough;
+    std::string note;
+};
+RenormalisedCase renormalised_case(const Scene& scene, const theory::Spectrum& spectrum);
+
+/// Energies in meV/Å^2, lengths in Å, stress in GPa.
+struct RenormalisedNumbers {
+    double gamma_eff = 0.0, gamma_eff_error = 0.0;
+    double gamma_eff_ratio = 0.0; ///< over the flat reference of the same interface
+    double contact_fraction = 0.0, contact_fraction_error = 0.0;
+    std::optional<double> separation; ///< of the mean planes; none where nothing binds
+    double tension = 0.0;             ///< the largest that the rough interface bears
+};
+
+/// What the theory says, or why it says nothing.
+struct RenormalisedResult {
+    std::optional<RenormalisedNumbers> numbers;
+    std::string note;
+};
+RenormalisedResult solve_renormalised(const RenormalisedCase& what);
+
+/// Fills in `theory.renormalised`.
+void record_renormalised(const RenormalisedResult& result, io::ResultRecord& record);
+
+} // namespace asperity

@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The renormalised theory: laws that hold whatever the roughness, limits, orders, errors.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "paper.hpp"
+#include "theory/error.hpp"
+#include "theory/renormalised.hpp"
+
+namespace asperity::theory {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const PairPotential lennard_jones{0.1, 3.28, 13.12};
+
+/// The paper's surface, clipped at Nyquist.
+Spectrum surface(double rms) {
+    return Spectrum::self_affine({.q_L = paper::q_L,
+                                  .q0 = 3 * paper::q_L,
+                                  .q1 = 256 * paper::q_L,
+                                  .hurst = 0.8,
+                                  .h_rms = rms});
+}
+
+RoughInterface rough(double rms, double pressure = 0, bool friction = true) {
+    return {surface(rms), FlatInterface::hollow_sites(lennard_jones, 2.6),
+            StiffnessTable::half_space(paper::contact_modulus, 0.42), friction, pressure};
+}
+
+/// A Morse-like law of the gap, w (e^{-2x} - 2 e^{-x}), x = (u - u0)/ρ, with `extra` added to it.
+constexpr double depth = 0.1, range = 0.8, rest = 3;
+double morse(double u) {
+    const double e = std::exp(-(u - rest) / range);
+    return depth * (e * e - 2 * e);
+}
+RoughInterface wall(double rms, const std::function<double(double)>& law, double contact = 3.6,
+                    double modulus = paper::contact_modulus) {
+    return {surface(rms), FlatInterface::wall(law, 1.2, 22, contact),
+            StiffnessTable::half_space(modulus, 0.42), true, 0};
+}
+
+// Computed once with eps 1e-6 and compared with an independent program written from the equations
+// alone (another grid in u, uniform; other steps); both agree to 1e-4.
+struct Row {
+    double rms, gamma, contact;
+};
+class PaperSurface : public testing::TestWithParam<Row> {};
+TEST_P(PaperSurface, AgreesWithAnIndependentProgram) {
+    const RenormalisedState s = solve(rough(GetParam().rms));
+    EXPECT_TRUE(s.converged);
+    EXPECT_LE(s.gamma_ratio_error, 1e-4);
+    EXPECT_NEAR(s.gamma_ratio, GetParam().gamma, 4e-4);
+    EXPECT_NEAR(s.contact_fraction, GetParam().contact, 8e-4);
+}
+INSTANTIATE_TEST_SUITE_P(Roughnesses, PaperSurface,
+                         testing::Values(Row{1, 0.9629, 1.0000}, Row{3, 0.6725, 0.9782},
+                                         Row{5, 0.2643, 0.6300}, Row{8, 0.0158, 0.0756}));
+
+TEST(Renormalised, FlatIsFlat) {
+    const RenormalisedState s = solve(rough(0));
+    EXPECT_EQ(s.gamma_ratio, 1);
+    EXPECT_EQ(s.contact_fraction, 1);
+    EXPECT_EQ(s.gamma_eff, rough(0).flat.work_of_adhesion());
+    EXPECT_NEAR(s.gamma_eff, 0.0988633, 1e-6); // docs/model.md
+    EXPECT_NEAR(s.separation, 3.108, 1e-3);
+    EXPECT_NEAR(s.tension / paper::gpa, 9.08, 0.01);
+    // Continuous there: 0.1 Å of roughness costs little.
+    EXPECT_NEAR(solve(rough(0.1)).gamma_ratio, 1, 5e-4);
+}
+
+// S << φ″: the interface follows the surface, and only the energy of full contact is lost.
+TEST(Renormalised, SoftBlockIsFullContact) {
+    const double rms = 0.2, modulus = 1e-3 * paper::contact_modulus;
+    const RoughInterface soft = wall(rms, morse, 3.6, modulus);
+    const double cost = (1 - solve(soft, {.tolerance = 1e-6}).gamma_ratio) * depth;
+    double energy = 0; // (E*/4) <q h²>
+    const int points = 20000;
+    for (int i = 0; i < points; ++i) {
+        const double step = std::log(256.0) / points, q = paper::q_L * std::exp((i + 0.5) * step);
+        energy += pi / 2 * modulus * q * q * soft.spectrum(q) * q * step;
+    }
+    EXPECT_NEAR(cost / energy, 1, 3e-3);
+}
+
+// S >> φ″: the block stays flat and φ is averaged over the Gaussian heights. Of e^{-x} that is a
+// factor e^{h²/2ρ²}, of e^{-2x} e^{2h²/ρ²}.
+TEST(Renormalised, RigidBlockAveragesOverTheGaps) {
+    const double rms = 0.3, s = rms * rms / (range * range);
+    const RoughInterface rigid{
+        Spectrum::self_affine({.q_L = 0.5, .q0 = 0.5, .q1 = 1.2, .hurst = 0.8, .h_rms = rms}),
+        FlatInterface::wall(morse, -0.5, 22, 3.6),
+        StiffnessTable::half_space(1e3 * paper::contact_modulus, 0.42), true, 0};
+    const RenormalisedPotential p = renormalised_potential(rigid, 2);
+    int compared = 0;
+    for (std::size_t i = 0; i < p.separation.size(); ++i) {
+        if (p.separation[i] < 2.9 || p.separation[i] > 12) continue;
+        const double e = std::exp(-(p.separation[i] - rest) / range);
+        ASSERT_NEAR(p.energy[i], depth * (e * e * std::exp(2 * s) - 2 * e * std::exp(s / 2)),
+                    2e-3 * depth)
+            << p.separation[i];
+        ++compared;
+    }
+    EXPECT_GT(compared, 50);
+}
+
+// An energy per contact area added to the flat law changes γ by as much as there is contact:
+// -∂γ/∂λ of φ + λ χ is χ at the minimum. The law is smooth so that it can be added.
+TEST(Renormalised, ContactIsTheDerivativeOfTheEnergy) {
+    const double width = 0.2, edge = 3.6;
+    const auto chi = [&](double u) { return 0.5 * std::erfc((u - edge) / width); };
+    RenormalisedOptions fine;
+    fine.tolerance = 1e-6;
+    fine.max_refinement = 1;
+    for (const double rms : {3.0, 5.0}) {
+        const auto with = [&](double lambda) {
+            return solve(wall(rms, [=](double u) { return morse(u) + lambda * chi(u); }), fine)
+                .gamma_eff;
+        };
+        const double lambda = 1e-4 * depth;
+        const double change = -(with(lambda) - with(-lambda)) / (2 * lambda);
+        // The same observable by its own equation: the steps of many sharp edges, χ = Σ weight.
+        double contact = 0;
+        const int edges = 12;
+        for (int i = 0; i < edges; ++i) {
+            const double x = -2.4 + 4.8 * (i + 0.5) / edges;
+            const double weight = 4.8 / edges * std::exp(-x * x) / std::sqrt(pi);
+            contact +=
+                weight *
+                solve(wall(rms, morse, edge + width * x), {.tolerance = 1e-3}).contact_fraction;
+        }
+        EXPECT_NEAR(change, contact, 5e-3) << rms;
+        EXPECT_GT(contact, 0.1);
+    }
+}
+
+// Under load: p = -dφ/du, so γ as a function of p has the slope p du/dp.
+TEST(Renormalised, PressureIsTheSlopeOfTheEnergy) {
+    RenormalisedOptions fine;
+    fine.tolerance = 1e-6;
+    for (const double p : {-0.001, 0.0005, 0.005}) {
+        const double d = 1e-4;
+        const RenormalisedState up = solve(rough(4, p + d), fine),
+                                low = solve(rough(4, p - d), fine);
+        EXPECT_LT(up.separation, low.separation);
+        EXPECT_NEAR((up.gamma_eff - low.gamma_eff) / (up.separation - low.separation), p,
+                    2e-3 * std::abs(p) + 5e-6);
+    }
+}
+
+TEST(Renormalised, TensionEndsTheBranch) {
+    const RenormalisedState free = solve(rough(4));
+    const RenormalisedState near_end = solve(rough(4, -0.99 * free.tension));
+    EXPECT_LT(near_end.gamma_ratio, free.gamma_ratio);
+    EXPECT_LT(near_end.contact_fraction, free.contact_fraction);
+    EXPECT_GT(near_end.contact_fraction, 0.1);
+    try {
+        (void)solve(rough(4, -1.01 * free.tension));
+        FAIL() << "a pull beyond the tension was borne";
+    } catch (const NoSolution& error) {
+        EXPECT_NE(std::string(error.what()).find("pull less"), std::string::npos);
+    }
+}
+
+TEST(Renormalised, PressingClosesTheGaps) {
+    double contact = 0, separation = 100;
+    for (const double p : {0.0, 0.001, 0.005, 0.02}) {
+        const RenormalisedState s = solve(rough(6, p));
+        EXPECT_GT(s.contact_fraction, contact);
+        EXPECT_LT(s.separation, separation);
+        contact = s.contact_fraction;
+        separation = s.separation;
+    }
+    EXPECT_GT(contact, 0.9);
+}
+
+// The orders of the solver: 2 in the steps and in the spacing, each with the other much finer.
+TEST(Renormalised, OrderOfConvergence) {
+    const auto gamma = [](int steps, double spacing) {
+        RenormalisedOptions o;
+        o.steps = steps;
+        o.spacing = spacing;
+        RoughInterface r = wall(3, morse);
+        const RenormalisedPotential p = renormalised_potential(r, 0, o);
+        // At a fixed separation, by the cubic through four points.
+        const double at = 4;
+        auto i = static_cast<std::size_t>(
+            std::upper_bound(p.separation.begin(), p.separation.end(), at) - p.separation.begin());
+        double sum = 0;
+        for (std::size_t j = i - 2; j < i + 2; ++j) {
+            double weight = 1;
+            for (std::size_t k = i - 2; k < i + 2; ++k)
+                if (k != j) weight *= (at - p.separation[k]) / (p.separation[j] - p.separation[k]);
+            sum += weight * p.energy[j];
+        }
+        return sum;
+    };
+    const double a = gamma(50, 0.02), b = gamma(100, 0.02), c = gamma(200, 0.02);
+    const double in_steps = std::log2((a - b) / (b - c));
+    EXPECT_GT(in_steps, 1.6);
+    EXPECT_LT(in_steps, 2.6);
+    const double d = gamma(60, 0.08), e = gamma(60, 0.04), f = gamma(60, 0.02);
+    const double in_spacing = std::log2((d - e) / (e - f));
+    EXPECT_GT(in_spacing, 1.6);
+    EXPECT_LT(in_spacing, 2.6);
+}
+
+TEST(Renormalised, ErrorEstimateIsHonest) {
+    RenormalisedOptions fine;
+    fine.tolerance = 2e-6;
+    for (const double rms : {0.5, 2.0, 4.5, 7.0, 10.0}) {
+        const RenormalisedState good = solve(rough(rms), fine), s = solve(rough(rms));
+        EXPECT_TRUE(s.converged) << rms;
+        EXPECT_LE(std::abs(s.gamma_ratio - good.gamma_ratio),
+                  s.gamma_ratio_error + good.gamma_ratio_error + 1e-6)
+            << rms;
+        EXPECT_LE(std::abs(s.contact_fraction - good.contact_fraction),
+                  s.contact_error + good.contact_error + 1e-5)
+            << rms;
+    }
+    // Refinements forbidden: the number comes with the error that it has.
+    RenormalisedOptions coarse;
+    coarse.tolerance = 1e-9;
+    coarse.max_refinement = 0;
+    const RenormalisedState s = solve(rough(5), coarse);
+    EXPECT_FALSE(s.converged);
+    EXPECT_GT(s.gamma_ratio_error, 1e-9);
+}
+
+TEST(Renormalised, RoughnessOnlyWeakens) {
+    double before = 1;
+    for (double rms = 0.5; rms < 30; rms *= 1.3) {
+        const RenormalisedState s = solve(rough(rms));
+        EXPECT_TRUE(s.converged) << rms;
+        EXPECT_LE(s.gamma_ratio, before + s.gamma_ratio_error) << rms;
+        EXPECT_GE(s.gamma_ratio, -s.gamma_ratio_error) << rms;
+        EXPECT_GE(s.contact_fraction, 0);
+        before = s.gamma_ratio;
+    }
+    EXPECT_LT(before, 1e-6);
+}
+
+// Lateral compliance and friction: tilt costs less where sites may slide.
+TEST(Renormalised, SlidingUndoesTilt) {
+    for (const double rms : {2.0, 4.0}) {
+        const double with = solve(rough(rms)).gamma_ratio,
+                     without = solve(rough(rms, 0, false)).gamma_ratio;
+        EXPECT_GT(with, without + 0.003) << rms;
+        EXPECT_LT(with, without + 0.05) << rms;
+    }
+}
+
+TEST(Renormalised, ManySmallAtomsAreAWall) {
+    // A lattice much finer than the range of the potential: rings become a plane.
+    const double a = 0.65;
+    const PairPotential dense{0.1 * std::pow(a / 2.6, 4), 3.28, 13.12};
+    const FlatInterface atoms = FlatInterface::hollow_sites(dense, a),
+                        plane = FlatInterface::all_registries(dense, a, a);
+    for (const double u : {2.6, 3.0, 3.5, 5.0, 9.0})
+        EXPECT_NEAR(atoms.energy(u), plane.energy(u), 2e-3 * atoms.work_of_adhesion()) << u;
+}
+
+TEST(Renormalised, HardInputs) {
+    // Wide and narrow spectra, soft and stiff blocks, long and short reach: an error or a bound.
+    int answers = 0, refusals = 0;
+    for (const double q1 : {2.0, 256.0})
+        for (const double modulus : {1e-3, 1.0, 30.0})
+            for (const double r0 : {2.2, 3.28, 5.0})
+                for (const double rms : {0.3, 3.0}) {
+                    const Spectrum C = Spectrum::self_affine({.q_L = paper::q_L,
+                                                              .q0 = paper::q_L,
+                                                              .q1 = q1 * paper::q_L,
+                                                              .hurst = 1,
+                                                              .h_rms = rms});
+                    try {
+                        const RenormalisedState s = solve(
+                            {C, FlatInterface::hollow_sites({0.1, r0, 4 * r0}, 2.6),
+                             StiffnessTable::half_space(modulus * paper::contact_modulus, 0.42),
+                             true, 0});
+                        EXPECT_TRUE(std::isfinite(s.gamma_ratio) &&
+                                    std::isfinite(s.contact_fraction));
+                        EXPECT_TRUE(std::isfinite(s.gamma_ratio_error));
+                        EXPECT_LE(s.gamma_ratio, 1.05);
+                        EXPECT_TRUE(!s.converged || s.gamma_ratio_error <= 1e-4);
+                        ++answers;
+                    } catch (const InvalidInput& error) {
+                        EXPECT_NE(std::string(error.what()).find("; "), std::string::npos);
+                        ++refusals;
+                    }
+                }
+    EXPECT_GE(answers, 24);
+}
+
+TEST(Renormalised, ErrorsSayWhatIsWrong) {
+    const auto refuses = [](auto&& call, const char* word) {
+        try {
+            call();
+            ADD_FAILURE() << "accepted: " << word;
+        } catch (const InvalidInput& error) {
+            EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+    };
+    refuses([] { (void)FlatInterface::hollow_sites({-0.1, 3.28, 13}, 2.6); }, "epsilon");
+    refuses([] { (void)FlatInterface::hollow_sites({0.1, 3.28, 3}, 2.6); }, "cutoff");
+    refuses([] { (void)FlatInterface::hollow_sites({0.1, 1.0, 4}, 5); }, "no minimum");
+    refuses([] { (void)FlatInterface::wall(morse, 3, 2, 3); }, "reaches");
+    refuses([] { (void)FlatInterface::wall([](double) { return 1.0; }, 1, 9, 3); }, "no minimum");
+    refuses([] { (void)StiffnessTable({}); }, "empty");
+    refuses([] { (void)StiffnessTable({{2, 1, 1, 0, 1}, {1, 1, 1, 0, 1}}); }, "ascend");
+    refuses([] { (void)solve(rough(3, std::nan(""))); }, "not a number");
+    refuses([] { (void)solve(rough(3), {.tolerance = 0}); }, "tolerance");
+    refuses(
+        [] {
+            RoughInterface stiff = rough(3);
+            stiff.stiffness = StiffnessTable::half_space(1e4 * paper::contact_modulus, 0.42);
+            (void)solve(stiff);
+        },
+        "softer block");
+}
+
+} // namespace
+} // namespace asperity::theory

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "theory/flat_interface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include <boost/math/quadrature/gauss.hpp>
+
+#include "theory/error.hpp"
+
+namespace asperity::theory {
+namespace {
+
+/// V, V'/r and (V'/r)'/r at r².
+struct PairDerivatives {
+    double energy, first, second;
+};
+
+PairDerivatives derivatives(const PairPotential& pair, double r2) {
+    const double cut2 = pair.cutoff * pair.cutoff;
+    if (!pair.tail && r2 >= cut2) return {0, 0, 0};
+    const auto sixth = [&](double square) {
+        const double s = pair.r0 * pair.r0 / square;
+        return s * s * s;
+    };
+    const double s = sixth(r2), c = pair.tail ? 0.0 : sixth(cut2);
+    return {4 * pair.epsilon * (s * (s - 1) - c * (c - 1)),
+            -24 * pair.epsilon * s * (2 * s - 1) / r2,
+            4 * pair.epsilon * s * (168 * s - 48) / (r2 * r2)};
+}
+
+void check(const PairPotential& pair, double a, double b) {
+    if (!(pair.epsilon > 0 && pair.r0 > 0 && a > 0 && b > 0))
+        throw InvalidInput(message("interface: epsilon ", pair.epsilon, ", r0 ", pair.r0,
+                                   " and lattice spacings ", a, ", ", b,
+                                   " must all be positive; check them"));
+    if (!(pair.cutoff > pair.r0 * std::pow(2.0, 1.0 / 6)))
+        throw InvalidInput(message("interface: cutoff ", pair.cutoff,
+                                   " leaves no attraction, it must lie beyond the pair minimum ",
+                                   pair.r0 * std::pow(2.0, 1.0 / 6), "; enlarge it"));
+}
+
+constexpr double tail_rings = 8; // times the cutoff; what is beyond is 1e-4 of the tail
+
+/// Rings at Gauss points of R dR from R_from to R_to, `per_area` atoms for each area there.
+void add_rings(double from, double to, double per_area, std::vector<double>& radii,
+               std::vector<double>& densities) {
+    using Rule = boost::math::quadrature::gauss<double, 20>;
+    const auto add = [&](double x, double weight) {
+        const double R = (from + to) / 2 + (to - from) / 2 * x;
+        radii.push_back(R);
+        densities.push_back(per_area * 2 * std::numbers::pi * R * weight * (to - from) / 2);
+    };
+    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+        add(-Rule::abscissa()[i], Rule::weights()[i]);
+        add(Rule::abscissa()[i], Rule::weights()[i]);
+    }
+}
+
+} // namespace
+
+FlatInterface FlatInterface::hollow_sites(const PairPotential& pair, double a) {
+    check(pair, a, a);
+    FlatInterface flat;
+    flat.pair_ = pair;
+    flat.spacing_ = a;
+    std::map<int, int> count; // atoms by R² / (a/2)²
+    const int reach = 2 * static_cast<int>(pair.cutoff / a) + 3;
+    for (int i = 1; i <= reach; i += 2)
+        for (int j = 1; j <= reach; j += 2)
+            if (const int square = i * i + j * j; square * a * a / 4 < pair.cutoff * pair.cutoff)
+                count[square] += 4;
+    for (const auto& [square, atoms] : count) {
+        flat.radii_.push_back(std::sqrt(square) * a / 2);
+        flat.densities_.push_back(atoms / (a * a));
+    }
+    if (pair.tail)
+        add_rings(pair.cutoff, tail_rings * pair.cutoff, 1 / std::pow(a, 4), flat.radii_,
+                  flat.densities_);
+    const double contact = std::pow(26.0 / 7, 1.0 / 6) * pair.r0;
+    flat.contact_ = std::sqrt(std::max(0.0, contact * contact - a * a / 2));
+    flat.closest_ = 0.75 * pair.r0;
+    flat.reach_ = (pair.tail ? 2 : 1) * pair.cutoff;
+    flat.find_minimum();
+    return flat;
+}
+
+FlatInterface FlatInterface::all_registries(const PairPotential& pair, double a, double b) {
+    check(pair, a, b);
+    FlatInterface flat;
+    flat.pair_ = pair;
+    flat.spacing_ = b;
+    const double per_area = 1 / (a * a * b * b);
+    // Finer near R = 0, where V varies within a fraction of r0.
+    const double ends[] = {0, pair.r0, 2 * pair.r0, pair.cutoff};
+    for (int k = 0; k < 3; ++k)
+        if (ends[k + 1] > ends[k])
+            add_rings(ends[k], std::min(ends[k + 1], pair.cutoff), per_area, flat.radii_,
+                      flat.densities_);
+    if (pair.tail)
+        add_rings(pair.cutoff, tail_rings * pair.cutoff, per_area, flat.radii_, flat.densities_);
+    // The nearest atom is a/√6 off on average of squares.
+    const double contact = std::pow(26.0 / 7, 1.0 / 6) * pair.r0;
+    flat.contact_ = std::sqrt(std::max(0.0, contact * contact - b * b / 6));
+    flat.closest_ = 0.75 * pair.r0;
+    flat.reach_ = (pair.tail ? 2 : 1) * pair.cutoff;
+    flat.find_minimum();
+    return flat;
+}
+
+FlatInterface FlatInterface::wall(std::function<double(double)> energy, double closest,
+                                  double reach, double contact) {
+    if (!(reach > closest))
+        throw InvalidInput(message("wall: it reaches to ", reach, " and starts at ", closest,
+                                   "; the first must be the larger"));
+    FlatInterface flat;
+    flat.wall_ = std::move(energy);
+    flat.radii_ = {0};
+    flat.densities_ = {1};
+    flat.closest_ = closest;
+    flat.reach_ = reach;
+    flat.contact_ = contact;
+    flat.find_minimum();
+    return flat;
+}
+
+FlatInterface::Terms FlatInterface::terms(int ring, double u) const {
+    if (wall_) return {wall_(u), 0, 0};
+    const double R = radii_[static_cast<std::size_t>(ring)];
+    const double density = densities_[static_cast<std::size_t>(ring)];
+    const PairDerivatives d = derivatives(pair_, R * R + u * u);
+    return {density * d.energy, density * d.second * R * u,
+            density * 0.5 * (2 * d.first + d.second * R * R)};
+}
+
+double FlatInterface::energy(double u) const {
+    double sum = 0;
+    for (int k = 0; k < static_cast<int>(radii_.size()); ++k)
+        sum += terms(k, u).energy;
+    return sum;
+}
+
+void FlatInterface::find_minimum() {
+    const int points = 4000;
+    const double step = (reach_ - closest_) / points;
+    const auto at = [&](int i) { return closest_ + i * step; };
+    int low = 0;
+    double least = energy(at(0));
+    for (int i = 1; i <= points; ++i)
+        if (const double e = energy(at(i)); e < least) {
+            least = e;
+            low = i;
+        }
+    if (low == 0 || low == points || !(least < 0))
+        throw InvalidInput(message("interface: flat on flat has no minimum of energy between the "
+                                   "separations ",
+                                   closest_, " and ", reach_,
+                                   "; choose r0 not far from the spacing and a longer cutoff"));
+    const double golden = 0.5 * (std::sqrt(5.0) - 1);
+    const auto minimise = [&](double a, double b, auto&& f) {
+        while (b - a > 1e-10 * (reach_ - closest_)) {
+            const double x = b - golden * (b - a), y = a + golden * (b - a);
+            f(x) < f(y) ? b = y : a = x;
+        }
+        return (a + b) / 2;
+    };
+    separation_ = minimise(at(low - 1), at(low + 1), [&](double u) { return energy(u); });
+    depth_ = -energy(separation_);
+    const auto tension = [&](double u) { return energy(u + step) - energy(u - step); };
+    int steep = low + 1;
+    for (int i = low + 1; i < points; ++i)
+        if (tension(at(i)) > tension(at(steep))) steep = i;
+    const double d = 0.05 * step;
+    const auto slope = [&](double u) { return (energy(u + d) - energy(u - d)) / (2 * d); };
+    inflection_ = minimise(at(steep - 1), at(steep + 1), [&](double u) { return -slope(u); });
+    tension_ = slope(inflection_);
+}
+
+double FlatInterface::contact(double u, double slope_variance) const {
+    if (u < contact_) return 1;
+    if (!(slope_variance > 0) || spacing_ == 0) return 0;
+    // (a/2)(|X| + |Y|) < y for two normal slopes of variance σ²: erf(y / aσ)².
+    const double within = std::erf((u - contact_) / (spacing_ * std::sqrt(slope_variance / 2)));
+    return 1 - within * within;
+}
+
+} // namespace asperity::theory

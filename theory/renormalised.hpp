@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The renormalised theory of adhesive contact: what roughness leaves of the potential of two flat
+// surfaces (derivation, assumptions and comparison with simulations: docs/theory.md).
+//
+// φ(u) is the energy per area at the mean separation u. Roughness is taken in shells of wavevectors
+// from the finest to the coarsest. A shell of height variance dh² = 2π q C(q) dq is answered by the
+// block with the wave that minimises the energy to second order, and what is left is a new φ:
+//     dφ/dh² = ½ [ S + 2D - (S + D)² / (S + φ″) ],
+//     dχ/dh² = ½ [ (S + D) / (S + φ″) ]² χ″          any area observable, V of each ring of atoms
+//     too D_q(u) = Σ_R V_uu (1 - J0(qR)) - gain,         zero for a wall gain   = max over |v| <= u
+//     q of κ v - ½ K v²,  κ = Σ_R V_Ru J1(qR), K = S_xx + φ_tt
+// S: stiffness of the block's surface for a wave; without friction 1 / (S⁻¹)_zz and no gain, with
+// it S_zz - S_xz² / (S_xx + max(φ_tt, 0)). At the end, at the load p,
+//     p = -φ′(u),  γ_eff = -φ(u),  contact fraction = χ(u),  largest tension = max φ′.
+//
+// Numerics: unknowns on a grid in u that is fine around the minimum of the flat φ and widens
+// outwards; two implicit stages a step (order 2, L-stable); each stage by Newton's method on a
+// tridiagonal system. The right side is concave in φ″ and continued by its tangent below φ″ = -S,
+// so Newton's method converges from anywhere. Steps and grid are halved together and extrapolated
+// until the error, the distance between the last two extrapolations, meets the tolerance.
+//
+// Units: any consistent set.
+#pragma once
+
+#include <vector>
+
+#include "theory/flat_interface.hpp"
+#include "theory/spectrum.hpp"
+
+namespace asperity::theory {
+
+/// Stiffness of the block's surface for a wave along x, averaged over directions: pressure over
+/// displacement [stress/length].
+struct WaveStiffness {
+    double q = 0;       ///< [1/length]
+    double zz = 0;      ///< normal
+    double xx = 0;      ///< along the wave
+    double xz = 0;      ///< |coupling| of the two; a normal pressure pulls sites towards it
+    double free_zz = 0; ///< 1 / (S⁻¹)_zz: normal, without lateral tractions
+};
+
+/// S(q) by a table, ascending in q; S/q is interpolated linearly and constant beyond the ends.
+class StiffnessTable {
+public:
+    explicit StiffnessTable(std::vector<WaveStiffness> waves);
+    /// Half-space: free_zz = E* q/2, xz/zz = (1-2ν) / (2(1-ν)).
+    static StiffnessTable half_space(double contact_modulus, double poisson_ratio);
+    [[nodiscard]] WaveStiffness operator()(double q) const;
+
+private:
+    std::vector<WaveStiffness> waves_; // divided by q
+};
+
+struct RoughInterface {
+    Spectrum spectrum;
+    FlatInterface flat;
+    StiffnessTable stiffness;
+    bool friction = true; ///< sites follow lateral forces (a wall has none)
+    double pressure = 0;  ///< p, positive pressing [stress]
+};
+
+struct RenormalisedOptions {
+    double tolerance = 1e-4; ///< on γ_eff/Δγ and on the contact fraction
+    int max_refinement = 4;  ///< halvings beyond the first two grids
+    int steps = 14;          ///< of the coarsest grid in ln q; others follow the rms
+    double spacing =
+        0.125; ///< of the coarsest grid at the minimum, over its distance to inflection
+};
+
+struct RenormalisedState {
+    double gamma_eff = 0;                            ///< -φ(u) [energy/area]
+    double gamma_ratio = 0;                          ///< over -min φ of the flat interface
+    double contact_fraction = 0;                     ///< χ(u)
+    double separation = 0;                           ///< u, of the mean planes [length]
+    double tension = 0;                              ///< max φ′ [stress]
+    double gamma_ratio_error = 0, contact_error = 0; ///< estimated, see above
+    double separation_error = 0, tension_error = 0;
+    bool converged = true; ///< both of the first two errors within the tolerance
+    int grids = 0;
+};
+
+/// InvalidInput for what makes no sense, NoSolution for a pull beyond the tension that is borne.
+[[nodiscard]] RenormalisedState solve(const RoughInterface& rough,
+                                      const RenormalisedOptions& options = {});
+
+/// φ and χ after all roughness, on one grid (`refinement` halvings), for plots and tests.
+struct RenormalisedPotential {
+    std::vector<double> separation, energy, contact;
+};
+[[nodiscard]] RenormalisedPotential renormalised_potential(const RoughInterface& rough,
+                                                           int refinement,
+                                                           const RenormalisedOptions& options = {});
+
+} // namespace asperity::theory
