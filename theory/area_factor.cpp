@@ -16,13 +16,15 @@
 
 namespace asperity::theory {
 
-double area_factor(AreaFactor reading, double s) {
+double area_factor(AreaReading reading, double s) {
     if (!(s >= 0))
         throw InvalidInput(message("area factor: slope variance ", s,
                                    " is negative or not a number; it is a mean square"));
-    switch (reading) {
+    switch (reading.factor) {
     case AreaFactor::none:
         return 1;
+    case AreaFactor::lattice:
+        return 1 / (1 + reading.tilt_cost * s);
     case AreaFactor::small_slope:
         return 1 + s / 2;
     case AreaFactor::gaussian:
@@ -46,6 +48,8 @@ std::string_view name(AreaFactor reading) {
         return "gaussian";
     case AreaFactor::small_slope:
         return "small-slope";
+    case AreaFactor::lattice:
+        return "lattice";
     case AreaFactor::none:
         break;
     }
@@ -53,10 +57,11 @@ std::string_view name(AreaFactor reading) {
 }
 
 AreaFactor area_factor_named(std::string_view text) {
-    for (AreaFactor reading : {AreaFactor::gaussian, AreaFactor::small_slope, AreaFactor::none})
+    for (AreaFactor reading :
+         {AreaFactor::gaussian, AreaFactor::small_slope, AreaFactor::none, AreaFactor::lattice})
         if (text == name(reading)) return reading;
-    throw InvalidInput(
-        message("area factor: '", text, "' is not known; choose gaussian, small-slope or none"));
+    throw InvalidInput(message("area factor: '", text,
+                               "' is not known; choose gaussian, small-slope, none or lattice"));
 }
 
 } // namespace asperity::theory

@@ -15,12 +15,20 @@ enum class AreaFactor {
     gaussian,    ///< mean of √(1+|∇h|²) over Gaussian slopes of variance s
     small_slope, ///< 1 + s/2, its first two terms
     none,        ///< A* = A
+    lattice, ///< 1/(1 + c s): what a tilted interface of two lattices binds (flat_interface.hpp)
+};
+
+/// A reading, with what `lattice` needs to know.
+struct AreaReading {
+    AreaReading(AreaFactor reading, double cost = 0) : factor(reading), tilt_cost(cost) {}
+    AreaFactor factor;
+    double tilt_cost; ///< c
 };
 
 /// S(s), 1 at s = 0.
-[[nodiscard]] double area_factor(AreaFactor reading, double slope_variance);
+[[nodiscard]] double area_factor(AreaReading reading, double slope_variance);
 
-/// "gaussian", "small-slope" or "none", and back; an unknown name is InvalidInput.
+/// "gaussian", "small-slope", "none" or "lattice", and back; an unknown name is InvalidInput.
 [[nodiscard]] std::string_view name(AreaFactor reading);
 [[nodiscard]] AreaFactor area_factor_named(std::string_view text);
 

@@ -180,6 +180,21 @@ void FlatInterface::find_minimum() {
     tension_ = slope(inflection_);
 }
 
+double FlatInterface::tilt_cost(bool sliding) const {
+    double tilt = 0, kappa = 0, sideways = 0; // of D/q², κ/q and φ_tt at q -> 0
+    const double u = separation_, d = 1e-4 * u;
+    for (int k = 0; k < static_cast<int>(radii_.size()); ++k) {
+        const double R = radii_[static_cast<std::size_t>(k)];
+        const Terms here = terms(k, u);
+        const double bend = (terms(k, u + d).energy - 2 * here.energy + terms(k, u - d).energy);
+        tilt += 0.25 * R * R * bend / (d * d);
+        kappa += 0.5 * R * here.tilt;
+        sideways += here.sideways;
+    }
+    if (sliding && sideways > 0) tilt -= 0.5 * kappa * kappa / sideways;
+    return tilt / depth_;
+}
+
 double FlatInterface::contact(double u, double slope_variance) const {
     if (u < contact_) return 1;
     if (!(slope_variance > 0) || spacing_ == 0) return 0;

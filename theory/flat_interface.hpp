@@ -64,6 +64,11 @@ public:
     /// is closer by (a/2)(|∂h/∂x| + |∂h/∂y|) than on the flat.
     [[nodiscard]] double contact(double u, double slope_variance) const;
 
+    /// c of Δγ(s) = Δγ (1 - c s), s the mean square slope: what tilting both surfaces costs at the
+    /// minimum of φ, to second order. Sites stay over their hollows, or slide to where c is least;
+    /// then c = -1/2 would be the area that a slope adds. 0 for a wall.
+    [[nodiscard]] double tilt_cost(bool sliding) const;
+
 private:
     FlatInterface() = default;
     void find_minimum();

@@ -61,7 +61,7 @@ struct MarchPath {
 /// `refinement` times. The start is where the full-contact boundary of `input` is 9 standard
 /// deviations away: before that a = 1 to rounding. Around `knee`, if given, the spacing shrinks:
 /// there a boundary that was held at zero stress (γ_eff < 0) takes off like a square root.
-[[nodiscard]] MarchGrid make_grid(const Spectrum& spectrum, AreaFactor reading,
+[[nodiscard]] MarchGrid make_grid(const Spectrum& spectrum, AreaReading reading,
                                   const MarchInput& input, double spacing, int refinement,
                                   std::optional<double> knee = std::nullopt);
 

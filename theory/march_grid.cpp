@@ -21,7 +21,7 @@ constexpr double deviations = 9; // erfc(9/√2)/2 = 1.1e-19
 /// The boundary as it would be at full contact.
 class FullContact {
 public:
-    FullContact(const Spectrum& spectrum, AreaFactor reading, const MarchInput& input)
+    FullContact(const Spectrum& spectrum, AreaReading reading, const MarchInput& input)
         : spectrum_(spectrum), reading_(reading), in_(input) {}
 
     [[nodiscard]] double T(const Magnification& m) const {
@@ -48,7 +48,7 @@ public:
 
 private:
     const Spectrum& spectrum_;
-    AreaFactor reading_;
+    AreaReading reading_;
     MarchInput in_;
 };
 
@@ -77,7 +77,7 @@ std::vector<double> marks(double begin, double end, double spacing, std::optiona
 
 } // namespace
 
-MarchGrid make_grid(const Spectrum& spectrum, AreaFactor reading, const MarchInput& input,
+MarchGrid make_grid(const Spectrum& spectrum, AreaReading reading, const MarchInput& input,
                     double spacing, int refinement, std::optional<double> knee) {
     const FullContact full(spectrum, reading, input);
     MarchGrid grid;

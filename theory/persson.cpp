@@ -101,7 +101,7 @@ ContactState conforming(const AdhesiveContact& c, const FullContactState& full) 
         grid.q.push_back(q);
         grid.T.push_back(stress_variance(c, q));
         grid.energy.push_back(std::numbers::pi / 2 * c.contact_modulus * m.energy);
-        grid.stretch.push_back(area_factor(c.area_factor, 2 * std::numbers::pi * m.slope));
+        grid.stretch.push_back(area_factor(c.area_reading(), 2 * std::numbers::pi * m.slope));
     }
     grid.ever_detaches = false;
     fill_profile(s, c, grid, first_passage(grid, in), full.gamma);
@@ -118,7 +118,7 @@ ContactState without_adhesion(const AdhesiveContact& c, const SolverOptions& opt
     // g0 far below zero keeps the boundary at zero while the grid is laid out.
     MarchInput never = in;
     never.g0 = -full_contact(c).elastic_energy;
-    const MarchGrid grid = make_grid(c.spectrum, c.area_factor, never, options.spacing / 4, 0);
+    const MarchGrid grid = make_grid(c.spectrum, c.area_reading(), never, options.spacing / 4, 0);
     MarchPath path;
     path.energy.push_back(grid.energy.front());
     for (std::size_t i = 0; i < grid.q.size(); ++i) {
@@ -174,7 +174,7 @@ ContactState solve(const AdhesiveContact& c, const SolverOptions& options) {
     }
     if (full.gamma > least_g0 || c.pressure > 0) {
         const MarchInput in{c.contact_modulus, c.pressure, c.beta, full.gamma};
-        if (!make_grid(c.spectrum, c.area_factor, in, options.spacing, 0).ever_detaches)
+        if (!make_grid(c.spectrum, c.area_reading(), in, options.spacing, 0).ever_detaches)
             return conforming(c, full);
     }
 
@@ -258,7 +258,7 @@ FullContactState full_contact(const AdhesiveContact& c) {
     check(c);
     const Magnification end = c.spectrum.last();
     FullContactState s;
-    s.real_area = area_factor(c.area_factor, 2 * std::numbers::pi * end.slope);
+    s.real_area = area_factor(c.area_reading(), 2 * std::numbers::pi * end.slope);
     s.elastic_energy = std::numbers::pi / 2 * c.contact_modulus * end.energy;
     s.gamma = c.work_of_adhesion * s.real_area - s.elastic_energy;
     s.gamma_ratio = c.work_of_adhesion > 0 ? s.gamma / c.work_of_adhesion : 0;

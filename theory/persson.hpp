@@ -37,6 +37,8 @@ struct AdhesiveContact {
     double pressure = 0;         ///< p = F_N/A0 [stress], positive pressing, negative pulling
     double beta = 0.45;          ///< β in W = a [β + (1-β) a²], 0..1
     AreaFactor area_factor = AreaFactor::gaussian;
+    double tilt_cost = 0; ///< of AreaFactor::lattice
+    [[nodiscard]] AreaReading area_reading() const { return {area_factor, tilt_cost}; }
 };
 
 /// Which solution of Eq. (2).

@@ -95,6 +95,9 @@ double wavevector_at(const Spectrum& spectrum, double t, double low, double high
     return std::sqrt(low * high);
 }
 
+/// Of S + φ″: below it the equation is continued by its tangent.
+double smallest(double S, double D) { return 1e-4 * (S + std::abs(D)); }
+
 /// One flow of φ and its observables on one grid.
 class Flow {
 public:
@@ -226,13 +229,13 @@ double Flow::rate_at_wall() const {
 
 /// f - dt F(f″) = from by Newton's method; the first value of f is given, the last stays zero.
 void Flow::solve_potential(Column& f, const Column& from, double dt) {
-    const double small = 1e-11 * rough_.flat.work_of_adhesion();
+    const double small = 1e-10 * rough_.flat.work_of_adhesion();
     for (int iteration = 0; iteration < 1000; ++iteration) {
         double before = 0, largest = 0;
         above_[0] = 0;
         for (std::size_t i = 1; i + 1 < points_; ++i) {
             const double S = stiffness_[i], D = tilt_[i], a2 = (S + D) * (S + D);
-            const double total = S + curvature(f, i), least = 1e-4 * S;
+            const double total = S + curvature(f, i), least = smallest(S, D);
             const double at = std::max(total, least); // below: the tangent at least
             const double slope = 0.5 * a2 / (at * at);
             const double rate = 0.5 * (S + 2 * D - a2 / at) + slope * (total - at);
@@ -248,7 +251,8 @@ void Flow::solve_potential(Column& f, const Column& from, double dt) {
             f[i] += next;
             largest = std::max(largest, std::abs(next));
         }
-        if (!(largest > small)) return;
+        // Rounding of f″ may keep the last digits moving.
+        if (!(largest > small) || (iteration > 40 && largest < 1e3 * small)) return;
     }
     throw NoSolution(
         message("renormalised theory: Newton's method has not converged in 1000 "
@@ -259,7 +263,8 @@ void Flow::solve_potential(Column& f, const Column& from, double dt) {
 void Flow::solve_observables(Column& x, const Column& f, double dt) {
     above_[0] = 0;
     for (std::size_t i = 1; i + 1 < points_; ++i) {
-        const double total = std::max(stiffness_[i] + curvature(f, i), 1e-4 * stiffness_[i]);
+        const double total =
+            std::max(stiffness_[i] + curvature(f, i), smallest(stiffness_[i], tilt_[i]));
         const double w = (stiffness_[i] + tilt_[i]) / total;
         const double lower = dt * 0.5 * w * w * left_[i], upper = dt * 0.5 * w * w * right_[i];
         const double pivot = 1 / (1 + lower + upper - lower * above_[i - 1]);

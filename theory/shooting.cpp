@@ -55,13 +55,13 @@ MarchGrid Shooting::grid_for(double x, int refinement) const {
     if (!pressing_) {
         // A grid meant to stay starts a little early, so that a neighbouring g0 may use it too.
         const double early = x - std::log(4.0);
-        return make_grid(contact_.spectrum, contact_.area_factor, input(g0(early)),
+        return make_grid(contact_.spectrum, contact_.area_reading(), input(g0(early)),
                          options_.spacing, refinement);
     }
     std::optional<double> knee;
     const auto grid = [&](int r) {
-        return make_grid(contact_.spectrum, contact_.area_factor, input(g0(x)), options_.spacing, r,
-                         knee);
+        return make_grid(contact_.spectrum, contact_.area_reading(), input(g0(x)), options_.spacing,
+                         r, knee);
     };
     // Where γ_eff leaves zero, found on a coarse grid, then on one refined there.
     for (int pass = 0; pass < 3 && g0(x) < 0; ++pass) {
@@ -95,7 +95,7 @@ double Shooting::excess(const MarchGrid& grid, const MarchPath& path) const {
 }
 
 double Shooting::excess_at(double x, int refinement, double* area) const {
-    const MarchGrid grid = make_grid(contact_.spectrum, contact_.area_factor, input(g0(x)),
+    const MarchGrid grid = make_grid(contact_.spectrum, contact_.area_reading(), input(g0(x)),
                                      options_.spacing, refinement);
     const MarchPath path = march(grid, g0(x), refinement);
     if (area != nullptr) *area = path.area.back();

@@ -44,6 +44,8 @@ theory::AreaFactor area_factor_of(AreaFactor reading) {
         return theory::AreaFactor::small_slope;
     case AreaFactor::none:
         return theory::AreaFactor::none;
+    case AreaFactor::lattice:
+        return theory::AreaFactor::lattice;
     }
     return theory::AreaFactor::gaussian;
 }
@@ -162,6 +164,8 @@ TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional
         out.contact.pressure = scene.drive.load * units::megapascal;
         out.contact.beta = scene.theory.beta;
         out.contact.area_factor = area_factor_of(scene.theory.area_factor);
+        if (scene.theory.area_factor == AreaFactor::lattice)
+            out.contact.tilt_cost = flat_interface(scene).tilt_cost(!scene.interface.frictionless);
         theory::check(out.contact);
     });
     if (scene.theory.renormalised)

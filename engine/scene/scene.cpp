@@ -140,7 +140,8 @@ io::Schema bind(Scene& scene) {
     schema.choice<AreaFactor>("area_factor", theory.area_factor,
                               {{"gaussian", AreaFactor::gaussian},
                                {"small-slope", AreaFactor::small_slope},
-                               {"none", AreaFactor::none}},
+                               {"none", AreaFactor::none},
+                               {"lattice", AreaFactor::lattice}},
                               "how the true area follows from the slope");
     schema.choice<TheorySpectrum>(
         "spectrum", theory.spectrum,

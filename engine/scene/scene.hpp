@@ -27,7 +27,7 @@ enum class Strain { linear, finite };
 enum class DriveMode { dynamic, quasistatic };
 enum class Hold { top, mean_height };
 enum class PathPart { approach, pull_off, zero_load };
-enum class AreaFactor { gaussian, small_slope, none };
+enum class AreaFactor { gaussian, small_slope, none, lattice };
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
 

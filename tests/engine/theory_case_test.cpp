@@ -103,8 +103,7 @@ TEST(TheoryOfAScene, RenormalisedHasTheLatticesStiffness) {
     const theory::StiffnessTable table = lattice_stiffness(s);
     const double modulus = 77.2 / 160.21766 / (1 - 0.42 * 0.42);
     // Long waves: the half-space, with its coupling (1-2ν)/(2(1-ν)); short ones: model.md.
-    const theory::WaveStiffness isotropic =
-        theory::StiffnessTable::half_space(modulus, 0.42)(0.05);
+    const theory::WaveStiffness isotropic = theory::StiffnessTable::half_space(modulus, 0.42)(0.05);
     EXPECT_NEAR(table(0.05).free_zz, isotropic.free_zz, 2e-3 * isotropic.free_zz);
     EXPECT_NEAR(table(0.05).zz, isotropic.zz, 3e-3 * isotropic.zz);
     EXPECT_NEAR(table(0.05).xx, isotropic.xx, 3e-3 * isotropic.xx);
