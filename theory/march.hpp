@@ -11,9 +11,8 @@
 // diverge.
 //
 // Eq. (2) in the clock T = (π/2) E*² ∫ q³ C dq is ∂P/∂T = ½ ∂²P/∂σ²: a Brownian path that starts at
-// p and is absorbed at -σ_a(T). Two marches that share nothing but the clock's grid solve it:
-//   first_passage  an integral equation for the absorbed fraction; fast, the production one
-//   diffusion      a finite-volume solution of Eq. (2) itself; slower, the judge
+// p and is absorbed at -σ_a(T). `first_passage` solves an integral equation for the absorbed
+// fraction; tests/support/diffusion.hpp solves Eq. (2) itself.
 //
 // Units: any consistent set (stress, energy per area, 1/length).
 #pragma once
@@ -66,6 +65,5 @@ struct MarchPath {
                                   std::optional<double> knee = std::nullopt);
 
 [[nodiscard]] MarchPath first_passage(const MarchGrid& grid, const MarchInput& input);
-[[nodiscard]] MarchPath diffusion(const MarchGrid& grid, const MarchInput& input, int cells);
 
 } // namespace asperity::theory

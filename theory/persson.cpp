@@ -18,6 +18,13 @@
 #include "theory/shooting.hpp"
 
 namespace asperity::theory {
+
+constinit const March March::first_passage{
+    [](const MarchGrid& grid, const MarchInput& input, double) {
+        return asperity::theory::first_passage(grid, input);
+    },
+    1.5};
+
 namespace {
 
 ContactState come_apart(std::string reason) {

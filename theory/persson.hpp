@@ -29,6 +29,10 @@
 
 namespace asperity::theory {
 
+struct MarchGrid;
+struct MarchInput;
+struct MarchPath;
+
 /// What is pressed (or pulled) against what. Units: any consistent set.
 struct AdhesiveContact {
     Spectrum spectrum;
@@ -41,10 +45,11 @@ struct AdhesiveContact {
     [[nodiscard]] AreaReading area_reading() const { return {area_factor, tilt_cost}; }
 };
 
-/// Which solution of Eq. (2).
-enum class March {
-    first_passage, ///< Volterra equation, production
-    diffusion,     ///< finite volumes, the independent check (about ten times slower)
+/// How Eq. (2) is solved on a grid of the given spacing, and the power of the spacing in its error.
+struct March {
+    MarchPath (*follow)(const MarchGrid& grid, const MarchInput& input, double spacing);
+    double order;
+    static const March first_passage; ///< Volterra equation
 };
 
 struct SolverOptions {
@@ -126,12 +131,6 @@ struct TensionLimit {
 };
 [[nodiscard]] TensionLimit tension_limit(const AdhesiveContact& contact,
                                          const SolverOptions& options = {});
-
-/// P(σ, ζ) of Eq. (1) at the wavevector q, for a state solved before. Contact area only: its
-/// integral is A(ζ)/A0.
-[[nodiscard]] std::vector<double> stress_distribution(const AdhesiveContact& contact,
-                                                      const ContactState& state, double q,
-                                                      std::span<const double> stress);
 
 /// Without adhesion: A(ζ)/A0 = erf(p/√(2T)) (0 when pulling).
 [[nodiscard]] double nonadhesive_area(double pressure, double stress_variance);

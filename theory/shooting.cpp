@@ -81,10 +81,7 @@ MarchGrid Shooting::grid_for(double x, int refinement) const {
 }
 
 MarchPath Shooting::march(const MarchGrid& grid, double g0, int refinement) const {
-    if (options_.march == March::first_passage) return first_passage(grid, input(g0));
-    constexpr double cells_at_unit_spacing = 40;
-    const double cells = cells_at_unit_spacing / options_.spacing * (1 << refinement);
-    return diffusion(grid, input(g0), static_cast<int>(std::lround(std::max(20.0, cells))));
+    return options_.march.follow(grid, input(g0), options_.spacing / (1 << refinement));
 }
 
 double Shooting::excess(const MarchGrid& grid, const MarchPath& path) const {
@@ -172,20 +169,20 @@ double Shooting::excess_at_edge(int refinement, double* area) const {
 }
 
 Shooting::Limit Shooting::extrapolate(std::span<const double> values) const {
-    // Error terms: spacing^1.5 and spacing² for first passage, spacing² alone for diffusion.
+    // Error terms: spacing^order, and spacing² where the order is lower.
     const auto eliminate = [](double coarse, double fine, double ratio) {
         return fine + (fine - coarse) / (ratio - 1);
     };
-    const double ratio = options_.march == March::diffusion ? 4 : std::pow(2, 1.5);
+    const double ratio = std::pow(2, options_.march.order);
     const auto once = [&](std::span<const double> v) {
         return eliminate(v[v.size() - 2], v[v.size() - 1], ratio);
     };
     const auto best = [&](std::span<const double> v) {
-        if (options_.march == March::diffusion) return once(v);
+        if (options_.march.order == 2) return once(v);
         return eliminate(once(v.first(v.size() - 1)), once(v), 4);
     };
     const double value = best(values);
-    if (values.size() > 3 || options_.march == March::diffusion)
+    if (values.size() > 3 || options_.march.order == 2)
         return {value, std::abs(value - best(values.first(values.size() - 1)))};
     return {value, std::abs(value - once(values))};
 }

@@ -9,12 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include "support/westergaard.hpp"
 #include "theory/error.hpp"
 #include "theory/half_space.hpp"
 #include "theory/jkr.hpp"
 #include "theory/maugis.hpp"
 #include "theory/periodic_sphere.hpp"
-#include "theory/westergaard.hpp"
 
 namespace asperity::theory {
 namespace {

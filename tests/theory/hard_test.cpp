@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/diffusion.hpp"
 #include "support/paper_contact.hpp"
 #include "theory/error.hpp"
 
@@ -30,7 +31,7 @@ void judge(AdhesiveContact c, const std::string& what,
     for (double fraction : fractions) {
         c.spectrum = c.spectrum.with_rms_height(fraction * h_c);
         const ContactState a = solve(c);
-        const ContactState b = solve(c, {.march = March::diffusion, .max_refinement = 2});
+        const ContactState b = solve(c, {.march = by_diffusion, .max_refinement = 2});
         EXPECT_EQ(a.status, Status::adhesive) << fraction;
         EXPECT_TRUE(a.converged) << fraction;
         EXPECT_NEAR(a.gamma_ratio, b.gamma_ratio, 1e-4 * std::max(1.0, b.gamma_ratio)) << fraction;
@@ -130,7 +131,7 @@ TEST(Hard, Beta) {
     c.beta = 0;
     const ContactState s = solve(c);
     EXPECT_EQ(s.status, Status::adhesive);
-    EXPECT_NEAR(s.gamma_ratio, solve(c, {.march = March::diffusion}).gamma_ratio, 1e-5);
+    EXPECT_NEAR(s.gamma_ratio, solve(c, {.march = by_diffusion}).gamma_ratio, 1e-5);
     EXPECT_THROW((void)critical_roughness(c), NoSolution);
 }
 

@@ -12,7 +12,9 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <gtest/gtest.h>
 
+#include "support/diffusion.hpp"
 #include "support/paper_contact.hpp"
+#include "support/stress_distribution.hpp"
 #include "theory/error.hpp"
 #include "theory/shooting.hpp"
 
@@ -43,7 +45,7 @@ TEST_P(PaperTable, FirstPassage) {
 
 TEST_P(PaperTable, Diffusion) {
     const Row row = GetParam();
-    const ContactState s = solve(paper::contact(row.h), {.march = March::diffusion});
+    const ContactState s = solve(paper::contact(row.h), {.march = by_diffusion});
     EXPECT_NEAR(s.gamma_ratio, row.gamma, five_digits);
     EXPECT_NEAR(s.area, row.area, 1e-5);
 }
@@ -83,7 +85,7 @@ TEST(Persson, CriticalRoughness) {
     EXPECT_EQ(solve(paper::contact(0.9995 * gaussian.h_rms)).status, Status::adhesive);
     EXPECT_EQ(solve(paper::contact(1.0005 * gaussian.h_rms)).status, Status::no_contact);
     // The other march, on its own.
-    EXPECT_NEAR(critical_roughness(paper::contact(5), {.march = March::diffusion}).h_rms, 6.9723,
+    EXPECT_NEAR(critical_roughness(paper::contact(5), {.march = by_diffusion}).h_rms, 6.9723,
                 0.5e-4);
 }
 
@@ -200,7 +202,7 @@ TEST(Persson, VanishingAdhesionApproachesErf) {
     const ContactState none = solve(c);
     EXPECT_DOUBLE_EQ(none.area, std::erf(c.pressure / std::sqrt(2 * T)));
     EXPECT_EQ(none.contact_stress, c.pressure);
-    for (March march : {March::first_passage, March::diffusion}) {
+    for (March march : {March::first_passage, by_diffusion}) {
         c.work_of_adhesion = 1e-9;
         const ContactState little = solve(c, {.march = march, .max_refinement = 3});
         EXPECT_NEAR(little.area, none.area, 1e-5);
@@ -233,7 +235,7 @@ TEST(Persson, MarchesAgreeAtAnyLoad) {
             AdhesiveContact c = paper::contact(h);
             c.pressure = p * gpa;
             const ContactState a = solve(c),
-                               b = solve(c, {.march = March::diffusion, .max_refinement = 3});
+                               b = solve(c, {.march = by_diffusion, .max_refinement = 3});
             EXPECT_EQ(a.status, b.status) << h << " Å " << p << " GPa";
             EXPECT_NEAR(a.gamma_ratio, b.gamma_ratio, 1e-4) << h << " Å " << p << " GPa";
             EXPECT_NEAR(a.area, b.area, 1e-4) << h << " Å " << p << " GPa";
@@ -330,7 +332,7 @@ TEST(Persson, StressDistribution) {
 
 TEST(Persson, OrderOfConvergence) {
     for (const auto& [march, order] :
-         {std::pair{March::first_passage, 1.5}, std::pair{March::diffusion, 2.0}}) {
+         {std::pair{March::first_passage, 1.5}, std::pair{by_diffusion, 2.0}}) {
         const AdhesiveContact c = paper::contact(5);
         const Shooting shooting(c, {.march = march});
         const Shooting::Outcome at = shooting.search(0);

@@ -8,7 +8,7 @@
 //     ∫_{t0}^{t1} N(x; t) dt = [ √(2t/π) e^{-x²/2t} - |x| erfc(|x|/√(2t)) ]_{t0}^{t1},
 // and the square root at T' -> T costs no accuracy. The pieces are quarters of the march's
 // intervals, with a and b between the nodes by monotone cubics.
-#include "theory/persson.hpp"
+#include "support/stress_distribution.hpp"
 
 #include <algorithm>
 #include <cmath>

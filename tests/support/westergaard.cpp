@@ -6,7 +6,7 @@
 // α_0 rises from zero to one maximum, at tan²ψ = 3/5, and falls to zero: below that maximum there
 // are exactly two extremes, on either side of it, and at the maximum itself they merge. The
 // pressure at the jump is zero for α = sin^{3/2}ψ cos^{1/2}ψ at most, tan²ψ = 3.
-#include "theory/westergaard.hpp"
+#include "support/westergaard.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Eq. (2) itself by finite volumes: the slow, obvious check on first_passage.cpp.
-//
 // The coordinate z = (σ + σ_a)/ℓ keeps the absorbing boundary at z = 0 and the width of P near one,
 //     ∂G/∂τ + ∂/∂z [ (db - z dℓ)/ℓ G ] = dT/(2ℓ²) ∂²G/∂z²,      G = ℓ P,  b = σ_a,
 // with ℓ² = T + ((b + p)/12)²: √T as long as P is near the boundary, and growing with the
@@ -18,7 +16,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "theory/march.hpp"
+#include "support/diffusion.hpp"
 
 namespace asperity::theory {
 namespace {
@@ -117,7 +115,8 @@ private:
 
 } // namespace
 
-MarchPath diffusion(const MarchGrid& grid, const MarchInput& in, int cells) {
+MarchPath diffusion(const MarchGrid& grid, const MarchInput& in, double spacing) {
+    const int cells = static_cast<int>(std::lround(std::max(20.0, 40 / spacing)));
     const std::size_t n = grid.q.size();
     MarchPath path;
     double area = 1, energy = grid.energy[0];
