@@ -11,4 +11,12 @@
 #define ASPERITY_HOST_DEVICE
 #endif
 
+#define ASPERITY_PRAGMA(text) _Pragma(#text)
+/// The loop behind it is unrolled n times.
+#if defined(__CUDACC__)
+#define ASPERITY_UNROLL(n) ASPERITY_PRAGMA(unroll n)
+#else
+#define ASPERITY_UNROLL(n) ASPERITY_PRAGMA(GCC unroll n)
+#endif
+
 #define ASPERITY_INLINE ASPERITY_HOST_DEVICE inline __attribute__((always_inline))

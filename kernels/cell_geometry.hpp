@@ -27,7 +27,7 @@ struct Spring {
 /// The 12 edges and 12 face diagonals.
 struct CellSprings {
     Spring spring[24] = {};
-    constexpr CellSprings() {
+    ASPERITY_HOST_DEVICE constexpr CellSprings() {
         int n = 0;
         for (int a = 0; a < 8; ++a)
             for (int b = a + 1; b < 8; ++b) {

@@ -4,7 +4,7 @@
 
 #include "kernels/cell_geometry.hpp"
 #include "kernels/kick.hpp"
-#include "kernels/simd.hpp"
+#include "kernels/pack_step.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -14,6 +14,7 @@ namespace asperity::ASPERITY_VARIANT {
 namespace {
 
 using V = Pack<double>;
+using PackVector = Triple<V>;
 
 ASPERITY_INLINE PackVector operator+(const PackVector& a, const PackVector& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -277,7 +278,7 @@ void surface(VectorVolume<const double> u, int z, const LevelCell& c, Patch node
 template <bool damped, bool observed>
 void kick_rows(const VectorPlane<const double>& force, int z, int y0, int y1, const Kick& plan,
                const VectorVolume<double>& v, KickSums& sums) {
-    Kicker<damped, observed> kicker(plan, v);
+    Kicker<V, damped, observed> kicker(plan, v);
     for (int y = y0; y < y1; ++y)
         for (int x = 0; x < v.x.nx; x += V::width)
             kicker(z * v.x.plane + y * v.x.row + x, v.x.nx - x,
@@ -374,8 +375,7 @@ void energy(VectorVolume<const double> u, const LevelCell& cell, int y0, int y1,
         for (int y = y0; y < y1; ++y) {
             const auto line = z * u.x.plane + y * u.x.row;
             for (int x = 0; x < u.x.nx; x += V::width) {
-                const auto inside = lane_numbers() < V(static_cast<double>(u.x.nx - x));
-                lanes.add(select(inside, cell_energy(u, line + x, terms, cell), V(0.0)));
+                lanes.add(first_lanes(cell_energy(u, line + x, terms, cell), u.x.nx - x));
             }
         }
     collect(lanes, sum);

@@ -35,7 +35,7 @@ struct LevelKicks {
     Kick lowest, inside, damped; ///< plane 0; planes above it without and with damping
     int damped_from = 0;         ///< first damped plane
 
-    const Kick& operator()(int z) const {
+    ASPERITY_HOST_DEVICE const Kick& operator()(int z) const {
         return z == 0 ? lowest : z < damped_from ? inside : damped;
     }
 };

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Pairs on SIMD registers, as both sweeps of the interface take them (interface_lattice.cpp,
-// interface_rows.cpp). T is the precision of the pairs, double or float.
+// Pairs, as both sweeps of the interface take them (interface_lattice.hpp, interface_rows.cpp): one
+// text for packs and for the threads of a device. F is the family of values (Simd, Scalar), T the
+// precision of the pairs, double or float.
 //
 // With t = r_m^2 / r^2 and r_m = 2^(1/6) r0 the potential of a pair is
 //
@@ -16,22 +17,21 @@
 #pragma once
 
 #include "kernels/interface_sweep.hpp"
-#include "kernels/simd.hpp"
+#include "kernels/variant.hpp"
 
 #include <type_traits>
 
 namespace asperity::ASPERITY_VARIANT {
-
-using Real = Pack<double>;
 
 /// Å in the unit of length of pairs.
 template <class T>
 inline constexpr double length_unit = std::is_same_v<T, float> ? fixed_quantum : 1.0;
 
 /// Constants of the potential, one copy in every lane where it meets the pairs.
-template <class T>
+template <class F, class T>
 struct PairTerms {
-    Pack<T> rm2, r2_floor, r2_cut, shift;
+    using V = typename F::template Of<T>;
+    V rm2, r2_floor, r2_cut, shift;
     double force_scale, energy_scale, cutoff, floor, contact_r2;
 
     explicit PairTerms(const LennardJones& lj)
@@ -45,24 +45,24 @@ struct PairTerms {
     /// -V'/r in units of force_scale, from t; zero beyond the cutoff, which may be left out
     /// (false_type) where all of r2 are known to be within it.
     template <bool masked>
-    ASPERITY_INLINE Pack<T> force(Pack<T> t, Pack<T> r2, std::bool_constant<masked>) const {
-        const Pack<T> t2 = t * t, t3 = t2 * t, t4 = t2 * t2;
+    ASPERITY_INLINE V force(V t, V r2, std::bool_constant<masked>) const {
+        const V t2 = t * t, t3 = t2 * t, t4 = t2 * t2;
         if constexpr (masked)
             return fms_where_less(r2, r2_cut, t4, t3, t4);
         else
             return fms(t4, t3, t4);
     }
     /// V in units of energy_scale.
-    ASPERITY_INLINE Pack<T> energy(Pack<T> t, Pack<T> r2) const {
-        const Pack<T> t3 = t * t * t;
-        return select(r2 < r2_cut, fms(t3, t3, t3 + t3) - shift, Pack<T>(T(0)));
+    ASPERITY_INLINE V energy(V t, V r2) const {
+        const V t3 = t * t * t;
+        return select(r2 < r2_cut, fms(t3, t3, t3 + t3) - shift, V(T(0)));
     }
     /// r_m^2 / a and r_m^2 / b by one division.
     template <bool close>
-    ASPERITY_INLINE void inverse(Pack<T> a, Pack<T> b, Pack<T>& ta, Pack<T>& tb) const {
+    ASPERITY_INLINE void inverse(V a, V b, V& ta, V& tb) const {
         a = held<close>(a);
         b = held<close>(b);
-        const Pack<T> both = rm2 / (a * b);
+        const V both = rm2 / (a * b);
         ta = b * both;
         tb = a * both;
     }
@@ -74,7 +74,7 @@ struct PairTerms {
 
 private:
     template <bool close>
-    ASPERITY_INLINE Pack<T> held(Pack<T> r2) const {
+    ASPERITY_INLINE V held(V r2) const {
         return close ? max(r2, r2_floor) : r2;
     }
     static T squared(double in_square_angstrom) {
@@ -83,38 +83,46 @@ private:
 };
 
 /// Lengths in Å, in the unit of length of pairs.
-template <class T>
-ASPERITY_INLINE Pack<T> lengths(const double* from) {
-    alignas(64) T lane[Pack<T>::width];
-    for (int i = 0; i < Pack<T>::width; ++i)
+template <class F, class T>
+ASPERITY_INLINE typename F::template Of<T> lengths(const double* from) {
+    using V = typename F::template Of<T>;
+    alignas(64) T lane[V::width];
+    for (int i = 0; i < V::width; ++i)
         lane[i] = static_cast<T>(from[i] * (1.0 / length_unit<T>));
-    return Pack<T>::load(lane);
+    return V::load(lane);
 }
 
-/// The heights of a register of sites, to be compared with those of as many atoms.
-template <class T>
+/// The heights of sites, to be compared with those of as many atoms.
+template <class F, class T>
 struct SiteHeight {
     using Atom = double;
-    Pack<double> z;
-    static PlaneView<const double> of(const SubstrateHeights& h) { return h.height; }
-    ASPERITY_INLINE explicit SiteHeight(const double* from) : z(Real::load(from)) {}
-    ASPERITY_INLINE explicit SiteHeight(double same) : z(same) {}
-    ASPERITY_INLINE Pack<double> above(const double* atoms) const { return z - Real::load(atoms); }
-};
-template <>
-struct SiteHeight<float> {
-    using Atom = std::int32_t;
-    PackInt32 z;
-    static PlaneView<const std::int32_t> of(const SubstrateHeights& h) { return h.fixed; }
-    ASPERITY_INLINE explicit SiteHeight(const double* from) {
-        alignas(64) std::int32_t fixed[Pack<float>::width];
-        for (int i = 0; i < Pack<float>::width; ++i)
-            fixed[i] = to_fixed(from[i]);
-        z = PackInt32::load(fixed);
+    using V = typename F::template Of<double>;
+    V z;
+    ASPERITY_INLINE static PlaneView<const double> of(const SubstrateHeights& h) {
+        return h.height;
     }
-    ASPERITY_INLINE explicit SiteHeight(double same) : z(FloatMask{} + to_fixed(same)) {}
-    ASPERITY_INLINE Pack<float> above(const std::int32_t* atoms) const {
-        return to_float(z - PackInt32::load(atoms));
+    ASPERITY_INLINE explicit SiteHeight(const double* from) : z(V::load(from)) {}
+    ASPERITY_INLINE explicit SiteHeight(double same) : z(same) {}
+    ASPERITY_INLINE V above(const double* atoms) const { return z - V::load(atoms); }
+};
+template <class F>
+struct SiteHeight<F, float> {
+    using Atom = std::int32_t;
+    using V = typename F::template Of<float>;
+    using Int = typename F::Int32;
+    Int z;
+    ASPERITY_INLINE static PlaneView<const std::int32_t> of(const SubstrateHeights& h) {
+        return h.fixed;
+    }
+    ASPERITY_INLINE explicit SiteHeight(const double* from) {
+        alignas(64) std::int32_t fixed[V::width];
+        for (int i = 0; i < V::width; ++i)
+            fixed[i] = to_fixed(from[i]);
+        z = Int::load(fixed);
+    }
+    ASPERITY_INLINE explicit SiteHeight(double same) : z(Int::same(to_fixed(same))) {}
+    ASPERITY_INLINE V above(const std::int32_t* atoms) const {
+        return to_float(z - Int::load(atoms));
     }
 
 private:
@@ -123,46 +131,6 @@ private:
         return static_cast<std::int32_t>((z * (1.0 / fixed_quantum) + round_to_integer) -
                                          round_to_integer);
     }
-};
-
-/// All lanes combined, by halving.
-template <int half, class Combine>
-ASPERITY_INLINE double halve(Real v, Combine combine) {
-    v = combine(v, exchange<half>(v));
-    if constexpr (half > 1)
-        return halve<half / 2>(v, combine);
-    else
-        return v[0];
-}
-ASPERITY_INLINE double lowest(Real v) {
-    return halve<Real::width / 2>(v, [](Real a, Real b) { return min(a, b); });
-}
-ASPERITY_INLINE double total(Real v) {
-    return halve<Real::width / 2>(v, [](Real a, Real b) { return a + b; });
-}
-
-/// Writes a pack as doubles.
-ASPERITY_INLINE void store_wide(Pack<double> a, double* to) { a.store(to); }
-ASPERITY_INLINE void store_wide(Pack<float> a, double* to) {
-    widen_low(a).store(to);
-    widen_high(a).store(to + Real::width);
-}
-
-/// A sum in double, lane by lane, of terms of type T.
-template <class T>
-struct WideSum {
-    Real low{0.0};
-    ASPERITY_INLINE void add(Real term) { low = low + term; }
-    ASPERITY_INLINE double over_lanes() const { return total(low); }
-};
-template <>
-struct WideSum<float> {
-    Real low{0.0}, high{0.0};
-    ASPERITY_INLINE void add(Pack<float> term) {
-        low = low + widen_low(term);
-        high = high + widen_high(term);
-    }
-    ASPERITY_INLINE double over_lanes() const { return total(low + high); }
 };
 
 } // namespace asperity::ASPERITY_VARIANT

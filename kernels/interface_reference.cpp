@@ -8,60 +8,13 @@
 // need no thought and the cutoff may exceed the box. Cost: 4 r_c^2 / b^2 distances per site.
 //
 // The tail correction lives here too: it is one formula per site, no sum over pairs.
-#include "kernels/interface_sweep.hpp"
-
-#include <cmath>
-#include <limits>
-#include <numbers>
+#include "kernels/pair_sum.hpp"
 
 namespace asperity {
 
-namespace {
-
-int fold(long i, int n) {
-    const long r = i % n;
-    return static_cast<int>(r < 0 ? r + n : r);
-}
-
-/// Farther out than this (in atoms) no index is formed; a site there has long left the model.
-constexpr double farthest_index = 1e9;
-
-} // namespace
-
 PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double x, double y,
                  double z) {
-    PairSum sum;
-    const double b = map.spacing;
-    const bool somewhere =
-        std::abs(x / b) < farthest_index && std::abs(y / b) < farthest_index && std::isfinite(z);
-    if (!somewhere) {
-        const double nan = std::numeric_limits<double>::quiet_NaN();
-        sum.force[0] = sum.force[1] = sum.force[2] = sum.energy = nan;
-        return sum;
-    }
-    const double reach = potential.cutoff;
-    const long j_first = std::lround(std::floor((y - reach) / b));
-    const long j_last = std::lround(std::ceil((y + reach) / b));
-    const long i_first = std::lround(std::floor((x - reach) / b));
-    const long i_last = std::lround(std::ceil((x + reach) / b));
-    for (long j = j_first; j <= j_last; ++j) {
-        const double dy = y - static_cast<double>(j) * b;
-        const double* row =
-            map.height + static_cast<std::ptrdiff_t>(fold(j, map.sites)) * map.sites;
-        for (long i = i_first; i <= i_last; ++i) {
-            const double dx = x - static_cast<double>(i) * b;
-            const double dz = z - row[fold(i, map.sites)];
-            const double r2 = dx * dx + dy * dy + dz * dz;
-            if (r2 >= potential.r2_cut()) continue;
-            const double f = potential.force_over_distance(r2);
-            sum.force[0] += f * dx;
-            sum.force[1] += f * dy;
-            sum.force[2] += f * dz;
-            sum.energy += potential.energy(r2);
-            if (r2 < sum.nearest_r2) sum.nearest_r2 = r2;
-        }
-    }
-    return sum;
+    return portable::sum_of_pairs(map, potential, x, y, z);
 }
 
 void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
@@ -86,27 +39,6 @@ void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
             sums.in_reach += 1;
             if (site.nearest_r2 < sums.closest_r2) sums.closest_r2 = site.nearest_r2;
         }
-}
-
-double TailCorrection::energy(double gap) const {
-    const double cut = potential.cutoff;
-    const double from = std::abs(gap) > cut ? std::abs(gap) : cut;
-    const double s2 = potential.r0 * potential.r0 / (from * from);
-    const double s4 = s2 * s2;
-    // r0^12 / c^10 = r0^2 s^10, r0^6 / c^4 = r0^2 s^4.
-    const double beyond = 8.0 * std::numbers::pi * density * potential.epsilon * potential.r0 *
-                          potential.r0 * s4 * (s4 * s2 / 10.0 - 0.25);
-    const double inside = cut * cut - gap * gap;
-    return beyond + (inside > 0.0 ? std::numbers::pi * density * inside * potential.shift() : 0.0);
-}
-
-double TailCorrection::force(double gap) const {
-    const double cut = potential.cutoff;
-    const double from = std::abs(gap) > cut ? std::abs(gap) : cut;
-    const double s2 = potential.r0 * potential.r0 / (from * from);
-    const double s6 = s2 * s2 * s2;
-    const double unshifted = 4.0 * potential.epsilon * s6 * (s6 - 1.0);
-    return 2.0 * std::numbers::pi * density * gap * unshifted;
 }
 
 void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,

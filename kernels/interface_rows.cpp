@@ -30,8 +30,8 @@ struct Rows {
     using V = Pack<T>;
     static constexpr int width = V::width;
 
-    const PairTerms<T>& pair;
-    PlaneView<const typename SiteHeight<T>::Atom> heights;
+    const PairTerms<Simd, T>& pair;
+    PlaneView<const typename SiteHeight<Simd, T>::Atom> heights;
     int i0, j0;
     double b, inverse_b;
     int start; ///< first atom of register 0, counted from the one below the site
@@ -40,8 +40,8 @@ struct Rows {
     /// j b in units of length, from row -most_rows on.
     alignas(64) T row_at[room_for_rows];
 
-    Rows(const RowSubstrate& atoms, const PairTerms<T>& terms)
-        : pair(terms), heights(SiteHeight<T>::of(atoms.heights)), i0(atoms.i0), j0(atoms.j0),
+    Rows(const RowSubstrate& atoms, const PairTerms<Simd, T>& terms)
+        : pair(terms), heights(SiteHeight<Simd, T>::of(atoms.heights)), i0(atoms.i0), j0(atoms.j0),
           b(atoms.map.spacing), inverse_b(1.0 / b), step(static_cast<T>(b / length_unit<T>)) {
         for (int j = 0; j < room_for_rows; ++j)
             row_at[j] = static_cast<T>((j - most_rows) * b / length_unit<T>);
@@ -84,7 +84,7 @@ struct Rows {
     template <bool observe, bool close>
     ASPERITY_INLINE void sum(double x, double y, double height, const Chords& chords, int to,
                              SiteTerms& terms) const {
-        const SiteHeight<T> z(height);
+        const SiteHeight<Simd, T> z(height);
         const int i_below = static_cast<int>(std::floor(x * inverse_b));
         const int j_below = static_cast<int>(std::floor(y * inverse_b));
         const double x_there = x - i_below * b, y_there = y - j_below * b; // from 0 to b
@@ -168,12 +168,12 @@ struct Rows {
 template <class T, bool observe>
 void row_sweep(const InterfaceSites& sites, const RowSubstrate& atoms, const LennardJones& lj,
                int row_begin, int row_end, InterfaceSums& sums) {
-    const PairTerms<T> pair(lj);
+    const PairTerms<Simd, T> pair(lj);
     const Rows<T> rows(atoms, pair);
     const double a = sites.spacing;
     sweep_blocks<T, observe>(
         sites, atoms, lj, pair, row_begin, row_end, sums,
-        [&](const SiteBlock& site, const Reach& reach, int x, int y, int count, SiteTerms& terms)
+        [&](const BlockOfSites& site, const Reach& reach, int x, int y, int count, SiteTerms& terms)
             __attribute__((always_inline)) {
                 typename Rows<T>::Chords chords;
                 rows.chords(reach.from_site, chords);

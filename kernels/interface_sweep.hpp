@@ -38,7 +38,9 @@
 #include "kernels/lennard_jones.hpp"
 #include "kernels/views.hpp"
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace asperity {
 
@@ -168,8 +170,28 @@ struct TailCorrection {
     LennardJones potential;
     double density = 0.0; ///< n, atoms per Å^2
 
-    double energy(double gap) const; ///< eV
-    double force(double gap) const;  ///< eV/Å
+    /// eV
+    ASPERITY_HOST_DEVICE double energy(double gap) const {
+        const double cut = potential.cutoff;
+        const double from = std::fabs(gap) > cut ? std::fabs(gap) : cut;
+        const double s2 = potential.r0 * potential.r0 / (from * from);
+        const double s4 = s2 * s2;
+        // r0^12 / c^10 = r0^2 s^10, r0^6 / c^4 = r0^2 s^4.
+        const double beyond = 8.0 * std::numbers::pi * density * potential.epsilon * potential.r0 *
+                              potential.r0 * s4 * (s4 * s2 / 10.0 - 0.25);
+        const double inside = cut * cut - gap * gap;
+        return beyond +
+               (inside > 0.0 ? std::numbers::pi * density * inside * potential.shift() : 0.0);
+    }
+    /// eV/Å
+    ASPERITY_HOST_DEVICE double force(double gap) const {
+        const double cut = potential.cutoff;
+        const double from = std::fabs(gap) > cut ? std::fabs(gap) : cut;
+        const double s2 = potential.r0 * potential.r0 / (from * from);
+        const double s6 = s2 * s2 * s2;
+        const double unshifted = 4.0 * potential.epsilon * s6 * (s6 - 1.0);
+        return 2.0 * std::numbers::pi * density * gap * unshifted;
+    }
 };
 
 /// Adds the tail to forces and sums that a sweep has left; mean_height is the local mean plane

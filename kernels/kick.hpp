@@ -1,57 +1,43 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What becomes of a pack of forces in a time step: the kick, the drift, and the step's sums. Shared
-// by the elastic kernels of small and finite strain.
+// What becomes of a force in a time step: the kick and its sums. One text for packs and for the
+// threads of a device.
 #pragma once
 
 #include "kernels/elastic_level.hpp"
-#include "kernels/simd.hpp"
+#include "kernels/variant.hpp"
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// A force, displacement or distance on a pack of nodes.
-struct PackVector {
-    Pack<double> x, y, z;
+/// A force, displacement or distance on V's nodes.
+template <class V>
+struct Triple {
+    V x, y, z;
 };
-
-/// 0, 1, 2, ... as a pack: to switch off lanes behind the end of a row.
-ASPERITY_INLINE Pack<double> lane_numbers() {
-    double lane[Pack<double>::width];
-    for (int i = 0; i < Pack<double>::width; ++i)
-        lane[i] = i;
-    return Pack<double>::load(lane);
-}
-
-ASPERITY_INLINE void collect(const BasicExactSum<Pack<double>>& lanes, ExactSum& into) {
-    for (int k = 0; k < ExactSum::bins; ++k)
-        for (int i = 0; i < Pack<double>::width; ++i)
-            into.bin[k] += lanes.bin[k][i];
-}
 
 /// Adds a times b; both parts of it are split off without rounding the product first, which takes
 /// an addition and a multiplication less.
-ASPERITY_INLINE void add_product(BasicExactSum<Pack<double>>& sum, Pack<double> a, Pack<double> b) {
-    using V = Pack<double>;
+template <class V>
+ASPERITY_INLINE void add_product(BasicExactSum<V>& sum, V a, V b) {
     const V coarse(sum.shifter(0)), fine(sum.shifter(1));
     const V part = fma(a, b, coarse) - coarse;
     sum.bin[0] = sum.bin[0] + part;
     sum.bin[1] = sum.bin[1] + ((fms(a, b, part) + fine) - fine);
 }
 
-/// Kicks the nodes of one plane, pack by pack.
-template <bool damped, bool observed>
+/// Kicks the nodes of one plane, V by V.
+template <class V, bool damped, bool observed>
 class Kicker {
-    using V = Pack<double>;
-
 public:
     ASPERITY_INLINE Kicker(const Kick& plan, const VectorVolume<double>& v)
         : keep_(plan.keep), kick_(plan.kick), drag_(plan.drag_z), medium_(2.0 * plan.medium_z),
           kinetic_weight_(0.25 * plan.half_mass), loss_weight_(0.25 * plan.drag),
           given_weight_(0.5 * plan.drag), x_(v.x.origin), y_(v.y.origin), z_(v.z.origin) {}
 
-    /// The first count nodes from element `at` of the volume, under the force f.
-    ASPERITY_INLINE void operator()(std::ptrdiff_t at, int count, const PackVector& f) {
+    /// The first count nodes from element `at` of the volume, under the force f. Their new
+    /// velocities.
+    ASPERITY_INLINE Triple<V> operator()(std::ptrdiff_t at, int count, const Triple<V>& f) {
         const V old_x = V::load(x_ + at), old_y = V::load(y_ + at), old_z = V::load(z_ + at);
         V new_x, new_y, new_z;
         if constexpr (damped) {
@@ -74,12 +60,10 @@ public:
             new_x.store_first(x_ + at, count);
             new_y.store_first(y_ + at, count);
             new_z.store_first(z_ + at, count);
-            const auto inside = lane_numbers() < V(static_cast<double>(count));
-            const V zero(0.0);
-            wx = select(inside, wx, zero);
-            wy = select(inside, wy, zero);
-            wz = select(inside, wz, zero);
-            rz = select(inside, rz, zero);
+            wx = first_lanes(wx, count);
+            wy = first_lanes(wy, count);
+            wz = first_lanes(wz, count);
+            rz = first_lanes(rz, count);
         }
         if constexpr (observed)
             add_product(kinetic_, kinetic_weight_, fma(wx, wx, fma(wy, wy, wz * wz)));
@@ -87,6 +71,7 @@ public:
             add_product(dissipated_, loss_weight_, fma(wx, wx, fma(wy, wy, rz * rz)));
             add_product(dragged_, given_weight_, rz);
         }
+        return {new_x, new_y, new_z};
     }
 
     ASPERITY_INLINE void add_to(KickSums& sums) const {
@@ -102,41 +87,5 @@ private:
     double *x_, *y_, *z_;
     BasicExactSum<V> kinetic_, dissipated_, dragged_;
 };
-
-/// Drift u <- u + dt v of rows [y0, y1) of plane z.
-inline void drift_rows(const ElasticLevel& level, int z, double dt, int y0, int y1) {
-    using V = Pack<double>;
-    const V step(dt);
-    const int nx = level.u.x.nx;
-    const auto move = [&](const double* speed, double* place) {
-        const auto moved = [&](int x) { return fma(step, V::load(speed + x), V::load(place + x)); };
-        int x = 0;
-        for (; x + V::width <= nx; x += V::width)
-            moved(x).store(place + x);
-        if (x < nx) moved(x).store_first(place + x, nx - x);
-    };
-    const VectorPlane<double> u = level.u[z], v = level.v[z];
-    for (int y = y0; y < y1; ++y) {
-        move(v.x.line(y), u.x.line(y));
-        move(v.y.line(y), u.y.line(y));
-        move(v.z.line(y), u.z.line(y));
-    }
-}
-
-inline void drift(const ElasticLevel& level, double dt, int y0, int y1) {
-    for (int z = 0; z < level.cells; ++z)
-        drift_rows(level, z, dt, y0, y1);
-}
-
-inline void plane_sum(PlaneView<const double> plane, int y0, int y1, ExactSum& into) {
-    using V = Pack<double>;
-    BasicExactSum<V> lanes;
-    for (int y = y0; y < y1; ++y)
-        for (int x = 0; x < plane.nx; x += V::width) {
-            const auto inside = lane_numbers() < V(static_cast<double>(plane.nx - x));
-            lanes.add(select(inside, V::load(plane.line(y) + x), V(0.0)));
-        }
-    collect(lanes, into);
-}
 
 } // namespace asperity::ASPERITY_VARIANT

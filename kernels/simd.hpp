@@ -77,6 +77,14 @@ struct Pack {
 #endif
         return p;
     }
+    /// The first count elements; in the lanes behind them the last of these again.
+    static ASPERITY_INLINE Pack load_first(const T* from, int count) {
+        if (count >= width) return load(from);
+        Pack p;
+        for (int i = 0; i < width; ++i)
+            p.r[i] = from[i < count ? i : count - 1];
+        return p;
+    }
     ASPERITY_INLINE void store(T* to) const { std::memcpy(to, &r, sizeof(Register)); }
     /// Stores past the caches, to an aligned place: for arrays too large to be found there again.
     ASPERITY_INLINE void stream(T* to) const {
@@ -178,6 +186,7 @@ struct PackInt32 {
         std::memcpy(&p.r, from, sizeof p.r);
         return p;
     }
+    static ASPERITY_INLINE PackInt32 same(std::int32_t value) { return FloatMask{} + value; }
     friend ASPERITY_INLINE PackInt32 operator-(PackInt32 a, PackInt32 b) { return a.r - b.r; }
 };
 ASPERITY_INLINE Pack<float> to_float(PackInt32 a) {
@@ -323,6 +332,31 @@ ASPERITY_INLINE Pack<double> inverse_sqrt(Pack<double> a) {
     return P(1.0) / sqrt(a);
 #endif
 }
+/// All lanes combined, by halving.
+template <int half, class Combine>
+ASPERITY_INLINE double halve(Pack<double> v, Combine combine) {
+    v = combine(v, exchange<half>(v));
+    if constexpr (half > 1)
+        return halve<half / 2>(v, combine);
+    else
+        return v[0];
+}
+ASPERITY_INLINE double lowest(Pack<double> v) {
+    using P = Pack<double>;
+    return halve<P::width / 2>(v, [](P a, P b) { return min(a, b); });
+}
+ASPERITY_INLINE double total(Pack<double> v) {
+    using P = Pack<double>;
+    return halve<P::width / 2>(v, [](P a, P b) { return a + b; });
+}
+
+/// Values of a processor's registers, as kernel texts ask for them.
+struct Simd {
+    template <class T>
+    using Of = Pack<T>;
+    using Int32 = PackInt32;
+};
+
 /// Fused multiplication and addition of one lane, for scalar twins of a kernel: same bits as the
 /// pack's lane.
 ASPERITY_INLINE double fma(double a, double b, double c) {

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// One number with the interface of a SIMD register of one lane (simd.hpp).
+//
+// A kernel text written as a template over its value type runs on packs of a processor's registers
+// and, one node a thread, on a device. Every operation of a lane is the one that the pack of the
+// same name does in each of its lanes: a lane and a pack of a processor level with fused
+// multiply-add (v3, v4) give the same bits. The compiler is told not to contract
+// (-ffp-contract=off; nvcc: -fmad=false).
+#pragma once
+
+#include "kernels/annotations.hpp"
+#include "kernels/exact_sum.hpp"
+#include "kernels/variant.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+namespace asperity::ASPERITY_VARIANT {
+
+template <class T>
+struct Lane {
+    static constexpr int width = 1;
+    using Mask = bool;
+
+    T r;
+
+    Lane() = default;
+    ASPERITY_INLINE Lane(T value) : r(value) {}
+
+    static ASPERITY_INLINE Lane load(const T* from) { return *from; }
+    static ASPERITY_INLINE Lane load_once(const T* from) { return *from; }
+    static ASPERITY_INLINE Lane load_first(const T* from, int) { return *from; }
+    ASPERITY_INLINE void store(T* to) const { *to = r; }
+    ASPERITY_INLINE void store_first(T* to, int) const { *to = r; }
+    ASPERITY_INLINE T operator[](int) const { return r; }
+
+    friend ASPERITY_INLINE Lane operator+(Lane a, Lane b) { return a.r + b.r; }
+    friend ASPERITY_INLINE Lane operator-(Lane a, Lane b) { return a.r - b.r; }
+    friend ASPERITY_INLINE Lane operator*(Lane a, Lane b) { return a.r * b.r; }
+    friend ASPERITY_INLINE Lane operator/(Lane a, Lane b) { return a.r / b.r; }
+    friend ASPERITY_INLINE Lane operator-(Lane a) { return -a.r; }
+    friend ASPERITY_INLINE bool operator<(Lane a, Lane b) { return a.r < b.r; }
+    friend ASPERITY_INLINE bool operator>(Lane a, Lane b) { return a.r > b.r; }
+};
+
+template <class T>
+ASPERITY_INLINE Lane<T> select(bool mask, Lane<T> a, Lane<T> b) {
+    return mask ? a.r : b.r;
+}
+template <class T>
+ASPERITY_INLINE Lane<T> min(Lane<T> a, Lane<T> b) {
+    return a.r < b.r ? a.r : b.r;
+}
+template <class T>
+ASPERITY_INLINE Lane<T> max(Lane<T> a, Lane<T> b) {
+    return a.r > b.r ? a.r : b.r;
+}
+template <class T>
+ASPERITY_INLINE unsigned bits_where_less(Lane<T> a, Lane<T> b) {
+    return a.r < b.r ? 1u : 0u;
+}
+
+ASPERITY_INLINE double fused(double a, double b, double c) {
+#if defined(__CUDA_ARCH__)
+    return ::fma(a, b, c);
+#else
+    return __builtin_fma(a, b, c);
+#endif
+}
+ASPERITY_INLINE float fused(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+    return ::fmaf(a, b, c);
+#else
+    return __builtin_fmaf(a, b, c);
+#endif
+}
+template <class T>
+ASPERITY_INLINE Lane<T> fma(Lane<T> a, Lane<T> b, Lane<T> c) {
+    return fused(a.r, b.r, c.r);
+}
+template <class T>
+ASPERITY_INLINE Lane<T> fms(Lane<T> a, Lane<T> b, Lane<T> c) {
+    return fused(a.r, b.r, -c.r);
+}
+template <class T>
+ASPERITY_INLINE Lane<T> fms_where_less(Lane<T> x, Lane<T> y, Lane<T> a, Lane<T> b, Lane<T> c) {
+    return x.r < y.r ? fms(a, b, c) : Lane<T>(T(0));
+}
+
+ASPERITY_INLINE Lane<double> first_lanes(Lane<double> a, int) { return a; }
+ASPERITY_INLINE void collect(const BasicExactSum<Lane<double>>& lane, ExactSum& into) {
+    for (int k = 0; k < ExactSum::bins; ++k)
+        into.bin[k] += lane.bin[k].r;
+}
+
+/// Fixed-point numbers, whose differences are exact.
+struct LaneInt32 {
+    std::int32_t r;
+
+    static ASPERITY_INLINE LaneInt32 load(const std::int32_t* from) { return {*from}; }
+    static ASPERITY_INLINE LaneInt32 same(std::int32_t value) { return {value}; }
+    friend ASPERITY_INLINE LaneInt32 operator-(LaneInt32 a, LaneInt32 b) { return {a.r - b.r}; }
+};
+ASPERITY_INLINE Lane<float> to_float(LaneInt32 a) { return static_cast<float>(a.r); }
+
+/// The least of all lanes.
+ASPERITY_INLINE double lowest(Lane<double> a) { return a.r; }
+
+/// Values of a device's thread, as kernel texts ask for them.
+struct Scalar {
+    template <class T>
+    using Of = Lane<T>;
+    using Int32 = LaneInt32;
+};
+
+} // namespace asperity::ASPERITY_VARIANT

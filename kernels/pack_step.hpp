@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What the elastic kernels of small and finite strain share on packs: sums over lanes, drift.
+#pragma once
+
+#include "kernels/simd.hpp"
+
+#include "kernels/elastic_level.hpp"
+
+namespace asperity::ASPERITY_VARIANT {
+
+/// 0, 1, 2, ... as a pack: to switch off lanes behind the end of a row.
+ASPERITY_INLINE Pack<double> lane_numbers() {
+    double lane[Pack<double>::width];
+    for (int i = 0; i < Pack<double>::width; ++i)
+        lane[i] = i;
+    return Pack<double>::load(lane);
+}
+
+/// The first count lanes; zero in the others.
+ASPERITY_INLINE Pack<double> first_lanes(Pack<double> a, int count) {
+    return select(lane_numbers() < Pack<double>(static_cast<double>(count)), a, Pack<double>(0.0));
+}
+
+ASPERITY_INLINE void collect(const BasicExactSum<Pack<double>>& lanes, ExactSum& into) {
+    for (int k = 0; k < ExactSum::bins; ++k)
+        for (int i = 0; i < Pack<double>::width; ++i)
+            into.bin[k] += lanes.bin[k][i];
+}
+
+/// Drift u <- u + dt v of rows [y0, y1) of plane z.
+inline void drift_rows(const ElasticLevel& level, int z, double dt, int y0, int y1) {
+    using V = Pack<double>;
+    const V step(dt);
+    const int nx = level.u.x.nx;
+    const auto move = [&](const double* speed, double* place) {
+        const auto moved = [&](int x) { return fma(step, V::load(speed + x), V::load(place + x)); };
+        int x = 0;
+        for (; x + V::width <= nx; x += V::width)
+            moved(x).store(place + x);
+        if (x < nx) moved(x).store_first(place + x, nx - x);
+    };
+    const VectorPlane<double> u = level.u[z], v = level.v[z];
+    for (int y = y0; y < y1; ++y) {
+        move(v.x.line(y), u.x.line(y));
+        move(v.y.line(y), u.y.line(y));
+        move(v.z.line(y), u.z.line(y));
+    }
+}
+
+inline void drift(const ElasticLevel& level, double dt, int y0, int y1) {
+    for (int z = 0; z < level.cells; ++z)
+        drift_rows(level, z, dt, y0, y1);
+}
+
+inline void plane_sum(PlaneView<const double> plane, int y0, int y1, ExactSum& into) {
+    using V = Pack<double>;
+    BasicExactSum<V> lanes;
+    for (int y = y0; y < y1; ++y)
+        for (int x = 0; x < plane.nx; x += V::width)
+            lanes.add(first_lanes(V::load(plane.line(y) + x), plane.nx - x));
+    collect(lanes, into);
+}
+
+} // namespace asperity::ASPERITY_VARIANT
