@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <span>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -67,6 +68,9 @@ public:
     PlaneView<T> plane(int z) { return view_[z]; }
     PlaneView<const T> plane(int z) const { return view()[z]; }
     int halo() const { return halo_; }
+    /// All of it, halo and padding included.
+    std::span<T> storage() { return {data_.get(), size_}; }
+    std::span<const T> storage() const { return {data_.get(), size_}; }
     bool empty() const { return !data_; }
     std::size_t bytes() const { return size_ * sizeof(T); }
     /// What a field of this shape would take.

@@ -71,6 +71,7 @@ struct StepPlan {
     double damping_from = 0.0;    ///< fraction of the thickness above which damping acts
     double medium_velocity = 0.0; ///< of the top plane, Å/fs
     bool observe = false;         ///< sum the kinetic energy
+    bool operator==(const StepPlan&) const = default;
 };
 
 /// What a block is for: a path in time needs velocities; a state at rest has none.
@@ -118,6 +119,7 @@ public:
     const Communicator& communicator() const { return communicator_; }
     std::vector<Level>& levels() { return levels_; }
     const std::vector<Level>& levels() const { return levels_; }
+    Level& fields(std::size_t level) { return levels_[level]; }
 
     VectorPlane<const double> lowest_layer() const { return levels_.front().u.view()[0]; }
     VectorPlane<double> interface_force() { return levels_.front().incoming.plane(0); }
@@ -127,6 +129,14 @@ public:
     /// The top plane's displacement along z, Å.
     void set_top(double z);
     double top() const { return top_; }
+    /// The same where the plane itself is on a device.
+    void note_top(double z) { top_ = z; }
+
+    CellStrain strain() const {
+        return options_.finite_strain ? CellStrain::finite : CellStrain::small;
+    }
+    /// What a step does with the force on each plane of a level.
+    LevelKicks kicks(const Level& level, const StepPlan& plan) const;
 
     /// Only where there are hanging planes: nothing to do for a block of one level.
     bool hangs() const { return levels_.size() > 1; }
@@ -171,12 +181,8 @@ private:
     /// Forces at finite strain: of each thread, two planes of a band of rows.
     std::vector<VectorField<double>> scratch_;
 
-    CellStrain strain() const {
-        return options_.finite_strain ? CellStrain::finite : CellStrain::small;
-    }
     static Tile scratch_tile(const ProcessGrid& grid, int levels);
     LevelSeam seam(std::size_t fine) const;
-    LevelKicks kicks(const Level& level, const StepPlan& plan) const;
     void restrict_forces(std::size_t fine);
     void share_restricted_forces(std::size_t fine);
 };

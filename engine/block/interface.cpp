@@ -184,14 +184,60 @@ SubstrateHeights Interface::heights_on(const Tile& atoms, int halo) {
     return heights;
 }
 
+namespace {
+
+/// Of the lattice sweep: offsets along half an axis, and lateral distances in its table.
+struct LatticeReach {
+    double cuts_per_length;
+    int half_offsets, cut_count;
+    LatticeReach(double widest, double spacing)
+        // A sixteenth of a spacing is fine enough a cut and keeps the table in the nearest cache.
+        : cuts_per_length(16.0 / spacing),
+          half_offsets(static_cast<int>(std::ceil(widest / spacing + 0.5))),
+          cut_count(static_cast<int>(widest * cuts_per_length) + 2) {}
+};
+/// Sideways displacement that the tables allow for.
+double margin_for(double spacing) { return 2.0 * spacing; }
+int blocks_in_row(const Tile& tile) { return (tile.nx + interface_block - 1) / interface_block; }
+
+} // namespace
+
+Interface::LatticeTables Interface::lattice_tables() const {
+    LatticeTables tables;
+    tables.substrate = lattice_;
+    if (options_.mixed)
+        tables.fixed = &fixed_height_;
+    else
+        tables.heights = &height_;
+    tables.columns = columns_;
+    tables.highest = reach_highest_;
+    tables.lowest = reach_lowest_;
+    tables.map = map_height_;
+    if (options_.tail) tables.mean_height = &mean_height_;
+    tables.tail = tail_;
+    return tables;
+}
+
+Interface::TableSizes Interface::lattice_tables_for(const InterfaceOptions& options,
+                                                    const Tile& tile, double spacing) {
+    const LatticeReach reach(options.potential.cutoff + margin_for(spacing), spacing);
+    const auto size = [](auto... n) { return (static_cast<std::size_t>(n) * ...); };
+    const int halo = reach.half_offsets + 1;
+    return {options.mixed ? Field<std::int32_t>::bytes_for(tile, 1, halo)
+                          : Field<double>::bytes_for(tile, 1, halo),
+            options.tail ? Field<double>::bytes_for(tile, 1) : 0,
+            size(blocks_in_row(tile), tile.ny, interface_rings) * sizeof(double),
+            size(reach.cut_count, reach.half_offsets) * sizeof(std::int32_t),
+            size(tile.sites, tile.sites) * sizeof(double)};
+}
+
 /// The tile's heights with their halo, and how many offsets lie within each lateral distance.
 void Interface::build_lattice() {
-    const double widest = options_.potential.cutoff + margin_;
-    const int half = static_cast<int>(std::ceil(widest / spacing_ + 0.5));
+    const LatticeReach reach(options_.potential.cutoff + margin_, spacing_);
+    const int half = reach.half_offsets;
     lattice_.heights = heights_on(tile_, half + 1);
-    // A sixteenth of a spacing is fine enough a cut and keeps the table in the nearest cache.
-    lattice_.cuts_per_length = 16.0 / spacing_;
-    lattice_.cut_count = static_cast<int>(widest * lattice_.cuts_per_length) + 2;
+    lattice_.cuts_per_length = reach.cuts_per_length;
+    lattice_.cut_count = reach.cut_count;
     lattice_.half_offsets = half;
     for (int k = 0; k < lattice_.cut_count; ++k) {
         const double lateral = k / lattice_.cuts_per_length + 1e-9;

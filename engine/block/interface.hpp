@@ -23,6 +23,7 @@
 #include "kernels/interface_sweep.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace asperity {
@@ -76,6 +77,24 @@ public:
     /// The reference height from which nothing is in reach of undisplaced sites: highest atom +
     /// cutoff. With the tail, which ends nowhere, + 4 cutoffs: 1/256 of its energy is left there.
     double start_height() const;
+
+    /// What the lattice sweep reads, for a device that keeps a copy. Views are of this object.
+    struct LatticeTables {
+        LatticeSubstrate substrate;
+        const Field<double>* heights = nullptr;     ///< in double
+        const Field<std::int32_t>* fixed = nullptr; ///< mixed
+        std::span<const std::int32_t> columns;
+        std::span<const double> highest, lowest, map;
+        const Field<double>* mean_height = nullptr; ///< with the tail
+        TailCorrection tail;
+    };
+    LatticeTables lattice_tables() const;
+    /// Their sizes in bytes, without making them.
+    struct TableSizes {
+        std::size_t heights, mean_height, reach, columns, map; ///< reach: highest, and lowest
+    };
+    static TableSizes lattice_tables_for(const InterfaceOptions& options, const Tile& tile,
+                                         double spacing);
 
     const Tile& tile() const { return tile_; }
     InterfaceMethod method() const { return method_; }

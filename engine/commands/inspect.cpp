@@ -12,6 +12,7 @@
 #include "io/height_map.hpp"
 #include "io/result.hpp"
 #include "io/table.hpp"
+#include "kernels/device/device.hpp"
 #include "kernels/variant.hpp"
 
 #include <algorithm>
@@ -196,6 +197,9 @@ int info_command(const Communicator& world) {
     table.row({"FFTW", fftw_version});
     table.row({"ranks", std::to_string(world.size())});
     table.row({"threads", fmt::format("{} a rank", omp_get_max_threads())});
+    table.row({"devices", cuda_device()
+                              ? fmt::format("CUDA ({} found), emulated", cuda_device_count())
+                              : std::string("emulated; built without CUDA")});
     table.row({"processor", fmt::format("kernels for {}, interface in double or mixed precision",
                                         name(processor_level()))});
     fmt::print("asperity {}\n", build.version);

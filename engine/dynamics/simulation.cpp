@@ -17,12 +17,16 @@ Simulation::Simulation(const SimulationOptions& options, const Surface& substrat
       drive_(options.drive) {
     if (options.temperature > 0.0)
         thermostat_.emplace(options.temperature, options.damping, options.seed);
+    if (options.device.kind != DeviceChoice::Kind::none)
+        device_ = std::make_unique<DeviceBlock>(options.device, block_, interface_);
 }
 
 void Simulation::start(double height) {
     reference_height_ = height;
     step_ = 0;
     block_.set_uniform(0.0, drive_.velocity(0.0));
+    host_is_newer_ = true;
+    device_is_newer_ = false;
 }
 
 // A step, and what must be current when:
@@ -35,15 +39,55 @@ void Simulation::start(double height) {
 //   sums          what the ranks summed at n, added up; work and dissipation integrated
 // The top plane's displacement at n is set at the end of the step before.
 const StepRecord& Simulation::step(bool observe) {
+    if (device_)
+        step_on_device(observe);
+    else
+        step_on_processor(observe);
+    phases_.during(Phase::sums, [&] { update_energy_balance(); });
+    ++step_;
+    return record_;
+}
+
+void Simulation::step_on_processor(bool observe) {
     if (block_.hangs()) phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
     phases_.during(Phase::interface, [&] { sweep_interface(observe); });
     phases_.during(Phase::observe, [&] { collect(observe); });
     phases_.during(Phase::advance, [&] { advance_block(observe); });
     if (thermostat_) phases_.during(Phase::thermostat, [&] { add_noise(); });
     phases_.during(Phase::exchange, [&] { block_.exchange(); });
-    phases_.during(Phase::sums, [&] { update_energy_balance(); });
-    ++step_;
-    return record_;
+}
+
+/// The same step; its launches are kernels/device/device.hpp.
+void Simulation::step_on_device(bool observe) {
+    if (host_is_newer_) phases_.during(Phase::exchange, [&] { device_->upload(block_); });
+    host_is_newer_ = false;
+    device_is_newer_ = true;
+    const double velocity = velocity_of_top();
+    device_->begin(block_,
+                   {options_.dt, options_.damping, options_.damping_from, velocity, observe},
+                   block_.top(), reference_height_);
+    phases_.during(Phase::interpolate, [&] { device_->interpolate(); });
+    phases_.during(Phase::interface, [&] { device_->forces(block_); });
+    phases_.during(Phase::advance, [&] { device_->advance(); });
+    phases_.during(Phase::exchange, [&] { device_->exchange(block_); });
+    phases_.during(Phase::observe, [&] {
+        const DeviceSums sums = device_->sums();
+        interface_sums_ = sums.interface;
+        kick_sums_ = sums.kick;
+        top_force_ = sums.top_force;
+        lowest_z_ = sums.lowest_z;
+        elastic_ = sums.elastic;
+    });
+    begin_record(observe);
+    block_.note_top(block_.top() + options_.dt * velocity);
+}
+
+/// Everything that the host's block has: displacements, velocities, halos, prescribed planes.
+void Simulation::download() const {
+    device_->download(block_);
+    block_.set_top(block_.top());
+    if (block_.hangs()) block_.interpolate();
+    device_is_newer_ = false;
 }
 
 void Simulation::sweep_interface(bool observe) {
@@ -55,9 +99,13 @@ void Simulation::add_noise() {
     heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_);
 }
 
+/// In the middle of this step.
+double Simulation::velocity_of_top() const {
+    return drive_.velocity((static_cast<double>(step_) + 0.5) * options_.dt);
+}
+
 void Simulation::advance_block(bool observe) {
-    const double middle = (static_cast<double>(step_) + 0.5) * options_.dt;
-    const double velocity = drive_.velocity(middle);
+    const double velocity = velocity_of_top();
     kick_sums_ = {};
     block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
                    kick_sums_);
@@ -71,8 +119,12 @@ void Simulation::collect(bool observe) {
     lowest_z_ = {};
     elastic_ = {};
     block_.add_lowest_z(lowest_z_);
-    record_.observed = observe;
     if (observe) block_.add_elastic_energy(elastic_);
+    begin_record(observe);
+}
+
+void Simulation::begin_record(bool observe) {
+    record_.observed = observe;
     record_.step = step_;
     record_.time = time();
 }
@@ -87,7 +139,7 @@ void Simulation::update_energy_balance() {
 
     const double sites = static_cast<double>(options_.block.sites);
     const double mean_height = reference_height_ + lowest / (sites * sites);
-    const double velocity = drive_.velocity((static_cast<double>(step_) + 0.5) * options_.dt);
+    const double velocity = velocity_of_top();
     const double top = block_.top() - options_.dt * velocity; // at n; the block is at n + 1 already
     if (has_previous_) {
         // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.

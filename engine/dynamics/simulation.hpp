@@ -5,14 +5,20 @@
 //
 // Velocity Verlet in its leapfrog form: positions at whole steps n, velocities at half steps. At
 // the start of step n the state is u(n), v(n-1/2), halos of u current.
+//
+// With a device the fields are there; block() is the gate. It brings them to the host where the
+// device's are newer, and what is asked for to be written goes back to the device before the next
+// step. A reference that is kept over a step is out of date.
 #pragma once
 
 #include "engine/block/block.hpp"
 #include "engine/block/interface.hpp"
+#include "engine/device/device_block.hpp"
 #include "engine/dynamics/drive.hpp"
 #include "engine/dynamics/thermostat.hpp"
 #include "engine/phases.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace asperity {
@@ -26,6 +32,7 @@ struct SimulationOptions {
     double damping_from = 0.0; ///< fraction of the thickness
     double temperature = 0.0;  ///< K
     std::uint64_t seed = 1;    ///< of the noise
+    DeviceChoice device;       ///< that takes the steps; none: the processor
 };
 
 /// Global values of one step, the same bits on every rank. Energies in eV.
@@ -74,8 +81,18 @@ public:
     double time() const { return static_cast<double>(step_) * options_.dt; }
     Drive& drive() { return drive_; }
     Leg leg() const { return drive_.leg(); }
-    Block& block() { return block_; }
-    const Block& block() const { return block_; }
+    const Block& block() const {
+        if (device_is_newer_) download();
+        return block_;
+    }
+    /// To be written to.
+    Block& block() {
+        if (device_is_newer_) download();
+        host_is_newer_ = true;
+        return block_;
+    }
+    /// Bytes of device memory.
+    std::size_t device_bytes() const { return device_ ? device_->bytes() : 0; }
     Interface& interface() { return interface_; }
     const Interface& interface() const { return interface_; }
     Phases& phases() { return phases_; }
@@ -91,6 +108,11 @@ public:
     void visit(Visitor& v);
 
 private:
+    void step_on_device(bool observe);
+    void step_on_processor(bool observe);
+    void download() const;
+    double velocity_of_top() const;
+    void begin_record(bool observe);
     void sweep_interface(bool observe);
     void advance_block(bool observe);
     void add_noise();
@@ -98,10 +120,13 @@ private:
     void update_energy_balance();
 
     SimulationOptions options_;
-    Block block_;
+    mutable Block block_; ///< the host's; const functions bring it up to date
     Interface interface_;
     Drive drive_;
     std::optional<Thermostat> thermostat_; ///< only if the scene has a temperature
+    std::unique_ptr<DeviceBlock> device_;  ///< only if the scene asks for one
+    mutable bool device_is_newer_ = false;
+    bool host_is_newer_ = true;
     Phases phases_;
 
     double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
@@ -128,7 +153,7 @@ void Simulation::visit(Visitor& v) {
     v("reference_height", reference_height_);
     double top = block_.top();
     v("top", top);
-    block_.set_top(top);
+    if (top != block_.top()) block_.set_top(top), host_is_newer_ = true;
     drive_.visit(v);
     v("record.time", record_.time);
     v("record.top", record_.top);

@@ -288,6 +288,13 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
         fmt::print(to, "iterations  some {} in the relaxation (from experience)\n",
                    plan.iterations);
     fmt::print(to, "memory      {}, the most held at once\n", memory_text(plan.bytes));
+    if (const DeviceChoice& device = plan.setup.simulation.device;
+        device.kind != DeviceChoice::Kind::none)
+        fmt::print(to, "device      {}, {} of its memory on each rank; rates are the processor's\n",
+                   describe_device(device),
+                   memory_text(static_cast<double>(DeviceBlock::bytes_for(
+                       plan.setup.simulation.block, make_grid(scene, plan.setup, plan.ranks, 0),
+                       plan.setup.simulation.interface))));
     fmt::print(to, "wall time   {}, without messages between machines; {}\n",
                time_text(plan.seconds), plan.rates);
     fmt::print(

@@ -44,6 +44,7 @@ private:
     }
     void complete(io::ResultRecord& r) const override {
         r.run.steps = simulation_.steps();
+        r.extra.emplace_back("run.device", describe_device(setup_.simulation.device));
         if (simulation_.steps() == 0) return;
         const StepRecord& now = simulation_.now(); // energies of the last observed step
         r.energy = {now.residual,         now.work,  now.kinetic_energy, now.elastic_energy,
@@ -113,7 +114,7 @@ private:
         const auto& [delay, field] = delayed_fields_.front();
         if (!is_due(delay, time)) return;
         const auto t = simulation_.phases().time(Phase::output);
-        recorder_->fields(field, std::as_const(simulation_.block()).lowest_layer(), grid_,
+        recorder_->fields(field, std::as_const(simulation_).block().lowest_layer(), grid_,
                           simulation_.interface(), simulation_.reference_height());
         delayed_fields_.erase(delayed_fields_.begin());
     }
@@ -211,10 +212,11 @@ private:
 
     /// The block is a step further than what was observed: no more than it moves in one.
     void watch_step(const StepRecord& now) {
+        if (!field_stride_ && !scene_.writes_field("pull-off")) return;
         if (!now.observed && !(field_stride_ && now.step % *field_stride_ == 0)) return;
         const auto t = simulation_.phases().time(Phase::output);
         watch_fields(now.step, simulation_.leg(), now.observed ? -now.force : 0.0,
-                     simulation_.block().lowest_layer(), simulation_.interface(),
+                     std::as_const(simulation_).block().lowest_layer(), simulation_.interface(),
                      simulation_.reference_height());
     }
 

@@ -159,6 +159,18 @@ io::Schema bind(Scene& scene) {
         "of the pairs across the interface: \"mixed\" works them out in single precision");
     schema.number_or("accuracy", numerics.accuracy, "none", "", io::Range{0.0, 1.0, true, true},
                      "\"1%\": choose the cheapest settings that reach it");
+    std::vector<std::pair<std::string, int>> devices = {
+        {"none", no_device}, {"emulated", emulated_device_asked}, {"auto", any_device}};
+    for (int n = 0; n < 8; ++n)
+        devices.emplace_back(std::to_string(n), n);
+    auto& device = schema.choice<int>(
+        "device", numerics.device, devices,
+        "that takes the steps in time: a CUDA device by its number; \"auto\": one if there is one; "
+        "\"emulated\": on the processor, for tests");
+    device.store = [store = device.store](io::Schema::Value value) {
+        if (value.integer) value.text = std::to_string(*value.integer); // a number without quotes
+        return store(value);
+    };
 
     auto& output = scene.output;
     schema.section("output", "What is written.");

@@ -30,6 +30,8 @@ enum class PathPart { approach, pull_off, zero_load };
 enum class AreaFactor { gaussian, small_slope, none, lattice };
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
+/// numerics.device where it is no number.
+inline constexpr int no_device = -3, emulated_device_asked = -2, any_device = -1;
 
 /// Of output.fields: "after-zero-load:140", 140 ps after the approach has ended.
 inline constexpr std::string_view after_zero_load = "after-zero-load:";
@@ -113,6 +115,7 @@ struct Scene {
     struct Numerics {
         Precision precision = Precision::double_precision;
         std::optional<double> accuracy; ///< fraction; empty: none
+        int device = no_device;         ///< or one of those below, or the number of a CUDA device
     } numerics;
 
     struct Output {
@@ -164,6 +167,8 @@ Scene read_stored_scene(const std::string& text, const std::string& file);
 
 /// Contradictions between keys, added to the list.
 void check_scene(const Scene& scene, io::Problems& problems);
+/// What keeps the scene from a device.
+std::vector<io::Problem> device_problems(const Scene& scene);
 /// What this release reads but cannot act upon yet, added to the list.
 void not_yet(const Scene& scene, io::Problems& problems);
 /// Worth knowing, not wrong (a spectrum clipped at Nyquist, ...): one sentence each.

@@ -5,12 +5,14 @@
 // worth a note.
 #include "engine/scene/scene.hpp"
 
+#include "kernels/variant.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
-
-#include <fmt/format.h>
 
 namespace asperity {
 
@@ -105,6 +107,9 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                      fmt::format("= {:.6g} K with drive.damping = 0", drive.temperature),
                      "the Langevin thermostat gives and takes heat through the damping",
                      "give a damping, for example 0.05 1/ps");
+    if (scene.numerics.device != no_device && scene.numerics.device != any_device)
+        for (const io::Problem& p : device_problems(scene))
+            problems.add(p.where, p.what, p.why, p.fix);
     if (scene.field_stride() == 0)
         problems.add("output.fields", "has an \"every:\" without a number of steps",
                      "maps are written every so many steps (points of a quasi-static path)",
@@ -122,6 +127,36 @@ void check_scene(const Scene& scene, io::Problems& problems) {
         problems.add("output.trajectory", fmt::format("= {}", *scene.output.trajectory),
                      "frames are taken over time, and this path has none",
                      "leave it out: the maps of output.fields hold the states");
+}
+
+std::vector<io::Problem> device_problems(const Scene& scene) {
+    std::vector<io::Problem> list;
+    const auto refuse = [&](std::string with, std::string why, std::string instead) {
+        list.push_back({"numerics.device", "is not available with " + std::move(with),
+                        std::move(why), std::move(instead)});
+    };
+    if (scene.without_time())
+        refuse("a path without time",
+               "a device takes steps in time; equilibria are relaxed by the "
+               "processor",
+               "take numerics.device = \"none\", or drive.mode = \"dynamic\" with an approach");
+    if (scene.block.strain == Strain::finite)
+        refuse("block.strain = \"finite\"", "the device has the kernels of small strain",
+               "take strain = \"linear\", or numerics.device = \"none\"");
+    if (scene.drive.temperature > 0.0)
+        refuse("drive.temperature", "the device has no thermostat",
+               "take temperature = 0, or numerics.device = \"none\"");
+    if (scene.surface.lattice_ratio != 1.0)
+        refuse(fmt::format("surface.lattice_ratio = {:.6g}", scene.surface.lattice_ratio),
+               "the device sums over a substrate of the block's own lattice",
+               "take lattice_ratio = 1, or numerics.device = \"none\"");
+    if (processor_level() < ProcessorLevel::v3)
+        refuse(fmt::format("kernels of level {}", name(processor_level())),
+               "a device fuses multiplications with additions, and these kernels do not: the same "
+               "scene would have other bits",
+               "take a processor with AVX2 and FMA (and no ASPERITY_KERNELS), or numerics.device = "
+               "\"none\"");
+    return list;
 }
 
 void not_yet(const Scene& scene, io::Problems& problems) {

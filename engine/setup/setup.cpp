@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -61,6 +63,20 @@ Surface scene_surface(const Scene& scene) {
     }
 }
 
+namespace {
+
+/// "auto": a CUDA device if there is one and it can do what the scene asks for.
+DeviceChoice device_of(const Scene& scene) {
+    const int asked = scene.numerics.device;
+    if (asked == no_device) return {};
+    if (asked == emulated_device_asked) return {DeviceChoice::Kind::emulated, 0};
+    if (asked == any_device && (cuda_device_count() == 0 || !device_problems(scene).empty()))
+        return {};
+    return {DeviceChoice::Kind::cuda, std::max(asked, 0)};
+}
+
+} // namespace
+
 Setup make_setup(const Scene& scene, int ranks) {
     Setup setup;
     setup.effects = Effects(scene);
@@ -91,6 +107,8 @@ Setup make_setup(const Scene& scene, int ranks) {
     } catch (const std::invalid_argument& e) {
         problems.add("interface.epsilon", std::string(": ") + e.what());
     }
+
+    setup.simulation.device = device_of(scene);
 
     auto& drive = setup.simulation.drive;
     const double crossing = block.thickness * block.spacing / block.sound_speed();

@@ -84,6 +84,7 @@ TEST(Scene, DefaultsAreThePapers) {
         {"theory.clip", "true"},
         {"numerics.precision", "\"double\""},
         {"numerics.accuracy", "\"none\""},
+        {"numerics.device", "\"none\""},
         {"output.trajectory", "\"none\""},
         {"output.velocities", "false"},
         {"output.fields", "[\"zero-load\"]"},

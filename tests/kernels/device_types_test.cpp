@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What kernels are handed can be copied to a device byte by byte.
+#include "kernels/device/device.hpp"
 #include "kernels/elastic_level.hpp"
 #include "kernels/exact_sum.hpp"
 #include "kernels/interface_sweep.hpp"
@@ -21,7 +22,8 @@ using Types = testing::Types<PlaneView<double>, VolumeView<const float>, VectorP
                              VectorVolume<double>, CellElasticity, LevelCell, ElasticLevel, Band,
                              Stencil, Patch, Kick, LevelKicks, KickSums, ExactSum, LennardJones,
                              InterfaceSites, InterfaceSums, SubstrateMap, ReachBounds,
-                             LatticeSubstrate, RowSubstrate, TailCorrection, LevelSeam>;
+                             LatticeSubstrate, RowSubstrate, TailCorrection, LevelSeam, DeviceLevel,
+                             DeviceStep, DeviceHalo, NodeRanges, PassSums>;
 TYPED_TEST_SUITE(GoesToADevice, Types);
 
 TYPED_TEST(GoesToADevice, ByteByByte) {

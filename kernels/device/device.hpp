@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What a device is asked for: memory, copies, and the launches of a step. Two tables of functions
+// of this shape exist: that of CUDA (cuda.cu, where its compiler was found) and that of the
+// emulated device (emulated.cpp, always). Both are made of one text (passes.hpp).
+//
+// A step from u(n), v(n - 1/2) to u(n + 1), v(n + 1/2) over all levels takes three launches:
+//   follow   hanging planes follow the coarse planes; the top plane is where the drive has it
+//   forces   sites of the interface, and the upper faces of all levels
+//   advance  restriction, elastic forces, kick, and drift into the other displacement array, with
+//            the periodic images of every node
+// Between ranks come three more: restrict_to_shared (forces that go to a level that every rank
+// holds), pack and unpack (halos).
+//
+// Every function returns nullptr, or a text that says what went wrong.
+#pragma once
+
+#include "kernels/elastic_level.hpp"
+#include "kernels/interface_sweep.hpp"
+#include "kernels/level_transfer.hpp"
+
+#include <cstddef>
+#include <string>
+
+namespace asperity {
+
+/// Levels of a block at most: each halves a box of fewer than 2^24 sites.
+inline constexpr int most_levels = 24;
+
+/// One level on the device; all views are of device memory.
+struct DeviceLevel {
+    int nx = 0, ny = 0, cells = 0;
+    VectorVolume<double> u[2]; ///< displacement at the present step and at the next, in turn
+    VectorVolume<double> v;
+    VectorPlane<double> incoming, upper_force;
+    Stencil lower{}, inner{}, upper{};
+    LevelCell cell;
+    LevelSeam seam;       ///< to the coarser level
+    bool in_line = false; ///< incoming forces are restricted from the level below where needed
+    bool counted = false; ///< in global sums
+    bool wraps_x = false, wraps_y = false; ///< periodic images lie in this tile
+};
+
+/// Nodes of several levels, counted through.
+struct NodeRanges {
+    int levels = 0;
+    long long first[most_levels + 1] = {}; ///< of each level; behind the last: the end
+};
+
+/// Sums of one launch over its nodes.
+struct PassSums {
+    ExactSum sum[4];
+    double count[2] = {0.0, 0.0};
+    double least = no_pair;
+};
+/// What they are.
+struct ForceSum {
+    enum { interface_z, interface_energy, lowest_z, top_z };
+    enum { in_contact, repulsive };
+};
+struct AdvanceSum {
+    enum { kinetic, dissipated, dragged, elastic };
+};
+
+/// What every launch is handed, by value.
+struct DeviceStep {
+    const DeviceLevel* levels = nullptr; ///< in device memory
+    const LevelKicks* kicks = nullptr;   ///< likewise, of each level
+    NodeRanges moving;                   ///< nodes that move
+    NodeRanges faces;                    ///< nodes of upper planes and one beyond
+    NodeRanges hanging;                  ///< nodes of upper planes and their halo
+    int now = 0;                         ///< which displacement array is that of the present step
+    bool observe = false;
+    bool damped = false; ///< some nodes are
+    double dt = 0.0;     ///< fs
+    double top = 0.0;    ///< of the top plane, Å
+
+    InterfaceSites sites;
+    LatticeSubstrate substrate;
+    LennardJones potential;
+    bool mixed = false;
+    bool with_tail = false;
+    TailCorrection tail;
+    PlaneView<const double> mean_height;
+
+    PassSums* sums = nullptr; ///< in device memory: of forces, of advance
+};
+
+/// A strip of halo traded with the two neighbours along an axis.
+struct DeviceHalo {
+    bool along_x = true;
+    NodeRanges strip;                           ///< doubles of one side's message, level by level
+    double *before = nullptr, *after = nullptr; ///< messages, in device memory
+    int buffer = 0;                             ///< which displacement array
+};
+
+struct DeviceFunctions {
+    const char* (*describe)(int index, std::string& name, std::size_t& free_bytes);
+    const char* (*allocate)(int index, std::size_t bytes, std::byte** memory);
+    void (*release)(std::byte* memory);
+    const char* (*upload)(void* to, const void* from, std::size_t bytes);
+    const char* (*download)(void* to, const void* from, std::size_t bytes); ///< waits for launches
+
+    const char* (*follow)(const DeviceStep& step);
+    const char* (*forces)(const DeviceStep& step);
+    const char* (*restrict_to_shared)(const DeviceStep& step, int coarse, Patch nodes);
+    const char* (*advance)(const DeviceStep& step);
+    const char* (*pack)(const DeviceStep& step, const DeviceHalo& halo);
+    const char* (*unpack)(const DeviceStep& step, const DeviceHalo& halo);
+};
+
+const DeviceFunctions& emulated_device();
+/// Null where the program was built without CUDA.
+const DeviceFunctions* cuda_device();
+/// Devices that CUDA finds here.
+int cuda_device_count();
+
+/// Nodes of an emulated launch run one after the other: in their order (0), or in one of many
+/// others. A result that depends on the order has two threads at one number.
+void set_emulated_order(unsigned order);
+
+} // namespace asperity

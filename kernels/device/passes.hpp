@@ -1,0 +1,334 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The launches of device.hpp as functions of a node: one text for CUDA and the emulated device,
+// which bring launch() with them (launch.hpp). The arithmetic is that of the processor's kernels,
+// on lanes.
+#pragma once
+
+#include "kernels/lane.hpp"
+
+#include "kernels/device/launch.hpp"
+#include "kernels/elastic_column.hpp"
+#include "kernels/interface_site.hpp"
+#include "kernels/kick.hpp"
+#include "kernels/pair_sum.hpp"
+#include "kernels/transfer_node.hpp"
+
+namespace asperity::ASPERITY_VARIANT {
+
+using Number = Lane<double>;
+
+/// The level of node i of the ranges, and the node's number in it.
+ASPERITY_INLINE int locate(const NodeRanges& ranges, long long& i) {
+    int level = 0;
+    while (level + 1 < ranges.levels && i >= ranges.first[level + 1])
+        ++level;
+    i -= ranges.first[level];
+    return level;
+}
+
+/// Hanging planes, halo included, and the top plane.
+struct Follow {
+    DeviceStep s;
+    ASPERITY_HOST_DEVICE void operator()(long long i, PassSums&) const {
+        if (i == 0) s.sums[0] = s.sums[1] = PassSums{}; // for the launches behind this one
+        const int l = locate(s.hanging, i);
+        const DeviceLevel& level = s.levels[l];
+        constexpr int h = halo_width;
+        const int width = level.nx + 2 * h;
+        const int x = static_cast<int>(i % width) - h, y = static_cast<int>(i / width) - h;
+        const VectorPlane<double> fine = level.u[s.now][level.cells];
+        if (l + 1 == s.hanging.levels) {
+            fine.z(x, y) = s.top;
+            return;
+        }
+        const VectorPlane<double> coarse = s.levels[l + 1].u[s.now][0];
+        const int gy = level.seam.fine_y0 + y, gx = level.seam.fine_x0 + x;
+        const auto value = [&](const PlaneView<double>& c) {
+            const double* low = c.line((gy >> 1) - level.seam.coarse_y0) - level.seam.coarse_x0;
+            const double* high =
+                c.line(((gy + 1) >> 1) - level.seam.coarse_y0) - level.seam.coarse_x0;
+            return interpolated_node(low, high, gx);
+        };
+        fine.x(x, y) = value(coarse.x);
+        fine.y(x, y) = value(coarse.y);
+        fine.z(x, y) = value(coarse.z);
+    }
+};
+
+/// Force on the node at element `at`.
+template <Face face>
+ASPERITY_INLINE Triple<Number> node_force(const VectorVolume<const double>& u, std::ptrdiff_t at,
+                                          const Stencil& stencil) {
+    const Weights<Number, face> weights(stencil);
+    const ColumnParts<Number> west = column_parts<face>(u, at - 1, weights);
+    const ColumnParts<Number> here = column_parts<face>(u, at, weights);
+    const ColumnParts<Number> east = column_parts<face>(u, at + 1, weights);
+    return {(east.x.west + west.x.east) + here.x.here, (east.y.west + west.y.east) + here.y.here,
+            (east.z.west + west.z.east) + here.z.here};
+}
+
+/// Sites of the interface and upper faces. T: precision of the pairs.
+template <class T, bool observe>
+struct Forces {
+    DeviceStep s;
+    PairTerms<Scalar, T> pair;
+    Offsets<T> offsets;
+
+    ASPERITY_HOST_DEVICE void operator()(long long i, PassSums& sums) const {
+        const int nx = s.sites.displacement.x.nx;
+        const long long sites = static_cast<long long>(nx) * s.sites.displacement.x.ny;
+        if (i < sites)
+            site(static_cast<int>(i % nx), static_cast<int>(i / nx), sums);
+        else
+            face(i - sites, sums);
+    }
+
+private:
+    ASPERITY_HOST_DEVICE void site(int x, int y, PassSums& sums) const {
+        const double datum = s.substrate.heights.datum;
+        const SiteBlock<Number, 1> site(s.sites, x, y, 1, datum, deepest<T>(s.potential.cutoff),
+                                        ceiling<T>, s.substrate.reach.offset_margin);
+        const Reach reach(s.substrate.reach, x, y, datum, site, pair.cutoff, pair.floor);
+        const auto& u = s.sites.displacement;
+        SiteForce force = {0.0, 0.0, 0.0};
+        double energy = 0.0, nearest = no_pair;
+        if (site.beyond) {
+            const PairSum p = sum_of_pairs(s.substrate.map, s.potential,
+                                           (s.sites.x0 + x + 0.5) * s.sites.spacing + u.x(x, y),
+                                           (s.sites.y0 + y + 0.5) * s.sites.spacing + u.y(x, y),
+                                           s.sites.reference_height + u.z(x, y));
+            force = {p.force[0], p.force[1], p.force[2]};
+            energy = p.energy;
+            nearest = p.nearest_r2;
+        } else if (reach.from_rest > 0.0) {
+            const LatticeSubstrate& atoms = s.substrate;
+            const Columns all(atoms, static_cast<int>(reach.from_rest * atoms.cuts_per_length) + 1);
+            const Columns within(atoms, static_cast<int>(reach.inside * atoms.cuts_per_length));
+            const auto heights = SiteHeight<Scalar, T>::of(atoms.heights);
+            const auto pairs = sum_lattice<Scalar, T, observe, true>(
+                SiteHeight<Scalar, T>(site.z), lengths<Scalar, T>(site.ux),
+                lengths<Scalar, T>(site.uy), all, within, heights.line(y) + x, heights.row,
+                atoms.half_offsets, offsets, pair);
+            force = site_force(pair, site.ux[0], site.uy[0], static_cast<double>(pairs.f.r),
+                               static_cast<double>(pairs.f_cx.r), static_cast<double>(pairs.f_cy.r),
+                               static_cast<double>(pairs.f_z.r));
+            if constexpr (observe) {
+                energy = pair.energy_scale * static_cast<double>(pairs.energy.r);
+                nearest = pair.nearest(pairs.nearest.r);
+            }
+        }
+        sums.sum[ForceSum::interface_z].add(force.z);
+        if constexpr (observe) sums.sum[ForceSum::interface_energy].add(energy);
+        if (s.with_tail) {
+            const double gap = s.sites.reference_height + u.z(x, y) - s.mean_height(x, y);
+            const double tail = s.tail.force(gap);
+            if constexpr (observe) sums.sum[ForceSum::interface_energy].add(s.tail.energy(gap));
+            force.z += tail;
+            sums.sum[ForceSum::interface_z].add(tail);
+        }
+        s.sites.force.x(x, y) = force.x;
+        s.sites.force.y(x, y) = force.y;
+        s.sites.force.z(x, y) = force.z;
+        sums.sum[ForceSum::lowest_z].add(u.z(x, y));
+        if constexpr (observe) {
+            sums.count[ForceSum::in_contact] += nearest < pair.contact_r2 ? 1.0 : 0.0;
+            sums.count[ForceSum::repulsive] += force.z > 0.0 ? 1.0 : 0.0;
+            sums.least = nearest < sums.least ? nearest : sums.least;
+        }
+    }
+
+    ASPERITY_HOST_DEVICE void face(long long i, PassSums& sums) const {
+        const int l = locate(s.faces, i);
+        const DeviceLevel& level = s.levels[l];
+        const int width = level.nx + 2;
+        const int x = static_cast<int>(i % width) - 1, y = static_cast<int>(i / width) - 1;
+        const VectorVolume<const double> u = level.u[s.now];
+        const auto f =
+            node_force<Face::upper>(u, level.cells * u.x.plane + y * u.x.row + x, level.upper);
+        level.upper_force.x(x, y) = f.x.r;
+        level.upper_force.y(x, y) = f.y.r;
+        level.upper_force.z(x, y) = f.z.r;
+        const bool inside = x >= 0 && x < level.nx && y >= 0 && y < level.ny;
+        if (l + 1 == s.faces.levels && level.counted && inside)
+            sums.sum[ForceSum::top_z].add(f.z.r);
+    }
+};
+
+/// What coarse node (x, y) gets from the upper face of the finer level.
+ASPERITY_INLINE Triple<Number> restricted_force(const DeviceLevel& fine, int x, int y) {
+    const LevelSeam& seam = fine.seam;
+    const int fx = 2 * (seam.coarse_x0 + x) - seam.fine_x0;
+    const int fy = 2 * (seam.coarse_y0 + y) - seam.fine_y0;
+    const auto sum = [&](const PlaneView<double>& f) {
+        return Number(restricted_node(f.line(fy) + fx, f.row));
+    };
+    return {sum(fine.upper_force.x), sum(fine.upper_force.y), sum(fine.upper_force.z)};
+}
+
+/// Into the incoming forces of a level that every rank holds.
+struct RestrictToShared {
+    DeviceStep s;
+    int coarse;
+    Patch nodes;
+    ASPERITY_HOST_DEVICE void operator()(long long i, PassSums&) const {
+        const int width = nodes.x1 - nodes.x0;
+        const int x = nodes.x0 + static_cast<int>(i % width);
+        const int y = nodes.y0 + static_cast<int>(i / width);
+        const auto f = restricted_force(s.levels[coarse - 1], x, y);
+        const VectorPlane<double>& to = s.levels[coarse].incoming;
+        to.x(x, y) = f.x.r;
+        to.y(x, y) = f.y.r;
+        to.z(x, y) = f.z.r;
+    }
+};
+
+/// The first of the places y, y + n, ... that lies in the halo or the tile; y itself where another
+/// tile holds the images.
+ASPERITY_INLINE int first_image(int y, int n, bool wraps) {
+    if (!wraps) return y;
+    while (y - n >= -halo_width)
+        y -= n;
+    return y;
+}
+ASPERITY_INLINE int end_of_images(int y, int n, bool wraps) {
+    return wraps ? n + halo_width : y + 1;
+}
+
+/// A node of a plane and its periodic images. x, y: owned along every axis that wraps.
+ASPERITY_INLINE void write_images(const PlaneView<double>& u, const DeviceLevel& level, int x,
+                                  int y, bool wraps_x, double value) {
+    const int x_end = end_of_images(x, level.nx, wraps_x);
+    const int y_end = end_of_images(y, level.ny, level.wraps_y);
+    for (int j = first_image(y, level.ny, level.wraps_y); j < y_end; j += level.ny)
+        for (int i = first_image(x, level.nx, wraps_x); i < x_end; i += level.nx)
+            u(i, j) = value;
+}
+
+/// Elastic forces, kick and drift.
+template <bool observe>
+struct Advance {
+    DeviceStep s;
+
+    ASPERITY_HOST_DEVICE void operator()(long long i, PassSums& all) const {
+        const int l = locate(s.moving, i);
+        const DeviceLevel& level = s.levels[l];
+        const int x = static_cast<int>(i % level.nx);
+        const long long row = i / level.nx;
+        const int y = static_cast<int>(row % level.ny), z = static_cast<int>(row / level.ny);
+        const VectorVolume<const double> u = level.u[s.now];
+        const std::ptrdiff_t at = z * u.x.plane + y * u.x.row + x;
+        Triple<Number> f;
+        if (z == 0) {
+            f = node_force<Face::lower>(u, at, level.lower);
+            const Triple<Number> in =
+                level.in_line ? restricted_force(s.levels[l - 1], x, y)
+                              : Triple<Number>{level.incoming.x(x, y), level.incoming.y(x, y),
+                                               level.incoming.z(x, y)};
+            f = {f.x + in.x, f.y + in.y, f.z + in.z};
+        } else {
+            f = node_force<Face::inner>(u, at, level.inner);
+        }
+        PassSums sums;
+        const Kick& kick = s.kicks[l](z);
+        const Triple<Number> v = kick.damped ? kicked<true>(kick, level, z, y, x, f, sums)
+                                             : kicked<false>(kick, level, z, y, x, f, sums);
+        const Number dt(s.dt);
+        const VectorPlane<double> next = level.u[1 - s.now][z];
+        write_images(next.x, level, x, y, level.wraps_x, fma(dt, v.x, Number(u.x.origin[at])).r);
+        write_images(next.y, level, x, y, level.wraps_x, fma(dt, v.y, Number(u.y.origin[at])).r);
+        write_images(next.z, level, x, y, level.wraps_x, fma(dt, v.z, Number(u.z.origin[at])).r);
+        if constexpr (observe)
+            sums.sum[AdvanceSum::elastic].add(cell_energy<Number>(u, at, level.cell.elasticity).r);
+        if (level.counted) merge(all, sums);
+    }
+
+private:
+    template <bool damped>
+    ASPERITY_INLINE Triple<Number> kicked(const Kick& plan, const DeviceLevel& level, int z, int y,
+                                          int x, const Triple<Number>& f, PassSums& sums) const {
+        Kicker<Number, damped, observe> kicker(plan, level.v);
+        const auto v = kicker(z * level.v.x.plane + y * level.v.x.row + x, 1, f);
+        KickSums added;
+        kicker.add_to(added);
+        if constexpr (observe) sums.sum[AdvanceSum::kinetic].merge(added.kinetic);
+        if constexpr (damped) {
+            sums.sum[AdvanceSum::dissipated].merge(added.dissipated);
+            sums.sum[AdvanceSum::dragged].merge(added.dragged);
+        }
+        return v;
+    }
+};
+
+/// Strips of halo, to messages or from them. Node i of a strip is component, plane, row, column.
+template <bool packs>
+struct Halo {
+    DeviceStep s;
+    DeviceHalo halo;
+
+    ASPERITY_HOST_DEVICE void operator()(long long i, PassSums&) const {
+        constexpr int h = halo_width;
+        const bool high = i >= halo.strip.first[halo.strip.levels];
+        if (high) i -= halo.strip.first[halo.strip.levels];
+        double& message = (high ? halo.after : halo.before)[i];
+        const int l = locate(halo.strip, i);
+        const DeviceLevel& level = s.levels[l];
+        const int width = halo.along_x ? h : level.nx + 2 * h;
+        const int rows = halo.along_x ? level.ny : h;
+        const int n = halo.along_x ? level.nx : level.ny;
+        const int begin = packs ? (high ? n - h : 0) : (high ? n : -h);
+        const int x = static_cast<int>(i % width) + (halo.along_x ? begin : -h);
+        long long rest = i / width;
+        const int y = static_cast<int>(rest % rows) + (halo.along_x ? 0 : begin);
+        rest /= rows;
+        const int z = static_cast<int>(rest % level.cells);
+        const int component = static_cast<int>(rest / level.cells);
+        const VectorVolume<double>& u = level.u[halo.buffer];
+        const PlaneView<double> plane = (component == 0 ? u.x : component == 1 ? u.y : u.z)[z];
+        if constexpr (packs)
+            message = plane(x, y);
+        else if (halo.along_x)
+            write_images(plane, level, x, y, false, message);
+        else
+            plane(x, y) = message;
+    }
+};
+
+inline const char* follow(const DeviceStep& s) {
+    return launch<false>(Follow{s}, s.hanging.first[s.hanging.levels], nullptr);
+}
+
+template <class T>
+const char* forces_in(const DeviceStep& s) {
+    const PairTerms<Scalar, T> pair(s.potential);
+    const Offsets<T> offsets(s.sites.spacing, s.substrate.half_offsets);
+    const long long nodes =
+        static_cast<long long>(s.sites.displacement.x.nx) * s.sites.displacement.x.ny +
+        s.faces.first[s.faces.levels];
+    return s.observe ? launch<true>(Forces<T, true>{s, pair, offsets}, nodes, s.sums)
+                     : launch<true>(Forces<T, false>{s, pair, offsets}, nodes, s.sums);
+}
+inline const char* forces(const DeviceStep& s) {
+    return s.mixed ? forces_in<float>(s) : forces_in<double>(s);
+}
+
+inline const char* restrict_to_shared(const DeviceStep& s, int coarse, Patch nodes) {
+    return launch<false>(RestrictToShared{s, coarse, nodes},
+                         static_cast<long long>(nodes.x1 - nodes.x0) * (nodes.y1 - nodes.y0),
+                         nullptr);
+}
+
+inline const char* advance(const DeviceStep& s) {
+    const long long nodes = s.moving.first[s.moving.levels];
+    if (s.observe) return launch<true>(Advance<true>{s}, nodes, s.sums + 1);
+    return s.damped ? launch<true>(Advance<false>{s}, nodes, s.sums + 1)
+                    : launch<false>(Advance<false>{s}, nodes, nullptr);
+}
+
+template <bool packs>
+const char* halo(const DeviceStep& s, const DeviceHalo& h) {
+    return launch<false>(Halo<packs>{s, h}, 2 * h.strip.first[h.strip.levels], nullptr);
+}
+
+} // namespace asperity::ASPERITY_VARIANT

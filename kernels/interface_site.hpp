@@ -1,0 +1,331 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A site of the interface over a substrate of the block's own lattice: one text for packs of sites
+// and for the threads of a device, a site each. Displacements made safe, the reach that follows
+// from the gap, and the sums over the pairs within it.
+//
+// Offsets come in fours, (±cx, ±cy): two rows of atoms, one south and one north of the site, two
+// columns, west and east. Lateral squares are formed once per column and row; forces of a row are
+// only added up, and meet the row's cy at its end. A quad takes 31 multiplications, fused or not,
+// two divisions and 16 additions; the additions, like the divisions, run beside the multiplications
+// on most processors.
+//
+// Rows follow one another outwards, and so do the columns of a row: an order that no cut changes.
+#pragma once
+
+#include "kernels/interface_pair.hpp"
+#include "kernels/lane.hpp"
+
+namespace asperity::ASPERITY_VARIANT {
+
+/// Sites lower than this over the datum are left to the reference loop, Å: atoms deeper than the
+/// fixed depth are not where they seem, and nothing may reach down to them.
+template <class T>
+ASPERITY_INLINE double deepest(double cutoff) {
+    return std::is_same_v<T, float> ? cutoff - fixed_depth : -1e300;
+}
+/// Nothing is in reach of sites as high as this over the datum, Å.
+template <class T>
+inline constexpr double ceiling = std::is_same_v<T, float> ? fixed_depth : 1e6;
+
+/// Displacements of one block of sites, or of one site, made safe for the tables.
+template <class Real, int size>
+struct SiteBlock {
+    alignas(8 * Real::width) double ux[size], uy[size];
+    alignas(8 * Real::width) double z[size]; ///< over the datum, Å
+    double lowest_z, highest_z;              ///< over the sites, Å
+    double sideways;                         ///< greatest |(ux, uy)|, Å
+    unsigned beyond; ///< bits of sites that the tables do not cover: left to the reference loop
+
+    /// Sites x to x + count of row y; behind a row's end its last site is repeated. Heights are
+    /// counted from the datum; sites lower than `deepest` over it are beyond, and nothing is in
+    /// reach of sites as high as the ceiling.
+    ASPERITY_INLINE SiteBlock(const InterfaceSites& sites, int x, int y, int count, double datum,
+                              double deepest, double ceiling, double margin) {
+        const auto load = [&](const double* row, int lane) {
+            // A whole register behind the row's end has the last site, too.
+            const int first = lane < count ? lane : count - 1;
+            return Real::load_first(row + x + first, count - first);
+        };
+        const double rise = sites.reference_height - datum;
+        Real least(1e300), most(-1e300), widest(0.0);
+        beyond = 0;
+        for (int lane = 0; lane < size; lane += Real::width) {
+            Real x_lanes = load(sites.displacement.x.line(y), lane);
+            Real y_lanes = load(sites.displacement.y.line(y), lane);
+            const Real uz = load(sites.displacement.z.line(y), lane);
+            Real z_lanes = uz + Real(rise);
+            // Not-a-number or infinity in any component makes this not-a-number: a lane beyond.
+            const Real u2 = fma(x_lanes, x_lanes, y_lanes * y_lanes) + uz * Real(0.0);
+            const Real kept =
+                select(z_lanes > Real(deepest), select(u2 < Real(margin * margin), u2, Real(-1.0)),
+                       Real(-1.0));
+            const unsigned left = bits_where_less(kept, Real(0.0));
+            if (left) {
+                beyond |= left << lane;
+                const auto near = kept > Real(-0.5);
+                x_lanes = select(near, x_lanes, Real(0.0));
+                y_lanes = select(near, y_lanes, Real(0.0));
+                z_lanes = select(near, z_lanes, Real(ceiling));
+            }
+            z_lanes = min(z_lanes, Real(ceiling));
+            x_lanes.store(ux + lane);
+            y_lanes.store(uy + lane);
+            z_lanes.store(z + lane);
+            least = min(least, z_lanes);
+            most = max(most, z_lanes);
+            widest = max(widest, kept);
+        }
+        lowest_z = lowest(least);
+        highest_z = -lowest(-most);
+        sideways = std::sqrt(-lowest(-widest));
+    }
+};
+
+/// Rounding in a bound must never drop a pair that the mask would keep.
+constexpr double bound_slack = 1e-6;
+
+/// Of a number that has some bits.
+ASPERITY_INLINE int highest_bit(unsigned bits) {
+#if defined(__CUDA_ARCH__)
+    return 31 - __clz(static_cast<int>(bits));
+#else
+    return 31 - __builtin_clz(bits);
+#endif
+}
+ASPERITY_INLINE int lowest_bit(unsigned bits) {
+#if defined(__CUDA_ARCH__)
+    return __ffs(static_cast<int>(bits)) - 1;
+#else
+    return __builtin_ctz(bits);
+#endif
+}
+
+/// Which atoms matter to a block of sites, by lateral distance, Å.
+struct Reach {
+    double from_rest =
+        -1.0;               ///< beyond this, from the undisplaced site, none; negative: none at all
+    double from_site = 0.0; ///< likewise from the displaced site
+    double inside = 1e6;    ///< within this, from the undisplaced site, all are within the cutoff
+    bool close = false;     ///< some may be closer than r2_floor
+
+    template <class Real, int size>
+    ASPERITY_INLINE Reach(const ReachBounds& bounds, int x, int y, double datum,
+                          const SiteBlock<Real, size>& site, double cutoff, double floor) {
+        const double cut2 = cutoff * cutoff, u = site.sideways, w = bounds.ring_width;
+        const Real low(site.lowest_z + datum), high(site.highest_z + datum);
+        const std::ptrdiff_t first =
+            (static_cast<std::ptrdiff_t>(y) * bounds.blocks + x / interface_block) *
+            interface_rings;
+        // Bits of rings: some atom may be within the cutoff, some beyond it, some within r2_floor.
+        unsigned some_within = 0, some_beyond = 0, some_close = 0;
+        constexpr double count[8] = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+        Real begin = Real(w) * Real::load(count);
+        for (int ring = 0; ring < interface_rings; ring += Real::width) {
+            const Real top = Real::load(bounds.highest + first + ring);
+            const Real bottom = Real::load(bounds.lowest + first + ring);
+            const Real gap = max(low - top, Real(0.0)), far = max(top - low, high - bottom);
+            const Real nearest = max(begin - Real(u + bound_slack), Real(0.0));
+            const Real farthest = begin + Real(w + u + bound_slack);
+            const Real squares = gap * gap;
+            some_within |= bits_where_less(fma(nearest, nearest, squares), Real(cut2)) << ring;
+            some_beyond |= bits_where_less(Real(cut2), fma(farthest, farthest, far * far)) << ring;
+            some_close |= bits_where_less(fma(nearest, nearest, squares), Real(floor * floor));
+            begin = begin + Real(w * Real::width);
+        }
+        close = some_close != 0;
+        if (some_within) {
+            // Atoms of the rings outside the last one in reach are known to be out of it.
+            const int outer = highest_bit(some_within);
+            const double above = site.lowest_z + datum - bounds.highest[first + outer];
+            const double gap = above > 0.0 ? above : 0.0;
+            const double chord = std::sqrt(cut2 - gap * gap) + bound_slack;
+            const double edge = (outer + 1) * w + bound_slack;
+            from_rest = chord + u < edge ? chord + u : edge;
+            // Atoms of the rings within may have less of a gap.
+            const double held = outer * w + u < cutoff ? outer * w + u : cutoff;
+            from_site = chord < edge + u ? chord : edge + u;
+            from_site = from_site > held ? from_site : held;
+        }
+        if (some_beyond) {
+            const int inner = lowest_bit(some_beyond);
+            const double below = bounds.highest[first + inner] - (site.lowest_z + datum);
+            const double above = site.highest_z + datum - bounds.lowest[first + inner];
+            const double far = below > above ? below : above;
+            const double room2 = cut2 - far * far;
+            const double room = room2 > 0.0 ? std::sqrt(room2) - u : 0.0;
+            inside = (room > inner * w ? room : inner * w) - bound_slack;
+        }
+    }
+};
+
+/// How many columns each row has within some lateral distance: entry k of the table, or the last.
+struct Columns {
+    const std::int32_t* of_row; ///< [n - 1]
+    ASPERITY_INLINE Columns(const LatticeSubstrate& s, int k)
+        : of_row(s.columns +
+                 static_cast<std::ptrdiff_t>(k < s.cut_count - 1 ? k : s.cut_count - 1) *
+                     s.half_offsets) {}
+    ASPERITY_INLINE int rows(int half_offsets) const {
+        int n = 0;
+        while (n < half_offsets && of_row[n] > 0)
+            ++n;
+        return n;
+    }
+};
+
+/// (m - 1/2) a in units of length.
+template <class T>
+struct Offsets {
+    T at[max_half_offsets + 1];
+    Offsets(double spacing, int most) {
+        for (int m = 1; m <= most; ++m)
+            at[m] = static_cast<T>((m - 0.5) * spacing / length_unit<T>);
+    }
+};
+
+/// Squared lateral distances to the columns west and east of a site. Registers of sites share the
+/// table; a single site computes them where it needs them.
+template <class F, class T>
+struct Laterals {
+    using V = typename F::template Of<T>;
+    V west2_[max_half_offsets + 1], east2_[max_half_offsets + 1];
+    ASPERITY_INLINE Laterals(V ux, const Offsets<T>& offset, int columns) {
+        for (int m = 1; m <= columns; ++m) {
+            const V west = ux + V(offset.at[m]), east = ux - V(offset.at[m]);
+            west2_[m] = west * west;
+            east2_[m] = east * east;
+        }
+    }
+    ASPERITY_INLINE V west2(int m) const { return west2_[m]; }
+    ASPERITY_INLINE V east2(int m) const { return east2_[m]; }
+};
+
+/// Four pairs on their way from distance to force.
+template <class V>
+struct Quad {
+    V z_sw, z_se, z_nw, z_ne, r2_sw, r2_se, r2_nw, r2_ne, t_sw, t_se, t_nw, t_ne;
+};
+
+/// Sums over the pairs of sites, in units of force_scale and length_unit.
+template <class V>
+struct PairSums {
+    V f, f_cx, f_cy, f_z, energy; ///< of f, f cx, f cy, f z, V
+    V nearest;                    ///< least r^2
+};
+
+template <class T>
+struct Laterals<Scalar, T> {
+    Lane<T> ux;
+    const Offsets<T>& offset;
+    ASPERITY_INLINE Laterals(Lane<T> u, const Offsets<T>& offsets, int) : ux(u), offset(offsets) {}
+    ASPERITY_INLINE Lane<T> west2(int m) const {
+        const Lane<T> west = ux + Lane<T>(offset.at[m]);
+        return west * west;
+    }
+    ASPERITY_INLINE Lane<T> east2(int m) const {
+        const Lane<T> east = ux - Lane<T>(offset.at[m]);
+        return east * east;
+    }
+};
+
+/// Sums over the quads in reach of sites displaced by ux, uy that stand at z; `here`: the atom of
+/// the first of them.
+template <class F, class T, bool observe, bool close>
+ASPERITY_INLINE PairSums<typename F::template Of<T>>
+sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F::template Of<T> uy,
+            Columns all, Columns within, const typename SiteHeight<F, T>::Atom* here,
+            std::ptrdiff_t row, int half_offsets, const Offsets<T>& offsets,
+            const PairTerms<F, T>& pair) {
+    using V = typename F::template Of<T>;
+    const auto offset = [&](int m) __attribute__((always_inline)) { return V(offsets.at[m]); };
+    const Laterals<F, T> lateral(ux, offsets, all.of_row[0]);
+    // Sums of a site, in the precision of its pairs: their rounding is below that of a pair.
+    V f_all(T(0)), f_cx(T(0)), f_cy(T(0)), f_z(T(0)), v(T(0));
+    V nearest = pair.r2_cut;
+    const typename SiteHeight<F, T>::Atom *south_row = nullptr, *north_row = nullptr;
+    V south2, north2;
+    const auto enter_row = [&](int n) __attribute__((always_inline)) {
+        south_row = here + (1 - n) * row;
+        north_row = here + n * row;
+        const V south = uy + offset(n), north = uy - offset(n);
+        south2 = south * south;
+        north2 = north * north;
+    };
+    const auto approach = [&](int m) __attribute__((always_inline)) {
+        Quad<V> q;
+        q.z_sw = z.above(south_row + 1 - m);
+        q.z_se = z.above(south_row + m);
+        q.z_nw = z.above(north_row + 1 - m);
+        q.z_ne = z.above(north_row + m);
+        q.r2_sw = fma(q.z_sw, q.z_sw, lateral.west2(m) + south2);
+        q.r2_se = fma(q.z_se, q.z_se, lateral.east2(m) + south2);
+        q.r2_nw = fma(q.z_nw, q.z_nw, lateral.west2(m) + north2);
+        q.r2_ne = fma(q.z_ne, q.z_ne, lateral.east2(m) + north2);
+        pair.template inverse<close>(q.r2_sw, q.r2_se, q.t_sw, q.t_se);
+        pair.template inverse<close>(q.r2_nw, q.r2_ne, q.t_nw, q.t_ne);
+        return q;
+    };
+    V f_south, f_north; // sums of a row
+    const auto collect = [&](int m, const Quad<V>& q, auto masked) __attribute__((always_inline)) {
+        const V f_sw = pair.force(q.t_sw, q.r2_sw, masked);
+        const V f_se = pair.force(q.t_se, q.r2_se, masked);
+        const V f_nw = pair.force(q.t_nw, q.r2_nw, masked);
+        const V f_ne = pair.force(q.t_ne, q.r2_ne, masked);
+        f_south = f_south + (f_sw + f_se);
+        f_north = f_north + (f_nw + f_ne);
+        f_cx = fma((f_sw + f_nw) - (f_se + f_ne), offset(m), f_cx);
+        f_z = fma(f_sw, q.z_sw, f_z);
+        f_z = fma(f_se, q.z_se, f_z);
+        f_z = fma(f_nw, q.z_nw, f_z);
+        f_z = fma(f_ne, q.z_ne, f_z);
+        if constexpr (observe) {
+            v = v + ((pair.energy(q.t_sw, q.r2_sw) + pair.energy(q.t_se, q.r2_se)) +
+                     (pair.energy(q.t_nw, q.r2_nw) + pair.energy(q.t_ne, q.r2_ne)));
+            nearest = min(nearest, min(min(q.r2_sw, q.r2_se), min(q.r2_nw, q.r2_ne)));
+        }
+    };
+    // The next quad's divisions are under way while this one's forces are formed.
+    enter_row(1);
+    Quad<V> quad = approach(1);
+    for (int n = 1, rows = all.rows(half_offsets); n <= rows; ++n) {
+        f_south = f_north = V(T(0));
+        const int inside = within.of_row[n - 1], last = all.of_row[n - 1];
+        int m = 1;
+        for (; m <= inside && m < last; ++m) {
+            const Quad<V> next = approach(m + 1);
+            collect(m, quad, std::false_type{});
+            quad = next;
+        }
+        for (; m < last; ++m) {
+            const Quad<V> next = approach(m + 1);
+            collect(m, quad, std::true_type{});
+            quad = next;
+        }
+        enter_row(n < rows ? n + 1 : n);
+        const Quad<V> next = approach(1);
+        if (last <= inside)
+            collect(last, quad, std::false_type{});
+        else
+            collect(last, quad, std::true_type{});
+        quad = next;
+        f_all = f_all + (f_south + f_north);
+        f_cy = fma(f_south - f_north, offset(n), f_cy);
+    }
+    return {f_all, f_cx, f_cy, f_z, v, nearest};
+}
+
+/// Force on a site, eV/Å, from the sums over its pairs: sum f (ux + cx) = ux sum f + sum f cx.
+struct SiteForce {
+    double x, y, z;
+};
+template <class F, class T>
+ASPERITY_INLINE SiteForce site_force(const PairTerms<F, T>& pair, double ux, double uy, double f,
+                                     double f_cx, double f_cy, double f_z) {
+    constexpr double unit = length_unit<T>;
+    return {pair.force_scale * (ux * f + unit * f_cx), pair.force_scale * (uy * f + unit * f_cy),
+            pair.force_scale * (unit * f_z)};
+}
+
+} // namespace asperity::ASPERITY_VARIANT

@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Steps on the emulated device give the bits of the processor's: displacements, velocities and
+// every record, on any number of ranks; and what is wrong with a device's memory shows. Judge: the
+// processor's steps on one rank (same_bits_test).
+//
+// The emulated device runs the text that CUDA runs; what this cannot show is the code generator of
+// a device's compiler, and speed.
+#include "engine/device/device_block.hpp"
+#include "engine/dynamics/simulation.hpp"
+#include "engine/run/checkpoint.hpp"
+#include "kernels/variant.hpp"
+#include "support/cases.hpp"
+#include "support/world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+using namespace asperity;
+
+namespace {
+
+const Communicator& world() { return test::world(); }
+
+struct Case {
+    const char* stack;
+    int thickness, layers;
+    bool mixed, damped, tail;
+    bool on_ranks; ///< with more than one rank, too
+};
+// Shallow and deep: as in same_bits_test, cut on one level and on all but the last.
+constexpr Case cases[] = {
+    {"shallow", 32, 3, false, true, false, true},  {"shallow", 32, 3, true, false, false, false},
+    {"shallow", 32, 3, false, false, true, false}, {"deep", 62, 2, false, true, false, true},
+    {"deep", 62, 2, true, true, true, false},      {"deep", 62, 2, false, false, false, false},
+    {"lattice", 6, 0, false, true, false, false},  {"lattice", 6, 0, true, false, false, true}};
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.stack << (c.mixed ? ", mixed" : ", double") << (c.damped ? ", damped" : "")
+         << (c.tail ? ", tail" : "");
+}
+
+SimulationOptions options_of(const Case& c, bool on_device) {
+    SimulationOptions options;
+    options.block = test::paper_block(32, c.thickness, c.layers);
+    options.interface = test::paper_interface();
+    options.interface.mixed = c.mixed;
+    options.interface.tail = c.tail;
+    options.drive.velocity = 1e-3; // 100 m/s: into contact soon
+    options.drive.ramp = 500.0;
+    if (c.damped) {
+        options.damping = 1e-3;
+        options.damping_from = 0.3;
+    }
+    if (on_device) options.device.kind = DeviceChoice::Kind::emulated;
+    return options;
+}
+
+Simulation make(const Case& c, const Communicator& ranks, bool on_device) {
+    const SimulationOptions options = options_of(c, on_device);
+    return Simulation(options, test::reference_surface("c3_N32_T32_rms1.5"), ranks,
+                      test::grid_for(options.block, ranks));
+}
+
+/// Every number of every record, as one; and the state.
+struct Trace {
+    std::uint64_t records = 1, state = 0;
+    long long in_contact = 0;
+    bool operator==(const Trace&) const = default;
+};
+
+void advance(Simulation& s, int steps, Trace& trace) {
+    for (int n = 0; n < steps; ++n) {
+        const StepRecord& now = s.step(s.steps() % 10 == 0);
+        s.drive().observe(now.time, now.force, false); // turns round on contact
+        for (double value : {now.top, now.mean_height, now.force, now.top_force})
+            trace.records = test::mix(trace.records, value);
+        if (!now.observed) continue;
+        for (double value : {now.interface_energy, now.elastic_energy, now.kinetic_energy,
+                             now.closest, static_cast<double>(now.in_contact),
+                             static_cast<double>(now.pushed), s.energy_residual()})
+            trace.records = test::mix(trace.records, value);
+        trace.in_contact = std::max(trace.in_contact, now.in_contact);
+    }
+}
+void conclude(Simulation& s, Trace& trace) {
+    const Ledger& l = s.ledger();
+    for (double value : {l.top_work, l.drag_work, l.damped, l.approach, l.pull_off})
+        trace.records = test::mix(trace.records, value);
+    trace.state = test::fingerprint(std::as_const(s).block());
+}
+
+constexpr double height = 6.0;
+constexpr int steps = 200;
+
+Trace run(const Case& c, const Communicator& ranks, bool on_device, int count = steps) {
+    Simulation s = make(c, ranks, on_device);
+    s.start(height);
+    Trace trace;
+    advance(s, count, trace);
+    conclude(s, trace);
+    return trace;
+}
+
+/// The judge, on every rank.
+Trace on_processor(const Case& c) {
+    Trace trace;
+    if (world().root()) trace = run(c, Communicator(), false);
+    std::array<std::uint64_t, 3> all = {trace.records, trace.state,
+                                        std::bit_cast<std::uint64_t>(trace.in_contact)};
+    world().broadcast(std::as_writable_bytes(std::span(all)));
+    return {all[0], all[1], std::bit_cast<long long>(all[2])};
+}
+
+bool fuses() { return processor_level() >= ProcessorLevel::v3; }
+
+class Device : public testing::TestWithParam<Case> {};
+
+} // namespace
+
+TEST_P(Device, StepsHaveTheBitsOfTheProcessor) {
+    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
+    const Case& c = GetParam();
+    if (world().size() > 1 && !c.on_ranks) return;
+    const Trace expected = on_processor(c);
+    EXPECT_GT(expected.in_contact, 100) << "the scene must touch, or nothing is tested";
+    const Trace mine = run(c, world(), true);
+    EXPECT_EQ(mine.state, expected.state) << "displacements and velocities";
+    EXPECT_EQ(mine.records, expected.records);
+    EXPECT_EQ(mine.in_contact, expected.in_contact);
+}
+INSTANTIATE_TEST_SUITE_P(Stacks, Device, testing::ValuesIn(cases));
+
+TEST(Device, CheckpointsCrossBetweenDeviceAndProcessor) {
+    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
+    const Case& c = cases[0];
+    const Trace expected = on_processor(c);
+    for (const bool device_first : {true, false}) {
+        const std::string path = "device_test_ranks" + std::to_string(world().size()) + ".h5";
+        Trace trace;
+        {
+            Simulation s = make(c, world(), device_first);
+            s.start(height);
+            advance(s, steps / 2, trace);
+            write_checkpoint(path, s, {}, "");
+            Trace beyond; // the state goes on after it has been read
+            advance(s, 10, beyond);
+        }
+        Simulation s = make(c, world(), !device_first);
+        read_checkpoint(path, s, "");
+        advance(s, steps - steps / 2, trace);
+        conclude(s, trace);
+        EXPECT_EQ(trace, expected) << (device_first ? "device first" : "processor first");
+        world().barrier();
+        if (world().root()) std::filesystem::remove(path);
+    }
+}
+
+TEST(Device, WhatTheHostWritesReachesTheDevice) {
+    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
+    std::array<Trace, 2> traces;
+    for (const bool on_device : {false, true}) {
+        Simulation s = make(cases[0], world(), on_device);
+        Trace& trace = traces[on_device];
+        s.start(height);
+        advance(s, 15, trace);
+        s.block().levels()[0].v.view().x(1, 2, 0) = 1e-3; // all ranks, each in its own tile
+        advance(s, 15, trace);
+        conclude(s, trace);
+    }
+    EXPECT_EQ(traces[0], traces[1]);
+}
+
+TEST(Device, NoResultDependsOnTheOrderOfItsThreads) {
+    if (!fuses() || world().size() > 1) return;
+    const Trace expected = run(cases[0], world(), true, 60);
+    for (unsigned order : {1u, 2u, 77u}) {
+        set_emulated_order(order);
+        EXPECT_EQ(run(cases[0], world(), true, 60), expected) << "order " << order;
+    }
+    set_emulated_order(0);
+}
+
+TEST(Device, NeverTouchesTheFieldsOfTheHost) {
+    if (!fuses() || world().size() > 1) return;
+    const auto end = [] { // in a process of its own, for the pages stay closed
+        Simulation s = make(cases[0], Communicator(), true);
+        s.start(height);
+        Trace trace;
+        advance(s, 1, trace);
+        const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+        for (const auto& level : std::as_const(s).block().levels())
+            for (const VectorField<double>* field : {&level.u, &level.v})
+                for (const Field<double>* f : {&field->x, &field->y, &field->z}) {
+                    const auto at = reinterpret_cast<std::uintptr_t>(f->storage().data());
+                    const std::uintptr_t first = (at + page - 1) / page * page,
+                                         last = (at + f->bytes()) / page * page;
+                    if (first < last)
+                        mprotect(reinterpret_cast<void*>(first), last - first, PROT_NONE);
+                }
+        advance(s, 20, trace);
+        _exit(0);
+    };
+    EXPECT_EXIT(end(), testing::ExitedWithCode(0), "");
+}
+
+TEST(Device, AHostThatReadsItsMemoryStops) {
+    if (world().size() > 1) return;
+    const DeviceFunctions& device = emulated_device();
+    std::byte* memory = nullptr;
+    ASSERT_EQ(device.allocate(0, 4096, &memory), nullptr);
+    const double one = 1.0;
+    double back = 0.0;
+    EXPECT_EQ(device.upload(memory, &one, sizeof one), nullptr);
+    EXPECT_EQ(device.download(&back, memory, sizeof back), nullptr);
+    EXPECT_EQ(back, one);
+    EXPECT_EXIT(
+        {
+            volatile double read = *reinterpret_cast<double*>(memory);
+            (void)read;
+        },
+        testing::KilledBySignal(SIGSEGV), "");
+    device.release(memory);
+}
+
+TEST(Device, TakesTheMemoryThatWasCounted) {
+    if (!fuses()) return;
+    for (const Case& c : cases) {
+        const SimulationOptions options = options_of(c, true);
+        const Simulation s = make(c, world(), true);
+        EXPECT_EQ(s.device_bytes(),
+                  DeviceBlock::bytes_for(options.block, test::grid_for(options.block, world()),
+                                         options.interface));
+        EXPECT_EQ(make(c, world(), false).device_bytes(), 0u) << "off: no byte";
+    }
+}
