@@ -72,7 +72,7 @@ Answer fire(SpectralBlock& block, const Interface& interface, double height, dou
     Answer answer;
     for (; answer.iterations < 20000; ++answer.iterations) {
         interface.sweep(block.lowest_layer(), block.interface_force(), height, false, single);
-        block.gradient(0.0, g);
+        block.gradient(g);
         // One pass: the preconditioned force and all inner products.
         RowSums sums(block.slab(), 4);
 #pragma omp parallel for schedule(static)

@@ -32,9 +32,8 @@ int main(int argc, char** argv) {
     };
     relaxed("zero load");
     double top = block.top();
-    block.hold_top(top);
     for (double move : {0.02, 0.05, 0.1, 0.25, -0.02, -0.1, -0.25, 0.1, 0.25, 0.25, 0.25}) {
-        block.hold_top(top += move);
+        block.constrain(Constraint::top(top += move));
         relaxed(fmt::format("top moved by {:+.2f} Å", move));
     }
     fmt::print("peak memory {:.0f} MB\n", peak_megabytes());

@@ -80,7 +80,7 @@ SpectralBlock::SpectralBlock(const BlockOptions& options, const Communicator& co
       waves_(slab_, components_), transform_(slab_, layer_.plane(0).x.row),
       single_(slab_, new_field<float>()[0].plane(0).row) {
     uniform_ = stiffness(0, 0).zz;
-    free_top();
+    constrain({});
 }
 
 double* SpectralBlock::table(int entry, int ny) {
@@ -100,24 +100,15 @@ void SpectralBlock::set_uniform(double z) {
         std::fill(uz.line(y), uz.line(y) + uz.nx, z);
     waves_.clear();
     if (slab_.holds_uniform()) waves_.row(components_ - 1, 0)[0] = z;
-    if (held_ != Held::nothing) held_at_ = z;
 }
 
-void SpectralBlock::hold_top(double z) {
-    held_ = Held::top;
-    held_at_ = z;
-    table(zz, 0)[0] = uniform_;
+void SpectralBlock::constrain(const Constraint& constraint) {
+    constraint_ = constraint;
+    table(zz, 0)[0] = constraint.is_top() ? uniform_ : 0.0;
 }
 
-void SpectralBlock::hold_mean_height(double z) {
-    held_ = Held::mean_height;
-    held_at_ = z;
-    table(zz, 0)[0] = 0.0;
-}
-
-void SpectralBlock::free_top() {
-    held_ = Held::nothing;
-    table(zz, 0)[0] = 0.0;
+double SpectralBlock::top() const {
+    return constraint_.is_top() ? constraint_.value : mean_height() - constraint_.load() / spring();
 }
 
 double SpectralBlock::mean_height() const {
@@ -127,12 +118,11 @@ double SpectralBlock::mean_height() const {
 }
 
 double SpectralBlock::top_force() const {
-    if (!top_is_held()) return 0.0;
-    const double sites = options_.sites;
-    return sites * sites * uniform_ * (mean_height() - held_at_);
+    return constraint_.is_top() ? spring() * (mean_height() - constraint_.value)
+                                : constraint_.load();
 }
 
-void SpectralBlock::gradient(double load, Waves<double>& g) const {
+void SpectralBlock::gradient(Waves<double>& g) const {
     for (int c = 0; c < components_; ++c)
         transform_.forward(moving(force_.plane(0), c), g, c);
     const double sites = options_.sites, norm = 1.0 / (sites * sites);
@@ -141,9 +131,9 @@ void SpectralBlock::gradient(double load, Waves<double>& g) const {
         stiffen_row(y, waves_, -norm, g);
     if (!slab_.holds_uniform()) return;
     double& mean = g.row(components_ - 1, 0)[0];
-    mean += norm * load;
-    if (top_is_held()) mean -= uniform_ * held_at_;
-    if (mean_height_is_held()) mean = 0.0;
+    mean += norm * constraint_.load();
+    if (constraint_.is_top()) mean -= uniform_ * constraint_.value;
+    if (constraint_.is_mean_height()) mean = 0.0;
 }
 
 template <class T>
@@ -154,14 +144,16 @@ template void SpectralBlock::stiffen_row(int, const Waves<float>&, double, Waves
 template void SpectralBlock::stiffen_row(int, const Waves<double>&, double, Waves<double>&) const;
 
 double SpectralBlock::elastic_energy() const {
-    // Half u.(S u), u measured from the top plane where that is held.
+    // Half u.(S u), u measured from a prescribed top plane, and what a load stretches the block by.
     Waves<double> u = new_waves<double>(), su = new_waves<double>();
     combine(1.0, waves_, 0.0, u);
-    if (top_is_held() && slab_.holds_uniform()) u.row(components_ - 1, 0)[0] -= held_at_;
+    if (constraint_.is_top() && slab_.holds_uniform())
+        u.row(components_ - 1, 0)[0] -= constraint_.value;
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < slab_.rows; ++y)
         stiffen_row(y, u, 0.0, su);
-    return 0.5 * dot(u, su);
+    const double load = constraint_.load();
+    return 0.5 * (dot(u, su) + load * load / spring());
 }
 
 template <class T>
@@ -190,7 +182,7 @@ void SpectralBlock::displace(double t, const Waves<T>& d, const SiteField<T>& at
 template void SpectralBlock::displace(double, const Waves<float>&, const SiteField<float>&);
 template void SpectralBlock::displace(double, const Waves<double>&, const SiteField<double>&);
 
-void SpectralBlock::respond(const Preconditioner& preconditioner, double load, Waves<float>& waves,
+void SpectralBlock::respond(const Preconditioner& preconditioner, Waves<float>& waves,
                             SiteField<float>& goal) const {
     const double sites = options_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
 #pragma omp parallel for schedule(static)
@@ -201,41 +193,41 @@ void SpectralBlock::respond(const Preconditioner& preconditioner, double load, W
     to_waves(goal, waves);
     const int normal = components_ - 1;
     if (slab_.holds_uniform()) {
-        double mean = -norm * load;
-        if (top_is_held()) mean += uniform_ * held_at_;
+        double mean = -norm * constraint_.load();
+        if (constraint_.is_top()) mean += uniform_ * constraint_.value;
         waves.row(normal, 0)[0] += static_cast<float>(mean);
     }
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < slab_.rows; ++y)
         preconditioner.apply_row(y, waves, waves);
-    if (mean_height_is_held() && slab_.holds_uniform())
-        waves.row(normal, 0)[0] = static_cast<float>(held_at_);
+    if (constraint_.is_mean_height() && slab_.holds_uniform())
+        waves.row(normal, 0)[0] = static_cast<float>(constraint_.value);
     at_sites(waves, goal);
 }
 
-void SpectralBlock::keep_mean_height() {
-    if (!mean_height_is_held()) return;
+void SpectralBlock::restore_mean_height() {
+    if (!constraint_.is_mean_height()) return;
     const double sites = options_.sites;
     const PlaneView<double> z = layer_.z.plane(0);
     ExactSum sum;
     for (int y = 0; y < z.ny; ++y)
         for (int x = 0; x < z.nx; ++x)
             sum.add(z(x, y));
-    const double by = held_at_ - global_sum(slab_.ranks, sum) / (sites * sites);
+    const double by = constraint_.value - global_sum(slab_.ranks, sum) / (sites * sites);
     for (int y = 0; y < z.ny; ++y)
         for (int x = 0; x < z.nx; ++x)
             z(x, y) += by;
 }
 
 void SpectralBlock::settle() {
-    keep_mean_height();
+    restore_mean_height();
     const VectorPlane<const double> layer = std::as_const(layer_).plane(0);
     for (int c = 0; c < components_; ++c)
         transform_.forward(moving(layer, c), waves_, c);
     const double sites = options_.sites;
     combine(0.0, waves_, 1.0 / (sites * sites), waves_);
-    if (mean_height_is_held() && slab_.holds_uniform())
-        waves_.row(components_ - 1, 0)[0] = held_at_;
+    if (constraint_.is_mean_height() && slab_.holds_uniform())
+        waves_.row(components_ - 1, 0)[0] = constraint_.value;
 }
 
 SurfaceMatrix SpectralBlock::stiffness(int nx, int ny) const {
@@ -269,7 +261,7 @@ void Preconditioner::tune(const SpectralBlock& block, double k) {
             m.yy += k;
             m.zz += k;
             SurfaceMatrix i = inverse(m);
-            if (nx == 0 && ny == 0 && block.mean_height_is_held()) i.zz = 0.0;
+            if (nx == 0 && ny == 0 && block.constraint().is_mean_height()) i.zz = 0.0;
             if (entries_ == 1) {
                 *at = static_cast<float>(i.zz);
                 continue;

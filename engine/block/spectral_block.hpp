@@ -17,10 +17,10 @@
 // component of displacement. Lateral displacements of the layer are then not followed, and the
 // interface acts on its sites where they stood.
 //
-// The rigid top plane is clamped sideways. Along z it is held at `top` (its displacement), or free:
-// then it follows the mean height of the layer, the uniform normal wave costs nothing, and no force
-// is on it. Or that mean height itself is held: then there is no force along the uniform wave,
-// which stays as it is, and the other waves are all that moves.
+// The rigid top plane is clamped sideways. Along z (constraint.hpp) its displacement is prescribed,
+// or it is free under a load: then it follows the mean height of the layer, and the uniform normal
+// wave costs nothing. Or that mean height is prescribed: then there is no force along the uniform
+// wave, which stays as it is, and the other waves are all that moves.
 //
 // The displacement of the layer is kept both at the sites (for the interface) and as waves (for
 // everything else), in slabs of rows over the ranks; displace() changes both. What says so is
@@ -31,6 +31,7 @@
 #include "decomposition/field.hpp"
 #include "decomposition/surface_transform.hpp"
 #include "engine/block/block.hpp"
+#include "engine/block/constraint.hpp"
 #include "kernels/surface_stiffness.hpp"
 
 #include <type_traits>
@@ -69,26 +70,20 @@ public:
 
     /// The whole block displaced by (0, 0, z).
     void set_uniform(double z);
-    /// The top plane's displacement along z, Å; it is held there.
-    void hold_top(double z);
-    /// The layer's mean displacement along z, Å: held there, where settle() brings the block. The
-    /// top plane follows.
-    void hold_mean_height(double z);
-    /// From now on nothing is held; the top plane follows the layer.
-    void free_top();
-    bool top_is_held() const { return held_ == Held::top; }
-    bool mean_height_is_held() const { return held_ == Held::mean_height; }
-    /// Collective, as are the next two.
-    double top() const { return top_is_held() ? held_at_ : mean_height(); }
+    /// What is prescribed from now on (at first, no load); settle() brings the block there.
+    void constrain(const Constraint& constraint);
+    const Constraint& constraint() const { return constraint_; }
+    /// Displacement of the top plane along z, Å. Collective, as are the next two.
+    double top() const;
     /// Mean of u_z over the layer, Å.
     double mean_height() const;
-    /// Elastic force on the held top plane along z, eV/Å (zero on a free one).
+    /// Elastic force on the top plane along z, eV/Å.
     double top_force() const;
 
     /// Gradient of the energy with respect to each site, as waves: S u - F - load, with F what
-    /// interface_force() holds and the load (eV/Å, pressing down) spread over the top plane. None
-    /// along a mean height that is held. Collective.
-    void gradient(double load, Waves<double>& g) const;
+    /// interface_force() holds and the load spread over the top plane. None along a prescribed mean
+    /// height. Collective.
+    void gradient(Waves<double>& g) const;
     /// f <- S u + norm f for row y of the slab: u and f are its components.
     template <class T>
     void stiffen_row(int y, const Waves<T>& u, double norm, Waves<T>& f) const;
@@ -97,7 +92,7 @@ public:
     /// Where the sites would come to rest under the forces of gradient(), did a spring k tie each
     /// to where it is: goal <- (S + k)^-1 (k u + F + load). The waves are room for work; those of
     /// the displacement are not looked at. Collective.
-    void respond(const Preconditioner& preconditioner, double load, Waves<float>& waves,
+    void respond(const Preconditioner& preconditioner, Waves<float>& waves,
                  SiteField<float>& goal) const;
 
     /// The field of some waves, which are lost. Collective.
@@ -110,11 +105,11 @@ public:
     void displace(double t, const Waves<T>& d, const SiteField<T>& at_sites);
     /// Component c of those that move, at the sites, to be moved from outside (settle() as above).
     PlaneView<double> moving_layer(int c) { return moving(layer_.plane(0), c); }
-    /// Puts the sites, moved from outside, back to a mean height that is held. Collective.
-    void keep_mean_height();
+    /// Puts the sites, moved from outside, back to a prescribed mean height. Collective.
+    void restore_mean_height();
     /// Makes the waves those of the sites: after these were moved from outside, or after many
     /// displacements, which in single precision leave 1e-7 of what has been moved between them. A
-    /// mean height that is held is then what it should be. Collective.
+    /// prescribed mean height is then what it should be. Collective.
     void settle();
 
     /// S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2. Frictionless: its one number, as zz.
@@ -122,6 +117,8 @@ public:
     std::size_t bytes() const;
 
 private:
+    /// Of the whole block under uniform stretch, eV/Å.
+    double spring() const { return uniform_ * options_.sites * options_.sites; }
     double* table(int entry, int ny);
     const double* table(int entry, int ny) const;
     /// The components that move of a field of three.
@@ -143,18 +140,16 @@ private:
     int components_ = 3;
     std::size_t columns_ = 0;
     std::vector<double> table_; ///< S of the quadrant: [zz, or xx yy zz xy xz yz][ny][nx], eV/Å^2
-    double uniform_ = 0.0;      ///< S_zz of the uniform wave with the top held, eV/Å^2
-    enum class Held { nothing, top, mean_height };
-    Held held_ = Held::nothing;
-    double held_at_ = 0.0; ///< Å
+    double uniform_ = 0.0;      ///< S_zz of the uniform wave under a prescribed top, eV/Å^2
+    Constraint constraint_;
     VectorField<double> layer_, force_;
     Waves<double> waves_;
     SurfaceTransform<double> transform_;
     SurfaceTransform<float> single_;
 };
 
-/// (S + k)^-1, in single precision, of a block as it is (held or free): k > 0, eV/Å^2, stands for
-/// the interface's stiffness of a site. Zero for the uniform wave of a mean height that is held.
+/// (S + k)^-1, in single precision, of a block under its constraint: k > 0, eV/Å^2, stands for the
+/// interface's stiffness of a site. Zero for the uniform wave of a prescribed mean height.
 class Preconditioner {
 public:
     Preconditioner(const SpectralBlock& block, double k);

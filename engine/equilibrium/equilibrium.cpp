@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
 #include <utility>
 
 namespace asperity {
@@ -31,17 +32,7 @@ public:
     VectorPlane<double> interface_force() override { return block_.interface_force(); }
     const Communicator& communicator() const override { return block_.communicator(); }
     void set_uniform(double z) override { block_.set_uniform(z, 0.0); }
-    void hold_top(double z) override {
-        held_ = Hold::top;
-        block_.set_top(z);
-    }
-    void free_top() override { held_.reset(); }
     double top() const override { return block_.top(); }
-    void hold_mean_height(double z) override {
-        held_ = Hold::mean_height;
-        height_ = z;
-        block_.set_top(z);
-    }
     double mean_height() const override {
         ExactSum sum;
         block_.add_lowest_z(sum);
@@ -54,15 +45,15 @@ public:
             add_arrays(level.plan.level, level.u, level.plan.cells, list);
         return list;
     }
-    void settle() override {
-        if (held_ == Hold::mean_height) shift(height_ - mean_height());
+    void settle(const Constraint& constraint) override {
+        if (constraint.of != Constraint::Of::load) block_.set_top(constraint.value);
+        if (constraint.is_mean_height()) shift(constraint.value - mean_height());
         block_.exchange();
     }
-    RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
-                       Phases& phases) override {
-        options.top_held = held_ == Hold::top;
-        options.mean_height_held = held_ == Hold::mean_height;
-        return asperity::relax(block_, interface, reference_height, options, phases);
+    RelaxedState relax(Interface& interface, double reference_height, const Constraint& constraint,
+                       RelaxOptions options, Phases& phases) override {
+        settle(constraint);
+        return asperity::relax(block_, interface, reference_height, constraint, options, phases);
     }
     std::size_t bytes() const override { return block_.bytes(); }
 
@@ -79,8 +70,6 @@ private:
     }
 
     Block block_;
-    std::optional<Hold> held_;
-    double height_ = 0.0; ///< the mean that is held, Å
 };
 
 class WavesAtRest final : public Equilibrium {
@@ -91,33 +80,22 @@ public:
     VectorPlane<double> interface_force() override { return block_.interface_force(); }
     const Communicator& communicator() const override { return block_.communicator(); }
     void set_uniform(double z) override { block_.set_uniform(z); }
-    void hold_top(double z) override { block_.hold_top(z); }
-    void free_top() override { block_.free_top(); }
     double top() const override { return block_.top(); }
-    void hold_mean_height(double z) override { block_.hold_mean_height(z); }
     double mean_height() const override { return block_.mean_height(); }
     std::vector<StateArray> state() override {
         std::vector<StateArray> list;
         add_arrays(0, block_.layer(), 1, list);
         return list;
     }
-    void settle() override { block_.settle(); }
-    RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
-                       Phases& phases) override {
+    void settle(const Constraint& constraint) override {
+        block_.constrain(constraint);
+        block_.settle();
+    }
+    RelaxedState relax(Interface& interface, double reference_height, const Constraint& constraint,
+                       RelaxOptions options, Phases& phases) override {
         options.max_move = 0.3;
-        RelaxedState state = asperity::relax(block_, interface, reference_height, options, phases);
-        const bool held = block_.top_is_held() || block_.mean_height_is_held();
-        if (held || options.load == 0.0) return state;
-        // A free top plane follows the layer and leaves out what the load presses the block
-        // together by.
-        const BlockOptions& o = block_.options();
-        const double sites = static_cast<double>(o.sites) * o.sites;
-        const double spring =
-            (o.lame() + 2.0 * o.shear_modulus()) * sites * o.spacing / o.thickness;
-        block_.hold_top(block_.mean_height() - options.load / spring);
-        state.top_force = block_.top_force();
-        state.elastic_energy = block_.elastic_energy();
-        return state;
+        settle(constraint);
+        return asperity::relax(block_, interface, reference_height, options, phases);
     }
     std::size_t bytes() const override {
         return block_.bytes() + spectral_relaxation_bytes(block_);
@@ -171,10 +149,10 @@ std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
                                        const Setup& setup,
                                        const std::function<bool(long long, double)>& stop) {
     RelaxOptions options = relax_options(scene, setup);
-    options.load = load;
     options.report = stop;
     Phases own; // its lines are not lines of the step
-    const RelaxedState s = block.relax(interface, reference_height, options, own);
+    const RelaxedState s =
+        block.relax(interface, reference_height, Constraint::load(load), options, own);
     if (s.interrupted) return std::nullopt;
     if (!s.converged)
         throw io::PhysicsError(
@@ -194,6 +172,14 @@ std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
     z.mean_height = reference_height + s.mean_height;
     z.residual = s.residual;
     z.iterations = static_cast<double>(s.iterations);
+    // Half of force^2 / stiffness at each site, of the softest wave of the box.
+    const BlockOptions& o = setup.simulation.block;
+    const double shear = o.shear_modulus(), lame = o.lame();
+    const double contact_modulus = 4.0 * shear * (lame + shear) / (lame + 2.0 * shear);
+    const double softest = contact_modulus * std::numbers::pi / scene.edge(); // E* q_L / 2, eV/Å^4
+    const double site_area = scene.surface.spacing * scene.surface.spacing;
+    z.uncertainty =
+        units::milli_per_unit * 0.5 * s.residual * s.residual / (softest * site_area * site_area);
     return z;
 }
 

@@ -30,23 +30,20 @@ public:
 
     /// The whole block, its top plane with it, displaced by (0, 0, z).
     virtual void set_uniform(double z) = 0;
-    /// The top plane's displacement along z, Å. Held, it stays there; free (at first), it follows
-    /// the block.
-    virtual void hold_top(double z) = 0;
-    virtual void free_top() = 0;
+    /// Displacement of the top plane along z, and the mean one of the lowest layer, Å. Collective.
     virtual double top() const = 0;
-    /// The mean displacement of the lowest layer along z, Å. Held instead of the top plane, it
-    /// stays at z, where settle() brings the block. Collective, both.
-    virtual void hold_mean_height(double z) = 0;
     virtual double mean_height() const = 0;
 
     /// Displacements of all that moves, those of the lowest layer (x, y, z) first.
     virtual std::vector<StateArray> state() = 0;
-    /// Makes the rest follow after the arrays of state() were written from outside.
-    virtual void settle() = 0;
+    /// Makes the rest follow after the arrays of state() were written from outside: the block
+    /// stands where the constraint has it, and what is derived of the displacements is up to date.
+    /// Collective.
+    virtual void settle(const Constraint& constraint) = 0;
 
-    /// Relaxes in place. options.max_move and what is held are the realisation's own.
-    virtual RelaxedState relax(Interface& interface, double reference_height, RelaxOptions options,
+    /// Settles, then relaxes in place. options.max_move is the realisation's own. Collective.
+    virtual RelaxedState relax(Interface& interface, double reference_height,
+                               const Constraint& constraint, RelaxOptions options,
                                Phases& phases) = 0;
     virtual std::size_t bytes() const = 0;
 };

@@ -6,7 +6,10 @@
 
 #include "engine/equilibrium/dissipation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 namespace asperity {
 
@@ -20,12 +23,53 @@ struct ZeroLoad {
     double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
     double residual = 0.0;    ///< largest force left, eV/Å
     double iterations = 0.0;
+    /// Of the binding energy, by the forces left: those of the softest wave, meV/Å^2.
+    double uncertainty = 0.0;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("binding_energy", binding_energy);
+        v("pairwise", pairwise);
+        v("elastic", elastic);
+        v("contact_fraction", contact_fraction);
+        v("pushed_fraction", pushed_fraction);
+        v("mean_height", mean_height);
+        v("residual", residual);
+        v("iterations", iterations);
+        v("uncertainty", uncertainty);
+    }
+};
+
+/// The stable states under one load that a search has passed (state_search.hpp).
+struct StateList {
+    struct State {
+        ZeroLoad numbers;
+        /// Largest force on the way to the next state inwards, over the load and the area, eV/Å^3;
+        /// empty for the innermost.
+        std::optional<double> barrier;
+    };
+    /// Why the search ended: no area is left to attract, or no equilibrium was found further in.
+    enum class End { none, contact, no_equilibrium };
+
+    std::vector<State> all; ///< from the outermost, which is the first, inwards
+    double step = 0.0;      ///< of the mean height, Å
+    double innermost = HUGE_VAL;
+    long long points = 0, instabilities = 0;
+    End end = End::none;
+
+    const State& deepest() const {
+        return *std::max_element(all.begin(), all.end(), [](const State& a, const State& b) {
+            return a.numbers.binding_energy < b.numbers.binding_energy;
+        });
+    }
 };
 
 struct Findings {
-    std::optional<ZeroLoad> zero_load;
-    std::optional<double> approach; ///< work of adhesion, meV/Å^2
+    std::optional<ZeroLoad> zero_load; ///< where there are several: the first
+    std::optional<StateList> states;   ///< where all were asked for
+    std::optional<double> approach;    ///< work of adhesion, meV/Å^2
     std::optional<double> pull_off;
+    double approach_uncertainty = 0.0, pull_off_uncertainty = 0.0; ///< without time, meV/Å^2
     double attraction_in = 0.0;            ///< largest attraction on the way in, eV/Å
     double attraction_out = 0.0;           ///< on the way out
     std::optional<double> contact_made;    ///< when the approach ended, fs
@@ -36,20 +80,15 @@ struct Findings {
     void visit(Visitor& v) {
         optional(v, "approach", approach);
         optional(v, "pull_off", pull_off);
+        v("approach_uncertainty", approach_uncertainty);
+        v("pull_off_uncertainty", pull_off_uncertainty);
         v("attraction_in", attraction_in);
         v("attraction_out", attraction_out);
         optional(v, "contact_made", contact_made);
         double has = zero_load ? 1.0 : 0.0;
         v("zero_load", has);
         ZeroLoad z = zero_load.value_or(ZeroLoad{});
-        v("binding_energy", z.binding_energy);
-        v("pairwise", z.pairwise);
-        v("elastic", z.elastic);
-        v("contact_fraction", z.contact_fraction);
-        v("pushed_fraction", z.pushed_fraction);
-        v("mean_height", z.mean_height);
-        v("residual", z.residual);
-        v("iterations", z.iterations);
+        z.visit(v);
         if (has != 0.0) zero_load = z;
     }
 

@@ -15,8 +15,8 @@ HeavyBall::HeavyBall(SpectralBlock& block)
         std::fill(gain.line(y), gain.line(y) + gain.nx, 1.0f);
 }
 
-double HeavyBall::move(const Preconditioner& preconditioner, double load, double bound) {
-    block_.respond(preconditioner, load, waves_, goal_);
+double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
+    block_.respond(preconditioner, waves_, goal_);
     const BallRule rule{.keep = 0.7f,
                         .cut = 0.7f,
                         .raise = 1.06f,
@@ -36,7 +36,7 @@ double HeavyBall::move(const Preconditioner& preconditioner, double load, double
         row.gain = gain.line(y);
         longest = std::max(longest, static_cast<double>(move_row(row, rule, components, gain.nx)));
     }
-    block_.keep_mean_height();
+    block_.restore_mean_height();
     block_.communicator().max(std::span(&longest, 1));
     return std::sqrt(longest);
 }

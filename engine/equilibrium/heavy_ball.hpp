@@ -30,9 +30,9 @@ public:
     explicit HeavyBall(SpectralBlock& block);
 
     /// Moves the sites, none further than bound (Å), interface_force() being up to date; their
-    /// waves do not follow (SpectralBlock::settle()). The load (eV/Å) presses down. Returns the
-    /// longest way to a goal, Å. Collective.
-    double move(const Preconditioner& preconditioner, double load, double bound);
+    /// waves do not follow (SpectralBlock::settle()). Returns the longest way to a goal, Å.
+    /// Collective.
+    double move(const Preconditioner& preconditioner, double bound);
     /// From rest again; the gains are kept.
     void stop();
 

@@ -16,68 +16,46 @@ namespace asperity {
 QuasistaticPath::QuasistaticPath(Equilibrium& block, Interface& interface, PathOptions options)
     : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
+      points_(block, interface,
+              {options_.along, 0.25 * options_.tolerance, options_.site_stiffness,
+               options_.reference_height}),
       length_(options_.step) {}
 
 void QuasistaticPath::start() {
     // Out of reach the block follows the top plane as a whole: that is what the first steps
     // continue.
-    before_top_ = options_.step;
-    block_.set_uniform(before_top_);
-    before_.take(block_.state());
+    block_.set_uniform(options_.step);
+    points_.begin(options_.step);
     block_.set_uniform(0.0);
+    points_.accept(0.0);
     first_point(0.0);
     reversible_ = true;
     direction_ = -1.0;
 }
 
-void QuasistaticPath::hold_here() {
-    first_point(options_.hold == Hold::top ? block_.top() : block_.mean_height());
+void QuasistaticPath::start_here() {
+    const double top = options_.along == Constraint::Of::top ? block_.top() : block_.mean_height();
+    points_.begin(top);
+    first_point(top);
     reversible_ = false;
 }
 
-void QuasistaticPath::hold(double top) {
-    if (options_.hold == Hold::top)
-        block_.hold_top(top);
-    else
-        block_.hold_mean_height(top);
-}
-
 void QuasistaticPath::first_point(double top) {
-    record_.top = top;
-    last_.take(block_.state());
-    const RelaxedState state = relax_at(record_.top, false, false);
+    const RelaxedState state = points_.relax_at(top, false, {});
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
                                fmt::format("the largest force left is {:.2e} eV/Å", state.residual),
                                "a looser drive.tolerance");
-    last_.take(block_.state());
+    points_.replace();
     record_.step = 0;
     energy_at_start_ = state.interface_energy + state.elastic_energy;
-    set_record(state, record_.top);
-    trail_.begin(record_.top, state.top_force);
-}
-
-std::vector<StateArray> QuasistaticPath::states() {
-    const auto arrays = block_.state();
-    if (last_.empty()) last_.take(arrays);
-    if (before_.empty()) before_.take(arrays);
-    std::vector<StateArray> list = last_.arrays(arrays, "");
-    for (const StateArray& array : before_.arrays(arrays, "previous_"))
-        list.push_back(array);
-    std::stable_sort(list.begin(), list.end(),
-                     [](const StateArray& a, const StateArray& b) { return a.level < b.level; });
-    return list;
+    set_record(state, top);
+    trail_.begin(top, state.top_force);
 }
 
 void QuasistaticPath::resume() {
     put_back();
     record_.observed = true;
-}
-
-void QuasistaticPath::put_back() {
-    last_.restore(block_.state());
-    hold(record_.top);
-    block_.settle();
 }
 
 QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
@@ -87,27 +65,29 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         trail_.begin(record_.top, record_.top_force);
         attracted_ = false;
         (leg == Leg::approach ? approach_ : pull_off_) = 0.0;
+        (leg == Leg::approach ? approach_error_ : pull_off_error_) = {};
         direction_ = direction;
     }
     const double aim = attracted_ ? options_.load : std::max(options_.load, 0.0);
     const double slack = 0.25 * options_.tolerance * sites_; // what points are relaxed to
     const double length = length_;
-    const long long iterations = iterations_;
+    const long long iterations = points_.iterations();
     bool landing = false, predicted = reversible_;
     for (;;) {
         const double top = record_.top + direction * length_;
-        const RelaxedState state = relax_at(top, predicted);
+        const RelaxedState state = points_.relax_at(top, predicted, options_.report);
         if (state.interrupted) {
             put_back();
             length_ = length;
-            iterations_ = iterations;
+            points_.set_iterations(iterations);
             return Outcome::interrupted;
         }
         const bool last_try = length_ <= smallest_step();
         if (!state.converged && last_try)
             throw io::PhysicsError(
                 fmt::format("no equilibrium was found with the {} displaced by {:.6g} Å",
-                            options_.hold == Hold::top ? "top plane" : "mean height", top),
+                            options_.along == Constraint::Of::top ? "top plane" : "mean height",
+                            top),
                 fmt::format("the largest force left is {:.2e} eV/Å after {} iterations, and {:.2e} "
                             "is asked for (a quarter of drive.tolerance)",
                             state.residual, state.iterations, 0.25 * options_.tolerance),
@@ -145,24 +125,6 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     }
 }
 
-RelaxedState QuasistaticPath::relax_at(double top, bool predicted, bool interruptible) {
-    const auto arrays = block_.state();
-    last_.restore(arrays);
-    constexpr double furthest = 1.0; // Å: of a site in contact, out of which it still comes back
-    const double ratio = (top - record_.top) / (record_.top - before_top_);
-    if (predicted && ratio * moved_ <= furthest) before_.extrapolate(ratio, arrays);
-    hold(top);
-    block_.settle();
-    RelaxOptions options;
-    options.tolerance = 0.25 * options_.tolerance;
-    options.site_stiffness = options_.site_stiffness;
-    if (interruptible) options.report = options_.report;
-    const RelaxedState state =
-        block_.relax(interface_, options_.reference_height, options, phases_);
-    iterations_ += state.iterations;
-    return state;
-}
-
 QuasistaticPath::Verdict QuasistaticPath::judge(const RelaxedState& state, double top) const {
     const double step = std::abs(top - record_.top);
     const double gained = state.interface_energy + state.elastic_energy - record_.interface_energy -
@@ -176,6 +138,7 @@ QuasistaticPath::Verdict QuasistaticPath::judge(const RelaxedState& state, doubl
     v.margin = allowed / std::max(error, 1e-6 * allowed);
     if (std::abs(missing) <= allowed) {
         v.accepted = true;
+        v.gap = missing;
         return v;
     }
     // What is less than the work may be wrong by is left unaccounted for: it shows in the residual.
@@ -188,6 +151,8 @@ QuasistaticPath::Verdict QuasistaticPath::judge(const RelaxedState& state, doubl
         v.accepted = uncertain <= options_.tolerance * sites_ * options_.step;
     }
     if (v.work - gained > uncertain) v.dissipated = v.work - gained;
+    v.gap = v.work - gained - v.dissipated;
+    v.uncertain = uncertain;
     v.carried = gained - v.work > std::max(uncertain, allowed);
     v.accepted = v.accepted && !v.carried;
     return v;
@@ -201,6 +166,9 @@ void QuasistaticPath::accept(const RelaxedState& state, double top, const Verdic
     double& interface_work = leg == Leg::approach ? approach_ : pull_off_;
     interface_work +=
         -verdict.work + 0.5 * (state.top_force * next_stretch - record_.top_force * stretch);
+    LegError& error = leg == Leg::approach ? approach_error_ : pull_off_error_;
+    error.gap += verdict.gap;
+    error.squares += verdict.uncertain * verdict.uncertain;
     record_.work += verdict.work;
     if (verdict.dissipated > 0.0) {
         dissipation_.book(describe(state, verdict.dissipated, leg));
@@ -210,10 +178,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double top, const Verdic
         trail_.add(top, state.top_force);
     else
         trail_.begin(top, state.top_force);
-    before_top_ = record_.top;
-    moved_ = largest_move().value;
-    std::swap(before_, last_);
-    last_.take(block_.state());
+    points_.accept(top);
     reversible_ = verdict.dissipated == 0.0;
     ++record_.step;
     set_record(state, top);
@@ -243,19 +208,6 @@ void QuasistaticPath::set_record(const RelaxedState& state, double top) {
     record_.residual = scale_ > 0.0 ? (record_.work - change - record_.damped) / scale_ : 0.0;
 }
 
-std::function<double(int, int)> QuasistaticPath::moves() const {
-    const auto layer = block_.lowest_layer();
-    const VectorPlane<const double> old = {last_[0].plane(0), last_[1].plane(0), last_[2].plane(0)};
-    return [=](int x, int y) {
-        return std::hypot(layer.x(x, y) - old.x(x, y), layer.y(x, y) - old.y(x, y),
-                          layer.z(x, y) - old.z(x, y));
-    };
-}
-
-LargestSite QuasistaticPath::largest_move() const {
-    return global_largest(block_.communicator(), interface_.tile(), moves());
-}
-
 Jump QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg) const {
     Jump jump;
     jump.energy = energy;
@@ -267,9 +219,9 @@ Jump QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg
     jump.force_after = state.top_force;
     jump.contact_before = static_cast<double>(record_.in_contact);
     jump.contact_after = static_cast<double>(state.in_contact);
-    const LargestSite most = largest_move();
+    const LargestSite most = points_.largest_move();
     std::array<std::int64_t, 1> count = {0};
-    const auto moved = moves();
+    const auto moved = points_.moves();
     const auto layer = block_.lowest_layer();
     for (int y = 0; y < layer.x.ny; ++y)
         for (int x = 0; x < layer.x.nx; ++x)

@@ -30,24 +30,24 @@
 // energy than the work can have brought, is found again without.
 #pragma once
 
-#include "decomposition/global_largest.hpp"
 #include "engine/dynamics/drive.hpp"
 #include "engine/dynamics/simulation.hpp"
+#include "engine/equilibrium/continuation.hpp"
 #include "engine/equilibrium/dissipation.hpp"
-#include "engine/equilibrium/equilibrium.hpp"
 #include "engine/equilibrium/force_trail.hpp"
 
+#include <cmath>
 #include <functional>
 
 namespace asperity {
 
 struct PathOptions {
-    Hold hold = Hold::top;
-    double step = 0.25;            ///< of what is held, the largest, Å
-    double tolerance = 1e-4;       ///< eV/Å
-    double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
-    double load = 0.0;             ///< at which the approach ends, eV/Å
-    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    Constraint::Of along = Constraint::Of::top; ///< or mean_height
+    double step = 0.25;                         ///< of that, the largest, Å
+    double tolerance = 1e-4;                    ///< eV/Å
+    double site_stiffness = 2.2;                ///< of the interface, eV/Å^2
+    double load = 0.0;                          ///< at which the approach ends, eV/Å
+    double reference_height = 0.0;              ///< z of the undisplaced lowest layer, Å
     /// Called during relaxations with their iteration and residual. True: stop.
     std::function<bool(long long, double)> report;
 };
@@ -56,10 +56,10 @@ class QuasistaticPath {
 public:
     QuasistaticPath(Equilibrium& block, Interface& interface, PathOptions options);
 
-    /// The undisplaced block, held where nothing is in reach.
+    /// The undisplaced block, where nothing is in reach.
     void start();
-    /// The block as it is, held from now on.
-    void hold_here();
+    /// The block as it is.
+    void start_here();
 
     enum class Outcome { point, landed, gone, interrupted };
     /// The next point of a leg. landed: the approach has come to its load (the path stands there
@@ -75,17 +75,24 @@ public:
     /// under a held top plane, F is what the block's spring exerts.
     double approach_work() const { return approach_; }
     double pull_off_work() const { return pull_off_; }
+    /// What these, and what was dissipated on the leg, may be wrong by, eV: the gap in the leg's
+    /// energy balance, and twice the root of the sum of squares of what the work of each step with
+    /// an instability is not known by.
+    double uncertainty(Leg leg) const {
+        const LegError& e = error(leg);
+        return std::abs(e.gap) + 2.0 * std::sqrt(e.squares);
+    }
     const Dissipation& dissipation() const { return dissipation_; }
-    long long iterations() const { return iterations_; }
+    long long iterations() const { return points_.iterations(); }
     /// Puts the block back to the last point, from wherever it was taken.
-    void put_back();
+    void put_back() { points_.put_back(); }
 
     /// For checkpoints: all numbers of the path, and the displacements at its last two points. A
     /// path that has read both and is resumed makes the same points, bit for bit, as one that never
     /// stopped.
     template <class Visitor>
     void visit(Visitor& v);
-    std::vector<StateArray> states();
+    std::vector<StateArray> states() { return points_.states(); }
     void resume();
 
 private:
@@ -93,19 +100,21 @@ private:
         bool accepted = false;
         double work = 0.0;       ///< of the top plane in this step, eV
         double dissipated = 0.0; ///< eV
+        double gap = 0.0;        ///< work less energy gained and dissipated, eV
+        double uncertain = 0.0;  ///< of the work, where energy is missing, eV
         bool smooth = true;      ///< the force did not jump
         bool carried = false;    ///< more energy than the work can have brought
         double margin = 0.0;     ///< allowed error over the one found: how much the step may grow
     };
-    void hold(double top);
-    RelaxedState relax_at(double top, bool predicted, bool interruptible = true);
+    struct LegError {
+        double gap = 0.0, squares = 0.0; ///< eV, eV^2
+    };
+    const LegError& error(Leg leg) const {
+        return leg == Leg::approach ? approach_error_ : pull_off_error_;
+    }
     Verdict judge(const RelaxedState& state, double top) const;
     void accept(const RelaxedState& state, double top, const Verdict& verdict, Leg leg);
     Jump describe(const RelaxedState& state, double energy, Leg leg) const;
-    /// How far each site of the lowest layer has moved since the last point, and the one that has
-    /// most, Å.
-    std::function<double(int, int)> moves() const;
-    LargestSite largest_move() const;
     void set_record(const RelaxedState& state, double top);
     void first_point(double top);
     double smallest_step() const { return options_.step * 0x1p-16; }
@@ -114,22 +123,19 @@ private:
     Interface& interface_;
     PathOptions options_;
     double sites_ = 0.0; ///< N^2
-    Phases phases_;      ///< of the relaxations; their lines are not lines of the step
+    Continuation points_;
 
     StepRecord record_;
-    StateCopy last_, before_; ///< of the last point and the one before it
-    double before_top_ = 0.0;
-    bool reversible_ = false; ///< the last step was; before_ is good for a prediction
-    double moved_ = 0.0;      ///< in it, the site that moved most, Å
+    bool reversible_ = false; ///< the last step was: good for a prediction
     double length_ = 0.0;     ///< of the next step, Å
     double direction_ = 0.0;  ///< of the last step
     ForceTrail trail_;
     bool attracted_ = false;
     double strongest_ = 0.0; ///< attraction so far, eV/Å
     double approach_ = 0.0, pull_off_ = 0.0;
+    LegError approach_error_, pull_off_error_;
     double energy_at_start_ = 0.0, scale_ = 0.0;
     Dissipation dissipation_;
-    long long iterations_ = 0;
 };
 
 template <class Visitor>
@@ -147,9 +153,8 @@ void QuasistaticPath::visit(Visitor& v) {
     v("work", record_.work);
     v("dissipated", record_.damped);
     v("residual", record_.residual);
-    v("before_top", before_top_);
+    points_.visit(v);
     v("reversible", reversible_);
-    v("moved", moved_);
     v("length", length_);
     v("direction", direction_);
     trail_.visit(v);
@@ -157,10 +162,13 @@ void QuasistaticPath::visit(Visitor& v) {
     v("strongest", strongest_);
     v("approach_work", approach_);
     v("pull_off_work", pull_off_);
+    v("approach_gap", approach_error_.gap);
+    v("approach_squares", approach_error_.squares);
+    v("pull_off_gap", pull_off_error_.gap);
+    v("pull_off_squares", pull_off_error_.squares);
     v("energy_at_start", energy_at_start_);
     v("scale", scale_);
     dissipation_.visit(v);
-    v("iterations", iterations_);
 }
 
 } // namespace asperity

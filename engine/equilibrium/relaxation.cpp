@@ -31,9 +31,9 @@ class Descent {
 
 public:
     Descent(Block& block, Interface& interface, double reference_height,
-            const RelaxOptions& options, Phases& phases)
-        : block_(block), interface_(interface), height_(reference_height), options_(options),
-          phases_(phases), grids_(block) {
+            const Constraint& constraint, const RelaxOptions& options, Phases& phases)
+        : block_(block), interface_(interface), height_(reference_height), constraint_(constraint),
+          options_(options), phases_(phases), grids_(block) {
         std::size_t planes = 0;
         for (Block::Level& level : block.levels()) {
             first_plane_.push_back(planes);
@@ -51,8 +51,8 @@ public:
     }
 
     /// Forces at the present positions; the largest on a node. What is left in all of the block
-    /// counts too, as a share for each site: the force on a free top plane; under a held one, what
-    /// the substrate exerts and the top plane does not feel.
+    /// counts too, as a share for each site: the force on a free top plane; under a prescribed one,
+    /// what the substrate exerts and the top plane does not feel.
     double evaluate(bool observe) {
         {
             const auto t = phases_.time(Phase::interpolate);
@@ -62,7 +62,7 @@ public:
         {
             const auto t = phases_.time(Phase::advance);
             block_.forces(nodes_);
-            if (options_.mean_height_held) keep_mean_height();
+            if (constraint_.is_mean_height()) remove_mean_force();
         }
         const auto t = phases_.time(Phase::sums);
         const auto moved = std::as_const(block_.levels().front().v).plane(0);
@@ -73,11 +73,11 @@ public:
             global_sums(block_.communicator(),
                         std::array{top_sum(), sums_.force_z, stiffness_sum(), power_sum()});
         elastic_top_force_ = above;
-        top_force_ = options_.top_held ? 0.0 : above - options_.load;
+        top_force_ = constraint_.is_top() ? 0.0 : above - constraint_.load();
         mean_stiffness_ = std::max(0.0, stiffness / sites_);
         momentum_ =
             power < 0.0 ? least_momentum : std::min(most_momentum, 1.0 - lost * (1.0 - momentum_));
-        const double whole = options_.top_held ? below - above : top_force_;
+        const double whole = constraint_.is_top() ? below - above : top_force_;
         std::array<double, 1> all = {std::max(largest_force(), std::abs(whole) / sites_)};
         block_.communicator().max(all);
         return all[0];
@@ -102,13 +102,13 @@ public:
                     for (int x = 0; x < nx; ++x)
                         v[c][x] = momentum_ * v[c][x] + step[c][x] + m[c];
                 cut(v, nx);
-                if (!options_.mean_height_held) displace(l, z, y, nx);
+                if (!constraint_.is_mean_height()) displace(l, z, y, nx);
             });
         }
-        if (!options_.top_held)
+        if (!constraint_.is_top())
             top_move_ = std::clamp(momentum_ * top_move_ + mean.back()[2], -options_.max_move,
                                    options_.max_move);
-        if (options_.mean_height_held) displace_at_mean_height();
+        if (constraint_.is_mean_height()) displace_at_mean_height();
         block_.set_top(block_.top() + top_move_);
         const auto t = phases_.time(Phase::exchange);
         block_.exchange();
@@ -199,8 +199,8 @@ private:
         const double shear = o.shear_modulus() * o.spacing;
         for (std::size_t c = 0; c < 3; ++c) {
             const double modulus = c == 2 ? o.lame() * o.spacing + 2.0 * shear : shear;
-            const bool top_moves = c == 2 && !options_.top_held;
-            const bool lowest_held = c == 2 && options_.mean_height_held;
+            const bool top_moves = c == 2 && !constraint_.is_top();
+            const bool lowest_fixed = c == 2 && constraint_.is_mean_height();
             // Elimination from below: diagonal and force of what is left.
             std::vector<double> diagonal(n + 1), force(n + 1);
             double below = mean_stiffness_ + least_stiffness, handed = 0.0;
@@ -209,7 +209,7 @@ private:
                 const double f = i < n ? forces[3 * i + c] : top_force_;
                 diagonal[i] = below + above;
                 force[i] = f / sites_ + handed;
-                if (i == 0 && lowest_held) force[i] = 0.0, diagonal[i] = HUGE_VAL;
+                if (i == 0 && lowest_fixed) force[i] = 0.0, diagonal[i] = HUGE_VAL;
                 below = above - above * above / diagonal[i];
                 handed = force[i] * above / diagonal[i];
             }
@@ -225,12 +225,12 @@ private:
         return global_sum(block_.communicator(), sum) / sites_;
     }
     /// Takes the mean normal force off the lowest layer.
-    void keep_mean_height() {
+    void remove_mean_force() {
         const PlaneView<double> z = nodes_.front().plane(0).z;
-        const double held = mean(z);
+        const double whole = mean(z);
         for (int y = 0; y < z.ny; ++y)
             for (int x = 0; x < z.nx; ++x)
-                z(x, y) -= held;
+                z(x, y) -= whole;
     }
     /// Takes the lowest layer's mean along z out of all moves, which shifts the block and does not
     /// strain it; all are shortened so that none gets longer than it may.
@@ -289,6 +289,7 @@ private:
     Block& block_;
     Interface& interface_;
     double height_;
+    const Constraint& constraint_;
     const RelaxOptions& options_;
     Phases& phases_;
     CoarseGrids grids_;
@@ -307,8 +308,8 @@ private:
 } // namespace
 
 RelaxedState relax(Block& block, Interface& interface, double reference_height,
-                   const RelaxOptions& options, Phases& phases) {
-    Descent descent(block, interface, reference_height, options, phases);
+                   const Constraint& constraint, const RelaxOptions& options, Phases& phases) {
+    Descent descent(block, interface, reference_height, constraint, options, phases);
     RelaxedState state;
     for (;; ++state.iterations) {
         state.residual = descent.evaluate(false);
@@ -334,7 +335,7 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
     const auto values = global_sums(block.communicator(), energies);
     state.interface_energy = values[0];
     state.force = values[1];
-    state.top_force = options.mean_height_held ? state.force : descent.elastic_top_force();
+    state.top_force = constraint.is_mean_height() ? state.force : descent.elastic_top_force();
     state.elastic_energy = values[2];
     state.mean_height =
         values[3] / (static_cast<double>(block.options().sites) * block.options().sites);

@@ -83,7 +83,7 @@ private:
     }
     void measure() {
         const auto t = phases_.time(Phase::sums);
-        block_.gradient(options_.load, g_);
+        block_.gradient(g_);
         rms_ = std::sqrt(dot(g_, g_)) / block_.options().sites;
         rough_ = rough_ && rms_ > rough_enough;
     }
@@ -107,7 +107,7 @@ private:
         if (fallen_++ % 8 == 7) tune();
         {
             const auto t = phases_.time(Phase::advance);
-            way_ = ball_.move(preconditioner_, options_.load, options_.max_move);
+            way_ = ball_.move(preconditioner_, options_.max_move);
         }
         if (way_ > near || fallen_ < patience) return;
         falling_ = false;
@@ -190,7 +190,7 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
     state.interface_energy = values[0];
     state.force = values[1];
-    state.top_force = block.mean_height_is_held() ? state.force : block.top_force();
+    state.top_force = block.constraint().is_mean_height() ? state.force : block.top_force();
     state.elastic_energy = block.elastic_energy();
     state.mean_height = block.mean_height();
     const ContactCount contacts = count_contacts(sums, block.communicator());

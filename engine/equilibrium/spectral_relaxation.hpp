@@ -31,7 +31,7 @@
 
 namespace asperity {
 
-/// Relaxes the block in place, its top plane as it is (held or free; the load acts on a free one).
+/// Relaxes the block in place, under its constraint.
 /// options.max_move: 0.3 Å, well below the range of the potential, is usual.
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const RelaxOptions& options, Phases& phases);

@@ -7,6 +7,7 @@
 
 #include "engine/equilibrium/equilibrium.hpp"
 #include "engine/equilibrium/quasistatic.hpp"
+#include "engine/equilibrium/state_search.hpp"
 #include "engine/run/run_frame.hpp"
 #include "engine/units.hpp"
 
@@ -27,7 +28,8 @@ public:
         : RunFrame(scene, options, ranks),
           interface_(surface_, grid_.tile(0), scene.surface.spacing, setup_.simulation.interface),
           block_(make_equilibrium(scene, setup_, ranks, grid_)),
-          path_(*block_, interface_, path_options()) {}
+          path_(*block_, interface_, path_options()),
+          search_(*block_, interface_, search_options()) {}
 
 private:
     void follow() override {
@@ -44,6 +46,11 @@ private:
 
     /// Straight to the relaxed state under the load. False where it was stopped.
     bool relax_free() {
+        if (!searching_ && !relax_first()) return false;
+        return scene_.drive.states == States::first || find_all_states();
+    }
+
+    bool relax_first() {
         if (!resumed_) {
             const double height = height_of_strongest_attraction(
                 *block_, interface_, surface_.statistics.lowest, ranks_);
@@ -56,6 +63,23 @@ private:
             say_where_stopped();
             return false;
         }
+        return true;
+    }
+
+    /// From the first state inwards. False where it was stopped.
+    bool find_all_states() {
+        if (!searching_) search_.start(*findings_.zero_load);
+        searching_ = true;
+        resumed_ = false;
+        for (auto outcome = StateSearch::Outcome::point; outcome != StateSearch::Outcome::done;) {
+            if (time_to_stop()) return false;
+            const auto t = phases_.time(Phase::relax);
+            outcome = search_.advance();
+            findings_.states = search_.found();
+            if (outcome == StateSearch::Outcome::interrupted) return stop_at_last_point();
+        }
+        search_.restore_first();
+        searching_ = false;
         return true;
     }
 
@@ -84,7 +108,7 @@ private:
         if (part_ == 0)
             path_.start();
         else if (scene_.drive.path[part_ - 1] == PathPart::zero_load)
-            path_.hold_here();
+            path_.start_here();
         else
             return; // the path goes on from where it stands
         recorder_->row(path_.now(), leg == Leg::pull_off, scene_.surface.sites);
@@ -109,11 +133,14 @@ private:
         const double area = scene_.edge() * scene_.edge();
         if (leg == Leg::pull_off) {
             findings_.pull_off = -units::milli_per_unit * path_.pull_off_work() / area;
+            findings_.pull_off_uncertainty =
+                units::milli_per_unit * path_.uncertainty(Leg::pull_off) / area;
             return true;
         }
         findings_.approach = units::milli_per_unit * path_.approach_work() / area;
+        findings_.approach_uncertainty =
+            units::milli_per_unit * path_.uncertainty(Leg::approach) / area;
         path_.put_back(); // as after a resume, to the same bits
-        block_->free_top();
         const bool found = find_state(0.0);
         path_.put_back();
         return found || stop_at_last_point();
@@ -150,7 +177,10 @@ private:
     Phases& phases() override { return phases_; }
     bool points() const { return path_.now().observed; }
     std::string position() const override {
-        return points() ? fmt::format("point {}", path_.now().step) : "an unfinished relaxation";
+        return searching_ ? fmt::format("point {} of the search for states",
+                                        findings_.states ? findings_.states->points : 0)
+               : points() ? fmt::format("point {}", path_.now().step)
+                          : "an unfinished relaxation";
     }
     void complete(io::ResultRecord& r) const override {
         r.energy.kinetic = 0.0;
@@ -161,6 +191,8 @@ private:
             r.energy = {now.residual,         now.work,  0.0, now.elastic_energy,
                         now.interface_energy, now.damped};
         } else if (findings_.zero_load) {
+            r.run.iterations =
+                static_cast<long long>(findings_.zero_load->iterations) + search_.iterations();
             const double area = scene_.edge() * scene_.edge() / units::milli_per_unit;
             r.energy.elastic = findings_.zero_load->elastic * area;
             r.energy.interface = -findings_.zero_load->pairwise * area;
@@ -171,24 +203,30 @@ private:
     struct Place {
         double top;
         std::size_t part;
-        bool at_end, on_path;
+        bool at_end, on_path, searching;
         template <class Visitor>
         void visit(Visitor& v) {
             v("top", top);
             v("part", part);
             v("at_end", at_end);
             v("on_path", on_path);
+            v("searching", searching);
         }
     };
     void write_state(const std::string& path) override {
         CollectScalars collect;
-        Place place{block_->top(), part_, at_end_, points()};
+        Place place{block_->top(), part_, at_end_, points(), searching_};
         place.visit(collect);
         if (place.on_path) path_.visit(collect);
+        if (place.searching) search_.visit(collect);
         const RunScalars run = run_scalars();
         collect.values.insert(collect.values.end(), run.begin(), run.end());
-        write_checkpoint(path, ranks_, grid_, place.on_path ? path_.states() : block_->state(),
-                         collect.values, fingerprint_);
+        write_checkpoint(path, ranks_, grid_, arrays(place), collect.values, fingerprint_);
+    }
+    std::vector<StateArray> arrays(const Place& place) {
+        return place.on_path     ? path_.states()
+               : place.searching ? search_.states()
+                                 : block_->state();
     }
     bool take_up() {
         const std::optional<std::string> from = checkpoint_to_take_up();
@@ -199,16 +237,17 @@ private:
         place.visit(restore);
         part_ = place.part;
         at_end_ = place.at_end;
-        read_checkpoint(*from, ranks_, grid_, place.on_path ? path_.states() : block_->state(),
-                        fingerprint_);
+        read_checkpoint(*from, ranks_, grid_, arrays(place), fingerprint_);
         if (place.on_path) {
             path_.visit(restore);
             path_.resume();
             findings_.dissipated = path_.dissipation();
+        } else if (place.searching) {
+            search_.visit(restore);
+            search_.resume();
+            searching_ = true;
         } else {
-            block_->hold_top(place.top);
-            block_->settle();
-            block_->free_top();
+            block_->settle(Constraint::top(place.top));
         }
         restore_run({scalars.begin() + static_cast<std::ptrdiff_t>(restore.at), scalars.end()});
         resumed_ = true;
@@ -219,7 +258,8 @@ private:
     double reference_height() const { return interface_.start_height(); }
     PathOptions path_options() {
         PathOptions o;
-        o.hold = scene_.drive.hold;
+        o.along =
+            scene_.drive.hold == Hold::top ? Constraint::Of::top : Constraint::Of::mean_height;
         o.step = scene_.drive.step;
         o.tolerance = scene_.drive.tolerance;
         o.site_stiffness = relax_options(scene_, setup_).site_stiffness;
@@ -233,14 +273,38 @@ private:
         return o;
     }
 
+    StateSearchOptions search_options() {
+        StateSearchOptions o;
+        o.step = scene_.drive.step;
+        o.tolerance = scene_.drive.tolerance;
+        o.site_stiffness = relax_options(scene_, setup_).site_stiffness;
+        o.load = setup_.simulation.drive.load_force;
+        o.reference_height = interface_.start_height();
+        o.area = scene_.edge() * scene_.edge();
+        o.largest_tension = units::gigapascal * setup_.flat.largest_tension;
+        o.report = [this](long long iteration, double) {
+            if (progress_.due())
+                progress_.update({fmt::format("{}, relaxing", position()), iteration, 0.0, -1.0});
+            return due() == Due::stop;
+        };
+        o.relax_free = [this] {
+            return find_zero_load(*block_, interface_, reference_height(),
+                                  setup_.simulation.drive.load_force, scene_, setup_,
+                                  search_options().report);
+        };
+        return o;
+    }
+
     Interface interface_;
     std::unique_ptr<Equilibrium> block_;
     QuasistaticPath path_;
+    StateSearch search_;
     Phases phases_;
     Leg leg_ = Leg::approach;
-    std::size_t part_ = 0; ///< of the path: the one under way
-    bool at_end_ = false;  ///< it has come to its end and is to be concluded
-    bool resumed_ = false; ///< it goes on from a checkpoint
+    std::size_t part_ = 0;   ///< of the path: the one under way
+    bool at_end_ = false;    ///< it has come to its end and is to be concluded
+    bool resumed_ = false;   ///< it goes on from a checkpoint
+    bool searching_ = false; ///< for all states, the first being found
 };
 
 } // namespace

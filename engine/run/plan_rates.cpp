@@ -170,7 +170,7 @@ void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& pie
     options.tolerance = 1e-300;
     Phases phases;
     const auto begin = Clock::now();
-    const RelaxedState reached = state->relax(own, height, options, phases);
+    const RelaxedState reached = state->relax(own, height, {}, options, phases);
     rates.iteration = since(begin) / static_cast<double>(std::max(1ll, reached.iterations)) / nodes;
     rates.relaxation_bytes =
         static_cast<double>(state->bytes()) / (static_cast<double>(block.sites) * block.sites);

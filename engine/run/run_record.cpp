@@ -3,6 +3,7 @@
 #include "engine/run/run_record.hpp"
 
 #include "engine/run/curve.hpp"
+#include "engine/run/states_record.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/scene/accuracy.hpp"
 #include "engine/units.hpp"
@@ -50,10 +51,12 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
         r.contact_fraction = z.contact_fraction;
         r.pushed_fraction = z.pushed_fraction;
         r.run.iterations = static_cast<long long>(z.iterations);
+        r.extra.emplace_back("binding_energy_uncertainty", z.uncertainty);
         r.extra.emplace_back("zero_load.elastic_energy", z.elastic);
         r.extra.emplace_back("zero_load.mean_height", z.mean_height);
         r.extra.emplace_back("zero_load.residual_force", z.residual);
     }
+    if (findings.states) r.extra.emplace_back("states", states_json(*findings.states));
     if (findings.pull_off) r.pull_off_force = findings.attraction_out;
     if (scene.surface.radius) {
         const auto jkr = [&](double f) {
@@ -72,6 +75,11 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
         d["approach"] = units::milli_per_unit * lost.approach / area;
         d["pull_off"] = units::milli_per_unit * lost.pull_off / area;
         d["energy"] = lost.total();
+        io::JsonValue u = io::JsonValue::object();
+        if (findings.approach) u["approach"] = findings.approach_uncertainty;
+        if (findings.pull_off) u["pull_off"] = findings.pull_off_uncertainty;
+        d["uncertainty"] = u;
+        r.extra.emplace_back("work_of_adhesion.uncertainty", std::move(u));
         d["events"] = lost.events;
         d["jumps"] = io::JsonValue::array();
         for (const Jump& jump : lost.jumps) {

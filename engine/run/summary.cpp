@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/summary.hpp"
 
+#include "engine/run/states_record.hpp"
 #include "engine/scene/accuracy.hpp"
 #include "engine/units.hpp"
 #include "io/table.hpp"
@@ -143,6 +144,7 @@ void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const 
                    "  {:.1f} % of the block's surface atoms are in contact.\n",
                    z->binding_energy, 100.0 * z->binding_energy / flat, z->pairwise, z->elastic,
                    100.0 * z->contact_fraction);
+    if (findings.states) print_states(to, *findings.states);
     if (findings.approach && findings.pull_off && z) {
         const double lost = *findings.pull_off - *findings.approach;
         fmt::print(to, "  Approach and pull-off are the work of the interface's force on the mean "

@@ -210,6 +210,8 @@ std::vector<std::string> notes(const Scene& scene) {
     };
     if (!scene.has(PathPart::approach) && !scene.has(PathPart::pull_off))
         idle("drive.hold", "drive.path relaxes with nothing held");
+    if (!scene.has(PathPart::zero_load))
+        idle("drive.states", "drive.path does not start at \"zero-load\"");
     if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
     if (surface.kind != SurfaceKind::file) idle("surface.file", "surface.kind is not \"file\"");
     if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");

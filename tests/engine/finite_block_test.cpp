@@ -231,10 +231,9 @@ Relaxation relaxed(bool finite, double load) {
     const double height = test::height_of_strongest_attraction(block, interface, surface);
     RelaxOptions o;
     o.tolerance = 1e-8;
-    o.load = load;
     o.max_iterations = 200000;
     Phases phases;
-    return {relax(block, interface, height, o, phases), block.top()};
+    return {relax(block, interface, height, Constraint::load(load), o, phases), block.top()};
 }
 
 } // namespace

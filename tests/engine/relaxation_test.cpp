@@ -26,9 +26,8 @@ struct Contact {
     RelaxedState relax_with(double tolerance, double load = 0.0, long long most = 200000) {
         RelaxOptions o;
         o.tolerance = tolerance;
-        o.load = load;
         o.max_iterations = most;
-        return relax(block, interface, height, o, phases);
+        return relax(block, interface, height, Constraint::load(load), o, phases);
     }
 };
 
@@ -51,7 +50,7 @@ RelaxedState relax_waves(int sites, double rms, double tolerance) {
     RelaxOptions o;
     o.tolerance = tolerance;
     Phases phases;
-    return c.block->relax(c.interface, height, o, phases);
+    return c.block->relax(c.interface, height, {}, o, phases);
 }
 
 } // namespace

@@ -67,6 +67,7 @@ TEST(Scene, DefaultsAreThePapers) {
         {"drive.hold", "\"top\""},
         {"drive.path", "[\"approach\", \"pull-off\"]"},
         {"drive.velocity", "5.0"},
+        {"drive.states", "\"first\""},
         {"drive.step", "0.25"},
         {"drive.timestep", "10.0"},
         {"drive.damping", "0.05"},

@@ -30,7 +30,7 @@ struct Kind {
     const char* name = "levels";
     bool spectral = false, frictionless = false;
     int layers_per_level = 2;
-    Hold hold = Hold::top;
+    Constraint::Of along = Constraint::Of::top;
 };
 
 /// A soft block on a rough map: under a held top plane it snaps in.
@@ -52,11 +52,11 @@ struct Contact {
           interface(surface, grid.tile(0), options.spacing, test::paper_interface()),
           block(kind.spectral ? spectral_at_rest(options, ranks, kind.frictionless)
                               : at_rest(Block(options, ranks, grid))),
-          path(*block, interface, path_options(kind.hold)) {}
+          path(*block, interface, path_options(kind.along)) {}
 
-    PathOptions path_options(Hold hold) {
+    PathOptions path_options(Constraint::Of along) {
         PathOptions o;
-        o.hold = hold;
+        o.along = along;
         o.step = 0.5;
         o.tolerance = 1e-3;
         o.reference_height = interface.start_height();
@@ -110,7 +110,7 @@ std::vector<std::uint64_t> cycle(const Communicator& ranks, const Kind& kind, st
         last = contact.advance();
         points.push_back(contact.trace());
     }
-    EXPECT_GT(contact.path.dissipation().events, kind.hold == Hold::top ? 0 : -1)
+    EXPECT_GT(contact.path.dissipation().events, kind.along == Constraint::Of::top ? 0 : -1)
         << kind.name << " is meant to snap";
     return points;
 }
@@ -122,7 +122,7 @@ TEST(QuasistaticRanks, SameBits) {
 }
 
 TEST(QuasistaticRanks, SameBitsAtAHeldMeanHeight) {
-    const Kind kind{.name = "held mean height", .hold = Hold::mean_height};
+    const Kind kind{.name = "held mean height", .along = Constraint::Of::mean_height};
     EXPECT_EQ(cycle(world(), kind, 20), cycle(Communicator(), kind, 20));
 }
 
@@ -130,9 +130,12 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
     const std::string file = "quasistatic_ranks" + std::to_string(world().size()) + ".h5";
     std::mt19937 random(7);
     for (const Kind& kind :
-         {Kind{.name = "levels"}, Kind{.name = "levels, mean height", .hold = Hold::mean_height},
+         {Kind{.name = "levels"},
+          Kind{.name = "levels, mean height", .along = Constraint::Of::mean_height},
           Kind{.name = "spectral", .spectral = true},
-          Kind{.name = "spectral, mean height", .spectral = true, .hold = Hold::mean_height},
+          Kind{.name = "spectral, mean height",
+          .spectral = true,
+          .along = Constraint::Of::mean_height},
           Kind{.name = "frictionless", .spectral = true, .frictionless = true}}) {
         const std::vector<std::uint64_t> whole = cycle(world(), kind, 45);
         // Each stretch by objects of its own, levels also by the first rank alone.

@@ -37,15 +37,12 @@ struct State {
     double top = 0.0, top_force = 0.0;
 };
 
-enum class Held { nothing, top, mean_height };
-
-/// Pressed down on a rough map by what is held, or let go.
+/// Pressed down on a rough map by what is prescribed, or let go.
 State relax_on(const Communicator& ranks, const BlockOptions& options, const Surface& surface,
-               Held held, bool frictionless) {
+               const Constraint& constraint, bool frictionless) {
     SpectralBlock block(options, ranks, frictionless);
     const Interface interface(surface, block.tile(), options.spacing, test::paper_interface());
-    if (held == Held::top) block.hold_top(-0.3);
-    if (held == Held::mean_height) block.hold_mean_height(-0.3);
+    block.constrain(constraint);
     block.settle();
     RelaxOptions relaxation;
     relaxation.tolerance = 1e-7;
@@ -110,12 +107,15 @@ TEST(SpectralBlock, RelaxesLikeOneRank) {
         int sites, thickness;
     };
     for (const Map& map : {Map{"n8_b_rms1.0", 8, 6}, Map{"c2_N16_T8_rms1.5", 16, 8}})
-        for (Held held : {Held::nothing, Held::top, Held::mean_height})
+        for (const Constraint& constraint :
+             {Constraint::load(0.0), Constraint::top(-0.3), Constraint::mean_height(-0.3)})
             for (bool frictionless : {false, true}) {
                 const BlockOptions options = test::paper_block(map.sites, map.thickness, 0);
                 const Surface surface = test::reference_surface(map.name);
-                const State shared = relax_on(test::world(), options, surface, held, frictionless);
-                const State alone = relax_on(Communicator(), options, surface, held, frictionless);
+                const State shared =
+                    relax_on(test::world(), options, surface, constraint, frictionless);
+                const State alone =
+                    relax_on(Communicator(), options, surface, constraint, frictionless);
                 ASSERT_TRUE(shared.relaxed.converged && alone.relaxed.converged);
                 const double size = std::abs(alone.relaxed.interface_energy);
                 EXPECT_NEAR(shared.relaxed.interface_energy + shared.relaxed.elastic_energy,

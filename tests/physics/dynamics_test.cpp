@@ -360,7 +360,7 @@ Approach approach_slowly(const SimulationOptions& options, const Surface& surfac
     relax_options.tolerance = 1e-6;
     Phases phases;
     const RelaxedState state =
-        relax(copy, s.interface(), s.reference_height(), relax_options, phases);
+        relax(copy, s.interface(), s.reference_height(), {}, relax_options, phases);
     EXPECT_TRUE(state.converged);
     result.binding = -1e3 * (state.interface_energy + state.elastic_energy) / area;
     return result;

@@ -26,7 +26,7 @@ using Case = test::PathCase;
 namespace {
 
 QuasistaticPath path_of(Case& c, double tolerance, double load = 0.0) {
-    return c.path(tolerance, 0.25, load, Hold::mean_height);
+    return c.path(tolerance, 0.25, load, Constraint::Of::mean_height);
 }
 
 /// The state with nothing held, from where the block is.
@@ -34,8 +34,7 @@ RelaxedState let_go(Case& c) {
     RelaxOptions o;
     o.tolerance = 1e-6;
     Phases phases;
-    c.block->free_top();
-    return c.block->relax(c.interface, c.interface.start_height(), o, phases);
+    return c.block->relax(c.interface, c.interface.start_height(), {}, o, phases);
 }
 
 /// Without a path: relaxed at a mean displacement, from where the block is.
@@ -44,9 +43,8 @@ RelaxedState relax_at(Case& c, double z, double tolerance) {
     o.tolerance = tolerance;
     o.max_iterations = 20000;
     Phases phases;
-    c.block->hold_mean_height(z);
-    c.block->settle();
-    const RelaxedState s = c.block->relax(c.interface, c.interface.start_height(), o, phases);
+    const RelaxedState s = c.block->relax(c.interface, c.interface.start_height(),
+                                          Constraint::mean_height(z), o, phases);
     EXPECT_TRUE(s.converged) << z << ", " << s.residual;
     EXPECT_NEAR(s.mean_height, z, 1e-12);
     return s;
@@ -60,8 +58,6 @@ TEST(MeanHeight, StaysWhereItIsHeldWhileItRelaxes) {
         Case c(test::paper_block(32, 200, spectral ? 0 : 4),
                test::reference_surface("c3_N32_T32_rms1.5"), spectral);
         const double z = -9.0;
-        c.block->hold_mean_height(z);
-        c.block->settle();
         int looks = 0; // at every tenth iteration
         double drift = 0.0;
         RelaxOptions o;
@@ -72,7 +68,8 @@ TEST(MeanHeight, StaysWhereItIsHeldWhileItRelaxes) {
             return false;
         };
         Phases phases;
-        c.block->relax(c.interface, c.interface.start_height(), o, phases);
+        c.block->relax(c.interface, c.interface.start_height(), Constraint::mean_height(z), o,
+                       phases);
         std::printf("%d looks, drift %.1e\n", looks, drift);
         EXPECT_GE(looks, 2);
         EXPECT_LT(drift, 1e-5); // directions are in single precision
@@ -156,7 +153,7 @@ TEST(MeanHeight, GradientLeavesItOut) {
         auto along = test::random_displacement(block, random, 1.0);
         block.displace(1.0, start.waves, start.sites);
         constexpr double held_at = -0.3, h = 1e-5;
-        block.hold_mean_height(held_at);
+        block.constrain(Constraint::mean_height(held_at));
         block.settle();
         EXPECT_NEAR(block.mean_height(), held_at, 1e-15);
         // Along anything but the uniform wave.
@@ -173,7 +170,7 @@ TEST(MeanHeight, GradientLeavesItOut) {
         };
         energy();
         auto g = block.new_waves<double>();
-        block.gradient(7.0, g); // a load has nothing to press on
+        block.gradient(g);
         EXPECT_EQ(g.row(normal, 0)[0], 0.0);
         const double slope = dot(g, along.waves);
         block.displace(h, along.waves, along.sites);
@@ -316,12 +313,12 @@ TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     c.block->set_uniform(-9.0);
     RelaxOptions o;
     o.tolerance = 1e-6;
-    o.load = 20.0;
     Phases phases;
-    const RelaxedState pressed = c.block->relax(c.interface, c.interface.start_height(), o, phases);
+    const RelaxedState pressed =
+        c.block->relax(c.interface, c.interface.start_height(), Constraint::load(20.0), o, phases);
     ASSERT_TRUE(pressed.converged);
     QuasistaticPath path = path_of(c, 1e-4);
-    path.hold_here();
+    path.start_here();
     EXPECT_NEAR(path.now().force, 20.0, 0.01);
     EXPECT_NEAR(path.now().mean_height, c.interface.start_height() + pressed.mean_height, 1e-9);
     const double bound = -energy(path.now());

@@ -206,8 +206,8 @@ TEST(Quasistatic, LatticeAndSpectralGiveTheSameSeries) {
         std::vector<RelaxedState> states;
         for (int n = 0; n <= 24; ++n) {
             const double top = n <= 12 ? -4.0 - 0.5 * n : -10.0 + 0.5 * (n - 12);
-            c.block->hold_top(top);
-            states.push_back(c.block->relax(c.interface, c.interface.start_height(), o, phases));
+            states.push_back(c.block->relax(c.interface, c.interface.start_height(),
+                                            Constraint::top(top), o, phases));
             EXPECT_TRUE(states.back().converged) << n;
         }
         return states;

@@ -100,9 +100,9 @@ TEST(SpectralBlock, ForceIsTheGradientOfItsEnergy) {
                 const auto there = test::random_displacement(block, random, 0.3);
                 const auto d = test::random_displacement(block, random, 1.0);
                 block.displace(1.0, there.waves, there.sites);
-                if (held) block.hold_top(0.17);
+                if (held) block.constrain(Constraint::top(0.17));
                 auto g = block.new_waves<double>();
-                block.gradient(0.0, g);
+                block.gradient(g);
                 const double slope = dot(g, d.waves);
                 block.displace(1.0, d.waves, d.sites);
                 const double above = block.elastic_energy();
@@ -117,13 +117,19 @@ TEST(SpectralBlock, AHeldTopPullsWithItsSpring) {
     const BlockOptions o = test::paper_block(10, 6, 0);
     SpectralBlock block(o, Communicator());
     block.set_uniform(0.0);
-    block.hold_top(0.2);
+    block.constrain(Constraint::top(0.2));
     const double spring = (o.lame() + 2 * o.shear_modulus()) * 100 * o.spacing / 6;
     EXPECT_NEAR(block.top_force(), -0.2 * spring, 1e-12 * spring);
     EXPECT_NEAR(block.elastic_energy(), 0.5 * 0.04 * spring, 1e-12 * spring);
-    block.free_top();
+    block.constrain({});
     EXPECT_EQ(block.elastic_energy(), 0.0);
     EXPECT_EQ(block.top_force(), 0.0);
+    // Under a load the free top plane stretches the same spring.
+    const double load = 3.0;
+    block.constrain(Constraint::load(load));
+    EXPECT_NEAR(block.top_force(), load, 1e-12);
+    EXPECT_NEAR(block.top(), -load / spring, 1e-12);
+    EXPECT_NEAR(block.elastic_energy(), 0.5 * load * load / spring, 1e-12);
 }
 
 TEST(SpectralBlock, PreconditionerIsAnInverse) {
@@ -147,16 +153,15 @@ TEST(SpectralBlock, PreconditionerIsAnInverse) {
 
 TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
     // goal - u = -(S + k)^-1 g, whatever is held, the gradient in double on its own way.
-    constexpr double load = 3.0, k = 0.4;
-    enum class Held { nothing, top, mean_height };
+    constexpr double k = 0.4;
     for (bool frictionless : {false, true})
-        for (Held held : {Held::nothing, Held::top, Held::mean_height}) {
+        for (const Constraint& constraint :
+             {Constraint::load(3.0), Constraint::top(0.25), Constraint::mean_height(-0.1)}) {
             SpectralBlock block(test::paper_block(15, 9, 0), Communicator(), frictionless);
             std::mt19937_64 random(12);
             const auto displacement = test::random_displacement(block, random, 0.3);
             block.displace(1.0, displacement.waves, displacement.sites);
-            if (held == Held::top) block.hold_top(0.25);
-            if (held == Held::mean_height) block.hold_mean_height(-0.1);
+            block.constrain(constraint);
             block.settle();
             std::normal_distribution<double> normal(0.0, 0.1);
             const VectorPlane<double> force = block.interface_force();
@@ -164,15 +169,14 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
                 for (int y = 0; y < f.ny; ++y)
                     for (int x = 0; x < f.nx; ++x)
                         f(x, y) = normal(random);
-            const double weight = held == Held::nothing ? load : 0.0;
             const Preconditioner preconditioner(block, k);
             auto waves = block.new_waves<float>();
             auto goal = block.new_field<float>();
-            block.respond(preconditioner, weight, waves, goal);
+            block.respond(preconditioner, waves, goal);
 
             auto g = block.new_waves<double>();
             auto response = block.new_waves<double>();
-            block.gradient(weight, g);
+            block.gradient(g);
             for (int y = 0; y < g.rows(); ++y)
                 preconditioner.apply_row(y, g, response);
             auto expected = block.new_field<double>();

@@ -35,7 +35,7 @@ TEST(Overlap, RelaxationComesOutOfTheWall) {
             RelaxOptions how;
             how.tolerance = 1e-6;
             Phases phases;
-            const RelaxedState state = relax(block, interface, height, how, phases);
+            const RelaxedState state = relax(block, interface, height, {}, how, phases);
             EXPECT_TRUE(state.converged) << map << " from " << height;
             const double edge = options.sites * options.spacing;
             const double binding =
@@ -187,13 +187,14 @@ TEST(Load, FromNothingToHuge) {
                             test::paper_interface());
         RelaxOptions how;
         how.tolerance = 1e-6;
-        how.load = gpa / 160.21766 * area;
+        const double load = gpa / 160.21766 * area;
         Phases phases;
-        const RelaxedState state = relax(block, interface, 4.0, how, phases);
+        const RelaxedState state =
+            relax(block, interface, 4.0, Constraint::load(load), how, phases);
         ASSERT_TRUE(state.converged) << gpa;
         std::printf("load %.0f GPa: %lld iterations, height %.3f A\n", gpa, state.iterations,
                     4.0 + state.mean_height);
-        EXPECT_NEAR(state.force, how.load, 1e-6 * 64) << gpa;
+        EXPECT_NEAR(state.force, load, 1e-6 * 64) << gpa;
         EXPECT_LT(state.mean_height, height_before) << "pressed further";
         height_before = state.mean_height;
     }
@@ -214,7 +215,7 @@ TEST(Bifurcation, TheRelaxationEndsOnOneBranch) {
     const auto state_at = [&](double top) {
         Phases phases;
         block.set_uniform(top);
-        block.hold_top(top);
+        block.constrain(Constraint::top(top));
         return relax(block, interface, start, how, phases);
     };
     // From above, out of contact; and, further down, snapped in.

@@ -92,7 +92,7 @@ Relaxed relax_from_attraction(const BlockOptions& options,
     relax_options.tolerance = tolerance;
     Phases phases;
     Relaxed relaxed;
-    relaxed.state = relax(block, interface, height, relax_options, phases);
+    relaxed.state = relax(block, interface, height, {}, relax_options, phases);
     const double edge = options.sites * options.spacing;
     relaxed.binding_energy =
         -1e3 * (relaxed.state.interface_energy + relaxed.state.elastic_energy) / (edge * edge);

@@ -32,9 +32,9 @@ struct PathCase {
                          : at_rest(Block(o, Communicator(), grid))) {}
 
     QuasistaticPath path(double tolerance, double step = 0.25, double load = 0.0,
-                         Hold hold = Hold::top) {
+                         Constraint::Of along = Constraint::Of::top) {
         PathOptions p;
-        p.hold = hold;
+        p.along = along;
         p.step = step;
         p.tolerance = tolerance;
         p.load = load;

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/continuation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace asperity {
+
+void Continuation::begin(double at) {
+    last_.take(block_.state());
+    at_ = before_at_ = at;
+}
+
+void Continuation::accept(double at) {
+    moved_ = largest_move().value;
+    std::swap(before_, last_);
+    last_.take(block_.state());
+    before_at_ = std::exchange(at_, at);
+}
+
+void Continuation::put_back() {
+    last_.restore(block_.state());
+    block_.settle(constraint(at_));
+}
+
+RelaxedState Continuation::relax_at(double at, bool predicted, const Report& report) {
+    const auto arrays = block_.state();
+    last_.restore(arrays);
+    constexpr double furthest = 1.0; // Å: of a site in contact, out of which it still comes back
+    if (predicted && at_ != before_at_) {
+        const double ratio = (at - at_) / (at_ - before_at_);
+        if (std::abs(ratio) * moved_ <= furthest) before_.extrapolate(ratio, arrays);
+    }
+    RelaxOptions options;
+    options.tolerance = options_.tolerance;
+    options.site_stiffness = options_.site_stiffness;
+    options.report = report;
+    const RelaxedState state =
+        block_.relax(interface_, options_.reference_height, constraint(at), options, phases_);
+    iterations_ += state.iterations;
+    return state;
+}
+
+std::function<double(int, int)> Continuation::moves() const {
+    const auto layer = block_.lowest_layer();
+    const VectorPlane<const double> old = {last_[0].plane(0), last_[1].plane(0), last_[2].plane(0)};
+    return [=](int x, int y) {
+        return std::hypot(layer.x(x, y) - old.x(x, y), layer.y(x, y) - old.y(x, y),
+                          layer.z(x, y) - old.z(x, y));
+    };
+}
+
+std::vector<StateArray> Continuation::states() {
+    const auto arrays = block_.state();
+    if (last_.empty()) last_.take(arrays);
+    if (before_.empty()) before_.take(arrays);
+    std::vector<StateArray> list = last_.arrays(arrays, "");
+    for (const StateArray& array : before_.arrays(arrays, "previous_"))
+        list.push_back(array);
+    std::stable_sort(list.begin(), list.end(),
+                     [](const StateArray& a, const StateArray& b) { return a.level < b.level; });
+    return list;
+}
+
+} // namespace asperity

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A sequence of equilibria along a prescribed coordinate (the top plane, or the mean height of the
+// lowest layer): the last two points, and the relaxation to the next one, from the last point or
+// from the linear continuation of the last two.
+//
+// A prediction could carry a site across a barrier, even through the substrate: none is made where
+// it would move a site further than 1 Å.
+#pragma once
+
+#include "decomposition/global_largest.hpp"
+#include "engine/equilibrium/equilibrium.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace asperity {
+
+class Continuation {
+public:
+    struct Options {
+        Constraint::Of along = Constraint::Of::top;
+        double tolerance = 1e-4;       ///< of points, eV/Å
+        double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
+        double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    };
+    Continuation(Equilibrium& block, Interface& interface, const Options& options)
+        : block_(block), interface_(interface), options_(options) {}
+
+    /// The block as it is becomes the last point, the only one known.
+    void begin(double at);
+    /// The block as it is becomes the last point, at the same coordinate.
+    void replace() { last_.take(block_.state()); }
+    /// The block as it is becomes the next point.
+    void accept(double at);
+    /// Puts the block back to the last point, from wherever it was taken.
+    void put_back();
+
+    /// Relaxes from the last point with the coordinate there, or from the prediction if one is
+    /// possible. report as in RelaxOptions. Collective.
+    using Report = std::function<bool(long long, double)>;
+    RelaxedState relax_at(double at, bool predicted, const Report& report);
+    /// Towards the last point from where the block is: this share of the way.
+    void retreat(double share) { last_.extrapolate(-share, block_.state()); }
+
+    double at() const { return at_; }
+    Constraint constraint(double at) const { return {options_.along, at}; }
+    long long iterations() const { return iterations_; }
+    void set_iterations(long long iterations) { iterations_ = iterations; }
+    /// How far a site of the lowest layer has moved since the last point, Å.
+    std::function<double(int, int)> moves() const;
+    /// The site that has moved most. Collective.
+    LargestSite largest_move() const {
+        return global_largest(block_.communicator(), interface_.tile(), moves());
+    }
+
+    /// For checkpoints: numbers, and the displacements at both points, to be read before resume().
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("at", at_);
+        v("before", before_at_);
+        v("moved", moved_);
+        v("iterations", iterations_);
+    }
+    std::vector<StateArray> states();
+
+private:
+    Equilibrium& block_;
+    Interface& interface_;
+    Options options_;
+    Phases phases_; ///< of the relaxations; their lines are not lines of the step
+    StateCopy last_, before_;
+    double at_ = 0.0, before_at_ = 0.0;
+    double moved_ = 0.0; ///< from before_ to last_, the site that moved most, Å
+    long long iterations_ = 0;
+};
+
+} // namespace asperity

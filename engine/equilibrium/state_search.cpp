@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/state_search.hpp"
+
+#include "engine/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace asperity {
+
+StateSearch::StateSearch(Equilibrium& block, Interface& interface, StateSearchOptions options)
+    : block_(block), options_(std::move(options)),
+      sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
+      points_(block, interface,
+              {Constraint::Of::mean_height, 10.0 * options_.tolerance, options_.site_stiffness,
+               options_.reference_height}) {}
+
+void StateSearch::start(const ZeroLoad& first) {
+    const double height = block_.mean_height();
+    points_.begin(height);
+    first_.take(block_.state());
+    first_top_ = block_.top();
+    now_ = {height, options_.load, -first.binding_energy * options_.area / units::milli_per_unit,
+            first.contact_fraction, 0.0};
+    trail_.begin(height, now_.force);
+    passed_ = {now_};
+    found_ = {{first, 0.0}};
+    if (now_.contact >= 1.0) end_ = StateList::End::contact;
+}
+
+StateSearch::Point StateSearch::point(const RelaxedState& state, double height) const {
+    return {height, state.force, state.interface_energy + state.elastic_energy,
+            static_cast<double>(state.in_contact) / sites_,
+            outwards_ ? static_cast<double>(instabilities_) : 0.0};
+}
+
+StateSearch::Outcome StateSearch::advance() {
+    if (end_ != StateList::End::none) return Outcome::done;
+    const double height = next_height();
+    const long long iterations = points_.iterations();
+    const auto interrupted = [&] {
+        points_.put_back();
+        points_.set_iterations(iterations);
+        return Outcome::interrupted;
+    };
+    // Whatever looks like an instability after a prediction is looked at again without.
+    RelaxedState state = points_.relax_at(height, smooth_, options_.report);
+    const auto suspect = [&] { return !state.converged || missing(point(state, height)) > 0.0; };
+    if (smooth_ && !state.interrupted && suspect())
+        state = points_.relax_at(height, false, options_.report);
+    if (state.interrupted) return interrupted();
+    if (!state.converged) {
+        if (outwards_)
+            turn_inwards();
+        else
+            end_ = StateList::End::no_equilibrium;
+        return Outcome::point;
+    }
+    const Point to = point(state, height);
+    const bool smooth = missing(to) <= 0.0;
+    const Point &outer = outwards_ ? to : now_, &inner = outwards_ ? now_ : to;
+    if (outer.force < options_.load && inner.force >= options_.load) {
+        StateCopy here;
+        here.take(block_.state());
+        if (!relax_state(to, smooth)) return interrupted();
+        here.restore(block_.state());
+        block_.settle(points_.constraint(height));
+    }
+    if (!outwards_) {
+        const double error = trail_.to(height, to.force).error / (now_.height - height);
+        const bool far = 2.0 * error < 0.1 * std::abs(to.force - options_.load);
+        stride_ = smooth && far ? std::min(2 * stride_, 4) : std::max(stride_ / 2, 1);
+    }
+    points_.accept(height);
+    trail_.add(to.height, to.force);
+    if (!outwards_) turned_trail_ = trail_;
+    if (!smooth) trail_.begin(to.height, to.force);
+    smooth_ = smooth;
+    now_ = to;
+    passed_.push_back(to);
+    if (outwards_) {
+        ++outward_points_;
+        const bool beyond = now_.height > passed_.front().height && now_.force < options_.load;
+        if (joined() || beyond) turn_inwards();
+    } else if (!smooth) {
+        turn_outwards();
+    }
+    const double attraction = options_.largest_tension * options_.area * (1.0 - now_.contact);
+    if (!outwards_ && now_.force - options_.load > attraction) end_ = StateList::End::contact;
+    return Outcome::point;
+}
+
+/// Inwards by the present step, outwards to the heights passed on the way inwards and beyond.
+double StateSearch::next_height() const {
+    if (!outwards_) return now_.height - stride_ * options_.step;
+    double next = HUGE_VAL;
+    for (const Point& p : passed_)
+        if (p.branch == 0.0 && p.height > now_.height) next = std::min(next, p.height);
+    return next < HUGE_VAL ? next : now_.height + options_.step;
+}
+
+/// Energy that is missing between the last point and this one, less what the work of the force may
+/// be wrong by (a quarter of its bound: a point too much costs little), eV.
+double StateSearch::missing(const Point& to) const {
+    const ForceTrail::Integral work = trail_.to(to.height, to.force);
+    return -work.value - (to.energy - now_.energy) - std::max(accuracy(), 0.25 * work.error);
+}
+
+/// The state between the last point and this one, where the block is. False where it was stopped.
+bool StateSearch::relax_state(const Point& to, bool smooth) {
+    if (smooth) {
+        points_.retreat((to.force - options_.load) / (to.force - now_.force));
+    } else if (outwards_) {
+        points_.put_back(); // the point inside the instability
+    }
+    const auto state = options_.relax_free();
+    if (state) add(*state);
+    return state.has_value();
+}
+
+void StateSearch::add(const ZeroLoad& state) {
+    const double energy = units::milli_per_unit * accuracy() / options_.area;
+    for (const Found& old : found_)
+        if (std::abs(old.state.mean_height - state.mean_height) < 0.5 * options_.step &&
+            std::abs(old.state.binding_energy - state.binding_energy) < energy)
+            return;
+    found_.push_back({state, outwards_ ? static_cast<double>(instabilities_) : 0.0});
+}
+
+void StateSearch::turn_outwards() {
+    turn_.take(block_.state());
+    turned_at_ = now_;
+    ++instabilities_;
+    outward_points_ = 0;
+    outwards_ = true;
+}
+
+void StateSearch::turn_inwards() {
+    // A branch that joins the other after one step may have been none.
+    const bool none = outward_points_ == 1 && joined();
+    if (none) --instabilities_;
+    turn_.restore(block_.state());
+    block_.settle(points_.constraint(turned_at_.height));
+    points_.begin(turned_at_.height);
+    now_ = turned_at_;
+    trail_.begin(now_.height, now_.force);
+    if (none) trail_ = turned_trail_;
+    outwards_ = false;
+    smooth_ = false;
+}
+
+/// The branch followed outwards has come to a point of the way inwards.
+bool StateSearch::joined() const {
+    return std::any_of(passed_.begin(), passed_.end(), [&](const Point& p) {
+        return p.branch == 0.0 && p.height == now_.height &&
+               std::abs(p.energy - now_.energy) <= accuracy();
+    });
+}
+
+/// On the way from a state to this mean height, on its branch.
+double StateSearch::largest_force_to(const Found& state, double next_height) const {
+    const double height = state.state.mean_height - options_.reference_height;
+    double inner = HUGE_VAL; // where the branch was followed outwards from
+    for (const Point& p : passed_)
+        if (p.branch == state.branch) inner = std::min(inner, p.height);
+    double largest = 0.0;
+    for (const Point& p : passed_)
+        if (p.height < height && p.height > next_height &&
+            (p.branch == state.branch || (p.branch == 0.0 && p.height < inner)))
+            largest = std::max(largest, p.force - options_.load);
+    return largest;
+}
+
+void StateSearch::restore_first() {
+    first_.restore(block_.state());
+    block_.settle(Constraint::top(first_top_));
+}
+
+std::vector<StateArray> StateSearch::states() {
+    const auto arrays = block_.state();
+    std::vector<StateArray> list = points_.states();
+    for (const auto& [copy, name] : {std::pair{&first_, "first_"}, std::pair{&turn_, "turn_"}}) {
+        if (copy->empty()) copy->take(arrays);
+        for (const StateArray& array : copy->arrays(arrays, name))
+            list.push_back(array);
+    }
+    std::stable_sort(list.begin(), list.end(),
+                     [](const StateArray& a, const StateArray& b) { return a.level < b.level; });
+    return list;
+}
+
+StateList StateSearch::found() const {
+    StateList list;
+    std::vector<Found> states = found_;
+    std::sort(states.begin(), states.end(), [](const Found& a, const Found& b) {
+        return a.state.mean_height > b.state.mean_height;
+    });
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        list.all.push_back({states[i].state, std::nullopt});
+        if (i + 1 < states.size())
+            list.all.back().barrier = largest_force_to(states[i], states[i + 1].state.mean_height -
+                                                                      options_.reference_height) /
+                                      options_.area;
+    }
+    list.step = options_.step;
+    list.points = static_cast<long long>(passed_.size());
+    list.instabilities = instabilities_;
+    for (const Point& p : passed_)
+        list.innermost = std::min(list.innermost, options_.reference_height + p.height);
+    list.end = end_;
+    return list;
+}
+
+} // namespace asperity

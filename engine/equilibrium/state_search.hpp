@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// All stable states under one load, as far as a path at a prescribed mean height passes them.
+//
+// The relaxed energy U(z) at mean height z of the lowest layer has the slope -F(z), F being the
+// interface's force. A state under the load P is stable with respect to z where F falls through P
+// as z grows. Rough surfaces can have several: the outermost is held by the attraction of a few
+// summits; further in, more of the surface is in contact.
+//
+// The search starts in the first state (the one that a slow approach ends in) and goes inwards,
+// relaxing at each mean height. Steps are doubled, up to four times the shortest, while the force
+// is predicted to a tenth of its distance from P: no crossing is near then. Where F - P changes
+// from attraction to repulsion, the block is relaxed with nothing prescribed but the load, and that
+// is a state. Where energy is missing between two points (the work of the force against the change
+// of the energy), the surface has become unstable and the path is on another branch. From there
+// that branch is followed outwards as well, until it joins the branch that the path came on; the
+// states on it are found likewise. Then the search goes on inwards.
+//
+// It ends where P is not met again further in: F - P is more than the area not yet in contact can
+// attract with, at the largest tension of flat on flat. (It is assumed that what is in contact
+// pushes the harder the closer it gets.) In full contact this is the case at once.
+//
+// What may be missed: a state whose F crosses P and back within one step; a branch that no
+// instability of this path leads to, or that ends within one step of it.
+#pragma once
+
+#include "engine/equilibrium/continuation.hpp"
+#include "engine/equilibrium/findings.hpp"
+#include "engine/equilibrium/force_trail.hpp"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace asperity {
+
+struct StateSearchOptions {
+    double step = 0.25;            ///< of the mean height, the shortest, Å
+    double tolerance = 1e-4;       ///< eV/Å
+    double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
+    double load = 0.0;             ///< P, eV/Å
+    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    double area = 0.0;             ///< nominal, Å^2
+    double largest_tension = 0.0;  ///< of flat on flat, eV/Å^3
+    /// Called during relaxations with their iteration and residual. True: stop.
+    Continuation::Report report;
+    /// The state under the load, downhill of where the block is; empty where it was stopped.
+    std::function<std::optional<ZeroLoad>()> relax_free;
+};
+
+class StateSearch {
+public:
+    StateSearch(Equilibrium& block, Interface& interface, StateSearchOptions options);
+
+    /// The block stands in the first state.
+    void start(const ZeroLoad& first);
+
+    enum class Outcome { point, done, interrupted };
+    /// One more point, and the state found beside it if there is one. Interrupted: block and search
+    /// are back at the last point, and the next call makes the whole point again. Collective.
+    /// Throws io::PhysicsError where a state is not found to the tolerance.
+    Outcome advance();
+
+    /// What was found so far.
+    StateList found() const;
+    /// The block back in the first state.
+    void restore_first();
+    long long iterations() const { return points_.iterations(); }
+
+    /// For checkpoints, as of a QuasistaticPath: all numbers, and the displacements.
+    template <class Visitor>
+    void visit(Visitor& v);
+    std::vector<StateArray> states();
+    void resume() { points_.put_back(); }
+
+private:
+    struct Point {
+        double height = 0.0; ///< displacement of the mean height, Å
+        double force = 0.0;  ///< F, eV/Å
+        double energy = 0.0; ///< U, eV
+        double contact = 0.0;
+        double branch = 0.0; ///< 0: passed inwards; n: outwards, after the n-th instability
+        template <class Visitor>
+        void visit(Visitor& v) {
+            v("height", height);
+            v("force", force);
+            v("energy", energy);
+            v("contact", contact);
+            v("branch", branch);
+        }
+    };
+    struct Found {
+        ZeroLoad state;
+        double branch = 0.0;
+        template <class Visitor>
+        void visit(Visitor& v) {
+            state.visit(v);
+            v("branch", branch);
+        }
+    };
+
+    Point point(const RelaxedState& state, double height) const;
+    double missing(const Point& to) const;
+    bool relax_state(const Point& to, bool smooth);
+    void add(const ZeroLoad& state);
+    void turn_outwards();
+    void turn_inwards();
+    bool joined() const;
+    double next_height() const;
+    double largest_force_to(const Found& state, double next_height) const;
+    double accuracy() const { return options_.tolerance * sites_ * options_.step; } ///< eV
+
+    Equilibrium& block_;
+    StateSearchOptions options_;
+    double sites_ = 0.0; ///< N^2
+    Continuation points_;
+    StateCopy first_, turn_; ///< displacements: first state, and where the search turned outwards
+    double first_top_ = 0.0; ///< displacement of the top plane in the first state, Å
+    Point now_, turned_at_;
+    ForceTrail trail_, turned_trail_; ///< turned_trail_: as if there had been no instability
+    bool smooth_ = false;             ///< the last step: good for a prediction
+    bool outwards_ = false;
+    int stride_ = 1; ///< of the next step inwards, in shortest steps
+    long long instabilities_ = 0, outward_points_ = 0; ///< the latter since the last turn
+    std::vector<Point> passed_;
+    std::vector<Found> found_;
+    StateList::End end_ = StateList::End::none;
+};
+
+template <class Visitor>
+void StateSearch::visit(Visitor& v) {
+    points_.visit(v);
+    v("first_top", first_top_);
+    now_.visit(v);
+    turned_at_.visit(v);
+    trail_.visit(v);
+    turned_trail_.visit(v);
+    v("smooth", smooth_);
+    v("outwards", outwards_);
+    v("stride", stride_);
+    v("instabilities", instabilities_);
+    v("outward_points", outward_points_);
+    const auto list = [&v](const char* name, auto& items) {
+        std::size_t count = items.size();
+        v(name, count);
+        items.resize(count);
+        for (auto& item : items)
+            item.visit(v);
+    };
+    list("passed", passed_);
+    list("found", found_);
+    v("end", end_);
+}
+
+} // namespace asperity

@@ -1,0 +1,364 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// All stable states of a contact. A summit holds two flat solids apart: besides the state in which
+// it alone touches there is one of full contact, and a barrier between them. Each state is stable
+// in every direction (smallest eigenvalue of its Hessian), their energies differ by the work of the
+// force between them, relaxations from other heights end in none but these, and neither the step
+// nor the block's model nor a resume changes them.
+#include "engine/equilibrium/state_search.hpp"
+#include "engine/run/checkpoint.hpp"
+#include "engine/units.hpp"
+#include "support/path_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <utility>
+#include <vector>
+
+using namespace asperity;
+using Case = test::PathCase;
+
+namespace {
+
+constexpr double tolerance = 1e-5;
+
+/// A round hill on a flat surface, periodic.
+Surface hill(int sites, double height, double width) {
+    Surface surface = test::flat_surface(sites);
+    for (int y = 0; y < sites; ++y)
+        for (int x = 0; x < sites; ++x) {
+            const double dx = 2.6 * (x - sites / 2), dy = 2.6 * (y - sites / 2);
+            surface.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(sites) +
+                           static_cast<std::size_t>(x)] =
+                height * std::exp(-0.5 * (dx * dx + dy * dy) / (width * width));
+        }
+    surface.statistics.highest = height;
+    return surface;
+}
+
+/// Relaxed energy where the summit alone touches, full contact, and a single way between them.
+Case two_states(bool spectral = true) {
+    return Case(test::paper_block(32, 32, spectral ? 0 : 4), hill(32, 12.0, 6.0), spectral);
+}
+
+double area(const Case& c) { return 6.76 * c.sites(); }
+
+RelaxedState relax(Case& c, const Constraint& constraint, double to = tolerance) {
+    RelaxOptions o;
+    o.tolerance = to;
+    Phases phases;
+    const RelaxedState s =
+        c.block->relax(c.interface, c.interface.start_height(), constraint, o, phases);
+    EXPECT_TRUE(s.converged) << s.residual;
+    return s;
+}
+
+ZeroLoad relax_free(Case& c) {
+    const RelaxedState s = relax(c, {});
+    ZeroLoad z;
+    z.binding_energy = -1e3 * (s.interface_energy + s.elastic_energy) / area(c);
+    z.contact_fraction = static_cast<double>(s.in_contact) / c.sites();
+    z.mean_height = c.interface.start_height() + s.mean_height;
+    return z;
+}
+
+/// Displacements of the lowest layer.
+using Layer = std::vector<double>;
+Layer layer_of(const Equilibrium& block) {
+    Layer values;
+    const auto layer = block.lowest_layer();
+    for (const auto& u : {layer.x, layer.y, layer.z})
+        for (int y = 0; y < u.ny; ++y)
+            values.insert(values.end(), u.line(y), u.line(y) + u.nx);
+    return values;
+}
+
+struct Search {
+    Case& c;
+    std::vector<Layer> layers; ///< of the states, in the order in which they were relaxed
+    StateSearch search;
+
+    explicit Search(Case& contact, double step = 0.25)
+        : c(contact), search(*c.block, c.interface, options(step)) {}
+    StateSearchOptions options(double step) {
+        StateSearchOptions o;
+        o.step = step;
+        o.tolerance = tolerance;
+        o.reference_height = c.interface.start_height();
+        o.area = area(c);
+        o.largest_tension = 9.0 * units::gigapascal;
+        o.relax_free = [this] { return relaxed(); };
+        return o;
+    }
+    ZeroLoad relaxed() {
+        const ZeroLoad z = relax_free(c);
+        layers.push_back(layer_of(*c.block));
+        return z;
+    }
+    void start() {
+        c.block->set_uniform(
+            height_of_strongest_attraction(*c.block, c.interface, -20.0, c.block->communicator()) -
+            c.interface.start_height());
+        search.start(relaxed());
+    }
+    StateList finish() {
+        for (int i = 0; search.advance() != StateSearch::Outcome::done; ++i)
+            if (i > 1000) {
+                ADD_FAILURE() << "no end";
+                break;
+            }
+        return search.found();
+    }
+};
+
+StateList all_states(Case& c, double step = 0.25) {
+    Search s(c, step);
+    s.start();
+    return s.finish();
+}
+
+/// The smallest eigenvalue that Lanczos' method finds of the Hessian of the energy under no load.
+class Hessian {
+public:
+    Hessian(const Case& c, const Layer& at)
+        : block_(c.options, Communicator()), interface_(c.interface),
+          height_(c.interface.start_height()), at_(at) {}
+
+    double smallest(int steps) {
+        std::mt19937_64 random(3);
+        std::normal_distribution<double> normal;
+        std::vector<Layer> basis(1, Layer(at_.size()));
+        for (double& v : basis[0])
+            v = normal(random);
+        scale(basis[0], 1.0 / std::sqrt(dot(basis[0], basis[0])));
+        std::vector<double> diagonal, beside;
+        for (int i = 0; i < steps; ++i) {
+            Layer next = times(basis.back());
+            diagonal.push_back(dot(next, basis.back()));
+            for (int twice = 0; twice < 2; ++twice)
+                for (const Layer& b : basis)
+                    add(-dot(next, b), b, next);
+            beside.push_back(std::sqrt(dot(next, next)));
+            scale(next, 1.0 / beside.back());
+            basis.push_back(std::move(next));
+        }
+        // By bisection: below x lie as many eigenvalues as pivots of T - x are negative.
+        double low = -100.0, high = 100.0;
+        for (int i = 0; i < 60; ++i) {
+            const double x = 0.5 * (low + high);
+            bool negative = false;
+            double pivot = 1.0;
+            for (std::size_t k = 0; k < diagonal.size(); ++k) {
+                pivot = diagonal[k] - x - (k > 0 ? beside[k - 1] * beside[k - 1] / pivot : 0.0);
+                negative = negative || pivot < 0.0;
+            }
+            (negative ? high : low) = x;
+        }
+        return low;
+    }
+
+private:
+    static double dot(const Layer& a, const Layer& b) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            sum += a[i] * b[i];
+        return sum;
+    }
+    static void scale(Layer& a, double by) {
+        for (double& v : a)
+            v *= by;
+    }
+    static void add(double by, const Layer& a, Layer& to) {
+        for (std::size_t i = 0; i < a.size(); ++i)
+            to[i] += by * a[i];
+    }
+    Layer gradient(const Layer& u) {
+        const VectorPlane<double> layer = block_.layer().plane(0);
+        std::size_t i = 0;
+        for (const auto& component : {layer.x, layer.y, layer.z})
+            for (int y = 0; y < component.ny; ++y)
+                for (int x = 0; x < component.nx; ++x)
+                    component(x, y) = u[i++];
+        block_.settle();
+        interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, false);
+        auto waves = block_.new_waves<double>();
+        block_.gradient(waves);
+        auto sites = block_.new_field<double>();
+        block_.at_sites(waves, sites);
+        Layer g;
+        for (auto& component : sites) {
+            const PlaneView<double> p = component.plane(0);
+            for (int y = 0; y < p.ny; ++y)
+                g.insert(g.end(), p.line(y), p.line(y) + p.nx);
+        }
+        return g;
+    }
+    Layer times(const Layer& v) {
+        constexpr double h = 1e-3;
+        Layer above = at_, below = at_;
+        add(h, v, above);
+        add(-h, v, below);
+        Layer product = gradient(above);
+        add(-1.0, gradient(below), product);
+        scale(product, 0.5 / h);
+        return product;
+    }
+
+    SpectralBlock block_;
+    const Interface& interface_;
+    double height_;
+    Layer at_;
+};
+
+void expect_same(const StateList& a, const StateList& b, double share) {
+    ASSERT_EQ(a.all.size(), b.all.size());
+    for (std::size_t i = 0; i < a.all.size(); ++i) {
+        const ZeroLoad &x = a.all[i].numbers, &y = b.all[i].numbers;
+        EXPECT_NEAR(x.binding_energy, y.binding_energy, share * std::abs(x.binding_energy)) << i;
+        EXPECT_NEAR(x.mean_height, y.mean_height, 0.02) << i;
+    }
+}
+
+} // namespace
+
+TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
+    Case c = two_states();
+    Search s(c);
+    s.start();
+    const StateList states = s.finish();
+    ASSERT_EQ(states.all.size(), 2u);
+    EXPECT_LT(states.all[0].numbers.contact_fraction, 0.05);
+    EXPECT_GT(states.all[1].numbers.contact_fraction, 0.95);
+    EXPECT_GT(states.deepest().numbers.binding_energy, 20.0);
+    EXPECT_FALSE(states.all[1].barrier);
+    ASSERT_EQ(s.layers.size(), 2u);
+    for (const Layer& layer : s.layers)
+        EXPECT_GT(Hessian(c, layer).smallest(80), 0.0);
+
+    // The force between them: zero where it rises with the height is a saddle; its largest on the
+    // way in is the barrier.
+    const double z0 = states.all[0].numbers.mean_height - c.interface.start_height(),
+                 z1 = states.all[1].numbers.mean_height - c.interface.start_height();
+    s.search.restore_first();
+    double outer = z0, inner = z0, largest = 0.0;
+    for (double z = z0 - 0.05; z > z1; z -= 0.05) {
+        const double force = relax(c, Constraint::mean_height(z)).force;
+        largest = std::max(largest, force);
+        if (force < 0.0 && largest > 1.0) {
+            inner = z;
+            break;
+        }
+        outer = z;
+    }
+    ASSERT_LT(inner, outer);
+    EXPECT_NEAR(states.all[0].barrier.value_or(0.0), largest / area(c), 0.02 * largest / area(c));
+    for (int i = 0; i < 30; ++i) {
+        const double z = 0.5 * (inner + outer);
+        (relax(c, Constraint::mean_height(z)).force < 0.0 ? inner : outer) = z;
+    }
+    EXPECT_LT(Hessian(c, layer_of(*c.block)).smallest(80), -1e-4);
+}
+
+TEST(StateSearch, EnergiesDifferByTheWorkOfTheForce) {
+    Case c = two_states();
+    Search s(c);
+    s.start();
+    const StateList states = s.finish();
+    ASSERT_EQ(states.all.size(), 2u);
+    EXPECT_EQ(states.instabilities, 0);
+    const double z0 = states.all[0].numbers.mean_height, z1 = states.all[1].numbers.mean_height;
+    s.search.restore_first();
+    constexpr int pieces = 200; // of Simpson's rule
+    double work = 0.0;
+    for (int i = 0; i <= pieces; ++i) {
+        const double z = z0 + (z1 - z0) * i / pieces - c.interface.start_height();
+        const double weight = i == 0 || i == pieces ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+        work += weight * relax(c, Constraint::mean_height(z)).force;
+    }
+    work *= (z1 - z0) / pieces / 3.0;
+    const double gained =
+        states.all[1].numbers.binding_energy - states.all[0].numbers.binding_energy;
+    EXPECT_NEAR(1e3 * work / area(c), gained, 1e-3 * gained);
+}
+
+TEST(StateSearch, RelaxationsFromOtherHeightsEndInNoOtherState) {
+    // The second goes through instabilities.
+    for (auto [height, width] : {std::pair{12.0, 6.0}, std::pair{16.0, 5.0}}) {
+        Case c(test::paper_block(32, 32, 0), hill(32, height, width), true);
+        const StateList states = all_states(c);
+        EXPECT_EQ(states.all.size(), 2u) << height;
+        for (double z = states.all.front().numbers.mean_height + 2.0; z > states.innermost;
+             z -= 0.7) {
+            c.block->set_uniform(z - c.interface.start_height());
+            const ZeroLoad found = relax_free(c);
+            EXPECT_TRUE(std::any_of(states.all.begin(), states.all.end(),
+                                    [&](const auto& s) {
+                                        return std::abs(s.numbers.binding_energy -
+                                                        found.binding_energy) < 1e-2;
+                                    }))
+                << "from " << z << " Å: " << found.binding_energy << " meV/Å² at "
+                << found.mean_height;
+        }
+    }
+}
+
+TEST(StateSearch, SameStatesWithAnotherStepAndWithLevels) {
+    Case c = two_states(), fine = two_states(), levels = two_states(false);
+    const StateList states = all_states(c);
+    ASSERT_EQ(states.all.size(), 2u);
+    expect_same(states, all_states(fine, 0.1), 1e-4);
+    expect_same(states, all_states(levels), 0.02); // the levels' own error
+}
+
+TEST(StateSearch, FullContactIsTheOnlyState) {
+    Case c(test::paper_block(32, 32, 0), hill(32, 2.0, 8.0), true);
+    const StateList states = all_states(c);
+    EXPECT_EQ(states.all.size(), 1u);
+    EXPECT_EQ(states.points, 1);
+    EXPECT_EQ(states.end, StateList::End::contact);
+}
+
+TEST(StateSearch, ResumedItFindsTheSameBits) {
+    const std::string file = "state_search.h5";
+    const auto contact = [] {
+        return Case(test::paper_block(32, 32, 0), hill(32, 16.0, 5.0), true);
+    };
+    Case undisturbed = contact();
+    const StateList states = all_states(undisturbed);
+    EXPECT_GT(states.instabilities, 0);
+    bool done = false;
+    for (int part = 0; !done; ++part) {
+        Case c = contact();
+        Search s(c);
+        if (part == 0) {
+            s.start();
+        } else {
+            const RunScalars scalars = read_checkpoint(file, Communicator(), c.grid, {}, "it");
+            read_checkpoint(file, Communicator(), c.grid, s.search.states(), "it");
+            RestoreScalars restore{scalars};
+            s.search.visit(restore);
+            s.search.resume();
+        }
+        for (int i = 0; i < 11 && !done; ++i)
+            done = s.search.advance() == StateSearch::Outcome::done;
+        CollectScalars collect;
+        s.search.visit(collect);
+        write_checkpoint(file, Communicator(), c.grid, s.search.states(), collect.values, "it");
+        if (!done) continue;
+        const StateList found = s.search.found();
+        EXPECT_GT(part, 3);
+        EXPECT_EQ(found.points, states.points);
+        ASSERT_EQ(found.all.size(), states.all.size());
+        for (std::size_t i = 0; i < found.all.size(); ++i) {
+            EXPECT_EQ(found.all[i].numbers.binding_energy, states.all[i].numbers.binding_energy);
+            EXPECT_EQ(found.all[i].numbers.mean_height, states.all[i].numbers.mean_height);
+            EXPECT_EQ(found.all[i].barrier, states.all[i].barrier);
+        }
+    }
+    std::filesystem::remove(file);
+}
