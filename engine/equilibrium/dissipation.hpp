@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Energy that a quasi-static path loses: where a state becomes unstable, the block falls to the
-// next one at a standing top plane, and what it gains on the way goes into vibrations that the path
-// does not follow.
+// Energy that a quasi-static path dissipates: where a state becomes unstable, the block goes over
+// to the next one at the same position of the top plane, and the energy that this sets free goes
+// into vibrations that the path does not follow.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,7 @@
 
 namespace asperity {
 
-/// One fall.
-struct Jump {
+struct Instability {
     double energy = 0.0;                              ///< dissipated, eV
     double leg = 0.0;                                 ///< 0 approach, 1 pull-off
     double top = 0.0;                                 ///< displacement of the top plane, Å
@@ -42,20 +41,22 @@ struct Jump {
     }
 };
 
-/// All that was lost so far.
+/// All so far.
 struct Dissipation {
     double approach = 0.0, pull_off = 0.0; ///< eV
-    long long events = 0;                  ///< points of the path at which some was booked
-    std::vector<Jump> jumps;               ///< the strongest, in the order of the path
+    long long events = 0;                  ///< points of the path at which some was counted
+    std::vector<Instability> jumps;        ///< the strongest, in the order of the path
 
     double total() const { return approach + pull_off; }
-    void book(const Jump& jump) {
+    void add(const Instability& jump) {
         (jump.leg == 0.0 ? approach : pull_off) += jump.energy;
         ++events;
         jumps.push_back(jump);
         constexpr std::size_t kept = 20;
         if (jumps.size() <= kept) return;
-        const auto weaker = [](const Jump& a, const Jump& b) { return a.energy < b.energy; };
+        const auto weaker = [](const Instability& a, const Instability& b) {
+            return a.energy < b.energy;
+        };
         jumps.erase(std::min_element(jumps.begin(), jumps.end(), weaker));
     }
 
@@ -67,7 +68,7 @@ struct Dissipation {
         std::size_t count = jumps.size();
         v("dissipation.jumps", count);
         jumps.resize(count);
-        for (Jump& jump : jumps)
+        for (Instability& jump : jumps)
             jump.visit(v);
     }
 };

@@ -14,11 +14,11 @@
 //
 //     m <- gain (goal - u) + keep m,      |m| at most bound.
 //
-// While surfaces come together, some site falls into contact at any time. A momentum that is
-// stopped for all whenever the energy rises would never get anywhere; here it is a site's own
-// affair. Where the goal lies behind, the site has come too far: it drops its momentum and cuts its
-// gain, which elsewhere recovers slowly. So sites that are held stiffly (up to 9 eV/Å^2, k being
-// less than 1) find their step by themselves, whatever k is.
+// While contact spreads, some site snaps into contact in nearly every iteration. A common momentum,
+// set to zero whenever the energy rises, would always be near zero; so each site has its own. Where
+// the goal lies behind the last move, the site has gone too far: its momentum is set to zero and
+// its gain is cut, which elsewhere recovers slowly. So the gains of sites with stiff contacts (up
+// to 9 eV/Å^2, k being less than 1) adapt by themselves, whatever k is.
 #pragma once
 
 #include "engine/block/spectral_block.hpp"

@@ -17,10 +17,10 @@ public:
 
     /// The direction where the block stands, its interface_force() and gradient being up to date,
     /// to a residual of `forcing` times the gradient, both measured by the preconditioner. False,
-    /// and no direction, where the energy curves down on the way to it. Collective.
+    /// and no direction, where the curvature along it is negative. Collective.
     bool direction(const Interface& interface, double reference_height, double forcing,
                    const Waves<double>& g, Waves<float>& d);
-    /// How stiffly the interface holds a site where the block stands, on average. Collective.
+    /// Mean stiffness of the interface for a site where the block stands. Collective.
     double mean_stiffness(const Interface& interface, double reference_height);
 
 private:

@@ -61,7 +61,7 @@ void QuasistaticPath::resume() {
 QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     const double direction = leg == Leg::approach ? -1.0 : 1.0;
     if (direction != direction_) {
-        // Behind a turn the trail would run into itself, and a leg's own books begin.
+        // A new leg: its own sums, and no points of the leg before for the integral.
         trail_.begin(record_.top, record_.top_force);
         attracted_ = false;
         (leg == Leg::approach ? approach_ : pull_off_) = 0.0;
@@ -72,7 +72,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     const double slack = 0.25 * options_.tolerance * sites_; // what points are relaxed to
     const double length = length_;
     const long long iterations = points_.iterations();
-    bool landing = false, predicted = reversible_;
+    bool at_load = false, predicted = reversible_;
     for (;;) {
         const double top = record_.top + direction * length_;
         const RelaxedState state = points_.relax_at(top, predicted, options_.report);
@@ -98,40 +98,40 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         if (state.converged && beyond && !last_try) {
             const double part = (aim - record_.force) / (state.force - record_.force);
             length_ *= std::clamp(part, 0.02, 0.98);
-            landing = true;
+            at_load = true;
             continue;
         }
-        Verdict verdict;
-        if (state.converged) verdict = judge(state, top);
-        if (last_try) verdict.accepted = true;
-        if (predicted && (verdict.carried || (verdict.accepted && verdict.dissipated > 0.0))) {
+        StepCheck step;
+        if (state.converged) step = check(state, top);
+        if (last_try) step.accepted = true;
+        if (predicted && (step.excess || (step.accepted && step.dissipated > 0.0))) {
             predicted = false;
             continue;
         }
-        if (!verdict.accepted) {
+        if (!step.accepted) {
             length_ *= 0.5;
             continue;
         }
-        accept(state, top, verdict, leg);
+        accept(state, top, step, leg);
         if (leg == Leg::approach) {
             attracted_ = attracted_ || record_.force < std::min(options_.load, 0.0) - slack;
             const bool back = attracted_ && record_.force >= options_.load;
-            if (back || (landing && record_.force >= aim - slack)) return Outcome::landed;
+            if (back || (at_load && record_.force >= aim - slack)) return Outcome::at_load;
         } else if (options_.reference_height + record_.top >= interface_.start_height() &&
                    std::abs(record_.force) <= 1e-6 * strongest_) {
-            return Outcome::gone;
+            return Outcome::apart;
         }
         return Outcome::point;
     }
 }
 
-QuasistaticPath::Verdict QuasistaticPath::judge(const RelaxedState& state, double top) const {
+QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, double top) const {
     const double step = std::abs(top - record_.top);
     const double gained = state.interface_energy + state.elastic_energy - record_.interface_energy -
                           record_.elastic_energy;
     const double allowed = options_.tolerance * sites_ * step;
     const ForceTrail::Integral integral = trail_.to(top, state.top_force);
-    Verdict v;
+    StepCheck v;
     v.work = -integral.value;
     const double missing = v.work - gained;
     const double error = std::min(integral.error, std::abs(missing));
@@ -153,41 +153,41 @@ QuasistaticPath::Verdict QuasistaticPath::judge(const RelaxedState& state, doubl
     if (v.work - gained > uncertain) v.dissipated = v.work - gained;
     v.gap = v.work - gained - v.dissipated;
     v.uncertain = uncertain;
-    v.carried = gained - v.work > std::max(uncertain, allowed);
-    v.accepted = v.accepted && !v.carried;
+    v.excess = gained - v.work > std::max(uncertain, allowed);
+    v.accepted = v.accepted && !v.excess;
     return v;
 }
 
-void QuasistaticPath::accept(const RelaxedState& state, double top, const Verdict& verdict,
+void QuasistaticPath::accept(const RelaxedState& state, double top, const StepCheck& step,
                              Leg leg) {
     // int F dz over the mean height: z_top plus the stretch of the block, whose spring F obeys.
     const double stretch = record_.mean_height - options_.reference_height - record_.top;
     const double next_stretch = state.mean_height - top;
     double& interface_work = leg == Leg::approach ? approach_ : pull_off_;
     interface_work +=
-        -verdict.work + 0.5 * (state.top_force * next_stretch - record_.top_force * stretch);
+        -step.work + 0.5 * (state.top_force * next_stretch - record_.top_force * stretch);
     LegError& error = leg == Leg::approach ? approach_error_ : pull_off_error_;
-    error.gap += verdict.gap;
-    error.squares += verdict.uncertain * verdict.uncertain;
-    record_.work += verdict.work;
-    if (verdict.dissipated > 0.0) {
-        dissipation_.book(describe(state, verdict.dissipated, leg));
+    error.gap += step.gap;
+    error.squares += step.uncertain * step.uncertain;
+    record_.work += step.work;
+    if (step.dissipated > 0.0) {
+        dissipation_.add(describe(state, step.dissipated, leg));
         record_.damped = dissipation_.total();
     }
-    if (verdict.smooth)
+    if (step.smooth)
         trail_.add(top, state.top_force);
     else
         trail_.begin(top, state.top_force);
     points_.accept(top);
-    reversible_ = verdict.dissipated == 0.0;
+    reversible_ = step.dissipated == 0.0;
     ++record_.step;
     set_record(state, top);
     strongest_ = std::max(strongest_, -record_.force);
     // The error of a smooth step goes with the fourth power of its length, for each Å.
-    const double growth = std::clamp(0.8 * std::sqrt(std::sqrt(verdict.margin)), 0.5, 2.0);
+    const double growth = std::clamp(0.8 * std::sqrt(std::sqrt(step.margin)), 0.5, 2.0);
     length_ *= growth;
-    // A fall was closed in on with ever smaller steps; behind it there is no reason for them.
-    if (!verdict.smooth) length_ = std::max(length_, options_.step / 16.0);
+    // An instability was bracketed with ever smaller steps; beyond it there is no reason for them.
+    if (!step.smooth) length_ = std::max(length_, options_.step / 16.0);
     length_ = std::clamp(length_, smallest_step(), options_.step);
 }
 
@@ -208,17 +208,17 @@ void QuasistaticPath::set_record(const RelaxedState& state, double top) {
     record_.residual = scale_ > 0.0 ? (record_.work - change - record_.damped) / scale_ : 0.0;
 }
 
-Jump QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg) const {
-    Jump jump;
-    jump.energy = energy;
-    jump.leg = leg == Leg::approach ? 0.0 : 1.0;
-    jump.top = record_.top;
-    jump.height_before = record_.mean_height;
-    jump.height_after = options_.reference_height + state.mean_height;
-    jump.force_before = record_.top_force;
-    jump.force_after = state.top_force;
-    jump.contact_before = static_cast<double>(record_.in_contact);
-    jump.contact_after = static_cast<double>(state.in_contact);
+Instability QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg) const {
+    Instability instability;
+    instability.energy = energy;
+    instability.leg = leg == Leg::approach ? 0.0 : 1.0;
+    instability.top = record_.top;
+    instability.height_before = record_.mean_height;
+    instability.height_after = options_.reference_height + state.mean_height;
+    instability.force_before = record_.top_force;
+    instability.force_after = state.top_force;
+    instability.contact_before = static_cast<double>(record_.in_contact);
+    instability.contact_after = static_cast<double>(state.in_contact);
     const LargestSite most = points_.largest_move();
     std::array<std::int64_t, 1> count = {0};
     const auto moved = points_.moves();
@@ -227,11 +227,11 @@ Jump QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg
         for (int x = 0; x < layer.x.nx; ++x)
             count[0] += moved(x, y) > 0.5 * most.value;
     block_.communicator().sum(count);
-    jump.site_x = most.x;
-    jump.site_y = most.y;
-    jump.largest_move = most.value;
-    jump.sites_moved = static_cast<double>(count[0]);
-    return jump;
+    instability.site_x = most.x;
+    instability.site_y = most.y;
+    instability.largest_move = most.value;
+    instability.sites_moved = static_cast<double>(count[0]);
+    return instability;
 }
 
 } // namespace asperity

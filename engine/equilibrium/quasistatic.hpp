@@ -1,33 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A quasi-static path: equilibria at one position of the held top plane after another, each found
-// downhill of the last, so that hysteresis is kept.
+// A quasi-static path: equilibria at one prescribed position of the top plane after another, each
+// relaxed from the last, so that hysteresis is kept.
 //
-// Or what is held is the mean height of the lowest layer, by a machine that is hard whatever the
-// thickness of the block: the top plane follows, the block is not stretched as a whole, and what
-// holds feels the interface's force F. Where a block on its spring would fall as a whole, that path
-// goes on; only what happens within the surface can still be unstable. Below, "top" is then that
-// mean height, as a displacement.
+// Or the mean height of the lowest layer is prescribed, as by a machine that is hard whatever the
+// thickness of the block: the top plane follows, the block is not stretched as a whole, and the
+// force that it takes is the interface's, F. A block that would be unstable as a whole on its own
+// spring is stable then; only patches of the surface can still be unstable. Below, "top" is then
+// that mean height, as a displacement.
 //
-// Between two points, the work of the top plane -int F dz_top is what the energy U_LJ + U_el has
-// gained, unless the block became unstable on the way and fell to another state: then some of it is
-// missing, and was dissipated. From the last point a step is tried and
+// Between two points, the work of the top plane -int F dz_top is the change of the energy
+// U_LJ + U_el, unless the block became unstable in between and went over to another state: the
+// energy that is missing then was dissipated. From the last point a step is tried and
 //
 //   accepted  if nothing is missing;
-//   accepted, and what is missing booked as dissipated, if the work is known to be right: the force
-//             is smooth, or its jump times the step is too small to matter;
+//   accepted, and what is missing counted as dissipated, if the work is known to be right: the
+//             force is smooth, or its jump times the step is too small to matter;
 //   halved    otherwise, and tried again from the last point.
 //
-// So a fall ends up between two points so close that it is known where it happened and what it
-// cost, while many small falls that leave the force smooth are booked without looking for each.
+// So an instability ends up between two points so close that its place and its energy are known,
+// while many small instabilities that leave the force smooth are counted without looking for each.
 // "Nothing" is drive.tolerance for each site and Å of the step: errors of the energy are then
 // bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
 //
-// Where the last steps were reversible, the next one starts from their linear continuation. A
-// prediction could carry a site across a barrier, even through the substrate: none is made where it
-// would move a site further than 1 Å, and whatever would be booked after one, or has gained more
-// energy than the work can have brought, is found again without.
+// Where the last steps were reversible, the next one starts from their linear continuation
+// (continuation.hpp). Whatever would be counted as dissipated after a prediction, or has gained
+// more energy than the work can have brought, is computed again without.
 #pragma once
 
 #include "engine/dynamics/drive.hpp"
@@ -61,9 +60,9 @@ public:
     /// The block as it is.
     void start_here();
 
-    enum class Outcome { point, landed, gone, interrupted };
-    /// The next point of a leg. landed: the approach has come to its load (the path stands there
-    /// exactly); gone: nothing is left of the force on the pull-off. Where a relaxation was
+    enum class Outcome { point, at_load, apart, interrupted };
+    /// The next point of a leg. at_load: the approach has come to its load (the path stands there
+    /// exactly); apart: nothing is left of the force on the pull-off. Where a relaxation was
     /// interrupted, block and path are back at the last point, and the next call makes the whole
     /// point again. Collective. Throws io::PhysicsError where
     /// no equilibrium is found.
@@ -71,8 +70,8 @@ public:
 
     /// The last point. Without time: step counts points, damped is what was dissipated.
     const StepRecord& now() const { return record_; }
-    /// int F dz of the mean height over the last approach and pull-off, eV. While the block falls
-    /// under a held top plane, F is what the block's spring exerts.
+    /// int F dz of the mean height over the last approach and pull-off, eV. Within an instability
+    /// under a prescribed top plane, F is what the block's spring exerts.
     double approach_work() const { return approach_; }
     double pull_off_work() const { return pull_off_; }
     /// What these, and what was dissipated on the leg, may be wrong by, eV: the gap in the leg's
@@ -96,14 +95,14 @@ public:
     void resume();
 
 private:
-    struct Verdict {
+    struct StepCheck {
         bool accepted = false;
         double work = 0.0;       ///< of the top plane in this step, eV
         double dissipated = 0.0; ///< eV
         double gap = 0.0;        ///< work less energy gained and dissipated, eV
         double uncertain = 0.0;  ///< of the work, where energy is missing, eV
         bool smooth = true;      ///< the force did not jump
-        bool carried = false;    ///< more energy than the work can have brought
+        bool excess = false;     ///< more energy gained than the work can have brought
         double margin = 0.0;     ///< allowed error over the one found: how much the step may grow
     };
     struct LegError {
@@ -112,9 +111,9 @@ private:
     const LegError& error(Leg leg) const {
         return leg == Leg::approach ? approach_error_ : pull_off_error_;
     }
-    Verdict judge(const RelaxedState& state, double top) const;
-    void accept(const RelaxedState& state, double top, const Verdict& verdict, Leg leg);
-    Jump describe(const RelaxedState& state, double energy, Leg leg) const;
+    StepCheck check(const RelaxedState& state, double top) const;
+    void accept(const RelaxedState& state, double top, const StepCheck& step, Leg leg);
+    Instability describe(const RelaxedState& state, double energy, Leg leg) const;
     void set_record(const RelaxedState& state, double top);
     void first_point(double top);
     double smallest_step() const { return options_.step * 0x1p-16; }

@@ -31,7 +31,7 @@ double largest(const Communicator& ranks, SiteField<float>& field) {
     return std::sqrt(longest);
 }
 
-/// The descent: where it is, what is left, and how it goes on.
+/// The relaxation: where it is, what is left, and how it goes on.
 class Descent {
 public:
     Descent(SpectralBlock& block, const Interface& interface, double reference_height,
@@ -43,19 +43,19 @@ public:
           at_sites_(block.new_field<float>()) {
         feel();
         tune();
-        falling_ = !(rms_ < close_by);
+        spreading_ = !(rms_ < close_by);
         way_ = rms_ / preconditioner_.k();
     }
 
     /// Forces where the sites are now, and what they leave.
     void feel() {
         sweep(false);
-        if (!falling_) measure();
+        if (!spreading_) measure();
     }
-    /// The mean residual, or, where that is below the tolerance, the largest of a site, eV/Å. Of a
-    /// fall it is only known how far its sites want to go.
+    /// The mean residual, or, where that is below the tolerance, the largest of a site, eV/Å. In
+    /// the first stage only the distances of the sites from their goals are known.
     double residual() {
-        if (falling_) return options_.site_stiffness * way_;
+        if (spreading_) return options_.site_stiffness * way_;
         return rms_ <= options_.tolerance ? largest_residual() : rms_;
     }
     /// The residual of the state as it is reported; energies in sums().
@@ -70,14 +70,14 @@ public:
 
     /// One step downhill.
     void step() {
-        if (!falling_ && newton_step()) return;
-        fall();
+        if (!spreading_ && newton_step()) return;
+        move_sites();
     }
 
 private:
     void sweep(bool observe) {
         const auto t = phases_.time(Phase::interface);
-        const bool rough = falling_ || rough_;
+        const bool rough = spreading_ || rough_;
         sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, observe,
                                  rough && !observe);
     }
@@ -101,22 +101,22 @@ private:
             preconditioner_.tune(block_, k);
     }
 
-    void fall() {
-        if (!falling_) fallen_ = 0;
-        falling_ = true;
-        if (fallen_++ % 8 == 7) tune();
+    void move_sites() {
+        if (!spreading_) iterations_ = 0;
+        spreading_ = true;
+        if (iterations_++ % 8 == 7) tune();
         {
             const auto t = phases_.time(Phase::advance);
             way_ = ball_.move(preconditioner_, options_.max_move);
         }
-        if (way_ > near || fallen_ < patience) return;
-        falling_ = false;
+        if (way_ > near || iterations_ < patience) return;
+        spreading_ = false;
         before_ = std::numeric_limits<double>::infinity();
         ball_.stop();
         block_.settle();
     }
-    /// False, and no step, if Newton is of no use here: his last step has not halved the residual,
-    /// the energy curves down, or a site is sent further than max_move.
+    /// False, and no step, where Newton's method does not help: its last step has not halved the
+    /// residual, the curvature is negative, or a site would move further than max_move.
     bool newton_step() {
         const auto t = phases_.time(Phase::relax);
         if (!(rms_ < 0.5 * before_)) return false;
@@ -130,10 +130,10 @@ private:
     }
 
     static constexpr double close_by = 3e-3;  ///< eV/Å: of an equilibrium, to try Newton at once
-    static constexpr double near = 0.002;     ///< Å: of its goal, to try him after a fall
-    static constexpr long long patience = 10; ///< iterations of a fall before that
+    static constexpr double near = 0.002;     ///< Å: of its goal, to try Newton
+    static constexpr long long patience = 10; ///< iterations of heavy balls before that
     static constexpr double forcing = 0.1;
-    static constexpr double least_stiffness = 2e-4; ///< eV/Å^2: where hardly a site is held yet
+    static constexpr double least_stiffness = 2e-4; ///< eV/Å^2: where hardly a site is in contact
     /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
     static constexpr double rough_enough = 1e-5;
 
@@ -149,8 +149,8 @@ private:
     Waves<float> d_, work_;
     SiteField<float> at_sites_; ///< Newton's direction, or the residual
     InterfaceSums sums_;
-    bool falling_ = false;
-    long long fallen_ = 0;                                    ///< iterations of this fall
+    bool spreading_ = false;
+    long long iterations_ = 0;                                ///< iterations of this stage
     double way_ = 0.0;                                        ///< the longest to a goal, Å
     double rms_ = 0.0;                                        ///< mean residual, eV/Å
     double before_ = std::numeric_limits<double>::infinity(); ///< Newton's last step

@@ -1,23 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The relaxed state of a spectral block, in two movements.
+// The relaxed state of a spectral block, in two stages.
 //
-// First the surfaces come together: sites snap in one after the other, contact spreads, and the
-// energy is anything but a bowl. However well a step is chosen, it is good for some tenths of an
-// angstrom only, the reach of an attraction; so steps are to be cheap. Every site is a heavy ball
-// of its own (heavy_ball.hpp): one sweep of the interface, two transforms a component, no energy,
-// no search along a line. The stiffness k of the preconditioner follows the interface's mean, so
-// that a block that is held by a few summits comes down as fast as one in full contact settles.
+// While contact spreads, sites snap into contact one after the other, and the energy is far from
+// quadratic. However well a step is chosen, it is good for some tenths of an angstrom only, the
+// range of an attraction; so steps must be cheap. Every site is a heavy ball of its own
+// (heavy_ball.hpp): one sweep of the interface, two transforms a component, no energy, no line
+// search. The stiffness k of the preconditioner follows the interface's mean, so that a block
+// supported by a few summits converges as fast as one in full contact.
 //
-// Once no site has far to go, what is left is a smooth problem with soft spots, and the direction
-// is Newton's. The substrate is rigid, so the interface's Hessian is a map of 3 x 3 matrices, had
-// by three sweeps (interface_stiffness.hpp), and the elastic one is S: (S + H) d = -g is solved by
-// conjugate gradients with the same preconditioner, without sweeps and in single precision, and g
-// is in double. Where the energy curves down, where Newton would send a site further than max_move,
-// or where his last step has not halved the residual, the sites fall on.
+// Once no site has far to go, what is left is a smooth problem with soft modes, and the direction
+// is Newton's. The substrate is rigid, so the interface's Hessian is a map of 3 x 3 matrices,
+// computed by three sweeps (interface_stiffness.hpp), and the elastic one is S: (S + H) d = -g is
+// solved by conjugate gradients with the same preconditioner, without sweeps and in single
+// precision, and g is in double. Where the curvature is negative, where Newton's step would move a
+// site further than max_move, or where the last step has not halved the residual, the heavy balls
+// go on.
 //
-// Sweeps of the fall are in mixed precision (where the interface is made for it), and so are
+// Sweeps of the first stage are in mixed precision (where the interface is made for it), and so are
 // Newton's until the forces are near their error; the last ones, and the state that is reported,
 // are in the interface's own.
 //

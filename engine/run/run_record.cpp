@@ -82,7 +82,7 @@ io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Se
         r.extra.emplace_back("work_of_adhesion.uncertainty", std::move(u));
         d["events"] = lost.events;
         d["jumps"] = io::JsonValue::array();
-        for (const Jump& jump : lost.jumps) {
+        for (const Instability& jump : lost.jumps) {
             io::JsonValue j = io::JsonValue::object();
             j["leg"] = jump.leg == 0.0 ? "approach" : "pull-off";
             j["energy"] = jump.energy;

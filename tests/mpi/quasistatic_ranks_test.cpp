@@ -66,7 +66,7 @@ struct Contact {
     using Outcome = QuasistaticPath::Outcome;
     Outcome advance() {
         const Outcome outcome = path.advance(leg);
-        if (outcome == Outcome::landed) leg = Leg::pull_off;
+        if (outcome == Outcome::at_load) leg = Leg::pull_off;
         return outcome;
     }
     std::uint64_t trace() {
@@ -77,7 +77,7 @@ struct Contact {
               r.work, r.damped, r.residual, r.closest, static_cast<double>(r.in_contact),
               path.approach_work(), path.pull_off_work(), static_cast<double>(path.iterations())})
             hash = test::mix(hash, value);
-        for (const Jump& jump : path.dissipation().jumps)
+        for (const Instability& jump : path.dissipation().jumps)
             for (double value : {jump.energy, jump.top, jump.site_x, jump.site_y, jump.sites_moved})
                 hash = test::mix(hash, value);
         return hash;
@@ -106,7 +106,7 @@ std::vector<std::uint64_t> cycle(const Communicator& ranks, const Kind& kind, st
     contact.path.start();
     std::vector<std::uint64_t> points = {contact.trace()};
     for (auto last = QuasistaticPath::Outcome::point;
-         last != QuasistaticPath::Outcome::gone && points.size() < most;) {
+         last != QuasistaticPath::Outcome::apart && points.size() < most;) {
         last = contact.advance();
         points.push_back(contact.trace());
     }
@@ -160,7 +160,7 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
                         ++within;
                         break;
                     }
-                    gone = outcome == QuasistaticPath::Outcome::gone;
+                    gone = outcome == QuasistaticPath::Outcome::apart;
                     ++point;
                     ASSERT_EQ(contact.trace(), whole[point])
                         << kind.name << ", point " << point << " after " << stops << " stops";

@@ -86,8 +86,8 @@ TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
         EXPECT_NEAR(path.now().top, 0.0, step);
 
         // Two falls that count: where d F/dz = k, and as deep as it says.
-        std::vector<Jump> falls;
-        for (const Jump& jump : path.dissipation().jumps)
+        std::vector<Instability> falls;
+        for (const Instability& jump : path.dissipation().jumps)
             if (jump.energy > 1e-3 * path.dissipation().total()) falls.push_back(jump);
         ASSERT_EQ(falls.size(), 2u);
         const double peak = 3.62; // Å: between the turning points, near the largest tension
