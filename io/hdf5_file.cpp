@@ -117,6 +117,26 @@ bool Hdf5File::is_dataset(const std::string& object) const {
     return H5Iget_type(handle) == H5I_DATASET;
 }
 
+bool Hdf5File::is_group(const std::string& object) const {
+    if (!exists(object)) return false;
+    const Hdf5Handle handle(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
+    return handle.good() && H5Iget_type(handle) == H5I_GROUP;
+}
+
+bool Hdf5File::holds_numbers(const std::string& dataset) const {
+    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!set.good()) fail(dataset, "is not a data set");
+    const Hdf5Handle type(H5Dget_type(set), H5Tclose);
+    const H5T_class_t kind = type.good() ? H5Tget_class(type) : H5T_NO_CLASS;
+    return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
+std::uint64_t Hdf5File::stored_bytes(const std::string& dataset) const {
+    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!set.good()) fail(dataset, "is not a data set");
+    return H5Dget_storage_size(set);
+}
+
 void Hdf5File::remove(const std::string& object) {
     if (H5Ldelete(id_, object.c_str(), H5P_DEFAULT) < 0) fail(object, "cannot be removed");
 }

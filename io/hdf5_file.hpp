@@ -41,6 +41,11 @@ public:
     /// Names of the members of a group, in alphabetical order.
     std::vector<std::string> members(const std::string& group) const;
     bool is_dataset(const std::string& object) const;
+    bool is_group(const std::string& object) const;
+    /// Of a data set: are its values plain integers or floats?
+    bool holds_numbers(const std::string& dataset) const;
+    /// Bytes that a data set takes in the file, compressed as it is. 0: nothing was written.
+    std::uint64_t stored_bytes(const std::string& dataset) const;
 
     /// Attributes of a group or data set; written over if there.
     void write_attribute(const std::string& object, const std::string& name,

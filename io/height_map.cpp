@@ -4,16 +4,14 @@
 
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/map_file.hpp"
+#include "io/map_formats.hpp"
 #include "io/result.hpp"
-#include "io/units.hpp"
 
-#include <cerrno>
-#include <charconv>
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <string_view>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,202 +22,140 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(std::string where, std::string what, std::string why, std::string fix) {
-    throw SceneError(Problem{std::move(where), std::move(what), std::move(why), std::move(fix)});
-}
-
 bool is_text_name(const fs::path& path) {
     const std::string ending = path.extension().string();
-    return ending == ".txt" || ending == ".dat" || ending == ".csv" || ending == ".asc" ||
-           ending == ".xyz";
+    return ending == ".txt" || ending == ".dat" || ending == ".csv" || ending == ".asc";
 }
 
-/// Å per unit of the file.
-double unit_factor(const std::string& unit, const std::string& where) {
-    const std::optional<double> factor = conversion(unit, "Å");
-    if (!factor)
-        refuse(where, fmt::format("heights in '{}' cannot be read", unit),
-               "that is no unit of length", "say which it is: file_unit = \"nm\"");
-    return *factor;
+void treat_missing(MapFile& map, bool fill, std::vector<std::string>& notes) {
+    if (map.missing == 0) return;
+    const auto first = std::find_if(map.heights.begin(), map.heights.end(),
+                                    [](double h) { return std::isnan(h); });
+    const auto at = static_cast<std::size_t>(first - map.heights.begin());
+    if (!fill)
+        refuse_map(map.first_missing,
+                   fmt::format("the height in row {}, column {} is {}", at / map.columns + 1,
+                               at % map.columns + 1, map.first_missing_text),
+                   fmt::format("an atom needs a place; {} of {} points have none", map.missing,
+                               map.heights.size()),
+                   "fill the holes of the map before, or let them be filled with "
+                   "surface.file_missing = \"fill\"");
+    const double part = static_cast<double>(map.missing) / static_cast<double>(map.heights.size());
+    if (part > 0.5)
+        refuse_map(map.source, "most of the height map is missing",
+                   fmt::format("{} of {} points have no height", map.missing, map.heights.size()),
+                   "measure it again, or cut out a piece that is whole");
+    fill_missing(map.heights, map.rows, map.columns);
+    notes.push_back(fmt::format("{} points of the map ({:.2g} %) had no height: filled by "
+                                "Laplace's equation",
+                                map.missing, 100.0 * part));
 }
 
-struct Matrix {
-    std::size_t rows = 0, columns = 0;
-    std::vector<double> values;
-};
-
-Matrix read_text(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        refuse(file, "the height map cannot be opened", std::strerror(errno),
-               "check its permissions");
-    Matrix matrix;
-    std::size_t line_number = 0, first_line = 0;
-    for (std::string line; std::getline(stream, line);) {
-        ++line_number;
-        if (const std::size_t hash = line.find('#'); hash != std::string::npos) line.resize(hash);
-        std::size_t columns = 0;
-        const char* at = line.data();
-        const char* const end = at + line.size();
-        while (true) {
-            while (at != end && std::strchr(" \t\r,;", *at))
-                ++at;
-            if (at == end) break;
-            const char* stop = at;
-            while (stop != end && !std::strchr(" \t\r,;", *stop))
-                ++stop;
-            double value = 0.0;
-            const char* const begin = *at == '+' ? at + 1 : at;
-            const auto parsed = std::from_chars(begin, stop, value);
-            const std::string where =
-                fmt::format("{}:{}:{}", file, line_number, at - line.data() + 1);
-            if (parsed.ec != std::errc() || parsed.ptr != stop)
-                refuse(where, fmt::format("'{}' is no height", std::string_view(at, stop)),
-                       "a map is a matrix of numbers, one row a line",
-                       "take headings out of the file, or put a # before them");
-            if (!std::isfinite(value))
-                refuse(where,
-                       fmt::format("the height in row {}, column {} is {}", matrix.rows + 1,
-                                   columns + 1, std::string_view(at, stop)),
-                       "an atom needs a place", "fill the holes of the map before");
-            matrix.values.push_back(value);
-            ++columns;
-            at = stop;
-        }
-        if (columns == 0) continue;
-        if (matrix.rows == 0) {
-            matrix.columns = columns;
-            first_line = line_number;
-        }
-        if (columns != matrix.columns)
-            refuse(fmt::format("{}:{}:1", file, line_number),
-                   "the rows of the map are not of one length",
-                   fmt::format("this line has {} numbers, line {} has {}", columns, first_line,
-                               matrix.columns),
-                   "give every row as many numbers");
-        ++matrix.rows;
+/// The edge of the square that the map is, or is cut to, Å.
+std::optional<double> make_square(MapFile& map, bool crop, std::vector<std::string>& notes) {
+    if (!crop && map.rows != map.columns)
+        refuse_map(map.source, "the height map is not square",
+                   fmt::format("it has {} rows and {} columns, and the periodic box is square",
+                               map.rows, map.columns),
+                   "cut a square out of it before, or take the middle with "
+                   "surface.file_crop = \"middle\"");
+    std::optional<double> pixel;
+    if (map.width && map.height) {
+        pixel = *map.width / static_cast<double>(map.columns);
+        const double other = *map.height / static_cast<double>(map.rows);
+        if (std::abs(other - *pixel) > 1e-3 * *pixel)
+            refuse_map(map.source, fmt::format("is {:g} x {:g} Å wide", *map.width, *map.height),
+                       fmt::format("its pixels of {:g} x {:g} Å are not square, and the periodic "
+                                   "box is",
+                                   *pixel, other),
+                       "resample it to square pixels before");
+        if (std::abs(other - *pixel) > 1e-6 * *pixel)
+            notes.push_back(
+                fmt::format("the pixels of {:.7g} x {:.7g} Å are taken as square", *pixel, other));
     }
-    if (stream.bad())
-        refuse(file, "the height map cannot be read to its end", std::strerror(errno), "");
-    return matrix;
-}
-
-/// The data set to take: the one named, else the only one with two dimensions, at the root or one
-/// group below.
-std::string find_dataset(const Hdf5File& file, const std::string& named) {
-    if (!named.empty()) {
-        if (!file.is_dataset(named))
-            refuse(file.path(), "has no data set " + named,
-                   "the file was opened and searched for it", "`h5ls -r FILE` lists what it has");
-        return named;
+    const std::size_t n = std::min(map.rows, map.columns);
+    if (map.rows != map.columns) {
+        std::vector<double> cut;
+        cut.reserve(n * n);
+        const std::size_t y0 = (map.rows - n) / 2, x0 = (map.columns - n) / 2;
+        for (std::size_t y = y0; y < y0 + n; ++y)
+            cut.insert(cut.end(),
+                       map.heights.begin() + static_cast<std::ptrdiff_t>(y * map.columns + x0),
+                       map.heights.begin() + static_cast<std::ptrdiff_t>(y * map.columns + x0 + n));
+        map.heights = std::move(cut);
+        notes.push_back(fmt::format("of {} rows and {} columns the middle {} x {} are taken",
+                                    map.rows, map.columns, n, n));
     }
-    std::vector<std::string> found;
-    const auto look = [&](const std::string& path) {
-        if (file.is_dataset(path) && file.shape(path).size() == 2) found.push_back(path);
-    };
-    for (const std::string& name : file.members("/")) {
-        look("/" + name);
-        if (!file.is_dataset("/" + name))
-            for (const std::string& member : file.members("/" + name))
-                look("/" + name + "/" + member);
-    }
-    if (found.empty())
-        refuse(file.path(), "holds no height map", "none of its data sets has two dimensions",
-               "name a file that has one");
-    if (found.size() > 1)
-        refuse(file.path(), "holds more than one height map",
-               fmt::format("{} and {} both have two dimensions", found[0], found[1]),
-               fmt::format("say which: file = \"{}:{}\"", file.path(), found[0]));
-    return found.front();
-}
-
-/// Heights, and what the attributes say of unit and edge.
-Matrix read_hdf5(const std::string& path, const std::string& named, HeightMap& map,
-                 std::string& unit) {
-    const Hdf5File file(path, Hdf5File::Mode::read);
-    const std::string dataset = find_dataset(file, named);
-    map.source = path + ":" + dataset;
-    const Hdf5File::Shape shape = file.shape(dataset);
-    if (shape.size() != 2)
-        refuse(map.source, "is no height map",
-               fmt::format("it has {} dimensions, a map has 2", shape.size()),
-               "name another data set");
-    Matrix matrix{shape[0], shape[1], file.read<double>(dataset)};
-    for (std::size_t i = 0; i < matrix.values.size(); ++i)
-        if (!std::isfinite(matrix.values[i]))
-            refuse(fmt::format("{}[{}, {}]", map.source, i / matrix.columns, i % matrix.columns),
-                   fmt::format("the height in row {}, column {} is {}", i / matrix.columns + 1,
-                               i % matrix.columns + 1, matrix.values[i]),
-                   "an atom needs a place", "fill the holes of the map before");
-    for (const std::string& place : {std::string("/"), dataset})
-        if (file.has_attribute(place, "origin"))
-            map.origin = file.read_text_attribute(place, "origin");
-    if (unit == "auto")
-        unit =
-            file.has_attribute(dataset, "unit") ? file.read_text_attribute(dataset, "unit") : "Å";
-    if (file.has_attribute(dataset, "size_x")) {
-        const double x = file.read_number_attribute(dataset, "size_x");
-        const double y = file.has_attribute(dataset, "size_y")
-                             ? file.read_number_attribute(dataset, "size_y")
-                             : x;
-        // Sizes are in the file's own unit, whatever the scene says of the heights.
-        const std::string own =
-            file.has_attribute(dataset, "unit") ? file.read_text_attribute(dataset, "unit") : unit;
-        if (!(x > 0.0) || std::abs(x - y) > 1e-6 * x)
-            refuse(map.source, fmt::format("is {} x {} {} wide", x, y, own),
-                   "the periodic box is square", "cut a square out of the map before");
-        map.size = x * unit_factor(own, map.source);
-    }
-    return matrix;
+    if (!pixel) return std::nullopt;
+    return *pixel * static_cast<double>(n);
 }
 
 } // namespace
 
-HeightMap read_height_map(const std::string& name, const std::string& unit_wanted) {
-    std::string file = name, dataset;
-    if (const std::size_t colon = file.find(":/"); colon != std::string::npos) {
-        dataset = file.substr(colon + 1);
-        file.resize(colon);
-    }
-    std::error_code error;
-    if (!fs::is_regular_file(file, error))
-        refuse(file, "the height map cannot be opened",
-               fs::exists(file, error) ? "it is no file" : "there is no such file",
-               "check surface.file");
-
+HeightMap read_height_map(const std::string& file, const MapOptions& options) {
+    MapFile read = read_map_file(file, options.unit);
     HeightMap map;
-    map.source = file;
-    std::string unit = unit_wanted;
-    std::ifstream stream(file, std::ios::binary);
-    char head[8] = {};
-    stream.read(head, sizeof head);
-    const bool hdf5 = std::memcmp(head, "\x89HDF\r\n\x1a\n", 8) == 0;
-    stream.close();
-    if (!hdf5 && (!dataset.empty() || fs::path(file).extension() == ".h5"))
-        refuse(file, "the height map cannot be read", "it is not an HDF5 file",
-               "name another file; a text matrix must not be called .h5");
-    Matrix matrix;
-    try {
-        matrix = hdf5 ? read_hdf5(file, dataset, map, unit) : read_text(file);
-    } catch (const FileError&
-                 damaged) { // an input that the scene names: exit 2, like its other mistakes
-        throw SceneError(damaged.problems());
-    }
-    if (matrix.rows == 0) refuse(map.source, "the height map is empty", "it holds no numbers", "");
-    if (matrix.rows != matrix.columns)
-        refuse(map.source, "the height map is not square",
-               fmt::format("it has {} rows and {} columns, and the periodic box is square",
-                           matrix.rows, matrix.columns),
-               "cut a square out of it before");
-    if (unit == "auto") unit = "Å";
-    map.unit = unit;
-    map.sites = static_cast<int>(matrix.rows);
-    map.heights = std::move(matrix.values);
-    const double factor = unit_factor(unit, map.source);
-    if (factor != 1.0)
-        for (double& height : map.heights)
-            height *= factor;
+    if (read.unit_assumed)
+        map.notes.push_back("the file does not say the unit of its heights: taken as Å");
+    treat_missing(read, options.fill, map.notes);
+    map.size = make_square(read, options.crop, map.notes);
+    map.sites = static_cast<int>(std::min(read.rows, read.columns));
+    map.heights = std::move(read.heights);
+    map.unit = std::move(read.unit);
+    map.source = std::move(read.source);
+    map.origin = std::move(read.origin);
     return map;
+}
+
+void fill_missing(std::vector<double>& h, std::size_t rows, std::size_t columns) {
+    constexpr std::size_t known = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> holes, number(h.size(), known);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < h.size(); ++i)
+        if (std::isnan(h[i])) {
+            number[i] = holes.size();
+            holes.push_back(i);
+        } else {
+            largest = std::max(largest, std::abs(h[i]));
+        }
+    const auto neighbours = [&](std::size_t i, const auto& visit) {
+        const std::size_t x = i % columns, y = i / columns;
+        if (x > 0) visit(i - 1);
+        if (x + 1 < columns) visit(i + 1);
+        if (y > 0) visit(i - columns);
+        if (y + 1 < rows) visit(i + columns);
+    };
+    // Conjugate gradients on (number of neighbours) h - sum of neighbours = 0, from zero.
+    std::vector<double> value(holes.size(), 0.0), residual(holes.size(), 0.0), image(holes.size());
+    for (std::size_t k = 0; k < holes.size(); ++k)
+        neighbours(holes[k], [&](std::size_t j) {
+            if (number[j] == known) residual[k] += h[j];
+        });
+    std::vector<double> direction = residual;
+    const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
+        return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+    };
+    double square = dot(residual, residual);
+    const double enough = 1e-20 * largest * largest;
+    for (std::size_t n = 0; n < 10 * holes.size() + 10 && square > enough; ++n) {
+        for (std::size_t k = 0; k < holes.size(); ++k) {
+            double sum = 0.0;
+            neighbours(holes[k], [&](std::size_t j) {
+                sum += direction[k] - (number[j] == known ? 0.0 : direction[number[j]]);
+            });
+            image[k] = sum;
+        }
+        const double step = square / dot(direction, image);
+        for (std::size_t k = 0; k < holes.size(); ++k) {
+            value[k] += step * direction[k];
+            residual[k] -= step * image[k];
+        }
+        const double before = std::exchange(square, dot(residual, residual));
+        for (std::size_t k = 0; k < holes.size(); ++k)
+            direction[k] = residual[k] + square / before * direction[k];
+    }
+    for (std::size_t k = 0; k < holes.size(); ++k)
+        h[holes[k]] = value[k];
 }
 
 void write_height_map(const std::string& file, const HeightMap& map) {
@@ -227,6 +163,7 @@ void write_height_map(const std::string& file, const HeightMap& map) {
     if (is_text_name(file)) {
         std::string text =
             fmt::format("# {} x {} heights in Å, one row (y) a line\n", sites, sites);
+        text += "# Value units: Å\n";
         if (map.size) text += fmt::format("# edge: {} Å\n", *map.size);
         for (std::size_t y = 0; y < sites; ++y)
             for (std::size_t x = 0; x < sites; ++x)

@@ -1,16 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Height maps from and to files: measured or synthetic, as a text matrix or in HDF5.
-//
-// Text: one row of the map a line, numbers separated by blanks, tabs, commas or semicolons; #
-// starts a comment. Row r is y = r, column c is x = c. HDF5: the two-dimensional data set of the
-// file, or the one named after a colon ("map.h5:/topography"); attributes unit, size_x, size_y are
-// used where present (sizes in the same unit as the heights); attribute origin, of the data set or
-// of the file, says whose map it is.
-//
-// A map must be square, whole and finite. What is wrong with it is a mistake of the scene that
-// names it (exit 2), told with the line and column, or the row and column in HDF5.
+// Height maps for a scene: square, whole and finite. What a file holds is read by map_file.hpp.
 #pragma once
 
 #include <optional>
@@ -20,16 +11,28 @@
 namespace asperity::io {
 
 struct HeightMap {
-    int sites = 0;               ///< values along an edge
-    std::vector<double> heights; ///< Å; heights[y * sites + x]
-    std::optional<double> size;  ///< edge of the map, Å, where the file tells it
-    std::string unit = "Å";      ///< the heights had in the file
-    std::string source;          ///< the file (and data set)
-    std::string origin;          ///< whose map it is, where the file tells it; HDF5 only
+    int sites = 0;                    ///< values along an edge
+    std::vector<double> heights;      ///< Å; heights[y * sites + x]
+    std::optional<double> size;       ///< edge of the map, Å, where the file tells it
+    std::string unit = "Å";           ///< the heights had in the file
+    std::string source;               ///< the file (and data set)
+    std::string origin;               ///< whose map it is, where the file tells it
+    std::vector<std::string> notes{}; ///< what was assumed, filled or cut, one sentence each
 };
 
-/// unit "auto": what the file says, else Å. Throws SceneError.
-HeightMap read_height_map(const std::string& file, const std::string& unit = "auto");
+struct MapOptions {
+    std::string unit = "auto"; ///< of the heights; "auto": what the file says, else Å
+    bool fill = false;         ///< missing points: by Laplace's equation; else they are refused
+    bool crop = false;         ///< not square: the middle; else it is refused
+};
+
+/// Throws SceneError, told with the line and column, or the row and column in HDF5.
+HeightMap read_height_map(const std::string& file, const MapOptions& options = {});
+
+/// Gives every NaN of heights[y * columns + x] the value that makes it the mean of its neighbours
+/// (four, fewer at the map's edge): Laplace's equation with the heights around as boundary values.
+/// To 1e-9 of the largest height; there must be one that is no NaN.
+void fill_missing(std::vector<double>& heights, std::size_t rows, std::size_t columns);
 
 /// Text if the name ends in .txt, .dat, .csv or .asc, else HDF5 data set /heights (with unit and
 /// sizes). Whole or not at all. Throws FileError.

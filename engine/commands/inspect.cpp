@@ -5,11 +5,13 @@
 #include "decomposition/communicator.hpp"
 #include "engine/run/plan.hpp"
 #include "engine/run/theory_case.hpp"
+#include "engine/scene/map_statistics.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/build_info.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/height_map.hpp"
+#include "io/map_file.hpp"
 #include "io/result.hpp"
 #include "io/table.hpp"
 #include "kernels/device/device.hpp"
@@ -90,7 +92,52 @@ int plan_command(const Scene& scene, int ranks, const Communicator& world) {
     return io::exit_code::done;
 }
 
+namespace {
+
+/// What the file of a measured surface holds, before the scene makes anything of it.
+void print_map_file(const Scene& scene) {
+    const io::MapFile map = io::read_map_file(scene.surface.map, scene.surface.file_unit);
+    std::optional<double> width = map.width, height = map.height;
+    if (scene.surface.file_size) { // the scene knows better
+        const double pixel =
+            *scene.surface.file_size / static_cast<double>(std::min(map.columns, map.rows));
+        width = pixel * static_cast<double>(map.columns);
+        height = pixel * static_cast<double>(map.rows);
+    }
+    const double dx = width.value_or(0.0) / static_cast<double>(map.columns),
+                 dy = height.value_or(0.0) / static_cast<double>(map.rows);
+    const MapStatistics s = map_statistics(map.heights, map.columns, map.rows, dx, dy, false);
+    const auto if_sized = [&](double value, const char* format) {
+        return width ? fmt::format(fmt::runtime(format), value) : std::string("?");
+    };
+    io::Table table({"the file", "", ""});
+    table.align_left(1);
+    table.align_left(2);
+    table.row({"name", std::filesystem::path(scene.surface.file).filename().string(), map.format});
+    table.row({"points", fmt::format("{} x {}", map.columns, map.rows),
+               map.missing > 0 ? fmt::format("{} without a height", map.missing) : ""});
+    table.row({"size", width ? fmt::format("{:.6g} x {:.6g} Å", *width, *height) : "?",
+               scene.surface.file_size ? "surface.file_size"
+               : width                 ? ""
+                                       : "the file does not say"});
+    table.row({"pixel", width ? fmt::format("{:.5g} x {:.5g} Å", dx, dy) : "?", ""});
+    table.row({"heights in", map.unit,
+               scene.surface.file_unit != "auto" ? "surface.file_unit"
+               : map.unit_assumed                ? "assumed: the file does not say"
+                                                 : ""});
+    table.row({"rms height", fmt::format("{:.6g} Å", s.rms_height), "about the mean"});
+    table.row({"rms slope", if_sized(s.rms_slope, "{:.6g}"), "differences of neighbours"});
+    table.row({"rms curvature", if_sized(s.rms_curvature, "{:.6g} 1/Å"), "second differences"});
+    table.row({"lowest", fmt::format("{:.6g} Å", s.lowest), ""});
+    table.row({"highest", fmt::format("{:.6g} Å", s.highest), ""});
+    table.print(stdout);
+    fmt::print("\n");
+}
+
+} // namespace
+
 int surface_command(const Scene& scene, const std::string& out, const Communicator& world) {
+    if (scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(scene); });
     const Surface surface = scene_surface(scene);
     if (!world.root()) return io::exit_code::done;
     const io::ResultPlace place = io::choose_result_directory(out, scene.name + "-surface", false);
@@ -114,6 +161,11 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
     column("q", "1/Å", q);
     column("realised", "Å^4", realised);
     column("target", "Å^4", target);
+    const LineStatistics lines = line_statistics(surface.height, surface.sites, surface.length);
+    column("line_q", "1/Å", lines.q);
+    column("c1d", "Å^3", lines.c1d);
+    column("line_r", "Å", lines.r);
+    column("autocorrelation", "Å^2", lines.acf);
     file.close();
 
     io::ResultRecord record;
@@ -123,13 +175,21 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
                       surface.origin};
     io::write_result(place.directory, record);
 
-    io::Table table({"surface", "", ""});
+    io::Table table({"the surface made", "", ""});
     table.align_left(2);
     table.row({"atoms", fmt::format("{0} x {0}", surface.sites), ""});
     table.row({"edge", io::cell(surface.length, 6), "Å"});
     table.row({"pixel", io::cell(surface.length / surface.sites), "Å"});
     table.row({"rms height", io::cell(statistics.rms), "Å"});
-    table.row({"rms slope", io::cell(statistics.rms_slope), ""});
+    table.row({"rms slope", io::cell(statistics.rms_slope), "spectral"});
+    table.row({"rms curvature", io::cell(statistics.rms_curvature), "1/Å, spectral"});
+    if (surface.radius == 0.0) {
+        const double pixel = surface.length / surface.sites;
+        const auto n = static_cast<std::size_t>(surface.sites);
+        const MapStatistics s = map_statistics(surface.height, n, n, pixel, pixel, true);
+        table.row({"rms slope", io::cell(s.rms_slope), "differences of neighbours"});
+        table.row({"rms curvature", io::cell(s.rms_curvature), "1/Å, second differences"});
+    }
     table.row({"lowest", io::cell(statistics.lowest), "Å"});
     table.row({"highest", io::cell(statistics.highest), "Å"});
     table.print(stdout);

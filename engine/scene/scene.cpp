@@ -48,8 +48,8 @@ io::Schema bind(Scene& scene) {
     schema.number_or("radius", surface.radius, "none", "Å", positive(), "of a spherical cap");
     schema.text(
         "file", surface.file,
-        "for kind = \"file\": HDF5 (file.h5 or file.h5:/path) or a text matrix, looked for beside "
-        "the scene, then in the working directory");
+        "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), text (matrix, .xyz, ESRI grid) or "
+        ".npy, looked for beside the scene, then in the working directory");
     schema.number_or("file_size", surface.file_size, "auto", "Å", positive(),
                      "edge of the map; \"auto\": what the file says, else the box");
     schema.text("file_unit", surface.file_unit,
@@ -59,6 +59,13 @@ io::Schema bind(Scene& scene) {
         {{"none", Detrend::none}, {"plane", Detrend::plane}, {"periodic", Detrend::periodic}},
         "what is taken off a map from a file: nothing, the mean plane, or that "
         "and the jumps between opposite edges");
+    schema.choice<MapMissing>("file_missing", surface.file_missing,
+                              {{"refuse", MapMissing::refuse}, {"fill", MapMissing::fill}},
+                              "points of the map without a height: refused, or filled by Laplace's "
+                              "equation");
+    schema.choice<MapCrop>("file_crop", surface.file_crop,
+                           {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
+                           "a map that is not square: refused, or its middle taken");
     schema.choice<Resample>("resample", surface.resample,
                             {{"none", Resample::none}, {"band-limited", Resample::band_limited}},
                             "how a map that has not N x N values is brought onto the lattice");

@@ -21,6 +21,8 @@
 namespace asperity {
 
 enum class Detrend { none, plane, periodic };
+enum class MapMissing { refuse, fill };
+enum class MapCrop { none, middle };
 enum class Resample { none, band_limited };
 enum class BlockModel { lattice, multiscale, spectral };
 enum class Strain { linear, finite };
@@ -65,6 +67,8 @@ struct Scene {
         std::optional<double>
             file_size; ///< edge of the map, Å; empty: what the file says, else the box
         std::string file_unit = "auto"; ///< of the heights; "auto": what the file says, else Å
+        MapMissing file_missing = MapMissing::refuse;
+        MapCrop file_crop = MapCrop::none;
         Detrend detrend = Detrend::none;
         Resample resample = Resample::none;
     } surface;

@@ -98,7 +98,7 @@ void measure(const SurfaceOptions& o, Surface& s) {
     std::vector<Complex> wave(s.height.begin(), s.height.end());
     heights::transform(wave, n, n, FFTW_FORWARD);
     stat.spectrum.assign(static_cast<std::size_t>(n / 2) + 1, {});
-    double slope2 = 0.0;
+    double slope2 = 0.0, curvature2 = 0.0;
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
             const double kx = signed_wave(x, n), ky = signed_wave(y, n);
@@ -107,7 +107,9 @@ void measure(const SurfaceOptions& o, Surface& s) {
                                static_cast<std::size_t>(x)]) /
                 (static_cast<double>(cells(n)) * static_cast<double>(cells(n)));
             const double k = std::sqrt(kx * kx + ky * ky);
-            slope2 += power * k * k * q_unit * q_unit;
+            const double q2 = k * k * q_unit * q_unit;
+            slope2 += power * q2;
+            curvature2 += 0.25 * power * q2 * q2;
             const auto bin = static_cast<std::size_t>(std::lround(k));
             if (bin == 0 || bin >= stat.spectrum.size()) continue;
             stat.spectrum[bin].q += k * q_unit;
@@ -116,6 +118,7 @@ void measure(const SurfaceOptions& o, Surface& s) {
             stat.spectrum[bin].modes += 1;
         }
     stat.rms_slope = std::sqrt(slope2);
+    stat.rms_curvature = std::sqrt(curvature2);
     std::erase_if(stat.spectrum, [](const SpectrumBin& b) { return b.modes == 0; });
     for (SpectrumBin& b : stat.spectrum) {
         b.q /= b.modes;

@@ -50,6 +50,7 @@ struct SpectrumBin {
 struct SurfaceStatistics {
     double rms = 0.0;                  ///< Å
     double rms_slope = 0.0;            ///< sqrt(<hx^2 + hy^2>), spectral derivative
+    double rms_curvature = 0.0;        ///< sqrt(<(hxx + hyy)^2>) / 2, spectral, 1/Å
     double lowest = 0.0;               ///< Å
     double highest = 0.0;              ///< Å
     std::vector<SpectrumBin> spectrum; ///< bins of width q_L

@@ -32,7 +32,9 @@ Surface scene_surface(const Scene& scene) {
     options.radius = s.radius.value_or(0.0);
     try {
         if (s.kind != SurfaceKind::file) return make_surface(options);
-        io::HeightMap map = io::read_height_map(s.map, s.file_unit);
+        io::HeightMap map =
+            io::read_height_map(s.map, {s.file_unit, s.file_missing == MapMissing::fill,
+                                        s.file_crop == MapCrop::middle});
         options.map_edge = s.file_size.value_or(map.size.value_or(0.0));
         const int covered = sites_of_map(options);
         if (map.sites != covered && s.resample == Resample::none)
@@ -45,6 +47,10 @@ Surface scene_surface(const Scene& scene) {
         options.detrend = s.detrend != Detrend::none;
         options.periodic = s.detrend == Detrend::periodic;
         const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
+        if (options.map_edge <= 0.0)
+            map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as "
+                                            "wide as the box, {:.6g} Å (surface.file_size)",
+                                            edge));
         Surface surface =
             surface_from_heights(options, std::move(map.heights), map.sites, map.sites);
         surface.origin = std::move(map.origin);
@@ -53,6 +59,7 @@ Surface scene_surface(const Scene& scene) {
             fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",
                         std::filesystem::path(s.file).filename().string(), map.sites, map.sites,
                         edge / map.sites, edge, map.unit));
+        surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
         return surface;
     } catch (const std::invalid_argument& e) {
         io::Problems problems = scene.problems();

@@ -4,6 +4,8 @@
 // Surfaces: what was asked for is what is there (docs/model.md).
 #include "engine/scene/surface.hpp"
 
+#include "engine/scene/map_statistics.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -349,6 +351,58 @@ TEST(SubstrateSites, AreWholeAtoms) {
     EXPECT_EQ(substrate_sites(512, 1.0), 512);
     EXPECT_EQ(substrate_sites(512, 1.618), 828);
     EXPECT_EQ(substrate_sites(4, 0.01), 1);
+}
+
+// A single wave has closed forms: slope and curvature by waves and by differences, C1D,
+// autocorrelation.
+TEST(MapStatistics, OfOneWave) {
+    const int n = 48, k = 5, m = 3; // waves along x and y
+    const double length = 96.0, a = 1.5, pixel = length / n;
+    std::vector<double> h;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            h.push_back(7.0 + a * std::cos(2.0 * pi * (k * x + m * y) / n + 0.3));
+    const double qx = 2.0 * pi * k / length, qy = 2.0 * pi * m / length, rms = a / std::sqrt(2.0);
+    const auto differences = [&](double q) { return 2.0 / pixel * std::sin(0.5 * q * pixel); };
+    const double dx = differences(qx), dy = differences(qy);
+    const auto size = static_cast<std::size_t>(n);
+    const MapStatistics s = map_statistics(h, size, size, pixel, pixel, true);
+    EXPECT_NEAR(s.rms_height, rms, 1e-12);
+    EXPECT_NEAR(s.rms_slope, rms * std::sqrt(dx * dx + dy * dy), 1e-12);
+    EXPECT_NEAR(s.rms_curvature, 0.5 * rms * (dx * dx + dy * dy), 1e-12);
+    EXPECT_NEAR(s.highest - s.lowest, 2.0 * a, 0.02);
+
+    SurfaceOptions o;
+    o.kind = SurfaceKind::file;
+    o.sites = n;
+    o.length = length;
+    o.rms = 0.0;
+    const SurfaceStatistics spectral = surface_from_heights(o, h, n, n).statistics;
+    EXPECT_NEAR(spectral.rms_slope, rms * std::hypot(qx, qy), 1e-12);
+    EXPECT_NEAR(spectral.rms_curvature, 0.5 * rms * (qx * qx + qy * qy), 1e-12);
+
+    const LineStatistics lines = line_statistics(h, n, length);
+    EXPECT_NEAR(lines.c1d[k - 1], 0.25 * a * a * length, 1e-9);
+    double integral = 0.0; // h_rms^2 = 1/pi int C1D dq
+    for (const double c : lines.c1d)
+        integral += c * 2.0 * pi / length / pi;
+    EXPECT_NEAR(integral, rms * rms, 1e-9);
+    for (std::size_t i = 0; i < lines.r.size(); ++i)
+        EXPECT_NEAR(lines.acf[i], rms * rms * (1.0 - std::cos(qx * lines.r[i])), 1e-9) << i;
+}
+
+TEST(MapStatistics, OfAPlaneThatDoesNotRepeat) {
+    std::vector<double> h;
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 7; ++x)
+            h.push_back(3.0 * x + 8.0 * y);
+    MapStatistics s = map_statistics(h, 7, 4, 1.0, 2.0, false);
+    EXPECT_NEAR(s.rms_slope, 5.0, 1e-12);
+    EXPECT_NEAR(s.rms_curvature, 0.0, 1e-12);
+    h[9] = std::nan(""); // its neighbours' differences are left out
+    s = map_statistics(h, 7, 4, 1.0, 2.0, false);
+    EXPECT_NEAR(s.rms_slope, 5.0, 1e-12);
+    EXPECT_EQ(s.highest, 42.0);
 }
 
 } // namespace

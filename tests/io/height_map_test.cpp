@@ -14,7 +14,7 @@ namespace {
 
 Problem refused(const std::string& file, const std::string& unit = "auto") {
     try {
-        read_height_map(file, unit);
+        read_height_map(file, {unit});
     } catch (const SceneError& error) {
         EXPECT_EQ(error.code(), 2);
         return error.problems().front();
@@ -32,7 +32,7 @@ TEST(HeightMap, RowsAreYAndColumnsAreX) {
         EXPECT_EQ(map.heights, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
         EXPECT_FALSE(map.size.has_value());
     }
-    EXPECT_EQ(read_height_map(scratch.write("m.txt", "1 2\n3 4\n"), "nm").heights.back(), 40.0);
+    EXPECT_EQ(read_height_map(scratch.write("m.txt", "1 2\n3 4\n"), {"nm"}).heights.back(), 40.0);
 }
 
 TEST(HeightMap, RoundTripsAreExact) {
@@ -67,7 +67,7 @@ TEST(HeightMap, Hdf5UnitsAndSizes) {
     EXPECT_EQ(map.heights, (std::vector<double>{0.0, 5.0, 10.0, -10.0}));
     EXPECT_EQ(map.size, 1000.0);
     EXPECT_EQ(map.unit, "nm");
-    map = read_height_map(scratch / "afm.h5", "Å"); // the scene knows better, for the heights
+    map = read_height_map(scratch / "afm.h5", {"Å"}); // the scene knows better, for the heights
     EXPECT_EQ(map.heights[1], 0.5);
     EXPECT_EQ(map.size, 1000.0);
     {
@@ -97,7 +97,7 @@ TEST(HeightMap, Hdf5Mistakes) {
     EXPECT_TRUE(p.where.ends_with("m.h5:/h[1, 0]")) << p.where;
     EXPECT_EQ(p.what, "the height in row 2, column 1 is nan");
     EXPECT_EQ(refused(map({1, 4}, {0, 0, 0, 0})).what, "the height map is not square");
-    EXPECT_EQ(refused(map({2, 2}, {0, 0, 0, 0}, 2.0)).what, "is 1 x 2 nm wide");
+    EXPECT_EQ(refused(map({2, 2}, {0, 0, 0, 0}, 2.0)).what, "is 10 x 20 Å wide");
     EXPECT_EQ(refused(map({2, 2}, {0, 0, 0, 0}, 1.0, "eV")).what, "heights in 'eV' cannot be read");
     Hdf5File(scratch / "empty.h5", Hdf5File::Mode::create).close();
     EXPECT_EQ(refused(scratch / "empty.h5").what, "holds no height map");

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/scene/map_statistics.hpp"
+
+#include "engine/scene/heights.hpp"
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+namespace asperity {
+
+namespace {
+
+/// Mean over what is a number.
+class Mean {
+public:
+    void add(double value) {
+        if (std::isnan(value)) return;
+        sum_ += value;
+        ++count_;
+    }
+    double value() const { return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0; }
+
+private:
+    double sum_ = 0.0;
+    std::size_t count_ = 0;
+};
+
+} // namespace
+
+MapStatistics map_statistics(const std::vector<double>& h, std::size_t nx, std::size_t ny,
+                             double dx, double dy, bool periodic) {
+    MapStatistics s;
+    s.lowest = std::numeric_limits<double>::infinity();
+    s.highest = -s.lowest;
+    Mean height, square, slope, curvature;
+    for (const double v : h) {
+        height.add(v);
+        if (v < s.lowest) s.lowest = v;
+        if (v > s.highest) s.highest = v;
+    }
+    for (const double v : h)
+        square.add((v - height.value()) * (v - height.value()));
+    const auto at = [&](std::size_t x, std::size_t y) { return h[(y % ny) * nx + x % nx]; };
+    // Of a map that does not repeat, slopes lack the last row and column, curvatures both edges.
+    const std::size_t edge = periodic ? 0 : 1;
+    for (std::size_t y = 0; y + edge < ny; ++y)
+        for (std::size_t x = 0; x + edge < nx; ++x) {
+            const double hx = (at(x + 1, y) - at(x, y)) / dx, hy = (at(x, y + 1) - at(x, y)) / dy;
+            slope.add(hx * hx + hy * hy);
+        }
+    for (std::size_t y = edge; y + edge < ny; ++y)
+        for (std::size_t x = edge; x + edge < nx; ++x) {
+            const double centre = 2.0 * at(x, y);
+            const double hxx = (at(x + 1, y) - centre + at(x + nx - 1, y)) / (dx * dx),
+                         hyy = (at(x, y + 1) - centre + at(x, y + ny - 1)) / (dy * dy);
+            curvature.add(0.25 * (hxx + hyy) * (hxx + hyy));
+        }
+    s.rms_height = std::sqrt(square.value());
+    s.rms_slope = std::sqrt(slope.value());
+    s.rms_curvature = std::sqrt(curvature.value());
+    return s;
+}
+
+LineStatistics line_statistics(const std::vector<double>& h, int n, double length) {
+    std::vector<std::complex<double>> wave(h.begin(), h.end());
+    heights::transform(wave, n, n, FFTW_FORWARD);
+    LineStatistics s;
+    const double points = static_cast<double>(n) * n;
+    for (int k = 1; k <= n / 2; ++k) {
+        double power = 0.0; // |h_q|^2 of this qx, summed over all qy: the mean over the lines
+        for (int y = 0; y < n; ++y)
+            power += std::norm(wave[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) +
+                                    static_cast<std::size_t>(k)]) /
+                     (points * points);
+        s.q.push_back(2.0 * std::numbers::pi * k / length);
+        s.c1d.push_back(power * length);
+    }
+    for (int i = 0; i <= n / 2; ++i) {
+        double sum = 0.0;
+        for (int k = 1; k <= n / 2; ++k) { // both signs of q; Nyquist's is one wave
+            const double waves = 2 * k == n ? 1.0 : 2.0;
+            const double phase =
+                2.0 * std::numbers::pi * static_cast<double>((1ll * k * i) % n) / n;
+            sum += waves * s.c1d[static_cast<std::size_t>(k - 1)] * (1.0 - std::cos(phase));
+        }
+        s.r.push_back(length * i / n);
+        s.acf.push_back(sum / length);
+    }
+    return s;
+}
+
+} // namespace asperity

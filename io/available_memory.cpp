@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/available_memory.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+#include <sys/resource.h>
+
+namespace asperity::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The first number of a file; empty if there is none ("max").
+std::optional<double> number_in(const fs::path& path) {
+    std::ifstream file(path);
+    double value = 0.0;
+    if (file >> value) return value;
+    return std::nullopt;
+}
+
+/// Bytes behind a name in a file of "name: value kB" or "name value" lines.
+std::optional<double> entry(const fs::path& path, const std::string& name) {
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        if (!line.starts_with(name)) continue;
+        std::istringstream words(line.substr(name.size()));
+        double value = 0.0;
+        if (!(words >> value)) return std::nullopt;
+        return line.ends_with(" kB") ? 1024.0 * value : value;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+AvailableMemory available_memory() {
+    AvailableMemory least{std::numeric_limits<double>::infinity(), "nothing"};
+    const auto limit = [&](std::optional<double> bytes, const char* because) {
+        if (bytes && *bytes < least.bytes) least = {*bytes, because};
+    };
+    limit(entry("/proc/meminfo", "MemAvailable:"), "MemAvailable");
+
+    // "0::/a/b" (version 2) or "5:memory:/a/b" (version 1); every group above counts too. Inside of
+    // a container the path may not be there, and the root then is the container's own.
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);) {
+        const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+        if (second == std::string::npos) continue;
+        const bool v2 = second == first + 1;
+        if (!v2 && line.substr(first + 1, second - first - 1) != "memory") continue;
+        const fs::path root = v2 ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
+        fs::path group = root / line.substr(std::min(line.size(), second + 2));
+        for (int depth = 0; depth < 64; ++depth, group = group.parent_path()) {
+            const auto most = number_in(group / (v2 ? "memory.max" : "memory.limit_in_bytes"));
+            const auto used = number_in(group / (v2 ? "memory.current" : "memory.usage_in_bytes"));
+            // File pages count as used and are given back on demand.
+            const double files =
+                entry(group / "memory.stat", v2 ? "inactive_file " : "total_inactive_file ")
+                    .value_or(0.0);
+            if (most && used)
+                limit(*most - *used + files,
+                      v2 ? "the control group's memory.max" : "the control group's limit");
+            if (group == root || !group.has_relative_path()) break;
+        }
+    }
+    const auto resource = [&](auto which, const char* used, const char* because) {
+        rlimit r{};
+        if (::getrlimit(which, &r) == 0 && r.rlim_cur != RLIM_INFINITY)
+            limit(static_cast<double>(r.rlim_cur) - entry("/proc/self/status", used).value_or(0.0),
+                  because);
+    };
+    resource(RLIMIT_AS, "VmSize:", "ulimit -v");
+    resource(RLIMIT_DATA, "VmData:", "ulimit -d");
+    if (least.bytes < 0.0) least.bytes = 0.0;
+    return least;
+}
+
+} // namespace asperity::io

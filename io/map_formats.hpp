@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The readers behind map_file.hpp, one a format. Each fills in what its file says, heights still in
+// the file's unit; map_file.cpp does what is common to all. They take bytes rather than files, so
+// that the tests and fuzz targets can hand them any.
+#pragma once
+
+#include "io/map_file.hpp"
+
+#include <string_view>
+
+namespace asperity::io {
+
+/// A map on its way: heights in the file's unit.
+struct RawMap : MapFile {
+    std::optional<std::string> file_unit; ///< of the heights, as the file says it
+    double file_scale = 1.0;              ///< heights are that many units ("Bit2nm"), if the scene
+                                          ///< does not say otherwise
+    bool size_in_unit = false;            ///< width and height are in the unit of the heights too
+};
+
+/// Matrix, XYZ or ESRI grid. xyz: three columns x, y, z.
+RawMap read_map_text(std::string_view text, const std::string& file, bool xyz);
+RawMap read_map_numpy(std::string_view bytes, const std::string& file);
+/// dataset empty: the only one with two dimensions. In a child process.
+RawMap read_map_hdf5(const std::string& file, const std::string& dataset);
+/// The same in this process: a damaged file may end it.
+RawMap read_map_hdf5_here(const std::string& file, const std::string& dataset);
+
+[[noreturn]] void refuse_map(std::string where, std::string what, std::string why, std::string fix);
+/// Å per unit, refused if it is no length.
+double length_unit(const std::string& unit, const std::string& where);
+
+} // namespace asperity::io
