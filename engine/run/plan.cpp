@@ -4,7 +4,9 @@
 
 #include "engine/run/plan_rates.hpp"
 #include "engine/scene/accuracy.hpp"
+#include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
+#include "io/available_memory.hpp"
 #include "io/table.hpp"
 
 #include <fmt/format.h>
@@ -76,31 +78,71 @@ long long expected_steps(const Scene& scene, const Setup& setup, double start) {
 
 namespace {
 
+/// Sites above which a piece of the surface is made instead of it.
+constexpr int largest_surface = 1024;
+/// Highest point of a rough surface over its rms height, from experience.
+constexpr double highest_over_rms = 4.5;
+
+/// A box of largest_surface sites with those waves of the scene's surface that fit into it.
+Scene smaller_box(const Scene& scene) {
+    Scene piece = scene;
+    auto& s = piece.surface;
+    const double part = static_cast<double>(largest_surface) / s.sites;
+    s.sites = largest_surface;
+    if (s.kind == SurfaceKind::flat) return piece;
+    // Of the variance, 2 pi int q C dq with C flat to the roll-off and then q^(-2(1+H)), what lies
+    // above the new q_L. q in q_L of the scene.
+    const double top = std::min(s.cutoff, 0.5 * scene.surface.sites);
+    const auto variance = [&](double from) {
+        constexpr int steps = 2000;
+        double sum = 0.0;
+        for (int i = 0; i < steps; ++i) {
+            const double q = from * std::pow(top / from, (i + 0.5) / steps);
+            sum += q * q * (q <= s.rolloff ? 1.0 : std::pow(q / s.rolloff, -2.0 * (1.0 + s.hurst)));
+        }
+        return sum * std::log(top / from) / steps;
+    };
+    s.rms *= top > 1.0 / part ? std::sqrt(variance(1.0 / part) / variance(1.0)) : 0.0;
+    s.rolloff = std::max(1.0, s.rolloff * part);
+    s.cutoff = std::max(s.rolloff, s.cutoff * part);
+    return piece;
+}
+
 /// Fills in a plan: what a scene has to do, times the rates of this process.
 class Estimate {
 public:
     Estimate(Plan& plan, const Scene& scene) : plan_(plan), scene_(scene) {
         const auto begin = std::chrono::steady_clock::now();
-        surface_ = scene_surface(scene);
+        const bool whole =
+            scene.surface.kind == SurfaceKind::file || scene.surface.sites <= largest_surface;
+        surface_ = scene_surface(whole ? scene : smaller_box(scene));
+        const double measured = static_cast<double>(surface_.height.size());
         surface_seconds_ =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        highest_ = surface_.statistics.highest;
+        atoms_ = std::pow(substrate_sites(scene.surface.sites, scene.surface.lattice_ratio), 2);
+        if (!whole) {
+            surface_seconds_ *= atoms_ / measured;
+            highest_ = scene.surface.kind == SurfaceKind::flat
+                           ? 0.0
+                           : highest_over_rms * scene.surface.rms;
+        }
+        need_ = memory_of(scene, plan.setup, plan.ranks, plan.threads);
         rates_ = measure_rates(scene, plan.setup, surface_);
         plan.rates = rates_.origin;
         count_work();
-        count_bytes();
+        coarse_bytes_ = coarse_bytes();
     }
 
     /// Before the first step: the surface and the tables made from it.
     void making() {
-        const double atoms = static_cast<double>(surface_.height.size());
-        plan_.making = {16.0 * atoms * plan_.ranks,
-                        surface_seconds_ + share_ * sites_ * rates_.making};
+        plan_.making = {need_.making, surface_seconds_ + share_ * sites_ * rates_.making};
     }
 
     void interface() {
         const double site = rates_.far + in_contact_ * (rates_.near - rates_.far);
         const double touched = share_ * sites_ * steps_;
-        plan_.interface = {rates_.interface_bytes * sites_, touched * site};
+        plan_.interface = {need_.surface + need_.interface, touched * site};
         if (on(Effect::tail)) cost(Effect::tail) = {8.0 * sites_, touched * rates_.tail};
         cost(Effect::skipping) = {8.0 * interface_rings * sites_ / interface_block,
                                   -touched * (1.0 - in_contact_) * (rates_.near - rates_.far)};
@@ -110,12 +152,12 @@ public:
     void motion() {
         if (!on(Effect::inertia)) return;
         const double node_steps = share_ * steps_ * nodes_, site_steps = share_ * steps_ * sites_;
-        cost(Effect::inertia) = {motion_, node_steps * rates_.node + site_steps * rates_.rest};
-        cost(Effect::lateral).bytes = 2.0 * (at_rest_ + motion_) / 3.0;
+        cost(Effect::inertia) = {need_.motion, node_steps * rates_.node + site_steps * rates_.rest};
+        cost(Effect::lateral).bytes = 2.0 * (need_.block + need_.motion) / 3.0;
         if (on(Effect::damping)) cost(Effect::damping).seconds = node_steps * rates_.damping;
         if (on(Effect::temperature)) cost(Effect::temperature).seconds = node_steps * rates_.noise;
         const double rows = steps_ / static_cast<double>(scene_.output.series);
-        cost(Effect::observation) = {motion_, share_ * rows * nodes_ * rates_.observation};
+        cost(Effect::observation) = {need_.snapshot, share_ * rows * nodes_ * rates_.observation};
         if (on(Effect::coarse_levels))
             cost(Effect::coarse_levels).seconds =
                 share_ * steps_ * coarse_ * rates_.node + site_steps * rates_.hanging;
@@ -126,7 +168,7 @@ public:
         EffectCost& all = cost(Effect::relaxation);
         if (on(Effect::relaxation)) {
             plan_.iterations = usual_iterations(scene_, start_, plan_.setup);
-            all = {spectral_ ? rates_.relaxation_bytes * sites_ : at_rest_ + motion_,
+            all = {need_.relaxation + (on(Effect::inertia) ? 0.0 : need_.block),
                    share_ * iterations() * nodes_ * rates_.iteration};
         }
         if (on(Effect::coarse_levels)) cost(Effect::coarse_levels).bytes = coarse_bytes_;
@@ -141,9 +183,7 @@ public:
         if (!on(Effect::finite_strain)) return;
         EffectCost& finite = cost(Effect::finite_strain);
         finite.seconds = share_ * (steps_ + iterations()) * nodes_ * rates_.finite;
-        for (int rank = 0; rank < plan_.ranks && on(Effect::inertia); ++rank)
-            finite.bytes += static_cast<double>(
-                Block::finite_bytes_for(block_options(), grid_of(rank), plan_.threads));
+        finite.bytes = need_.finite;
     }
 
     void output() {
@@ -154,15 +194,12 @@ public:
     /// Those that are part of another line (coarse levels, skipping, lateral, the time of finite
     /// strain) do not count twice.
     void add_up() {
-        plan_.bytes =
-            plan_.making.bytes + plan_.interface.bytes + cost(Effect::finite_strain).bytes;
+        plan_.bytes = need_.most() + cost(Effect::maps).bytes;
         plan_.seconds = plan_.making.seconds + plan_.interface.seconds;
         for (Effect e : {Effect::inertia, Effect::damping, Effect::temperature, Effect::tail,
                          Effect::relaxation, Effect::observation, Effect::maps, Effect::theory}) {
-            plan_.bytes += cost(e).bytes;
             plan_.seconds += cost(e).seconds;
         }
-        if (on(Effect::inertia)) plan_.bytes += at_rest_;
         if (on(Effect::coarse_levels)) plan_.seconds += share_ * steps_ * sites_ * rates_.hanging;
         if (!on(Effect::checkpoints)) return;
         const double files = std::floor(plan_.seconds / scene_.output.checkpoint);
@@ -180,8 +217,7 @@ private:
         sites_ = static_cast<double>(scene_.surface.sites) * scene_.surface.sites;
         nodes_ = spectral_ ? sites_ : nodes_of(setup.levels);
         coarse_ = nodes_ - sites_ * (spectral_ ? 1 : setup.levels.front().cells);
-        start_ =
-            surface_.statistics.highest + (on(Effect::tail) ? 4.0 : 1.0) * scene_.interface.cutoff;
+        start_ = highest_ + (on(Effect::tail) ? 4.0 : 1.0) * scene_.interface.cutoff;
         plan_.steps = expected_steps(scene_, setup, start_);
         steps_ = static_cast<double>(plan_.steps);
         const double turning =
@@ -193,36 +229,36 @@ private:
         in_contact_ = turning + 0.5 * (1.0 - turning);
     }
 
-    /// Memory of the block of levels, on all ranks.
-    void count_bytes() {
-        for (int rank = 0; rank < plan_.ranks && !spectral_; ++rank) {
-            const Block::Memory m = Block::memory_for(block_options(), grid_of(rank));
-            at_rest_ += static_cast<double>(m.bytes - m.motion);
-            motion_ += static_cast<double>(m.motion);
-            coarse_bytes_ += static_cast<double>(m.coarse);
-        }
+    /// Of all levels but the finest, on all ranks.
+    double coarse_bytes() const {
+        double bytes = 0.0;
+        for (int rank = 0; rank < plan_.ranks && !spectral_; ++rank)
+            bytes += static_cast<double>(
+                Block::memory_for(plan_.setup.simulation.block,
+                                  make_grid(scene_, plan_.setup, plan_.ranks, rank))
+                    .coarse);
+        return bytes;
     }
 
     bool on(Effect effect) const { return plan_.setup.effects.on(effect); }
     EffectCost& cost(Effect effect) { return plan_.costs[static_cast<std::size_t>(effect)]; }
     double iterations() const { return static_cast<double>(plan_.iterations); }
-    const BlockOptions& block_options() const { return plan_.setup.simulation.block; }
-    ProcessGrid grid_of(int rank) const {
-        return make_grid(scene_, plan_.setup, plan_.ranks, rank);
-    }
 
     Plan& plan_;
     const Scene& scene_;
     const bool spectral_ = scene_.block.model == BlockModel::spectral;
     Surface surface_;
     double surface_seconds_ = 0.0; ///< to make it
+    double highest_ = 0.0;         ///< of its points, Å
+    double atoms_ = 0.0;           ///< of the substrate
+    MemoryNeed need_;
     Rates rates_;
     double share_ = 1.0; ///< of the work, on the slowest rank with its threads, over this process
     double sites_ = 0.0, nodes_ = 0.0, coarse_ = 0.0; ///< coarse: nodes above level 0
     double steps_ = 0.0;
-    double start_ = 0.0;      ///< height from which the block comes down, Å
-    double in_contact_ = 0.5; ///< fraction of the steps that a site is in contact
-    double at_rest_ = 0.0, motion_ = 0.0, coarse_bytes_ = 0.0; ///< of the block, bytes
+    double start_ = 0.0;        ///< height from which the block comes down, Å
+    double in_contact_ = 0.5;   ///< fraction of the steps that a site is in contact
+    double coarse_bytes_ = 0.0; ///< of the block's coarse levels
 };
 
 } // namespace
@@ -287,7 +323,13 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
     if (plan.iterations > 0)
         fmt::print(to, "iterations  some {} in the relaxation (from experience)\n",
                    plan.iterations);
-    fmt::print(to, "memory      {}, the most held at once\n", memory_text(plan.bytes));
+    const io::AvailableMemory there = io::available_memory();
+    fmt::print(to, "memory      {}, the most held at once on all ranks; {} available here ({})\n",
+               memory_text(plan.bytes), memory_text(there.bytes), there.because);
+    if (plan.bytes > there.bytes)
+        fmt::print(to,
+                   "            IT DOES NOT FIT into this machine: `asperity run` will refuse "
+                   "here. Fewer sites, coarser or fewer\n            layers, or more machines\n");
     if (const DeviceChoice& device = plan.setup.simulation.device;
         device.kind != DeviceChoice::Kind::none)
         fmt::print(to, "device      {}, {} of its memory on each rank; rates are the processor's\n",

@@ -172,8 +172,6 @@ void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& pie
     const auto begin = Clock::now();
     const RelaxedState reached = state->relax(own, height, {}, options, phases);
     rates.iteration = since(begin) / static_cast<double>(std::max(1ll, reached.iterations)) / nodes;
-    rates.relaxation_bytes =
-        static_cast<double>(state->bytes()) / (static_cast<double>(block.sites) * block.sites);
 }
 
 } // namespace
@@ -196,7 +194,6 @@ Rates measure_rates(const Scene& scene, const Setup& setup, const Surface& surfa
     const double piece_sites =
         static_cast<double>(piece.options.block.sites) * piece.options.block.sites;
     rates.making = since(measuring) / piece_sites;
-    rates.interface_bytes = static_cast<double>(interface.bytes()) / piece_sites;
     measure_sweeps(interface, piece, setup.flat.separation, rates);
     if (on(Effect::tail)) {
         InterfaceOptions without = piece.options.interface;

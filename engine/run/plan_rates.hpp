@@ -27,8 +27,7 @@ struct Rates {
     double observation = 0.0; ///< of a node and observed step
     double iteration = 0.0;   ///< of a relaxation: of a node (levels) or site (spectral)
     double making = 0.0;      ///< tables and block, of a site
-    double relaxation_bytes = 0.0, interface_bytes = 0.0; ///< of a site
-    std::string origin;                                   ///< where they come from, in words
+    std::string origin;       ///< where they come from, in words
 };
 
 /// What the scene does not ask for is not measured: 0.

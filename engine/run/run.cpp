@@ -10,9 +10,11 @@
 #include "engine/run/checkpoint.hpp"
 #include "engine/run/equilibrium_run.hpp"
 #include "engine/run/run_frame.hpp"
+#include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <cmath>
 #include <optional>
@@ -250,6 +252,7 @@ int run(const Scene& scene, const RunOptions& options, const Communicator& commu
     io::Problems problems = scene.problems();
     not_yet(scene, problems);
     problems.throw_if_any();
+    require_memory(scene, communicator, omp_get_max_threads());
     if (!Effects(scene).on(Effect::inertia)) return run_equilibrium(scene, options, communicator);
     return DynamicRun(scene, options, communicator).go();
 }

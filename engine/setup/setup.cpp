@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/setup/setup.hpp"
 
+#include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
@@ -18,6 +19,7 @@
 namespace asperity {
 
 Surface scene_surface(const Scene& scene) {
+    require_memory_for_surface(scene);
     const auto& s = scene.surface;
     SurfaceOptions options;
     options.kind = s.kind;

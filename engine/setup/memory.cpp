@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/setup/memory.hpp"
+
+#include "io/available_memory.hpp"
+#include "io/error.hpp"
+#include "kernels/interface_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include <unistd.h>
+
+namespace asperity {
+
+namespace {
+
+double atoms_of(const Scene& scene) {
+    const double n = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
+    return n * n;
+}
+
+/// Heights, and the waves that they are made from and measured by (make_surface, measure).
+double making_bytes(const Scene& scene) {
+    const double heights = 8.0, waves = 16.0;
+    const double copies = scene.surface.kind == SurfaceKind::flat ? 1.0 : 2.0;
+    return atoms_of(scene) * (heights + copies * waves);
+}
+
+/// Interface: a copy of the map, the rings, the heights under the tile with a border as wide as the
+/// interaction reaches, the tail.
+double interface_bytes(const Scene& scene, const Setup& setup, const Tile& tile) {
+    const InterfaceOptions& options = setup.simulation.interface;
+    const double spacing = scene.surface.spacing, sites = scene.surface.sites;
+    const double atoms = std::sqrt(atoms_of(scene));
+    const double reach =
+        (options.potential.cutoff + 2.0 * spacing) * atoms / (sites * spacing) + 2.0;
+    const double ratio = atoms / sites;
+    const double under = (tile.nx * ratio + 2.0 * reach) * (tile.ny * ratio + 2.0 * reach);
+    const double each =
+        (options.mixed ? 0.0 : 8.0) + (options.mixed || options.single_too ? 4.0 : 0.0);
+    const double blocks = std::ceil(tile.nx / static_cast<double>(interface_block));
+    double bytes = 8.0 * atoms_of(scene) + 16.0 * interface_rings * blocks * tile.ny + each * under;
+    if (options.tail) bytes += static_cast<double>(Field<double>::bytes_for(tile, 1));
+    return bytes;
+}
+
+/// The ranks of this machine: their values added up. Collective.
+double sum_on_machine(double mine, const Communicator& ranks) {
+    char name[256] = {};
+    ::gethostname(name, sizeof name - 1);
+    const std::size_t hash = std::hash<std::string>{}(name) & ((std::size_t{1} << 52) - 1);
+    const double pair[2] = {static_cast<double>(hash), mine};
+    const auto size = static_cast<std::size_t>(ranks.size());
+    std::vector<double> all(2 * size);
+    ranks.all_gather(pair, std::vector<int>(size, 2), all);
+    double sum = 0.0;
+    for (std::size_t r = 0; r < size; ++r)
+        if (all[2 * r] == pair[0]) sum += all[2 * r + 1];
+    return sum;
+}
+
+void refuse(const Scene& scene, const char* what, double needed, const io::AvailableMemory& there,
+            const std::string& fix) {
+    io::Problems problems = scene.problems();
+    problems.add(
+        "surface.sites",
+        fmt::format("= {}: {} does not fit into memory", scene.surface.sites, what),
+        fmt::format("{:.3g} GB are needed on this machine, and {:.3g} GB are available ({})",
+                    needed / 1e9, there.bytes / 1e9, there.because),
+        fix);
+    problems.throw_if_any();
+}
+
+} // namespace
+
+double MemoryNeed::most() const {
+    return std::max(making, surface + interface + block + motion + snapshot + relaxation + finite);
+}
+
+MemoryNeed& MemoryNeed::operator+=(const MemoryNeed& other) {
+    making += other.making;
+    surface += other.surface;
+    interface += other.interface;
+    block += other.block;
+    motion += other.motion;
+    snapshot += other.snapshot;
+    relaxation += other.relaxation;
+    finite += other.finite;
+    return *this;
+}
+
+MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int rank,
+                          int threads) {
+    const auto on = [&](Effect effect) { return setup.effects.on(effect); };
+    const ProcessGrid grid = make_grid(scene, setup, ranks, rank);
+    const Tile tile = grid.tile(0);
+    MemoryNeed need;
+    need.making = making_bytes(scene);
+    need.surface = 8.0 * atoms_of(scene);
+    need.interface = interface_bytes(scene, setup, tile);
+    if (scene.block.model == BlockModel::spectral) {
+        const double columns = scene.surface.sites / 2 + 1;
+        const double parts = scene.interface.frictionless ? 1.0 : 3.0;
+        const double entries = scene.interface.frictionless ? 1.0 : 6.0;
+        // S(q) of a quadrant in double and its inverse in single precision, on every rank; waves.
+        need.block = entries * columns * columns * 12.0 + 16.0 * parts * columns * tile.ny +
+                     2.0 * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
+        need.relaxation =
+            static_cast<double>(tile.nx) * tile.ny *
+            (8.0 * (parts + (parts == 1.0 ? 3.0 : 6.0)) + 4.0 * (11.0 * parts + 1.0 + entries));
+        return need;
+    }
+    const Block::Memory memory = Block::memory_for(setup.simulation.block, grid);
+    const double motion = static_cast<double>(memory.motion);
+    need.block = static_cast<double>(memory.bytes) - motion;
+    if (on(Effect::inertia)) need.motion = motion;
+    if (on(Effect::observation)) need.snapshot = motion;
+    if (on(Effect::relaxation)) need.relaxation = need.block + motion;
+    if (on(Effect::finite_strain) && on(Effect::inertia))
+        need.finite =
+            static_cast<double>(Block::finite_bytes_for(setup.simulation.block, grid, threads));
+    return need;
+}
+
+MemoryNeed memory_of(const Scene& scene, const Setup& setup, int ranks, int threads) {
+    MemoryNeed need;
+    for (int rank = 0; rank < ranks; ++rank)
+        need += memory_of_rank(scene, setup, ranks, rank, threads);
+    return need;
+}
+
+void require_memory(const Scene& scene, const Communicator& ranks, int threads) {
+    const Setup setup = make_setup(scene, ranks.size());
+    const double mine = memory_of_rank(scene, setup, ranks.size(), ranks.rank(), threads).most();
+    const double needed = sum_on_machine(mine, ranks);
+    const io::AvailableMemory there = io::available_memory();
+    // All ranks refuse alike, with the numbers of the machine that is worst off.
+    double worst = needed / there.bytes;
+    ranks.max(std::span<double>(&worst, 1));
+    if (worst <= 1.0) return;
+    const bool coarser = scene.block.model == BlockModel::lattice;
+    refuse(scene, "the run", worst * there.bytes, there,
+           fmt::format("take fewer sites{}, more machines (`asperity plan --ranks N` counts), or "
+                       "close what else runs here",
+                       coarser ? ", block.model = \"multiscale\"" : ", a thinner block"));
+}
+
+void require_memory_for_surface(const Scene& scene) {
+    const io::AvailableMemory there = io::available_memory();
+    if (making_bytes(scene) > there.bytes)
+        refuse(scene, "its surface", making_bytes(scene), there,
+               "take fewer sites; every rank makes the whole surface");
+}
+
+} // namespace asperity

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Memory is counted before it is taken: the counts are those of the objects, and what does not fit
+// is refused before anything is allocated.
+#include "engine/setup/memory.hpp"
+
+#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/run/plan.hpp"
+#include "engine/run/run.hpp"
+#include "io/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace asperity {
+namespace {
+
+Scene scene_with(const std::vector<std::string>& overrides) {
+    return read_scene_text("[surface]\nsites = 96\nrms = 1.0\n[block]\nthickness = 24\n",
+                           "test.toml", overrides);
+}
+
+/// counted: not less than what is there, and not much more.
+void expect_close(double counted, std::size_t there, const std::string& what) {
+    EXPECT_GE(counted, 0.99 * static_cast<double>(there)) << what;
+    EXPECT_LE(counted, 1.15 * static_cast<double>(there)) << what;
+}
+
+TEST(Memory, IsThatOfTheObjects) {
+    for (const std::vector<std::string>& what : std::vector<std::vector<std::string>>{
+             {},
+             {"block.model=lattice"},
+             {"interface.tail=true"},
+             {"numerics.precision=mixed"},
+             {"surface.lattice_ratio=1.618"},
+             {"surface.lattice_ratio=2.3", "numerics.precision=mixed"}}) {
+        const Scene scene = scene_with(what);
+        const std::string name = what.empty() ? "plain" : what.front();
+        const Setup setup = make_setup(scene, 1);
+        const ProcessGrid grid = make_grid(scene, setup, 1, 0);
+        const MemoryNeed need = memory_of_rank(scene, setup, 1, 0, 1);
+        const Surface surface = scene_surface(scene);
+        EXPECT_EQ(need.surface, static_cast<double>(surface.height.size() * sizeof(double)));
+        const Simulation s(setup.simulation, surface, Communicator(), grid);
+        expect_close(need.interface, s.interface().bytes(), name);
+        EXPECT_EQ(need.block + need.motion, static_cast<double>(s.block().bytes())) << name;
+    }
+    for (const std::vector<std::string>& what : std::vector<std::vector<std::string>>{
+             {"block.model=spectral", "drive.path=zero-load"},
+             {"block.model=spectral", "drive.path=zero-load", "interface.frictionless=true"},
+             {"drive.path=zero-load"}}) {
+        const Scene scene = scene_with(what);
+        const Setup setup = make_setup(scene, 1);
+        const MemoryNeed need = memory_of_rank(scene, setup, 1, 0, 1);
+        const auto state =
+            make_equilibrium(scene, setup, Communicator(), make_grid(scene, setup, 1, 0));
+        const bool spectral = scene.block.model == BlockModel::spectral;
+        const double counted = need.block + (spectral ? need.relaxation : 0.0);
+        EXPECT_GE(counted, static_cast<double>(state->bytes())) << what.front();
+        // The inverse of S(q) is made with the first relaxation.
+        EXPECT_LE(counted, 1.25 * static_cast<double>(state->bytes())) << what.front();
+        EXPECT_EQ(need.motion, 0.0);
+    }
+}
+
+TEST(Memory, RanksShareTheBlockAndHaveTheSurfaceEach) {
+    const Scene scene = scene_with({});
+    const Setup setup = make_setup(scene, 4);
+    const MemoryNeed one = memory_of(scene, setup, 1, 1), four = memory_of(scene, setup, 4, 1);
+    EXPECT_EQ(four.surface, 4.0 * one.surface);
+    EXPECT_EQ(four.making, 4.0 * one.making);
+    EXPECT_LT(four.block, 2.0 * one.block) << "halos";
+}
+
+TEST(Memory, WhatDoesNotFitIsRefusedBeforeItIsMade) {
+    const Scene scene = scene_with({"surface.sites=32768", "block.thickness=32768",
+                                    "block.model=lattice", "surface.cutoff=16384"});
+    try {
+        RunOptions options;
+        options.out = "no-such-directory";
+        run(scene, options, Communicator());
+        ADD_FAILURE() << "it ran";
+    } catch (const io::SceneError& error) {
+        const io::Problem& p = error.problems().front();
+        EXPECT_NE(p.what.find("the run does not fit into memory"), std::string::npos) << p.what;
+        EXPECT_NE(p.fix.find("multiscale"), std::string::npos) << p.fix;
+    }
+    EXPECT_FALSE(std::filesystem::exists("no-such-directory"));
+    // A plan makes neither the surface nor the block.
+    const Plan plan = make_plan(scene, 1, 1);
+    EXPECT_GT(plan.bytes, 1e15);
+    EXPECT_GT(plan.seconds, 0.0);
+    EXPECT_GT(plan.steps, 0);
+}
+
+TEST(Memory, PlansOfLargeScenesGoOnFromThoseOfSmallOnes) {
+    // Below and above the size up to which the surface itself is made.
+    const auto of = [](const char* sites, const char* rolloff, const char* cutoff) {
+        return make_plan(
+            scene_with({sites, rolloff, cutoff, "drive.path=zero-load", "block.model=spectral"}), 1,
+            1);
+    };
+    const Plan small = of("surface.sites=1024", "surface.rolloff=3", "surface.cutoff=512");
+    const Plan large = of("surface.sites=2048", "surface.rolloff=6", "surface.cutoff=1024");
+    EXPECT_NEAR(large.bytes / small.bytes, 4.0, 0.1);
+    EXPECT_EQ(large.iterations, small.iterations);
+}
+
+} // namespace
+} // namespace asperity
