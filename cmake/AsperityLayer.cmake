@@ -27,8 +27,11 @@ target_compile_options(asperity_warnings INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarms of g++ 12 on string concatenation (GCC bug 105651)
     $<$<BOOL:${ASPERITY_WERROR}>:-Werror>)
 
+# For builds whose compile time matters more than their speed: sanitizers, fuzzing.
+option(ASPERITY_ONE_VARIANT "Compile the kernels once, for any processor" OFF)
+set(ASPERITY_KERNEL_OPTIONS "" CACHE STRING "Compiler options of the kernels alone, behind all others")
 set(ASPERITY_VARIANTS "")
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+if(NOT ASPERITY_ONE_VARIANT AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(ASPERITY_VARIANTS v2 v3 v4)
 endif()
 
@@ -42,6 +45,7 @@ function(asperity_layer name)
     target_include_directories(asperity_${name} PUBLIC ${include_dir})
     target_link_libraries(asperity_${name} PUBLIC asperity_flags ${ARG_DEPENDS}
                                            PRIVATE asperity_warnings)
+    set_source_files_properties(${ARG_VARIANTS} PROPERTIES COMPILE_OPTIONS "${ASPERITY_KERNEL_OPTIONS}")
     if(ARG_VARIANTS AND NOT ASPERITY_VARIANTS)
         target_sources(asperity_${name} PRIVATE ${ARG_VARIANTS})
     endif()

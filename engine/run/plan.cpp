@@ -79,7 +79,7 @@ long long expected_steps(const Scene& scene, const Setup& setup, double start) {
 namespace {
 
 /// Sites above which a piece of the surface is made instead of it.
-constexpr int largest_surface = 1024;
+constexpr int largest_surface = 512;
 /// Highest point of a rough surface over its rms height, from experience.
 constexpr double highest_over_rms = 4.5;
 

@@ -149,7 +149,7 @@ void require_memory(const Scene& scene, const Communicator& ranks, int threads) 
     refuse(scene, "the run", worst * there.bytes, there,
            fmt::format("take fewer sites{}, more machines (`asperity plan --ranks N` counts), or "
                        "close what else runs here",
-                       coarser ? ", block.model = \"multiscale\"" : ", a thinner block"));
+                       coarser ? ", block.model = \"multiscale\"" : ""));
 }
 
 void require_memory_for_surface(const Scene& scene) {

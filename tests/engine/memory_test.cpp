@@ -102,8 +102,8 @@ TEST(Memory, PlansOfLargeScenesGoOnFromThoseOfSmallOnes) {
             scene_with({sites, rolloff, cutoff, "drive.path=zero-load", "block.model=spectral"}), 1,
             1);
     };
-    const Plan small = of("surface.sites=1024", "surface.rolloff=3", "surface.cutoff=512");
-    const Plan large = of("surface.sites=2048", "surface.rolloff=6", "surface.cutoff=1024");
+    const Plan small = of("surface.sites=512", "surface.rolloff=3", "surface.cutoff=256");
+    const Plan large = of("surface.sites=1024", "surface.rolloff=6", "surface.cutoff=512");
     EXPECT_NEAR(large.bytes / small.bytes, 4.0, 0.1);
     EXPECT_EQ(large.iterations, small.iterations);
 }

@@ -9,7 +9,7 @@
 #include "io/height_map.hpp"
 #include "io/map_file.hpp"
 
-#include "scratch.hpp"
+#include "support/scratch.hpp"
 
 #include <cmath>
 #include <csignal>
@@ -19,6 +19,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace asperity::io {
 namespace {
@@ -334,15 +335,19 @@ TEST(ChildProcess, CrashesAndHangsAreTold) {
     EXPECT_EQ(in_child_process(
                   10, [](int) { throw 1; }, nothing),
               "with code 111");
-    EXPECT_TRUE(in_child_process(
-                    1,
-                    [](int) {
-                        volatile bool on = true;
-                        while (on) {
-                        }
-                    },
-                    nothing)
-                    .starts_with("after 1 s"));
+    // A hang ends by the limit of processor time.
+    const auto limited = [](int pipe) {
+        rlimit time{};
+        ::getrlimit(RLIMIT_CPU, &time);
+        const std::uint64_t seconds = time.rlim_cur;
+        write_all(pipe, &seconds, sizeof seconds);
+        std::raise(SIGXCPU);
+    };
+    std::uint64_t seconds = 0;
+    EXPECT_TRUE(in_child_process(7, limited, [&](int pipe) {
+                    read_all(pipe, &seconds, sizeof seconds);
+                }).starts_with("after 7 s"));
+    EXPECT_EQ(seconds, 7u);
     // A reader that stops early, and one that throws, leave no child behind.
     const auto talk = [](int pipe) {
         const std::string text(1 << 20, 'x');

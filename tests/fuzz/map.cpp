@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/height_map.hpp"
+#include "io/map_formats.hpp"
+#include "target.hpp"
+
+#include <cmath>
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace asperity;
+    if (size < 1) return 0;
+    const int flags = data[0];
+    const std::string_view bytes(reinterpret_cast<const char*>(data + 1), size - 1);
+    if (bytes.starts_with("\x89HDF")) return 0; // map_hdf5
+    fuzz::try_out([&] {
+        if (flags & 1) {
+            io::read_map_text(bytes, "fuzz.xyz", true);
+            return;
+        }
+        const fuzz::MemoryFile file(bytes);
+        const io::HeightMap map = io::read_height_map(
+            file.name(), {flags & 2 ? "nm" : "auto", (flags & 4) != 0, (flags & 8) != 0});
+        // What is not refused is a map: square, whole, finite.
+        const auto n = static_cast<std::size_t>(map.sites);
+        if (n < 1 || map.heights.size() != n * n) std::abort();
+        for (const double h : map.heights)
+            if (!std::isfinite(h)) std::abort();
+        if (map.size && !(*map.size > 0.0 && std::isfinite(*map.size))) std::abort();
+    });
+    return 0;
+}
