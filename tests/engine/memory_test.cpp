@@ -38,7 +38,7 @@ TEST(Memory, IsThatOfTheObjects) {
              {"surface.lattice_ratio=2.3", "numerics.precision=mixed"}}) {
         const Scene scene = scene_with(what);
         const std::string name = what.empty() ? "plain" : what.front();
-        const Setup setup = make_setup(scene, 1);
+        const auto setup = make_setup(scene, 1);
         const ProcessGrid grid = make_grid(scene, setup, 1, 0);
         const MemoryNeed need = memory_of_rank(scene, setup, 1, 0, 1);
         const Surface surface = scene_surface(scene);
@@ -52,7 +52,7 @@ TEST(Memory, IsThatOfTheObjects) {
              {"block.model=spectral", "drive.path=zero-load", "interface.frictionless=true"},
              {"drive.path=zero-load"}}) {
         const Scene scene = scene_with(what);
-        const Setup setup = make_setup(scene, 1);
+        const auto setup = make_setup(scene, 1);
         const MemoryNeed need = memory_of_rank(scene, setup, 1, 0, 1);
         const auto state =
             make_equilibrium(scene, setup, Communicator(), make_grid(scene, setup, 1, 0));
@@ -67,7 +67,7 @@ TEST(Memory, IsThatOfTheObjects) {
 
 TEST(Memory, RanksShareTheBlockAndHaveTheSurfaceEach) {
     const Scene scene = scene_with({});
-    const Setup setup = make_setup(scene, 4);
+    const auto setup = make_setup(scene, 4);
     const MemoryNeed one = memory_of(scene, setup, 1, 1), four = memory_of(scene, setup, 4, 1);
     EXPECT_EQ(four.surface, 4.0 * one.surface);
     EXPECT_EQ(four.making, 4.0 * one.making);
