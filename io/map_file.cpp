@@ -40,6 +40,7 @@ constexpr Foreign foreign[] = {{"GWYP", "a Gwyddion file (.gwy)"},
                                {"Gwyddion Simple Field", "a Gwyddion Simple Field (.gsf)"},
                                {"CDF\x01", "a netCDF file"},
                                {"CDF\x02", "a netCDF file"},
+                               {"CDF\x05", "a netCDF file"},
                                {"PK\x03\x04", "an archive, such as X3P"},
                                {"aBCR-1.0", "a Surface Data File (.sdf)"},
                                {"bBCR-1.0", "a Surface Data File (.sdf)"},
@@ -78,8 +79,11 @@ RawMap read_raw(const std::string& file, const std::string& dataset) {
                    "name another file; a text matrix must not be called .h5");
     for (const auto& [magic, name] : foreign)
         if (start.starts_with(magic))
-            refuse_map(file, "the height map cannot be read", fmt::format("it is {}", name),
-                       "export it as text with a header, HDF5 or .npy");
+            refuse_map(
+                file, "the height map cannot be read", fmt::format("it is {}", name),
+                fmt::format("convert it: python3 -m asperity.maps {} heights.h5; or export it "
+                            "as text with a header, HDF5 or .npy",
+                            file));
     if (start.starts_with("\x93NUMPY")) return read_map_numpy(contents(file), file);
     return read_map_text(contents(file), file, ending == ".xyz");
 }

@@ -125,11 +125,11 @@ void print_map_file(const Scene& scene) {
                scene.surface.file_unit != "auto" ? "surface.file_unit"
                : map.unit_assumed                ? "assumed: the file does not say"
                                                  : ""});
-    table.row({"rms height", fmt::format("{:.6g} Å", s.rms_height), "about the mean"});
-    table.row({"rms slope", if_sized(s.rms_slope, "{:.6g}"), "differences of neighbours"});
-    table.row({"rms curvature", if_sized(s.rms_curvature, "{:.6g} 1/Å"), "second differences"});
-    table.row({"lowest", fmt::format("{:.6g} Å", s.lowest), ""});
-    table.row({"highest", fmt::format("{:.6g} Å", s.highest), ""});
+    table.row({"rms height", fmt::format("{:.8g} Å", s.rms_height), "about the mean"});
+    table.row({"rms slope", if_sized(s.rms_slope, "{:.8g}"), "differences of neighbours"});
+    table.row({"rms curvature", if_sized(s.rms_curvature, "{:.8g} 1/Å"), "second differences"});
+    table.row({"lowest", fmt::format("{:.8g} Å", s.lowest), ""});
+    table.row({"highest", fmt::format("{:.8g} Å", s.highest), ""});
     table.print(stdout);
     fmt::print("\n");
 }
