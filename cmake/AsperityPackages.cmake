@@ -28,10 +28,6 @@ else()
     find_package(HDF5 REQUIRED COMPONENTS C)
 endif()
 
-# Pictures: maps by libpng; plots are drawn as SVG, which librsvg turns into pixels.
-pkg_check_modules(RSVG REQUIRED IMPORTED_TARGET librsvg-2.0)
-find_package(PNG REQUIRED)
-
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)

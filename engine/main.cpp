@@ -5,12 +5,9 @@
 // does. The main loop of a simulation is DynamicRun::march() in engine/run/run.cpp. Every rank of
 // mpirun runs this; how they end together is in engine/commands/ending.hpp.
 #include "engine/commands/command_line.hpp"
-#include "engine/commands/cost.hpp"
 #include "engine/commands/ending.hpp"
-#include "engine/commands/export.hpp"
 #include "engine/commands/inspect.hpp"
-#include "engine/commands/report.hpp"
-#include "engine/commands/sweep.hpp"
+#include "engine/commands/study.hpp"
 #include "engine/commands/theory_command.hpp"
 #include "engine/commands/theory_points.hpp"
 #include "engine/commit.hpp"
@@ -23,7 +20,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -40,32 +36,7 @@ int on_root(const Communicator& world, const std::function<int()>& work) {
     return code;
 }
 
-SweepOptions sweep_options(const Arguments& given) {
-    SweepOptions options;
-    options.scenes = scene_files(given, options.assignments);
-    options.theory_only = given.theory_only;
-    options.jobs = given.jobs;
-    std::istringstream words(given.launch);
-    for (std::string word; words >> word;)
-        options.launcher.push_back(word);
-    const RunOptions common = run_options(given);
-    options.wall_limit = common.wall_limit;
-    options.progress = common.progress;
-    options.out = given.out;
-    return options;
-}
-
-CostOptions cost_options(const Arguments& given) {
-    CostOptions options;
-    options.scene = scene_file(given, options.overrides);
-    options.knobs = given.knobs;
-    options.jobs = given.jobs;
-    options.progress = run_options(given).progress;
-    options.out = given.out;
-    return options;
-}
-
-const std::vector<Command> commands = {
+const std::vector<Command> own_commands = {
     {"run",
      "simulate a scene",
      {takes::scene, takes::out("results/<scene>"), takes::resume,
@@ -105,41 +76,6 @@ const std::vector<Command> commands = {
          const Scene scene = scene_of(given);
          return on_root(world, [&] { return theory_command(scene, given.out, given.json); });
      }},
-    {"sweep",
-     "a scene over several values of its keys: runs, theory, one table",
-     {takes::scene,
-      takes::jobs("points side by side; each takes an equal share of the processors, unless "
-                  "OMP_NUM_THREADS or --launch chooses"),
-      takes::launch, takes::wall_limit("stop with checkpoints when this time has passed (exit 75)"),
-      takes::progress, takes::theory_only, takes::out("results/<scene>-sweep")},
-     [](const Arguments& given, const Communicator& world) {
-         const SweepOptions options = sweep_options(given);
-         return on_root(world, [&] { return sweep_command(options); });
-     },
-     "--set key=v1,v2,... or key=start:stop:step sweeps a key, beside those of the "
-     "scene's [sweep]; with several, every combination.\nThe same command goes on where "
-     "a sweep stopped. Several scenes share one set of plots."},
-    {"cost",
-     "what accuracy costs in time: a scene with each of its numerical settings varied",
-     {takes::scene, takes::knobs, takes::jobs("runs side by side, one thread each"),
-      takes::progress, takes::out("results/<scene>-cost")},
-     [](const Arguments& given, const Communicator& world) {
-         const CostOptions options = cost_options(given);
-         return on_root(world, [&] { return cost_command(options); });
-     },
-     "The same command goes on where it stopped."},
-    {"report",
-     "a run or a sweep as one self-contained HTML page",
-     {takes::result},
-     [](const Arguments& given, const Communicator& world) {
-         return on_root(world, [&] { return report_command(given.directory); });
-     }},
-    {"export",
-     "maps and trajectory of a run for OVITO, ParaView, or as PNG",
-     {takes::result, takes::format},
-     [](const Arguments& given, const Communicator& world) {
-         return on_root(world, [&] { return export_command(given.directory, given.format); });
-     }},
     {"defaults",
      "every key of a scene with its default, as TOML",
      {takes::markdown, takes::plain, takes::json},
@@ -152,6 +88,13 @@ const std::vector<Command> commands = {
      {},
      [](const Arguments&, const Communicator& world) { return info_command(world); }},
 };
+
+/// In the order of --help: the study commands before the two last.
+std::vector<Command> all_commands() {
+    std::vector<Command> all = own_commands;
+    all.insert(all.end() - 2, study_commands().begin(), study_commands().end());
+    return all;
+}
 
 /// Threads of this rank, where nobody chose them: the processors it may use, shared with the ranks
 /// beside it unless the launcher has bound each to processors of its own.
@@ -169,9 +112,10 @@ void choose_threads() {
 
 int main(int argc, char** argv) {
     using namespace asperity;
+    if (const auto failed = hand_over_to_python(argc, argv)) return *failed;
     io::set_commit(build_commit);
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
     choose_threads();
-    return ended_in_order(world, [&] { return carry_out(commands, argc, argv, world); });
+    return ended_in_order(world, [&] { return carry_out(all_commands(), argc, argv, world); });
 }

@@ -240,7 +240,4 @@ private:
 /// Contents of a file; SceneError if it cannot be read.
 std::string read_scene_file(const std::string& file);
 
-/// A scene as it stands in a result (Schema::json()), as TOML again.
-std::string toml_of(const JsonValue& scene);
-
 } // namespace asperity::io

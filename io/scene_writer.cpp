@@ -76,17 +76,6 @@ std::string escaped_bars(std::string text) { // a bar would end the cell of a Ma
 
 } // namespace
 
-std::string toml_of(const JsonValue& scene) {
-    std::string text;
-    for (const auto& [section, keys] : scene.members()) {
-        if (!keys.is_object()) continue;
-        text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
-        for (const auto& [name, value] : keys.members())
-            if (!value.is_null()) text += fmt::format("{} = {}\n", name, toml_value(value));
-    }
-    return text;
-}
-
 Schema::Key& Schema::add(Key key) {
     key.section = sections_.empty() ? "" : sections_.back().first;
     key.default_toml = toml_value(key.load());

@@ -25,24 +25,18 @@ bool is_override(const std::string& word) {
 
 } // namespace
 
-std::vector<std::string> scene_files(const Arguments& given, std::vector<std::string>& overrides) {
+std::string scene_file(const Arguments& given, std::vector<std::string>& overrides) {
     std::vector<std::string> files;
     overrides = given.overrides;
     for (const std::string& word : given.words)
         (is_override(word) ? overrides : files).push_back(word);
-    if (files.empty())
-        throw io::SceneError(io::Problem{"command line", "no scene is given",
-                                         "the command needs one",
-                                         "for example: asperity run scenes/first-contact.toml"});
-    return files;
-}
-
-std::string scene_file(const Arguments& given, std::vector<std::string>& overrides) {
-    const std::vector<std::string> files = scene_files(given, overrides);
+    const auto refuse = [](const std::string& what, const std::string& why) {
+        return io::SceneError(io::Problem{"command line", what, why,
+                                          "for example: asperity run scenes/first-contact.toml"});
+    };
+    if (files.empty()) throw refuse("no scene is given", "the command needs one");
     if (files.size() > 1)
-        throw io::SceneError(io::Problem{"command line", "more than one scene is given",
-                                         fmt::format("{} and {}", files[0], files[1]),
-                                         "for example: asperity run scenes/first-contact.toml"});
+        throw refuse("more than one scene is given", fmt::format("{} and {}", files[0], files[1]));
     return files.front();
 }
 
@@ -87,10 +81,6 @@ void scene(CLI::App& command, Arguments& given) {
         ->allow_extra_args(false);
 }
 
-void result(CLI::App& command, Arguments& given) {
-    command.add_option("DIR", given.directory, "the result directory")->required()->type_name("");
-}
-
 void resume(CLI::App& command, Arguments& given) {
     command.add_option("--resume", given.resume, "go on from a checkpoint: auto, or its file")
         ->type_name("auto|FILE");
@@ -104,29 +94,6 @@ void ranks(CLI::App& command, Arguments& given) {
     command.add_option("--ranks", given.ranks, "for so many ranks (default: as started)")
         ->type_name("N")
         ->check(CLI::PositiveNumber);
-}
-
-void launch(CLI::App& command, Arguments& given) {
-    command
-        .add_option("--launch", given.launch,
-                    "what to put before the program for every point: \"mpirun -n 2\"")
-        ->type_name("WORDS");
-}
-
-void theory_only(CLI::App& command, Arguments& given) {
-    command.add_flag("--theory-only", given.theory_only, "the theory alone, no simulation");
-}
-
-void knobs(CLI::App& command, Arguments& given) {
-    command.add_option("--knobs", given.knobs, "only these: timestep,cutoff,layers,...")
-        ->delimiter(',')
-        ->type_name("NAMES");
-}
-
-void format(CLI::App& command, Arguments& given) {
-    command.add_option("--to", given.format, "xyz, lammps, xdmf or png")
-        ->required()
-        ->type_name("FORMAT");
 }
 
 void markdown(CLI::App& command, Arguments& given) {
@@ -163,14 +130,6 @@ Option out(const std::string& otherwise) {
 Option wall_limit(const std::string& explanation) {
     return [explanation](CLI::App& command, Arguments& given) {
         command.add_option("--wall-limit", given.wall_limit, explanation)->type_name("23h50m");
-    };
-}
-
-Option jobs(const std::string& explanation) {
-    return [explanation](CLI::App& command, Arguments& given) {
-        command.add_option("--jobs", given.jobs, explanation)
-            ->check(CLI::Range(1, 1024))
-            ->type_name("N");
     };
 }
 

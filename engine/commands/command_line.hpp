@@ -29,18 +29,12 @@ class Communicator;
 struct Arguments {
     std::vector<std::string> words; ///< the scene, and overrides that follow a --set
     std::vector<std::string> overrides;
-    std::string directory; ///< of a result
     std::string out;
     std::string resume;
     std::string wall_limit;
     std::string progress = "auto";
-    int ranks = 0; ///< to plan for; 0: as many as there are
-    int jobs = 1;
-    std::string launch;
-    std::vector<std::string> knobs;
-    std::string format; ///< of an export
+    int ranks = 0;      ///< to plan for; 0: as many as there are
     std::string points; ///< file with overrides, a line each
-    bool theory_only = false;
     bool markdown = false;
     bool plain = false;
     bool json = false;
@@ -49,10 +43,9 @@ struct Arguments {
 
 /// The scene named by the words, read and checked with its overrides.
 Scene scene_of(const Arguments& given);
-/// The one scene's file, or all of them; the overrides among the words are added to the list:
-/// `--set a=1 b=2 scene.toml` means what it looks like.
+/// The scene's file; the overrides among the words are added to the list: `--set a=1 b=2
+/// scene.toml` means what it looks like.
 std::string scene_file(const Arguments& given, std::vector<std::string>& overrides);
-std::vector<std::string> scene_files(const Arguments& given, std::vector<std::string>& overrides);
 /// Throw io::SceneError, like those above.
 RunOptions run_options(const Arguments& given);
 
@@ -69,21 +62,15 @@ struct Command {
 /// The options; where commands mean different things by one, it takes its words of explanation.
 namespace takes {
 void scene(CLI::App& command, Arguments& given); ///< and --set
-void result(CLI::App& command, Arguments& given);
 void resume(CLI::App& command, Arguments& given);
 void progress(CLI::App& command, Arguments& given);
 void ranks(CLI::App& command, Arguments& given);
-void launch(CLI::App& command, Arguments& given);
-void theory_only(CLI::App& command, Arguments& given);
-void knobs(CLI::App& command, Arguments& given);
-void format(CLI::App& command, Arguments& given);
 void markdown(CLI::App& command, Arguments& given);
 void plain(CLI::App& command, Arguments& given);
 void json(CLI::App& command, Arguments& given);
 void points(CLI::App& command, Arguments& given); ///< and --runnable
 Option out(const std::string& otherwise);
 Option wall_limit(const std::string& explanation);
-Option jobs(const std::string& explanation);
 } // namespace takes
 
 /// Reads the command line and carries out the command it names; --help and --version are answered.

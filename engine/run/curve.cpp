@@ -17,8 +17,6 @@ namespace asperity {
 
 namespace {
 
-using Style = io::PlotSeries::Style;
-
 theory::PeriodicSphere smooth_sphere(const Scene& scene, const FlatReference& flat) {
     return {{*scene.surface.radius,
              theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson),
@@ -31,20 +29,24 @@ double largest_tension(const FlatReference& flat) {
     return flat.largest_tension * units::gigapascal;
 }
 
-/// A curve by a parameter, up to a contact radius and as long as the theory has one.
+/// Mean height and force of a smooth sphere, Å and eV/Å.
+struct SphereCurve {
+    const char *name, *label;
+    std::vector<double> height = {}, force = {};
+};
+
+/// Fills a curve by a parameter, up to a contact radius and as long as the theory has one.
 template <class State>
-io::PlotSeries curve(const std::string& label, Style style, int colour, double widest,
-                     const std::vector<double>& parameters, const State& state) {
-    io::PlotSeries series{.label = label, .x = {}, .y = {}, .style = style, .colour = colour};
+void follow(SphereCurve& curve, double widest, const std::vector<double>& parameters,
+            const State& state) {
     for (const double p : parameters)
         try {
             const theory::PeriodicState s = state(p);
             if (s.contact.radius > widest) continue;
-            series.x.push_back(s.height);
-            series.y.push_back(s.contact.force / units::nanonewton);
+            curve.height.push_back(s.height);
+            curve.force.push_back(s.contact.force);
         } catch (const std::exception&) { // beyond what first-order images can say
         }
-    return series;
 }
 
 std::vector<double> spaced(double from, double to, int count) {
@@ -54,8 +56,9 @@ std::vector<double> spaced(double from, double to, int count) {
     return list;
 }
 
-void add_sphere_curves(io::Plot& plot, const Scene& scene, const FlatReference& flat,
-                       double strongest) {
+/// strongest: the largest force that presses the solids together along the path, eV/Å.
+std::vector<SphereCurve> sphere_curves(const Scene& scene, const FlatReference& flat,
+                                       double strongest) {
     const theory::PeriodicSphere sphere = smooth_sphere(scene, flat);
     theory::PeriodicSphere alone = sphere;
     alone.period *= 1e6;
@@ -68,14 +71,15 @@ void add_sphere_curves(io::Plot& plot, const Scene& scene, const FlatReference& 
     std::vector<double> ratios;
     for (const double x : spaced(-9.0, 5.0, 400))
         ratios.push_back(1.0 + std::exp(x));
-    const std::string whose = scene.surface.rms > 0.0 ? "smooth sphere, " : "";
-    plot.series.push_back(curve(whose + "JKR", Style::dotted, 6, widest, radii,
-                                [&](double a) { return theory::jkr_at_radius(alone, a); }));
-    plot.series.push_back(curve(whose + "JKR with images", Style::dashed, 4, widest, radii,
-                                [&](double a) { return theory::jkr_at_radius(sphere, a); }));
-    plot.series.push_back(
-        curve(whose + "Maugis-Dugdale with images", Style::line, 4, widest, ratios,
-              [&](double m) { return theory::maugis_at_ratio(sphere, largest_tension(flat), m); }));
+    std::vector<SphereCurve> curves = {
+        {"jkr", "smooth sphere, JKR"},
+        {"jkr_images", "smooth sphere, JKR with images"},
+        {"maugis_images", "smooth sphere, Maugis-Dugdale with images"}};
+    follow(curves[0], widest, radii, [&](double a) { return theory::jkr_at_radius(alone, a); });
+    follow(curves[1], widest, radii, [&](double a) { return theory::jkr_at_radius(sphere, a); });
+    follow(curves[2], widest, ratios,
+           [&](double m) { return theory::maugis_at_ratio(sphere, largest_tension(flat), m); });
+    return curves;
 }
 
 /// The largest attraction of a running mean over 2 ps, eV/Å; nothing if rows are too rare for one.
@@ -96,15 +100,6 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
 }
 
 } // namespace
-
-double force_unit(const Scene& scene) {
-    return scene.surface.radius ? units::nanonewton
-                                : scene.edge() * scene.edge() * units::gigapascal;
-}
-
-std::string force_label(const Scene& scene) {
-    return scene.surface.radius ? "force F (nN)" : "mean stress F/A_{0} (GPa)";
-}
 
 PathSeries read_path(const std::string& file) {
     const io::Hdf5File run(file, io::Hdf5File::Mode::read);
@@ -174,53 +169,22 @@ void add_sphere(const Scene& scene, const FlatReference& flat, io::ResultRecord&
     }
 }
 
-std::optional<io::Plot> force_curve(const PathSeries& path, const Scene& scene,
-                                    const FlatReference& flat) {
-    if (path.leg.size() < 2) return std::nullopt;
-    const bool curved = scene.surface.radius.has_value();
-    io::Plot plot;
-    plot.title = "Force and separation";
-    plot.x_label = curved ? "mean height above the apex (Å)" : "mean separation (Å)";
-    plot.y_label = force_label(scene);
-    const double unit = force_unit(scene);
-    double low = 1e300, high = -1e300;
-    io::PlotSeries in{.label = "approach", .x = {}, .y = {}, .colour = 0},
-        out{.label = "pull-off", .x = {}, .y = {}, .colour = 1};
-    const auto [least, greatest] = std::minmax_element(path.force.begin(), path.force.end());
-    for (std::size_t i = 0; i < path.leg.size(); ++i) {
-        io::PlotSeries& series = path.leg[i] == 0.0 ? in : out;
-        series.x.push_back(path.height[i]);
-        series.y.push_back(path.force[i] / unit);
-        if (std::abs(path.force[i]) <= -1e-3 * *least) continue; // out of reach: not worth room
-        low = std::min(low, path.height[i]);
-        high = std::max(high, path.height[i]);
+void write_sphere_curves(const std::string& path_file, const PathSeries& path, const Scene& scene,
+                         const FlatReference& flat) {
+    if (!scene.surface.radius || path.leg.size() < 2) return;
+    io::Hdf5File file(path_file, io::Hdf5File::Mode::edit);
+    if (file.exists("/curves")) return; // of a run that was resumed after its end
+    const double strongest = *std::max_element(path.force.begin(), path.force.end());
+    for (const SphereCurve& curve : sphere_curves(scene, flat, strongest)) {
+        if (curve.height.empty()) continue;
+        const std::string group = std::string("/curves/") + curve.name;
+        file.write<double>(group + "/height", {curve.height.size()}, curve.height);
+        file.write_attribute(group + "/height", "unit", "Å");
+        file.write<double>(group + "/force", {curve.force.size()}, curve.force);
+        file.write_attribute(group + "/force", "unit", "eV/Å");
+        file.write_attribute(group, "label", curve.label);
     }
-    if (curved) add_sphere_curves(plot, scene, flat, *greatest);
-    for (io::PlotSeries* series : {&in, &out})
-        if (!series->x.empty()) plot.series.push_back(std::move(*series));
-    if (curved) { // the run has the say, not curves beside it that go much deeper
-        const double room = 0.08 * (*greatest - *least);
-        double deepest = *least / unit;
-        for (const io::PlotSeries& s : plot.series)
-            for (const double y : s.y)
-                if (y > 1.5 * *least / unit) deepest = std::min(deepest, y);
-        plot.y_low = deepest - room / unit;
-        plot.y_high = (*greatest + room) / unit;
-    }
-    if (high > low) {
-        const double room = 0.04 * (high - low);
-        plot.x_low = low - room;
-        plot.x_high = high + room;
-    }
-    return plot;
-}
-
-void write_curve(const std::string& directory, const PathSeries& path, const Scene& scene,
-                 const FlatReference& flat) {
-    std::optional<io::Plot> plot = force_curve(path, scene, flat);
-    if (!plot) return;
-    plot->title = scene.title();
-    io::write_plot(directory + "/curve.svg", *plot);
+    file.close();
 }
 
 } // namespace asperity

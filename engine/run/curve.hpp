@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Force against separation, after a run along a path: what the series of run.h5 say of it, as
-// numbers for result.json and as a plot (curve.svg, the report).
+// numbers for result.json; and the curves of a smooth sphere beside it, for plots.
 //
 // Separation is the mean height of the lowest layer above the substrate's zero (the apex, if it is
 // curved), so that the rigid shift of the block, which depends on its thickness, is not in it.
@@ -13,10 +13,8 @@
 
 #include "engine/block/flat_reference.hpp"
 #include "engine/scene/scene.hpp"
-#include "io/plot.hpp"
 #include "io/result.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,16 +47,10 @@ void add_path(const PathSeries& path, const Scene& scene, io::ResultRecord& reco
 /// sphere.maugis_parameter.
 void add_sphere(const Scene& scene, const FlatReference& flat, io::ResultRecord& record);
 
-/// What forces on the block are drawn in, eV/Å: 1 nN, or, where the nominal area means something,
-/// 1 GPa on it. And the axis' label.
-double force_unit(const Scene& scene);
-std::string force_label(const Scene& scene);
-
-/// Force against separation, both ways; nothing without a path.
-std::optional<io::Plot> force_curve(const PathSeries& path, const Scene& scene,
-                                    const FlatReference& flat);
-/// It as directory/curve.svg.
-void write_curve(const std::string& directory, const PathSeries& path, const Scene& scene,
-                 const FlatReference& flat);
+/// Of a curved scene with a path: what a smooth sphere would do, as /curves/{jkr, jkr_images,
+/// maugis_images} of run.h5, each with height (Å, mean height of the lowest layer above the apex)
+/// and force (eV/Å, positive presses). Throws io::FileError.
+void write_sphere_curves(const std::string& path_file, const PathSeries& path, const Scene& scene,
+                         const FlatReference& flat);
 
 } // namespace asperity

@@ -69,7 +69,7 @@ int RunFrame::go() {
     progress_.finish();
     write_record({});
     if (ranks_.root()) {
-        write_curve(directory_, curve_, scene_, setup_.flat);
+        write_sphere_curves(directory_ + "/run.h5", curve_, scene_, setup_.flat);
         print_summary(stdout, scene_, setup_, findings_, energy_residual(), directory_);
         if (!stopped_.empty())
             fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);

@@ -203,21 +203,6 @@ io::Schema bind(Scene& scene) {
     return schema;
 }
 
-std::string Scene::title() const {
-    std::string text = name.empty() ? "" : name + ": ";
-    if (surface.kind == SurfaceKind::flat)
-        text += "flat, ";
-    else if (surface.kind == SurfaceKind::file && !surface.rms_given)
-        text += "as measured, ";
-    else if (surface.rms > 0.0)
-        text += fmt::format("rms {:.4g} Å, ", surface.rms);
-    else
-        text += "smooth, ";
-    text += fmt::format("{0} × {0}", surface.sites);
-    if (surface.radius) text += fmt::format(", R = {:.4g} Å", *surface.radius);
-    return text;
-}
-
 bool Scene::has(PathPart part) const {
     return std::find(drive.path.begin(), drive.path.end(), part) != drive.path.end();
 }

@@ -142,8 +142,6 @@ struct Scene {
     io::Positions positions;
 
     double edge() const { return surface.sites * surface.spacing; } ///< of the box, Å
-    /// "fig5: rms 3 Å, 128 × 128, R = 275.6 Å"
-    std::string title() const;
     /// An empty list of problems that knows this scene's positions.
     io::Problems problems() const { return io::Problems(positions); }
     bool has(PathPart part) const;
@@ -168,8 +166,6 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
 /// The same from a text in memory; file is the name shown in messages.
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides = {});
-/// The scene that a result holds. A measured map need not be there any more.
-Scene read_stored_scene(const std::string& text, const std::string& file);
 
 /// Contradictions between keys, added to the list.
 void check_scene(const Scene& scene, io::Problems& problems);

@@ -43,8 +43,10 @@ void find_map(Scene& scene, io::Problems& problems) {
         "give the path of a height map, relative to the scene or to the working directory");
 }
 
-Scene read(const std::string& text, const std::string& file,
-           const std::vector<std::string>& overrides, bool needs_map) {
+} // namespace
+
+Scene read_scene_text(const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides) {
     Scene scene;
     scene.file = file;
     scene.name = std::filesystem::path(file).stem().string();
@@ -64,9 +66,7 @@ Scene read(const std::string& text, const std::string& file,
     // Keys that could not be read still have their defaults, so the checks between keys can go on;
     // what they find about such a key is left out, it has been complained about already.
     io::Problems contradictions = scene.problems();
-    io::Problems missing = scene.problems();
-    if (scene.surface.kind == SurfaceKind::file)
-        find_map(scene, needs_map ? contradictions : missing);
+    if (scene.surface.kind == SurfaceKind::file) find_map(scene, contradictions);
     check_scene(scene, contradictions);
     for (const io::Problem& problem : contradictions.list()) {
         const bool told =
@@ -76,17 +76,6 @@ Scene read(const std::string& text, const std::string& file,
     }
     wrong.throw_if_any();
     return scene;
-}
-
-} // namespace
-
-Scene read_scene_text(const std::string& text, const std::string& file,
-                      const std::vector<std::string>& overrides) {
-    return read(text, file, overrides, true);
-}
-
-Scene read_stored_scene(const std::string& text, const std::string& file) {
-    return read(text, file, {}, false);
 }
 
 Scene read_scene(const std::string& file, const std::vector<std::string>& overrides) {

@@ -8,6 +8,8 @@
     result.series["force"], result.series.unit("force") # numpy array, "eV/Å"
     result.fields["zero-load"].pressure                 # GPa, [y, x]
     result.plot.separation()                            # draws into a matplotlib axes
+    sweep = asperity.sweep("scene.toml", {"surface.rms": [0.5, 1, 2]}, jobs=2)
+    sweep.table["binding_energy"]                       # numpy array, a value a point
 
 The program does the physics, reads scenes and checks them; this package starts it, reads what it wrote,
 and draws. Errors of the program are the exceptions SceneError, PhysicsError, InputOutputError, Stopped.
@@ -16,16 +18,15 @@ and draws. Errors of the program are the exceptions SceneError, PhysicsError, In
 from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, Stopped
 
 __all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "Stopped",
-           "load", "run"]
+           "Sweep", "load", "load_sweep", "run", "sweep"]
 
 
 def __getattr__(name: str):
     # numpy and h5py are imported with the first name that needs them, so that --help needs neither.
     import importlib
 
-    homes = {"Result": "result", "load": "result", "run": "run"}
+    homes = {"Result": "result", "load": "result", "run": "runs", "sweep": "sweeps", "Sweep": "sweeps",
+             "load_sweep": "sweeps"}
     if name in homes:
-        value = getattr(importlib.import_module("." + homes[name], __name__), name)
-        globals()[name] = value  # the module of the same name would hide it
-        return value
+        return getattr(importlib.import_module("." + homes[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -26,6 +26,10 @@ LARGEST_ARRAY = 2**28
 """Values; a data set that claims to be larger is not read."""
 
 
+DEEPEST_JSON = 64
+"""Levels; what the program itself reads is no deeper."""
+
+
 class Values(Mapping):
     """A JSON object whose members are attributes too: v.theory.gamma_eff, v["theory"]["gamma_eff"]."""
 
@@ -96,6 +100,11 @@ class Values(Mapping):
         return found
 
 
+def _deeper_than(value: Any, levels: int) -> bool:
+    members = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return any(levels == 0 or _deeper_than(m, levels - 1) for m in members if isinstance(m, (dict, list)))
+
+
 def read_json(path: Path) -> dict[str, Any]:
     """A file with a JSON object. Raises InputOutputError for anything else."""
     def refuse(why: str) -> InputOutputError:
@@ -109,6 +118,8 @@ def read_json(path: Path) -> dict[str, Any]:
         raise refuse("it is nested too deeply") from None
     except (ValueError, UnicodeDecodeError) as error:
         raise refuse(f"it is not JSON: {error}") from None
+    if _deeper_than(value, DEEPEST_JSON):
+        raise refuse("it is nested too deeply")
     return value if isinstance(value, dict) else {}
 
 

@@ -68,10 +68,10 @@ for name in check plan info; do
     says "\`$name\` installs nothing without being asked"
 done
 [ ! -e calls ] || fail "a command that was not asked to installs: $(cat calls)"
-for name in run test; do
+for name in run:build-essential test:python3-pytest; do # the stand-in has all that is missing after one call
     rm -rf calls installed "../a house/build"
-    expect 0 $name
-    grep -q "apt-get install -y --no-install-recommends build-essential" calls || fail "$name installs nothing"
+    expect 0 "${name%:*}"
+    grep -q "apt-get install -y --no-install-recommends .*${name#*:}" calls || fail "${name%:*} installs nothing"
 done
 rm -rf calls installed "../a house/build"
 ASPERITY_INSTALL=1 expect 0 check

@@ -291,7 +291,6 @@ TEST(Scene, MapsAreFoundBesideTheScene) {
     EXPECT_EQ(s.surface.map, (folder / "maps/m.txt:/x").string());
     EXPECT_NE(scene_json(s).find("surface.rms"), nullptr);
     fs::remove_all(folder);
-    EXPECT_EQ(read_stored_scene(scene_toml(s), "result.json").surface.map, "");
 
     io::Problem p = only("surface.kind = \"file\"\nsurface.file = \"none.h5\"\n");
     EXPECT_EQ(p.where, "s.toml:2:16");

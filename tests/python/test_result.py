@@ -4,6 +4,8 @@
 
 import json
 import shutil
+import sys
+import types
 
 import h5py
 import numpy as np
@@ -33,6 +35,12 @@ def test_a_result_is_what_the_files_hold(path_run):
         path_run.binding_enrgy
     with pytest.raises(AttributeError, match="pressure"):
         path_run.fields["zero-load"].presure
+
+
+def test_series_are_frames_where_pandas_is(path_run, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=dict))  # what a frame is made from
+    frame = path_run.series.frame()
+    assert set(frame) == set(path_run.series) and (frame["top"] == path_run.series["top"]).all()
 
 
 def test_numbers_are_found_by_their_paths(path_run):
@@ -99,7 +107,7 @@ def test_ranks_change_nothing_but_their_number(tmp_path, state_run):
     assert one.binding_energy == two.binding_energy
 
 
-HOSTILE = ["{", "[1, 2]", "null", '{"scene": [1, ', "[" * 50_000, '{"a":' * 50_000, "\x00\xff",
+HOSTILE = ["{", "[1, 2]", "null", '{"scene": [1, ', "[" * 50_000, '{"a":' * 50_000, '{"a":' * 500 + "1" + "}" * 500, "\x00\xff",
            '{"scene": 3, "run": {"stopped": 3}, "theory": [], "binding_energy": "x", "delta_gamma": 1e999}',
            '{"name": {}, "scene": {"surface": {"sites": "x", "spacing": [], "rms": {}}}, "failure": [1]}',
            '{"delta_gamma": %s}' % ("9" * 400)]

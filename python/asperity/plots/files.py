@@ -9,6 +9,7 @@ import json
 import re
 from pathlib import Path
 from typing import Any, Callable
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -26,19 +27,21 @@ def make(draw: Callable[[Axes], bool]) -> Figure | None:
     """The figure that a function draws; None if it had nothing to draw."""
     with style():
         fig, ax = figure()
-        if not draw(ax):
-            return None
-        fig.draw_without_rendering()  # the layout, once for all kinds of file
-        fig.set_layout_engine("none")
-        return fig
+        return fig if draw(ax) else None
+
+
+_made: WeakKeyDictionary[Figure, dict[str, bytes]] = WeakKeyDictionary()
 
 
 def _bytes(fig: Figure, kind: str) -> bytes:
-    stream = io.BytesIO()
-    when = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})
-    with style():
-        fig.savefig(stream, format=kind, metadata=when)
-    return stream.getvalue()
+    kept = _made.setdefault(fig, {})  # the SVG is wanted twice
+    if kind not in kept:
+        stream = io.BytesIO()
+        when = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})
+        with style():
+            fig.savefig(stream, format=kind, metadata=when)
+        kept[kind] = stream.getvalue()
+    return kept[kind]
 
 
 def save(fig: Figure, stem: Path, kinds: tuple[str, ...] = KINDS) -> list[Path]:

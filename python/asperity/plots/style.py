@@ -81,9 +81,12 @@ def style() -> Any:
 
 
 def figure(size: tuple[float, float] = SIZE) -> tuple[Figure, Axes]:
-    """A figure of the package's size that belongs to no window."""
-    made = Figure(figsize=size, layout="constrained")
-    return made, made.add_subplot()
+    """A figure of the package's size that belongs to no window.
+
+    The frame has a fixed place, so that the figures of a page or a paper line up.
+    """
+    made = Figure(figsize=size)
+    return made, made.add_axes((0.165, 0.155, 0.805, 0.815))
 
 
 def plain(text: str) -> str:
@@ -123,7 +126,8 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool = True) -> N
             axis.set_minor_locator(ticker.AutoMinorLocator())
     handles, labels = ax.get_legend_handles_labels()
     if legend and len(labels) > 0:
-        ax.legend(handles, labels, loc="best")
+        ax.legend(handles, labels, loc="best", frameon=True, facecolor=PAPER, framealpha=0.8, edgecolor="none",
+                  fontsize=7.5 if len(labels) < 5 else 6.5)
 
 
 def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, low: float | None = None,
@@ -145,6 +149,8 @@ def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, low: f
         if not high > low:
             high = low + max(1e-6, 1e-6 * abs(low))
     nm = 0.1 * edge
+    if ax.figure.axes == [ax] and getattr(ax, "get_subplotspec", lambda: None)() is None:
+        ax.set_position((0.1, 0.15, 0.8, 0.77 if words else 0.82))
     shown = ax.imshow(np.ma.masked_invalid(values), origin="lower", extent=(0, nm, 0, nm), cmap=cmap, vmin=low,
                       vmax=high, interpolation="none" if len(values) <= 1024 else "antialiased")
     ax.tick_params(which="both", direction="out", top=False, right=False)

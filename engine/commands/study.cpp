@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/commands/study.hpp"
+
+#include "io/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <unistd.h>
+
+namespace asperity {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder that holds the package: that of the source tree which the program was built in, or of
+/// the place it is installed to; empty: Python may know it.
+fs::path package_folder(const fs::path& program) {
+    std::error_code error;
+    for (fs::path at = program.parent_path(); at.has_relative_path(); at = at.parent_path())
+        for (const char* place : {"python", "share/asperity/python"})
+            if (fs::exists(at / place / "asperity" / "__main__.py", error)) return at / place;
+    return {};
+}
+
+/// $ASPERITY_PYTHON, that of an active virtual environment, or the distribution's, whose packages
+/// are the ones that the script `asperity` installs.
+std::string python() {
+    if (const char* chosen = std::getenv("ASPERITY_PYTHON")) return chosen;
+    if (const char* environment = std::getenv("VIRTUAL_ENV"))
+        return std::string(environment) + "/bin/python3";
+    std::error_code error;
+    return fs::exists("/usr/bin/python3", error) ? "/usr/bin/python3" : "python3";
+}
+
+} // namespace
+
+const std::vector<Command>& study_commands() {
+    const auto nowhere = [](const Arguments&, const Communicator&) {
+        return io::exit_code::internal; // hand_over_to_python() comes first
+    };
+    static const std::vector<Command> list = {
+        {"sweep", "a scene over several values of its keys: runs, theory, one table", {}, nowhere},
+        {"cost",
+         "what accuracy costs in time: a scene with each of its numerical settings varied",
+         {},
+         nowhere},
+        {"report", "a run or a sweep as one self-contained HTML page", {}, nowhere},
+        {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}, nowhere},
+    };
+    return list;
+}
+
+std::optional<int> hand_over_to_python(int argc, char** argv) {
+    const auto& list = study_commands();
+    if (argc < 2 || std::none_of(list.begin(), list.end(),
+                                 [&](const Command& command) { return command.name == argv[1]; }))
+        return std::nullopt;
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (const fs::path folder = package_folder(program); !folder.empty()) {
+        const char* known = std::getenv("PYTHONPATH");
+        const std::string path = known && *known ? folder.string() + ":" + known : folder.string();
+        ::setenv("PYTHONPATH", path.c_str(), 1);
+    }
+    ::setenv("ASPERITY_PROGRAM", program.c_str(), 1);
+    const std::string interpreter = python();
+    std::vector<std::string> words = {interpreter, "-m", "asperity"};
+    words.insert(words.end(), argv + 1, argv + argc);
+    std::vector<char*> pointers;
+    for (std::string& word : words)
+        pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    ::execvp(interpreter.c_str(), pointers.data());
+    fmt::print(stderr, "{}\n",
+               io::format({fmt::format("asperity {}", argv[1]), "cannot be started",
+                           interpreter + " is not there",
+                           "install python3, or set ASPERITY_PYTHON to one"}));
+    return io::exit_code::input_output;
+}
+
+} // namespace asperity

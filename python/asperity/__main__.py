@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The command line: `python3 -m asperity` is `asperity`.
+
+sweep, cost, report and export are carried out here; the program hands them over. Every other command is
+handed to the program.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+
+from .errors import Error, SceneError
+
+EXIT = "Exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard, 4 files, 75 stopped early."
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str):
+        raise SceneError("command line", message[0].lower() + message[1:], "",
+                         "asperity --help, or asperity COMMAND --help")
+
+
+def _many(text: str) -> int:
+    try:
+        number = int(text)
+    except ValueError:
+        number = 0
+    if not 1 <= number <= 1024:
+        raise argparse.ArgumentTypeError(f"{text} is no number from 1 to 1024")
+    return number
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="asperity", epilog=EXIT)
+    commands = parser.add_subparsers(dest="command", required=True)
+
+    def add(name: str, purpose: str, epilog: str = "") -> argparse.ArgumentParser:
+        return commands.add_parser(name, help=purpose, description=purpose, epilog=epilog,
+                                   formatter_class=argparse.RawDescriptionHelpFormatter)
+
+    def scene(command: argparse.ArgumentParser, out: str) -> None:
+        command.add_argument("words", nargs="*", metavar="SCENE", help="the scene file (TOML)")
+        command.add_argument("--set", action="append", default=[], metavar="key=value", dest="sets",
+                             help="override a key of the scene: section.key=value; repeatable")
+        command.add_argument("--out", default="", metavar="DIR", help=f"result directory (default: {out})")
+        command.add_argument("--progress", default="auto", metavar="MODE", help="auto, bar, lines or off")
+
+    sweep = add("sweep", "a scene over several values of its keys: runs, theory, one table",
+                "--set key=v1,v2,... or key=start:stop:step sweeps a key, beside those of the scene's [sweep]; with\n"
+                "several, every combination. The same command goes on where a sweep stopped. Several scenes share one\n"
+                "set of plots.")
+    scene(sweep, "results/<scene>-sweep")
+    sweep.add_argument("--jobs", type=_many, default=1, metavar="N",
+                       help="points side by side; each takes an equal share of the processors, unless "
+                            "OMP_NUM_THREADS or --launch chooses")
+    sweep.add_argument("--launch", default="", metavar="WORDS",
+                       help='what to put before the program for every point: "mpirun -n 2"')
+    sweep.add_argument("--wall-limit", default="", metavar="23h50m",
+                       help="stop with checkpoints when this time has passed (exit 75)")
+    sweep.add_argument("--theory-only", action="store_true", help="the theory alone, no simulation")
+    cost = add("cost", "what accuracy costs in time: a scene with each of its numerical settings varied",
+               "The same command goes on where it stopped.")
+    scene(cost, "results/<scene>-cost")
+    cost.add_argument("--jobs", type=_many, default=1, metavar="N", help="runs side by side, one thread each")
+    cost.add_argument("--knobs", default="", metavar="NAMES", help="only these: timestep,cutoff,layers,...")
+    report = add("report", "a run or a sweep as one self-contained HTML page")
+    report.add_argument("directory", metavar="DIR", help="the result directory")
+    export = add("export", "maps and trajectory of a run for OVITO, ParaView, or as PNG")
+    export.add_argument("directory", metavar="DIR", help="the result directory")
+    export.add_argument("--to", required=True, metavar="FORMAT", dest="format", help="xyz, lammps, xdmf or png")
+    return parser
+
+
+def _is_override(word: str) -> bool:
+    """`--set a.b=1 c.d=2 scene.toml` means what it looks like."""
+    before, equals, _ = word.partition("=")
+    return bool(equals) and "." in before and "/" not in before and not os.path.exists(word)
+
+
+def _scenes(given: argparse.Namespace) -> list[str]:
+    given.sets += [word for word in given.words if _is_override(word)]
+    found = [word for word in given.words if not _is_override(word)]
+    if not found:
+        raise SceneError("command line", "no scene is given", "the command needs one",
+                         "for example: asperity run scenes/first-contact.toml")
+    return found
+
+
+def _carry_out(given: argparse.Namespace) -> int:
+    if given.command == "report":
+        from .report import report_command
+
+        return report_command(given.directory)
+    if given.command == "export":
+        from .export import export_command
+
+        return export_command(given.directory, given.format)
+    from .pool import PoolOptions
+    from .sweeps import SweepOptions, sweep_command
+    from .terminal import PROGRESS_MODES, parse_duration
+
+    if given.progress not in PROGRESS_MODES:
+        raise SceneError(f"--progress {given.progress}", "is none of its choices",
+                         "choices: " + ", ".join(PROGRESS_MODES))
+    scenes = _scenes(given)
+    if given.command == "cost":
+        from .cost import CostOptions, cost_command
+
+        if len(scenes) > 1:
+            raise SceneError("command line", "more than one scene is given", f"{scenes[0]} and {scenes[1]}",
+                             "for example: asperity cost scenes/cost/small.toml")
+        return cost_command(CostOptions(scenes[0], given.sets, [k for k in given.knobs.split(",") if k], given.out,
+                                        given.jobs, given.progress))
+    limit = parse_duration(given.wall_limit) if given.wall_limit else None
+    pool = PoolOptions(given.jobs, 0, given.launch.split(), limit, given.progress)
+    return sweep_command(SweepOptions(scenes, given.sets, given.out, given.theory_only, pool))
+
+
+def main(words: list[str]) -> int:
+    if any(name in os.environ for name in ("OMPI_COMM_WORLD_RANK", "PMI_RANK")) and \
+            os.environ.get("OMPI_COMM_WORLD_RANK", os.environ.get("PMI_RANK")) != "0":
+        return 0  # of mpirun's ranks one does the work
+    parser = _parser()
+    commands = next(a for a in parser._actions if isinstance(a, argparse._SubParsersAction)).choices
+    if not words or words[0] not in commands:
+        from . import program
+
+        os.execv(program.path(), [program.path(), *words])
+    try:
+        # Options and scenes in any order.
+        return _carry_out(commands[words[0]].parse_intermixed_args(words[1:], argparse.Namespace(command=words[0])))
+    except Error as error:
+        print(error, file=sys.stderr)
+        if error.code == SceneError.code:
+            n = error.problems
+            print(f"{n} problem{'' if n == 1 else 's'}; nothing was written", file=sys.stderr)
+        return error.code
+    except ImportError as error:
+        print(f"asperity {words[0]}: a Python package is missing\n    why: {error}\n    fix: apt-get install "
+              "python3-numpy python3-h5py python3-matplotlib python3-jinja2", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # or Python complains again at its end
+        sys.exit(0)
+    except KeyboardInterrupt:
+        sys.exit(130)

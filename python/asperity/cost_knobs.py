@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The knobs of `asperity cost`: what each is set to, what it is compared with, what its error should do.
+
+All of it follows by rule from the scene, before anything has run. A knob is varied alone, all others stay as
+the scene has them; its own error is that against the same scene with this one knob at its best (`twin`). The
+error that counts in the end is that against the reference, which is the best in every knob at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from .errors import SceneError
+from .result import Values
+
+Setting = list[str]
+"""Keys of the scene and what they are set to: "section.key=value"."""
+
+
+@dataclass
+class KnobValue:
+    label: str
+    setting: Setting
+    x: float = 0.0
+    """for the order of the error; 0: none"""
+
+
+@dataclass
+class Knob:
+    name: str
+    values: list[KnobValue]
+    """from coarse to fine"""
+    twin: KnobValue | None
+    """what they are compared with; None: with the reference alone"""
+    expected: str
+    """order of its error in x, in words"""
+    part: str = ""
+    """knobs of one part exclude each other in a combination; "": never in one"""
+    order: float | None = None
+    twin_is_exact: bool = False
+    """nothing of the knob's error is left in its twin"""
+    base: Setting = field(default_factory=list)
+    """of all its runs, where it has no effect on the scene as it is"""
+
+
+@dataclass
+class Base:
+    """Where a combination starts: how the path is followed, and the parts that matter there."""
+
+    label: str
+    setting: Setting
+    parts: list[str]
+
+
+@dataclass
+class CostCase:
+    reference: Setting
+    reference_text: str
+    knobs: list[Knob]
+    bases: list[Base]
+    notes: list[str]
+
+
+def joined(first: Setting, then: Setting) -> Setting:
+    """Later settings of a key take the place of earlier ones."""
+    later = {one.partition("=")[0] for one in then}
+    return [one for one in first if one.partition("=")[0] not in later] + then
+
+
+def _value(key: str, v: float, unit: str) -> KnobValue:
+    return KnobValue(f"{v:.6g} {unit}".strip(), [f"{key}={v:.6g}"], v)
+
+
+def _refuse(scene: Values) -> None:
+    problems = []
+    for key, shown, why, fix in (
+            ("numerics.accuracy", "{:.6g}", "cost sets each of what accuracy would choose",
+             "leave it out (--set numerics.accuracy=none)"),
+            ("drive.temperature", "{:.6g} K", "differences between runs would be those of their noise",
+             "measure the same scene at 0 K"),
+            ("drive.max_steps", "{:.0f}", "runs that are cut off cannot be compared", "leave it out")):
+        value = scene.number(key)
+        if value:
+            problems.append({"where": "", "what": f"{key} = {shown.format(value)}", "why": why, "fix": fix})
+    if problems:
+        raise SceneError.of(problems)
+
+
+def cost_case(keys: dict[str, Any], longest_timestep: float) -> CostCase:
+    """keys: the scene as it is used; longest_timestep: its stability limit, fs. Raises SceneError."""
+    scene = Values(keys)
+    _refuse(scene)
+
+    def own(key: str) -> float:
+        return scene.number(key) or 0.0
+
+    path = scene.find("drive.path")
+    dynamic = scene.text("drive.mode") == "dynamic" and "zero-load" not in path
+    legs = "approach" in path or "pull-off" in path
+    # What is exact without time: the lattice's own answer, wave by wave, where there is one.
+    spectral = scene.text("block.strain") == "linear"
+    best_block = "spectral" if spectral else "lattice"
+    exact, at_rest = f"block.model={best_block}", ["drive.mode=quasistatic"]
+    r0, tolerance, step = own("interface.r0"), own("drive.tolerance"), own("drive.step")
+    widest = min(8 * r0, 0.5 * own("surface.sites") * own("surface.spacing"))
+
+    reference = [exact, "interface.tail=true", f"interface.cutoff={widest:.6g}", "numerics.precision=double",
+                 f"drive.tolerance={0.1 * tolerance:.6g}"]
+    path_text = ""
+    if legs:
+        reference += [*at_rest, f"drive.step={0.5 * step:.6g}"]
+        path_text = f"no inertia (velocity to 0), steps of {0.5 * step:.6g} Å, "
+    text = (f"{best_block} block, {path_text}cutoff {widest:.6g} Å and tail, double precision, "
+            f"tolerance {0.1 * tolerance:.6g} eV/Å")
+
+    def scaled(key: str, unit: str, *factors: float) -> list[KnobValue]:
+        return [_value(key, f * own(key), unit) for f in factors]
+
+    def with_tail(value: KnobValue, tail: bool) -> KnobValue:
+        return KnobValue(value.label + " + tail" * tail, [*value.setting, f"interface.tail={str(tail).lower()}"], value.x)
+
+    cutoffs = [_value("interface.cutoff", f * r0, "Å") for f in (2.0, 2.5, 3.0, 4.0, 6.0) if f * r0 < widest]
+    twin = with_tail(_value("interface.cutoff", widest, "Å"), True)
+    knobs = [Knob("cutoff", [with_tail(v, False) for v in cutoffs], twin, "-4: adhesion of what is beyond", "interaction",
+                  -4.0, True),
+             Knob("tail", [with_tail(v, True) for v in cutoffs if v.x <= 4.0 * r0], twin, "steeper than -4", "interaction",
+                  None, True)]
+    if scene.text("block.model") != "spectral":
+        block = "lattice" if dynamic else best_block
+        values = [_value("block.layers_per_level", m, "a level") for m in (2, 3, 4, 6, 8)]
+        for value in values:
+            value.setting.append("block.model=multiscale")
+        knobs.append(Knob("layers", values, KnobValue(block, [f"block.model={block}"]),
+                          "about -2 (docs/model.md: stiffness of waves)", "block", -2.0, True))
+    layers = int(own("block.thickness"))
+    knobs.append(Knob("thickness", [_value("block.thickness", t, "layers")
+                                    for t in (layers // 4, layers // 2, layers, 2 * layers) if t >= 1],
+                      _value("block.thickness", 8 * layers, "layers"), "none: another solid"))
+    knobs.append(Knob("precision", [KnobValue("mixed", ["numerics.precision=mixed"])],
+                      KnobValue("double", ["numerics.precision=double"]), "none: rounding", "precision", None, True))
+    notes = []
+    if dynamic:
+        knobs.append(Knob("timestep", [v for v in scaled("drive.timestep", "fs", 6, 5, 4, 3, 2, 1)
+                                       if v.x < 0.9 * longest_timestep],
+                          _value("drive.timestep", 0.5 * own("drive.timestep"), "fs"), "2 (velocity Verlet)", "timestep",
+                          2.0))
+        knobs.append(Knob("velocity", scaled("drive.velocity", "m/s", 4, 2, 1, 0.5, 0.25),
+                          KnobValue("quasi-static", at_rest), "1: drag and waves; state: none", "velocity", 1.0, True))
+        if own("drive.damping") > 0:
+            knobs.append(Knob("damping", scaled("drive.damping", "1/ps", 4, 2, 1, 0.5),
+                              _value("drive.damping", 0.125 * own("drive.damping"), "1/ps"), "1 while weak; state: none",
+                              "", 1.0))
+        else:
+            notes.append("drive.damping = 0: there is none to vary")
+    still = [*at_rest, exact] if dynamic else []
+    knobs.append(Knob("tolerance", scaled("drive.tolerance", "eV/Å", 100, 10, 1),
+                      _value("drive.tolerance", 0.1 * tolerance, "eV/Å"), "up to 2: a minimum is flat", "tolerance", None,
+                      True, still))
+    if legs:
+        knobs.append(Knob("step", scaled("drive.step", "Å", 4, 2, 1, 0.5), _value("drive.step", 0.25 * step, "Å"),
+                          "none: steps are cut where needed", "step", None, False, still))
+    models = [KnobValue("lattice, in time", ["block.model=lattice"])] if dynamic else []
+    for block in ("lattice", "multiscale", "spectral"):
+        # Finite strain has no spectral block, and only that one can leave friction out.
+        if (not spectral) if block == "spectral" else scene.find("interface.frictionless") is True:
+            continue
+        if legs:
+            models.append(KnobValue(f"{block}, quasi-static", [*at_rest, f"block.model={block}"]))
+        models.append(KnobValue(f"{block}, zero load alone", ["drive.path=zero-load", f"block.model={block}"]))
+    knobs.append(Knob("model", models, None, ""))
+
+    bases = []
+    if dynamic:
+        bases.append(Base("in time", [], ["interaction", "block", "precision", "timestep", "velocity"]))
+    if legs:
+        bases.append(Base("quasi-static", [*at_rest, exact], ["interaction", "precision", "tolerance", "step"]))
+    bases.append(Base("zero load alone", ["drive.path=zero-load", exact], ["interaction", "precision", "tolerance"]))
+    return CostCase(reference, text, knobs, bases, notes)

@@ -1,0 +1,266 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity export DIR --to xyz|lammps|xdmf|png`: what run.h5 holds, for other programs.
+
+    xyz, lammps   DIR/export/<state>.xyz (.dump): the atoms of the substrate and of the block's lowest layer, for
+                  every state with maps, with what is known of each atom as columns; DIR/export/trajectory.xyz
+                  (.dump): the frames of the trajectory
+    xdmf          DIR/run.xdmf: opens run.h5 in ParaView
+    png           DIR/export/<map>-<state>.png, .pdf, .svg: gap, pressure and contact from above
+
+These files are the export's own: a second export writes them anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import IO
+from xml.sax.saxutils import quoteattr
+
+import h5py
+import numpy as np
+
+from . import files
+from .errors import InputOutputError, SceneError
+from .page import file_name
+from .plots import files as figures
+from .plots.run import map_of
+from .result import Result, State, expect
+
+TRAJECTORY = "/particles/trajectory"
+SPECIES = np.array(["X", "X", "Au"])
+"""Of type 1 (substrate) and 2 (block): labels that every reader of XYZ knows; X stands for no element."""
+FORMATS = ("xyz", "lammps", "xdmf", "png")
+
+
+@dataclass
+class Atoms:
+    """One frame. positions [atom, 3] (Å); type 1 substrate, 2 block; columns: [atom] or [atom, 3] by name."""
+
+    positions: np.ndarray
+    types: np.ndarray
+    edge: float
+    columns: dict[str, np.ndarray] = field(default_factory=dict)
+    step: int = 0
+    time: float = 0.0
+    """ps"""
+
+    @property
+    def box_z(self) -> tuple[float, float]:
+        z = self.positions[:, 2]
+        return z.min() - 1.0, z.max() + 1.0
+
+
+def _rows(file: IO[str], parts: list[tuple[str, np.ndarray]]) -> None:
+    """Lines of columns, each with its format."""
+    line = " ".join(form for form, _ in parts) + "\n"
+    columns = [c.tolist() for _, c in parts]
+    file.writelines(line % row for row in zip(*columns))
+
+
+def _columns(atoms: Atoms) -> list[tuple[str, np.ndarray]]:
+    parts = []
+    for values in atoms.columns.values():
+        form = "%d" if values.dtype.kind in "iub" else "%.6g"
+        parts += [(form, c) for c in (values.T if values.ndim == 2 else [values])]
+    return parts
+
+
+def write_xyz(file: IO[str], atoms: Atoms) -> None:
+    """A frame of extended XYZ: the lattice, what the columns are, and what else is known."""
+    low, high = atoms.box_z
+    head = (f'{len(atoms.types)}\nLattice="{atoms.edge:.8g} 0 0 0 {atoms.edge:.8g} 0 0 0 {high - low:.8g}" '
+            f'Origin="0 0 {low:.8g}" pbc="T T F" Properties=species:S:1:pos:R:3:type:I:1')
+    for name, values in atoms.columns.items():
+        head += f":{name}:{'I' if values.dtype.kind in 'iub' else 'R'}:{3 if values.ndim == 2 else 1}"
+    file.write(f"{head} step={atoms.step} time={atoms.time:.8g}\n")
+    _rows(file, [("%s", SPECIES[atoms.types]), *(("%.8g", c) for c in atoms.positions.T), ("%d", atoms.types),
+                 *_columns(atoms)])
+
+
+LAMMPS_NAMES = {"velocity": ("vx", "vy", "vz")}
+
+
+def write_dump(file: IO[str], atoms: Atoms) -> None:
+    """A frame of a LAMMPS dump; velocities under LAMMPS' own names."""
+    low, high = atoms.box_z
+    names = "id type element x y z"
+    for name, values in atoms.columns.items():
+        vector = LAMMPS_NAMES.get(name, tuple(f"{name}[{k + 1}]" for k in range(3)))
+        names += " " + (" ".join(vector) if values.ndim == 2 else name)
+    file.write(f"ITEM: TIMESTEP\n{atoms.step}\nITEM: TIME\n{atoms.time:.8g}\nITEM: NUMBER OF ATOMS\n{len(atoms.types)}\n"
+               f"ITEM: BOX BOUNDS pp pp ff\n0 {atoms.edge:.8g}\n0 {atoms.edge:.8g}\n{low:.8g} {high:.8g}\n"
+               f"ITEM: ATOMS {names}\n")
+    _rows(file, [("%d", np.arange(1, len(atoms.types) + 1)), ("%d", atoms.types), ("%s", SPECIES[atoms.types]),
+                 *(("%.8g", c) for c in atoms.positions.T), *_columns(atoms)])
+
+
+class Export:
+    """The files that are made from one result."""
+
+    def __init__(self, directory: Path):
+        self.run = Result(directory)
+        expect(directory, "run.h5")
+        for note in self.run.notes:
+            print(f"note: {note}")
+        self.spacing = self.run.number("scene.surface.spacing") or 0.0
+        if not self.run.substrate or not self.spacing > 0:
+            raise InputOutputError(str(directory / "run.h5"), "has nothing to export",
+                                   "it holds no substrate, or result.json no scene",
+                                   "name the directory of a run that got past its start")
+        height = self.run.substrate.height
+        n = len(height)
+        y, x = np.divmod(np.arange(n * n), n)
+        self.rigid = np.column_stack([x * self.run.edge / n, y * self.run.edge / n, height.ravel()])
+
+    def _path(self, name: str) -> Path:
+        return files.directory(self.run.directory / "export") / name
+
+    def _frames(self) -> int:
+        steps = self.run.file.members(TRAJECTORY + "/position")
+        return len(self.run.file.array(TRAJECTORY + "/position/step", 1)) if "step" in steps else 0
+
+    def _sites(self, state: State) -> int:
+        """Of the state's maps, which must be of one size."""
+        sizes = {len(state[name]) for name in state.maps}
+        if len(sizes) != 1:
+            raise InputOutputError(str(self.run.file.path), f'state "{state.name}" cannot be exported',
+                                   f"its maps have the sizes {sorted(sizes)}", "was the file written by another program?")
+        return sizes.pop()
+
+    def _state_atoms(self, state: State) -> Atoms:
+        """Both layers with the maps as columns, zero for the substrate. Sites stand over its hollows."""
+        missing = [name for name in ("u_x", "u_y", "u_z") if name not in state]
+        if missing:
+            raise InputOutputError(str(self.run.file.path), f'state "{state.name}" cannot be exported',
+                                   f"it has no map {missing[0]}", "was the file written by another program?")
+        n = self._sites(state)
+        u = np.column_stack([state[name].ravel() for name in ("u_x", "u_y", "u_z")])
+        y, x = np.divmod(np.arange(n * n), n)
+        rest = np.column_stack([self.spacing * (x + 0.5), self.spacing * (y + 0.5),
+                                np.full(n * n, state.reference_height)])
+        rigid = len(self.rigid)
+        columns = {"displacement": np.vstack([np.zeros((rigid, 3)), u])}
+        for name in ("pressure", "contact", "gap", "distance"):
+            if name in state:
+                values = state[name].ravel()
+                if values.dtype.kind == "f":
+                    values = np.where(np.isfinite(values), values, -1.0)  # no atom in reach
+                columns[name] = np.concatenate([np.zeros(rigid, values.dtype), values])
+        return Atoms(np.vstack([self.rigid, rest + u]), np.repeat([1, 2], [rigid, n * n]), self.run.edge, columns)
+
+    def _trajectory(self) -> Iterator[Atoms]:
+        file = self.run.file
+        steps, times = (file.array(f"{TRAJECTORY}/position/{n}", 1) for n in ("step", "time"))
+        moving = "velocity" in file.members(TRAJECTORY)
+        for frame in range(len(steps)):
+            layer = file.array(TRAJECTORY + "/position/value", 2, frame).astype(float)
+            columns = {}
+            if moving:
+                v = file.array(TRAJECTORY + "/velocity/value", 2, frame).astype(float)
+                columns["velocity"] = np.vstack([np.zeros_like(self.rigid), v])
+            yield Atoms(np.vstack([self.rigid, layer]), np.repeat([1, 2], [len(self.rigid), len(layer)]), self.run.edge,
+                        columns, int(steps[frame]), float(times[frame]))
+
+    def atoms(self, xyz: bool) -> list[Path]:
+        """Every state, and the trajectory."""
+        write, end = (write_xyz, ".xyz") if xyz else (write_dump, ".dump")
+        written = []
+
+        def save(name: str, frames: Iterator[Atoms] | list[Atoms]) -> None:
+            path = self._path(name + end)
+            with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
+                for frame in frames:
+                    write(file, frame)
+            written.append(path)
+
+        for state in self.run.fields.values():
+            save(file_name(state.name), [self._state_atoms(state)])
+        if self._frames():
+            save("trajectory", self._trajectory())
+        return written
+
+    def pictures(self) -> list[Path]:
+        written = []
+        for state in self.run.fields.values():
+            for name in ("gap", "pressure", "contact"):
+                fig = figures.make(partial(map_of, self.run, state, name))
+                if fig is not None:
+                    written += figures.save(fig, self._path(f"{name}-{file_name(state.name)}"))
+        return written
+
+    def xdmf(self) -> list[Path]:
+        """run.xdmf beside run.h5; frames one by one in export/trajectory.h5."""
+        n = len(self.run.substrate.height)
+        grids = [_grid("substrate", n, self.run.edge / n, 0.0, [("height (Å)", "/substrate/height", False)])]
+        for state in self.run.fields.values():
+            maps = [(name if name == "contact" else f"{name} ({'GPa' if name == 'pressure' else 'Å'})",
+                     f"/fields/{state.name}/{name}", name == "contact") for name in state.maps]
+            if maps:
+                grids.append(_grid(state.name, self._sites(state), self.spacing, 0.5 * self.spacing, maps))
+        written = []
+        if self._frames():
+            path = self._path("trajectory.h5")
+            times, points = [], 0
+            with files.replacing(path) as beside, h5py.File(beside, "w") as copy:
+                for number, time in enumerate(self.run.file.array(TRAJECTORY + "/position/time", 1)):
+                    values = self.run.file.array(TRAJECTORY + "/position/value", 2, number).astype("f4")
+                    copy[f"position-{number}"] = values
+                    points = len(values)
+                    times.append(float(time))
+            grids.append(_collection(points, times))
+            written.append(path)
+        text = ('<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" []>\n<Xdmf Version="2.0">\n'
+                "  <Domain>\n" + "".join(grids) + "  </Domain>\n</Xdmf>\n")
+        files.write(self.run.directory / "run.xdmf", text)
+        return [*written, self.run.directory / "run.xdmf"]
+
+
+def _grid(name: str, n: int, spacing: float, origin: float, maps: list[tuple[str, str, bool]]) -> str:
+    """Maps on a mesh of one layer: ParaView reads 3DCoRectMesh with the slowest index (z) first."""
+    def item(values: str) -> str:
+        return f'        <DataItem Dimensions="3" NumberType="Float" Precision="8" Format="XML">{values}</DataItem>\n'
+
+    text = (f"    <Grid Name={quoteattr(name)} GridType=\"Uniform\">\n"
+            f'      <Topology TopologyType="3DCoRectMesh" Dimensions="1 {n} {n}"/>\n'
+            '      <Geometry GeometryType="ORIGIN_DXDYDZ">\n'
+            + item(f"0 {origin:.9g} {origin:.9g}") + item(f"{spacing:.9g} {spacing:.9g} {spacing:.9g}")
+            + "      </Geometry>\n")
+    for title, dataset, is_bytes in maps:
+        kind, size = ("UChar", 1) if is_bytes else ("Float", 8)
+        text += (f'      <Attribute Name={quoteattr(title)} AttributeType="Scalar" Center="Node">\n'
+                 f'        <DataItem Dimensions="1 {n} {n}" NumberType="{kind}" Precision="{size}" Format="HDF">'
+                 f"run.h5:{dataset}</DataItem>\n      </Attribute>\n")
+    return text + "    </Grid>\n"
+
+
+def _collection(points: int, times: list[float]) -> str:
+    """Frames of points. (Slabs of one data set of all frames are read differently by XDMF 2 and 3.)"""
+    text = '    <Grid Name="lowest layer" GridType="Collection" CollectionType="Temporal">\n'
+    for number, time in enumerate(times):
+        text += (f'      <Grid Name="lowest layer {number}" GridType="Uniform">\n        <Time Value="{time:.9g}"/>\n'
+                 f'        <Topology TopologyType="Polyvertex" NumberOfElements="{points}"/>\n'
+                 f'        <Geometry GeometryType="XYZ">\n          <DataItem Dimensions="{points} 3" NumberType="Float" '
+                 f'Precision="4" Format="HDF">export/trajectory.h5:/position-{number}</DataItem>\n'
+                 "        </Geometry>\n      </Grid>\n")
+    return text + "    </Grid>\n"
+
+
+def export_command(directory: str, kind: str) -> int:
+    """Returns the exit code. Raises InputOutputError for a directory with nothing to export."""
+    if kind not in FORMATS:
+        raise SceneError(f"--to {kind}", "is no format of export", "formats: " + ", ".join(FORMATS),
+                         f"for example: asperity export {directory} --to xyz")
+    export = Export(Path(directory))
+    written = {"xyz": lambda: export.atoms(True), "lammps": lambda: export.atoms(False), "xdmf": export.xdmf,
+               "png": export.pictures}[kind]()
+    if not written:
+        raise InputOutputError(str(Path(directory) / "run.h5"), "has nothing to export",
+                               "it holds neither maps of a state nor a trajectory",
+                               "a run that reaches its state at zero load has maps; output.trajectory asks for frames")
+    for path in written:
+        print(path)
+    return 0

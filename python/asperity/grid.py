@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The points of a sweep: every combination of the values of its axes.
+
+key=v1,v2,... or key=start:stop:step (stop included) is an axis; it stands behind --set or in the scene's
+[sweep], where a --set of the same key replaces it. A single value is no axis: it overrides the key at
+every point. The axes surface.seed and drive.seed are repetitions, which tables average over.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from . import program
+from .errors import SceneError
+
+MOST_POINTS = 10_000
+
+
+@dataclass
+class Axis:
+    key: str
+    values: list[str]
+    """as they stand behind --set"""
+    where: str = ""
+    """the place of the list of values, for messages"""
+
+    @property
+    def is_seed(self) -> bool:
+        return is_seed(self.key)
+
+
+def is_seed(key: str) -> bool:
+    return key.endswith(".seed")
+
+
+def _number(text: str) -> float | None:
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def _range(text: str, where: str, whole: bool) -> list[str] | None:
+    """The values of "0.1:25:0.25"; None if it is no range."""
+    parts = [part.strip() for part in text.split(":")]
+    if len(parts) < 2 or _number(parts[0]) is None or _number(parts[1]) is None:
+        return None
+    if len(parts) != 3 or _number(parts[2]) is None:
+        raise SceneError(where, "is no range", "a range is start:stop:step, three plain numbers",
+                         "for example surface.rms=0.5:10:0.5")
+    start, stop, step = map(float, parts)
+    steps = (stop - start) / step if step else -1.0
+    if not steps >= 0:
+        raise SceneError(where, "is a range without values", f"steps of {step:g} do not lead from {start:g} to {stop:g}",
+                         "give start:stop:step with a step towards stop")
+    if not steps < MOST_POINTS:
+        raise SceneError(where, f"asks for {math.floor(steps) + 1:.3g} values",
+                         f"a sweep has {MOST_POINTS} points at most", "take longer steps")
+    values = [start + i * step for i in range(math.floor(steps + 1e-9) + 1)]
+    # Twelve digits: 0.1 + 2 x 0.1 is 0.3.
+    return [f"{v:.0f}" if whole and v == round(v) else f"{v or 0.0:.12g}" for v in values]
+
+
+def _axis(key: str, values: str, where: str) -> Axis:
+    kind = program.schema()[key]["kind"]
+    axis = Axis(key, [], where)
+    for part in (p.strip() for p in values.split(",")):
+        if not part:
+            raise SceneError(where, "has an empty value", "values stand between commas",
+                             f"for example --set {key}=v1,v2")
+        several = _range(part, where, kind == "integer") if kind in ("integer", "number") else None
+        axis.values += several or [part]
+    return axis
+
+
+def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[list[Axis], list[str]]:
+    """The axes among "key=values" and the scene's [sweep] (key, values, where), and the fixed overrides."""
+    schema = program.schema()
+    found: list[Axis] = []
+    fixed: list[str] = []
+    seen: list[str] = []
+    for assignment in assignments:
+        where = "--set " + assignment
+        key, equals, values = assignment.partition("=")
+        key = key.strip()
+        if not equals or key not in schema or schema[key]["kind"] == "list":
+            fixed.append(assignment)  # a list has commas of its own; the program finds mistakes
+            continue
+        if key in seen:
+            raise SceneError(where, f"{key} is given twice", "every key is one axis of the sweep",
+                             f"put its values into one list: --set {key}=v1,v2")
+        seen.append(key)
+        found.append(_axis(key, values, where))
+    for variation in of_scene:
+        if variation["key"] in seen:
+            continue
+        if schema[variation["key"]]["kind"] == "list":
+            raise SceneError(variation["where"], f"{variation['key']} cannot be swept",
+                             "its value is a list itself", "write one scene for each")
+        found.append(_axis(**variation))
+    fixed += [f"{axis.key}={axis.values[0]}" for axis in found if len(axis.values) == 1]
+    axes = [axis for axis in found if len(axis.values) > 1]
+    if math.prod(len(axis.values) for axis in axes) > MOST_POINTS:
+        raise SceneError("sweep", f"the grid has more than {MOST_POINTS} points", f"{MOST_POINTS} are the most",
+                         "sweep fewer values or fewer keys")
+    return axes, fixed
+
+
+def points_of(axes: list[Axis]) -> list[list[str]]:
+    """Every combination, the last axis fastest, each as a list of "key=value"."""
+    return [list(point) for point in itertools.product(*([f"{a.key}={v}" for v in a.values] for a in axes))]
+
+
+def shown(value: Any) -> str:
+    """A value of a key as it stands in tables and names: "3", "multiscale"."""
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return f"{value:.12g}"
+    return value if isinstance(value, str) else program.json.dumps(value)

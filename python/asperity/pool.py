@@ -1,0 +1,254 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Many runs of one scene, each a process of its own, as many side by side as asked for.
+
+Each run has its own threads, signals and memory; one that fails or is killed does not touch the others,
+and it can be repeated by hand. A child is asked to stop with USR1, which mpirun passes on: it leaves a
+checkpoint and exits with 75. That happens when the pool is interrupted (INT, TERM, USR1), at its wall
+limit, and when its process dies. Started again, a run resumes from its checkpoint; one without a
+checkpoint starts from the beginning; a result of the same scene is taken as it is.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import subprocess
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from . import files, program
+from .errors import InputOutputError, SceneError
+from .result import Values, read_json
+from .terminal import Progress, duration
+
+WAITING, DONE, FAILED = "waiting", "done", "failed"
+PHYSICS, STOPPED = 3, 75
+_libc = ctypes.CDLL(None, use_errno=True)
+_PR_SET_PDEATHSIG = 1
+
+
+@dataclass
+class Job:
+    name: str
+    """"rms=3,seed=1"; the name of its directory."""
+    directory: Path
+    file: str
+    """of the scene"""
+    overrides: list[str]
+    scene: dict[str, Any]
+    """what these make of the file"""
+
+
+@dataclass
+class Outcome:
+    """What a job's directory holds: status, result.json, and of a failure its exit code and reason."""
+
+    status: str = WAITING
+    result: Values = field(default_factory=lambda: Values({}))
+    exit_code: int = 0
+    reason: str = ""
+
+
+@dataclass
+class PoolOptions:
+    jobs: int = 1
+    """side by side"""
+    threads: int = 0
+    """of each, whatever the environment says; 0: they share the processors unless OMP_NUM_THREADS is set"""
+    launch: list[str] = field(default_factory=list)
+    """words before the program, "mpirun -n 2" """
+    wall_limit: float | None = None
+    """s"""
+    progress: str = "auto"
+
+
+def look_at(job: Job) -> Outcome:
+    """What is there of a job. Failed physics counts as an outcome; another failure is tried again.
+
+    Raises SceneError if there is a result of another scene.
+    """
+    path = job.directory / "result.json"
+    if not path.exists():
+        return Outcome()
+    result = Values(read_json(path))
+    if result.find("scene") != job.scene:
+        raise SceneError(str(job.directory), "holds the result of another scene",
+                         "results that are there are used again, and this one does not belong here",
+                         "name another directory (--out), or remove this one")
+    outcome = Outcome(result=result)
+    code = result.number("failure.exit_code")
+    if code is not None:
+        outcome.exit_code = int(code)
+        outcome.reason = result.text("failure.reason").split("\n")[0]
+        outcome.status = FAILED if outcome.exit_code == PHYSICS else WAITING
+    elif result.text("run.stopped") in ("", "max_steps"):
+        outcome.status = DONE
+    return outcome
+
+
+class _Signals:
+    """Counts INT, TERM and USR1 while it is entered."""
+
+    def __init__(self) -> None:
+        self.count = 0
+
+    def __enter__(self) -> _Signals:
+        def note(*_: Any) -> None:
+            self.count += 1
+
+        self._main = threading.current_thread() is threading.main_thread()
+        if self._main:
+            self._before = {s: signal.signal(s, note) for s in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1)}
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        if self._main:
+            for number, handler in self._before.items():
+                signal.signal(number, handler)
+
+
+def _last_line(job: Job) -> str:
+    try:
+        with open(job.directory / "log.txt", "rb") as log:
+            log.seek(max(0, log.seek(0, os.SEEK_END) - 400))
+            lines = [line for line in log.read().decode("utf-8", "replace").splitlines() if line.strip()]
+    except OSError:
+        return ""
+    return lines[-1].strip() if lines else ""
+
+
+def _fraction(job: Job) -> float:
+    """How far a run has come, by its last line (" 45 %  approach, ..."); 0: not known."""
+    head = _last_line(job).split(" %")[0].strip()
+    return min(1.0, int(head) / 100) if head.isdigit() else 0.0
+
+
+class Pool:
+    """Runs the jobs whose outcome is "waiting" and fills in what came of them."""
+
+    def __init__(self, jobs: list[Job], outcomes: list[Outcome], options: PoolOptions):
+        self.jobs, self.outcomes, self.options = jobs, outcomes, options
+        self.progress = Progress(options.progress)
+        self.waiting = [i for i, outcome in enumerate(outcomes) if outcome.status == WAITING]
+        self.asked = len(self.waiting)
+        self.children: dict[int, tuple[subprocess.Popen, float]] = {}
+        self.concluded = 0
+        self.stopping = self.killed = False
+        self.start_time = time.monotonic()
+
+    def run(self, done: Callable[[int], None] = lambda i: None) -> bool:
+        """done(i) is called after each. False: stopped before all of them had run."""
+        with _Signals() as signals:
+            try:
+                while self.waiting or self.children:
+                    while not self.stopping and self.waiting and len(self.children) < self.options.jobs:
+                        self._start(self.waiting.pop(0))
+                    if self.stopping and not self.children:
+                        break
+                    for i in [i for i, (child, _) in self.children.items() if child.poll() is not None]:
+                        child, started = self.children.pop(i)
+                        self._conclude(i, child.returncode, started)
+                        done(i)
+                    self._stop_if_told(signals.count)
+                    if self.progress.due():
+                        self.progress.update(self._state())
+                    time.sleep(0.02)
+            finally:
+                for child, _ in self.children.values():  # an error of our own
+                    child.send_signal(signal.SIGUSR1)
+                self.progress.finish()
+        return not self.stopping and all(o.status != WAITING for o in self.outcomes)
+
+    def _start(self, i: int) -> None:
+        job = self.jobs[i]
+        files.directory(job.directory)
+        checkpoint = (job.directory / "checkpoint.h5").exists()
+        if not checkpoint:
+            (job.directory / "result.json").unlink(missing_ok=True)  # of a failure that is tried again
+        words = [*self.options.launch, program.path(), "run", job.file, "--out", str(job.directory),
+                 "--progress", "lines", *(["--resume", "auto"] if checkpoint else []), *program.sets(job.overrides)]
+        environment = dict(os.environ)
+        threads = self.options.threads
+        if not threads and "OMP_NUM_THREADS" not in environment and not self.options.launch:
+            threads = max(1, len(os.sched_getaffinity(0)) // self.options.jobs)
+        if threads:
+            environment["OMP_NUM_THREADS"] = str(threads)
+        parent = os.getpid()
+
+        def prepare() -> None:  # in the child
+            _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGUSR1)
+            if os.getppid() != parent:
+                os._exit(STOPPED)
+
+        try:
+            with open(job.directory / "log.txt", "ab") as log:
+                # A session of its own: Ctrl-C goes to the pool, and from there on as USR1.
+                child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=environment,
+                                         start_new_session=True, preexec_fn=prepare)
+        except FileNotFoundError:
+            self.outcomes[i] = Outcome(FAILED, exit_code=127,
+                                       reason=f"'{words[0]}' of --launch cannot be started")
+            self.concluded += 1
+            self._say(i, f"FAILED (exit 127): {self.outcomes[i].reason}")
+            return
+        except OSError as error:
+            raise InputOutputError(str(job.directory), "cannot be run", error.strerror or str(error),
+                                   "start fewer points at once: --jobs") from None
+        self.children[i] = child, time.monotonic()
+
+    def _conclude(self, i: int, code: int, started: float) -> None:
+        outcome = self.outcomes[i] = look_at(self.jobs[i])
+        died = code < 0
+        if outcome.status == DONE:
+            self.concluded += 1
+            self._say(i, "done in " + duration(time.monotonic() - started))
+        elif code == STOPPED or (self.stopping and died):
+            saved = (self.jobs[i].directory / "checkpoint.h5").exists()
+            self._say(i, "stopped, with a checkpoint" if saved else "stopped before its first checkpoint")
+        else:
+            self.concluded += 1
+            outcome.status = FAILED
+            outcome.exit_code = code if code > 0 else 1
+            if not outcome.reason:
+                outcome.reason = (f"ended by signal {-code} ({signal.strsignal(-code)})" if died
+                                  else _last_line(self.jobs[i]))
+            self._say(i, f"FAILED (exit {outcome.exit_code}): {outcome.reason}")
+
+    def _stop_if_told(self, interruptions: int) -> None:
+        limit = self.options.wall_limit
+        late = limit is not None and time.monotonic() - self.start_time >= limit
+        if not self.stopping and (interruptions or late):
+            self.stopping = True
+            for child, _ in self.children.values():
+                child.send_signal(signal.SIGUSR1)
+            n = len(self.children)
+            self.progress.say(f"stopping{' at the wall limit' if late else ''}: {n} point{'' if n == 1 else 's'} "
+                              f"running, {len(self.waiting)} not started")
+        if interruptions > 1 and not self.killed:  # told twice: without checkpoints
+            self.killed = True
+            for child, _ in self.children.values():
+                os.killpg(child.pid, signal.SIGKILL)
+
+    def _say(self, i: int, what: str) -> None:
+        over = sum(o.status != WAITING for o in self.outcomes)
+        self.progress.say(f"[{over}/{len(self.jobs)}] {self.jobs[i].name}: {what}")
+
+    def _state(self) -> str:
+        now = time.monotonic()
+        text = f"{len(self.jobs) - len(self.waiting) - len(self.children)} of {len(self.jobs)} points"
+        done, longest = float(self.concluded), 0.0
+        for i, (_, started) in self.children.items():
+            fraction = _fraction(self.jobs[i])
+            done += fraction
+            if fraction > 0:
+                longest = max(longest, (now - started) * (1 - fraction) / fraction)
+            text += f" | {self.jobs[i].name} {100 * fraction:.0f} %"
+        if done > 0.02:  # the mean so far, but no less than what those that run need
+            text += f" | {duration(max((now - self.start_time) * (self.asked - done) / done, longest))} left"
+        return text

@@ -1,0 +1,212 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity report DIR`: a run or a sweep as one page (report.html), with every figure in report/ beside it.
+
+These files are the report's own: a second report writes them anew.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+from . import scene, words
+from .page import Page, Row, file_name, minus
+from .plots import run as plots
+from .plots.files import KINDS
+from .result import Result, State, Values, expect
+from .units import shown
+
+MOST_STATES = 6
+
+PATH_CAPTIONS = {
+    False: "Force of the substrate on the block over the mean separation, the mean height of the lowest layer above the "
+           "substrate’s mean plane; negative is attraction. The area under a curve is the work of adhesion of that leg.",
+    True: "Force of the substrate on the block over the mean height of the lowest layer above the apex; negative is "
+          "attraction. Beside it what a smooth sphere would do: JKR alone, and JKR and Maugis-Dugdale with the sphere’s "
+          "periodic images."}
+MAPS = (("gap", "Gap", "Height of each site above the substrate below it."),
+        ("pressure", "Pressure", "Normal force of the substrate on a site over its area. Blue is attractive, orange "
+                                 "repulsive; the colour bar spans 99\u00a0% of the values."),
+        ("contact", "Contact", "Sites nearer to an atom of the substrate than the inflection of the potential."))
+STATE_COLUMNS = (("binding_energy", "binding energy, meV/Å²"), ("contact_fraction", "contact"),
+                 ("pushed_fraction", "repulsive"), ("mean_height", "mean height, Å"),
+                 ("elastic_energy", "elastic energy, meV/Å²"), ("barrier", "barrier to the next, MPa"))
+GAMMA, EV = "meV/Å²", "eV"
+LABELS = {
+    "delta_gamma": ("flat on flat, Δγ", GAMMA), "binding_energy": ("binding energy at zero load", GAMMA),
+    "work_of_adhesion.approach": ("work of adhesion, approach", GAMMA),
+    "work_of_adhesion.pull_off": ("work of adhesion, pull-off", GAMMA),
+    "work_of_adhesion.pairwise": ("atom-by-atom work", GAMMA), "contact_fraction": ("contact fraction", ""),
+    "pushed_fraction": ("repulsive fraction", ""), "pull_off_force": ("largest attraction on the way out", "eV/Å"),
+    "hysteresis.loop": ("energy lost in the cycle", EV), "hysteresis.approach": ("of it on the way in", EV),
+    "hysteresis.pull_off": ("of it on the way out", EV), "jkr.in": ("JKR energy, way in", GAMMA),
+    "jkr.in_averaged": ("JKR energy, way in, averaged over 2 ps", GAMMA), "jkr.out": ("JKR energy, way out", GAMMA),
+    "jkr.out_averaged": ("JKR energy, way out, averaged over 2 ps", GAMMA),
+    "sphere.jkr_images": ("smooth sphere: JKR with images", GAMMA),
+    "sphere.maugis_images": ("smooth sphere: Maugis-Dugdale with images", GAMMA),
+    "sphere.maugis_parameter": ("smooth sphere: Maugis parameter λ", ""),
+    "contact_radius.zero_load": ("contact radius at zero load", "Å"),
+    "contact_radius.pull_off": ("contact radius at the pull-off force", "Å"),
+    "theory.gamma_eff": ("theory: γ_{eff}", GAMMA),
+    "theory.gamma_full_contact": ("theory: γ assuming full contact", GAMMA),
+    "theory.contact_fraction": ("theory: contact fraction", ""), "theory.critical_rms": ("theory: critical rms", "Å"),
+    "theory.renormalised.gamma_eff": ("renormalised theory: γ_{eff}", GAMMA),
+    "theory.renormalised.contact_fraction": ("renormalised theory: contact fraction", ""),
+    "theory.renormalised.separation": ("renormalised theory: mean separation", "Å"),
+    "surface.rms": ("surface: rms height", "Å"), "surface.rms_slope": ("surface: rms slope", ""),
+    "surface.min": ("surface: lowest", "Å"), "surface.max": ("surface: highest", "Å"),
+    "energy.residual": ("energy balance: residual", "relative"), "energy.work": ("work done", EV),
+    "energy.kinetic": ("kinetic energy at the end", EV), "energy.elastic": ("elastic energy at the end", EV),
+    "energy.interface": ("interface energy at the end", EV), "energy.damped": ("energy damped", EV)}
+"""Names of numbers and, for results that do not tell, their units. Others stand under their own names."""
+
+
+def _top(page: Page, run: Result) -> None:
+    if run.failure_text:
+        page.notices.append(("This run failed", run.failure_text))
+    if run.stopped:
+        page.notices.append(("This run was stopped early", f"Reason: {run.stopped}. The path is not complete; what is "
+                             "shown is what had been reached."))
+    page.notices += [("Some of the files cannot be read", note) for note in run.notes]
+    page.add("numbers", words.key_numbers(run))
+    for sentence in words.findings(run):
+        page.add("paragraph", sentence)
+    if not isinstance(run.find("scene"), dict):
+        return
+    # A result without a path or a state came from the theory alone.
+    if run.series or run.fields or run.number("run.steps") is not None:
+        page.add("lists", [("Simulated", words.simulated(run)), ("Not simulated", words.not_simulated(run))])
+    else:
+        page.add("lists", [("Computed", ["the theory alone: nothing was simulated"])])
+
+
+def _path(page: Page, run: Result) -> None:
+    page.section("path", "Force and contact")
+    page.figure("separation", "Force and separation", PATH_CAPTIONS[run.curved], partial(plots.separation, run))
+    page.figure("contact", "Contact over the path",
+                "Sites nearer to an atom of the substrate than the inflection of the potential (in contact), and sites "
+                "whose net normal force is repulsive.", partial(plots.contact, run))
+
+
+def _state(page: Page, run: Result, state: State) -> None:
+    name = file_name(state.name)
+    page.section(f"state-{name}", f"The state {words.state_in_words(state.name)}")
+    for key, heading, caption in MAPS:
+        if key == "gap":
+            caption += " The colour bar ends at the cutoff." if run.curved else \
+                " The colour bar spans 99\u00a0% of the values."
+        page.figure(f"{key}-{name}", heading, caption, partial(plots.map_of, run, state, key))
+    page.figure(f"pressures-{name}", "Distribution of pressure",
+                "How the interface’s pressure is distributed over the sites that feel any: the left wing is attractive, "
+                "the right one repulsive. Per site of the box.", partial(plots.pressures, state))
+    page.figure(f"gaps-{name}", "Distribution of gaps", "Distribution of the gaps of all sites, normalised to one.",
+                partial(plots.gaps, state))
+
+
+def _states(page: Page, run: Result) -> None:
+    """The state at zero load first; of many, some that are spread evenly."""
+    states = sorted(run.fields.values(), key=lambda s: s.name != "zero-load")
+    n, few = len(states), min(len(states), MOST_STATES)
+    for i in range(few):
+        _state(page, run, states[i * (n - 1) // (few - 1) if few > 1 else i])
+    if few < n:
+        page.add("paragraph", f"{few} of the {n} states in run.h5 are shown; `asperity export` writes them all.")
+    page.section("states", "States at zero load")
+    page.figure("states", "Energy of every state", "Binding energy of the states at zero load over their mean height.",
+                partial(plots.states, run))
+    found = run.find("states.all")
+    rows = [Row([str(i + 1), *(words.general(s.get(k), 6) for k, _ in STATE_COLUMNS)])
+            for i, s in enumerate(found if isinstance(found, list) else []) if isinstance(s, dict)]
+    page.add("table", {"heads": ["state", *(head for _, head in STATE_COLUMNS)], "rows": rows} if rows else None)
+
+
+def _surface(page: Page, run: Result) -> None:
+    page.section("surface", "Surface and theory")
+    page.figure("height", "Height of the substrate",
+                "The substrate from above. The colour bar spans 99\u00a0% of it.", partial(plots.height, run))
+    page.figure("spectrum", "Roughness spectrum", "Radially averaged power spectrum of the surface that was made, and "
+                "what was asked for.", partial(plots.spectrum, run))
+    page.figure("roughness", "Binding energy and roughness", "Persson’s theory for this scene at other roughnesses, and "
+                "this run’s numbers.", partial(plots.roughness, run))
+
+
+def _energies(page: Page, run: Result) -> None:
+    page.section("energies", "Energies")
+    page.figure("energy", "Energies", "Energies over the path. Work is done by the top plane and the moving medium of "
+                "the damping.", partial(plots.energy, run))
+    page.figure("balance", "Energy balance", "Work done minus energy gained minus energy damped, over the largest of "
+                "these terms so far.", partial(plots.balance, run))
+    page.figure("loading", "Force and displacement of the top plane", "Elastic force on the driven top plane over its "
+                "displacement: what a testing machine would record. Between the curves lies the energy lost in a "
+                "cycle.", partial(plots.loading, run))
+
+
+def _numbers(page: Page, run: Result) -> None:
+    """Every number of the result, those with a name first."""
+    numbers = {k: v for k, v in run.numbers().items()
+               if k.split(".")[0] not in ("scene", "run", "failure", "units") and run.number(k) is not None}
+    flat = numbers.get("delta_gamma", 0.0)
+    rows = []
+    for key in [k for k in LABELS if k in numbers] + [k for k in numbers if k not in LABELS]:
+        name, unit = LABELS.get(key, (key, ""))
+        unit = shown(run.unit(key)) or unit
+        # Of a sphere, the nominal area says nothing, and so does an energy over it.
+        nominal = key.split(".")[0] in ("binding_energy", "work_of_adhesion", "states", "zero_load")
+        over = unit == GAMMA and flat > 0 and not (run.curved and nominal)
+        rows.append(Row([name, minus(f"{numbers[key]:.6g}"), unit, minus(f"{numbers[key] / flat:.4f}") if over else ""]))
+    page.section("numbers", "All numbers")
+    page.add("table", {"heads": ["", "value", "unit", "over Δγ"], "rows": rows} if rows else None)
+
+
+def _times(page: Page, run: Result) -> None:
+    phases = run.find("run.phases")
+    found = Values(phases if isinstance(phases, dict) else {})
+    bars = [(name, s, c) for name in found
+            if (s := found.number(f"{name}.seconds")) is not None and (c := found.number(f"{name}.calls")) is not None]
+    longest = max((s for _, s, _ in bars), default=0.0) or 1.0
+    page.section("times", "Time spent")
+    page.add("bars", [{"name": name, "share": s / longest, "text": f"{s:.3g} s, {c:.0f} ×"}
+                      for name, s, c in sorted(bars, key=lambda b: -b[1])])
+
+
+def end(page: Page, result: Values, heading: str, keys: dict | None, note: str) -> None:
+    """The scene, where the numbers come from, and how to cite them."""
+    if keys:
+        page.section("scene", heading)
+        page.add("paragraph", note)
+        page.add("preformatted", scene.toml_of(keys).strip())
+    page.section("provenance", "Provenance")
+    rows = words.provenance(result)
+    page.add("table", {"heads": [], "rows": [Row(r) for r in rows]} if rows else None)
+    page.section("cite", "How to cite")
+    page.add("paragraph", "Name the program with its version, and the paper whose system it simulates; with the theory’s "
+             "numbers, also the theory.")
+    page.add("lists", [("", words.citations(result))])
+
+
+def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
+    """DIR/report.html of a run; kinds: of files of its figures."""
+    page = Page(run.directory, "Asperity report", run.title, words.lead(run), kinds=kinds)
+    for part in (_top, _path, _states, _surface, _energies, _numbers, _times):
+        part(page, run)
+    keys = run.find("scene")
+    measured = ", with the map beside it" if run.key("surface.kind") == "file" else ""
+    end(page, run, "The scene", keys if isinstance(keys, dict) else None,
+        f"Every key with the value that was used. Saved as a file, it runs again{measured}.")
+    page.said = page.write()
+    return page
+
+
+def report_command(directory: str) -> int:
+    """Returns the exit code. Raises InputOutputError for a directory without a result."""
+    from .report_sweep import holds_sweep, write_sweep_page
+
+    place = Path(directory)
+    if holds_sweep(place):
+        page = write_sweep_page(place)
+    else:
+        expect(place, "result.json", "sweep.json")
+        page = write_run_page(Result(place))
+    print(page.said)
+    return 0

@@ -1,0 +1,217 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The page of a sweep: its plots and table from sweep.json; of the points' own directories, one point for all
+seeds: contact maps, force curves, and pages to go to."""
+
+from __future__ import annotations
+
+import base64
+import io
+from functools import partial
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+from matplotlib.axes import Axes
+
+from .errors import Error
+from .grid import is_seed, shown
+from .page import Page, Row, file_name, minus
+from .plots import run as run_plots
+from .plots import sweep as plots
+from .plots.style import COLOURS, CONTACT, DASHES, GREY, curve, finish
+from .pool import DONE, FAILED
+from .report import end, write_run_page
+from .result import Result, Values
+from .sweeps import Sweep, load_sweeps, plotted_axis
+from .tables import groups_of, number, spread_of, text_of, theory_numbers
+from .words import KeyNumber
+
+MOST_POINTS = 24
+MOST_CURVES = 6
+
+CAPTIONS = {
+    "gamma": "Binding energy over that of two flat surfaces: theory, and what was simulated. Of a sphere, γ by JKR from "
+             "the largest attraction. Bars: standard deviation over the seeds.",
+    "area": "Projected contact area over the nominal area at zero load.",
+    "separation": "Mean height of the lowest layer above the substrate’s mean plane at zero load.",
+    "radius": "Radius of a circle as large as the area in contact.",
+    "pull-off": "What it takes to pull the block off.",
+    "hysteresis": "The area of the loop of force against separation: what a cycle of approach and pull-off turns into "
+                  "heat.",
+    "full-contact": "The full theory, and what it would be if contact were full."}
+
+
+def holds_sweep(directory: Path) -> bool:
+    """Whether it holds a sweep, or those of several scenes in its folders."""
+    if (directory / "sweep.json").exists():
+        return True
+    return not (directory / "result.json").exists() and any(directory.glob("*/sweep.json"))
+
+
+class _Points:
+    """Of one sweep the points that are shown one by one."""
+
+    def __init__(self, sweep: Sweep, directory: Path):
+        self.links: list[str] = []
+        self.thumbs: list[dict[str, str]] = []
+        self.runs: list[tuple[str, Result]] = []
+        self.origin = ""
+        for number, (_, places) in enumerate(groups_of(sweep.axes, sweep.points)):
+            self.links.append("")
+            done = [p for i in places if (p := sweep.points[i]).get("status") == DONE and p.get("directory")]
+            if done and number < MOST_POINTS:
+                self._look_at(str(done[0]["directory"]), sweep.directory, directory)
+
+    def _look_at(self, name: str, place: Path, directory: Path) -> None:
+        if not (place / name / "result.json").exists():
+            return  # the table was sent alone
+        try:
+            run = Result(place / name)
+        except Error:
+            return  # damaged: its row stays without a page
+        page = run.directory / "report.html"
+        if not page.exists() or page.stat().st_mtime < (run.directory / "result.json").stat().st_mtime:
+            write_run_page(run, kinds=("png",))
+        link = page.relative_to(directory).as_posix()
+        self.links[-1] = link
+        self.origin = self.origin or run.text("surface.origin")
+        self.runs.append((name, run))
+        state = run.fields.get("zero-load")
+        if state is not None and "contact" in state:
+            picture = io.BytesIO()
+            matplotlib.image.imsave(picture, state["contact"] > 0, cmap=CONTACT, vmin=0, vmax=1, origin="lower",
+                                    format="png")
+            self.thumbs.append({"png": base64.b64encode(picture.getvalue()).decode(), "caption": name, "link": link})
+
+
+def _force_curves(points: _Points, ax: Axes) -> bool:
+    """The force curves of several points in one plot, spread evenly over them."""
+    runs = [(n, r) for n, r in points.runs
+            if {"leg", "mean_height", "force"} <= set(r.series) and len(r.series["leg"]) > 1]
+    if len(runs) < 2:
+        return False
+    few = min(len(runs), MOST_CURVES)
+    for k in range(few):
+        name, run = runs[k * (len(runs) - 1) // (few - 1)]
+        unit, label = run_plots.force_unit(run)
+        for leg, line in ((0, DASHES[4]), (1, "-")):
+            here = run.series["leg"] == leg
+            if here.sum() > 1:
+                curve(ax, run.series["mean_height"][here], run.series["force"][here] / unit,
+                      name if leg else "", colour=COLOURS[k], line=line)
+    ax.plot([], [], color=GREY, linestyle="-", label="pull-off")
+    ax.plot([], [], color=GREY, linestyle=DASHES[4], label="approach")
+    felt = [h for _, r in runs for h in r.series["mean_height"][
+        np.abs(r.series["force"]) > 1e-3 * np.abs(r.series["force"]).max()]]
+    if felt:
+        ax.set_xlim(min(felt), max(felt))
+    finish(ax, "mean height above the apex (Å)" if runs[0][1].curved else "mean separation (Å)", label)
+    return True
+
+
+def _half_way(sweep: Sweep, points: list[dict], column: str) -> float | None:
+    """Where a quantity has fallen to half, between the points; seeds averaged."""
+    def value(point: dict) -> float:
+        if column.startswith("theory."):
+            return number(theory_numbers(point).get(column[7:]))
+        return number(point.get("result", {}).get(column))
+    curve_ = sorted((number(values["surface.rms"]), s.mean) for values, places in groups_of(sweep.axes, points)
+                    if (s := spread_of([value(points[i]) for i in places])).count)
+    for (x0, y0), (x1, y1) in zip(curve_, curve_[1:]):
+        if y0 >= 0.5 > y1:
+            return x0 + (x1 - x0) * (y0 - 0.5) / (y0 - y1)
+    return None
+
+
+def _key_numbers(sweep: Sweep) -> list[KeyNumber]:
+    """What a sweep over roughness alone comes to."""
+    if [k for k in sweep.axes if not is_seed(k)] != ["surface.rms"] or not plotted_axis(sweep.axes, sweep.points):
+        return []
+    wanted = [("rms where the binding energy is half of Δγ", "binding_energy_ratio", "gamma_eff_ratio"),
+              ("rms where half of the area is in contact", "contact_fraction", "contact_fraction")]
+    if any("contact_radius.zero_load" in p.get("result", {}) for p in sweep.points):
+        wanted = [("rms where γ by JKR, way out, is half of Δγ", "jkr.out_ratio", "gamma_eff_ratio")]
+    found = []
+    for name, simulated, theory in wanted:
+        measured = _half_way(sweep, sweep.points, simulated)
+        lines = {"theory": theory, "renormalised": "renormalised." + theory}
+        expected = {words: x for words, column in lines.items()
+                    if (x := _half_way(sweep, sweep.theory or sweep.points, "theory." + column)) is not None}
+        if measured is not None:
+            found.append(KeyNumber(f"{measured:.2f}", "Å", name, ", ".join(f"{w}: {x:.2f} Å" for w, x in expected.items())))
+        elif expected:
+            words, x = next(iter(expected.items()))
+            found.append(KeyNumber(f"{x:.2f}", "Å", name, words))
+    return found
+
+
+def _lead(sweeps: list[Sweep]) -> str:
+    parts = []
+    for sweep in sweeps:
+        axes = []
+        for key in sweep.axes:
+            values = list(dict.fromkeys(shown(p["set"].get(key)) for p in sweep.points))
+            axes.append(f"{key} ({values[0]} to {values[-1]})" if values else key)
+        parts.append(f"{sweep.name}: " * (len(sweeps) > 1) + f"{len(sweep.points)} points over {', '.join(axes)}.")
+    return " ".join(parts)
+
+
+def _notices(page: Page, sweep: Sweep) -> None:
+    for point in sweep.points:
+        if point.get("status") == FAILED:
+            page.notices.append((f"{point.get('directory', '')} failed", Values(point).text("failure.reason")))
+    waiting = sum(p.get("status", "waiting") == "waiting" for p in sweep.points) if sweep.simulated else 0
+    if waiting:
+        page.notices.append(("This sweep is not finished", f"{waiting} of {len(sweep.points)} points of {sweep.name} have "
+                             "no result yet; the same `asperity sweep` command goes on with them."))
+
+
+def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
+    heads, rows, meaning = text_of(sweep)
+    stride = max(1, (len(rows) + 39) // 40)
+    page.section("points-" + file_name(sweep.name), f"The points of {sweep.name}" if several else "All points")
+    page.add("table", {"heads": heads, "rows": [Row([minus(c) for c in row], link)
+                                                for row, link in list(zip(rows, points.links))[::stride]]})
+    if meaning:
+        page.add("paragraph", f"In the table: {meaning}.")
+    if stride > 1:
+        page.add("paragraph", f"Every {stride}th of {len(rows)} lines; all are in sweep.csv.")
+    page.add("thumbs", points.thumbs)
+    if points.origin:
+        page.add("paragraph", f"Measured surface: {points.origin}.")
+
+
+def write_sweep_page(directory: Path) -> Page:
+    """DIR/report.html of a sweep, and the pages of its points."""
+    sweeps = load_sweeps(directory)
+    page = Page(directory, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps))
+    points = [_Points(sweep, directory) for sweep in sweeps]
+    for sweep in sweeps:
+        _notices(page, sweep)
+        page.add("numbers", _key_numbers(sweep))
+        for note in sweep.notes:
+            page.add("paragraph", f"Note: {note}.")
+    page.section("plots", "Adhesion and contact")
+    for name in plots.names(sweeps):
+        page.figure(name, plots.TITLES[name], CAPTIONS[name], partial(plots.plot, sweeps, name))
+    for sweep, some in zip(sweeps, points):
+        page.figure("curves" + f"-{file_name(sweep.name)}" * (len(sweeps) > 1), "Force and separation",
+                    "Force over the mean separation at some of the points: pull-off drawn through, approach dotted.",
+                    partial(_force_curves, some))
+    note = plots.parts_of(sweeps)[2]
+    if note:
+        page.add("paragraph", f"Note: {note}.")
+    for sweep, some in zip(sweeps, points):
+        if sweep.points:
+            _table(page, sweep, some, len(sweeps) > 1)
+    for sweep in sweeps[1:]:
+        page.section("scene-" + file_name(sweep.name), f"The scene {sweep.name}")
+        from .scene import toml_of
+
+        page.add("preformatted", toml_of(sweep.scene).strip())
+    end(page, Values({"run": sweeps[0].run}),
+        f"The scene {sweeps[0].name}" if len(sweeps) > 1 else "The scene that the points vary", sweeps[0].scene,
+        "Every key with its value; the swept ones as they stand in the file.")
+    page.said = page.write()
+    return page

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""What commands print: tables, progress, durations."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import sys
+import time
+
+from .errors import SceneError
+
+PROGRESS_MODES = ("auto", "bar", "lines", "off")
+
+
+def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,)) -> str:
+    """Columns of text under their heads, numbers to the right; an empty row is a rule."""
+    width = [max(len(line[i]) for line in [heads, *rows] if len(line) > i) for i in range(len(heads))]
+    rule = "  " + "─" * (sum(width) + 2 * len(width) - 2)
+
+    def line(cells: list[str]) -> str:
+        cells = cells + [""] * (len(heads) - len(cells))
+        return "  " + "  ".join(c.ljust(w) if i in left else c.rjust(w)
+                                for i, (c, w) in enumerate(zip(cells, width))).rstrip()
+
+    return "\n".join([line(heads), rule, *(line(row) if row else rule for row in rows)])
+
+
+def duration(seconds: float) -> str:
+    """"45 s", "2 min 05 s", "3 h 10 min"."""
+    whole = int(seconds + 0.5)
+    if seconds < 9.95:
+        return f"{seconds:.1f} s"
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60:02} s"
+    if whole < 86400:
+        return f"{whole // 3600} h {whole // 60 % 60:02} min"
+    return f"{whole // 86400} d {whole // 3600 % 24:02} h"
+
+
+def parse_duration(text: str) -> float:
+    """Seconds of "23h50m", "45m", "90s" or "90". Raises SceneError."""
+    match = re.fullmatch(r"(?:([\d.]+)d)?(?:([\d.]+)h)?(?:([\d.]+)m(?:in)?)?(?:([\d.]+)s)?|([\d.]+)", text)
+    try:
+        seconds = sum(float(part) * unit for part, unit in zip(match.groups(), (86400, 3600, 60, 1, 1)) if part)
+    except (AttributeError, ValueError):
+        seconds = 0.0
+    if not seconds > 0:
+        raise SceneError(f"--wall-limit {text}", "is no length of time", "", "for example 23h50m, 45m or 90s")
+    return seconds
+
+
+def under_mpirun() -> bool:
+    return any(name in os.environ for name in ("OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"))
+
+
+class Progress:
+    """A bar that is drawn over (on a terminal) or lines that get rarer, to stderr."""
+
+    def __init__(self, mode: str = "auto"):
+        if mode not in PROGRESS_MODES:
+            raise SceneError(f"--progress {mode}", "is none of its choices", "choices: " + ", ".join(PROGRESS_MODES))
+        terminal = sys.stderr.isatty() and not under_mpirun()
+        if mode == "auto" or (mode == "bar" and not terminal):
+            mode = "bar" if terminal else "lines"
+        self.mode = mode
+        self._start = self._last = time.monotonic()
+        self._drawn = False
+
+    def due(self) -> bool:
+        elapsed = time.monotonic() - self._start
+        wait = 0.2 if self.mode == "bar" else 2.0 if elapsed < 10 else 10.0 if elapsed < 100 else 0.1 * elapsed
+        return self.mode != "off" and time.monotonic() - self._last >= wait
+
+    def update(self, text: str) -> None:
+        self._last = time.monotonic()
+        if self.mode == "bar":
+            sys.stderr.write("\r\033[K" + text[: shutil.get_terminal_size((110, 24)).columns - 1])
+            self._drawn = True
+        elif self.mode == "lines":
+            sys.stderr.write(text + "\n")
+        sys.stderr.flush()
+
+    def say(self, sentence: str) -> None:
+        if self.mode != "off":
+            self.finish()
+            sys.stderr.write(sentence + "\n")
+            sys.stderr.flush()
+
+    def finish(self) -> None:
+        if self._drawn:
+            sys.stderr.write("\r\033[K")
+            sys.stderr.flush()
+        self._drawn = False

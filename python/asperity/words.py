@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""What a report says of a run in words: key numbers, findings, what was simulated and what was not."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from .page import minus
+from .result import Result, Values
+from .terminal import duration
+from .units import GIGAPASCAL, NANONEWTON
+
+
+@dataclass
+class KeyNumber:
+    value: str
+    unit: str
+    name: str
+    note: str = ""
+
+
+def percent(fraction: float) -> str:
+    digits = 2 if abs(fraction) < 0.1 else 1
+    return minus(f"{100 * fraction:.{digits}f}\u00a0%")
+
+
+def energy(gamma: float) -> str:
+    return minus(f"{gamma:.2f} meV/Å²")
+
+
+def general(value: Any, digits: int = 4) -> str:
+    """A number of a scene; "?" for what is none."""
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return f"{value:.{digits}g}" if number else "?"
+
+
+def state_in_words(name: str) -> str:
+    if name == "zero-load":
+        return "at zero load"
+    if name == "pull-off":
+        return "at the largest attraction of the pull-off"
+    if name.startswith("after-zero-load:"):
+        return name.removeprefix("after-zero-load:") + " ps after zero load"
+    if name.startswith("step-"):
+        return "at step " + name.removeprefix("step-")
+    return f"“{name}”"
+
+
+def lead(run: Result) -> str:
+    """One sentence about the scene."""
+    sites = run.number("scene.surface.sites")
+    if not sites:
+        return ""
+    surface = {"flat": "a flat substrate", "file": "a measured substrate"}.get(
+        run.text("scene.surface.kind"), "a self-affine rough substrate")
+    rms, slope = run.number("surface.rms"), run.number("surface.rms_slope")
+    if rms:
+        surface += f" (rms height {rms:.3g} Å" + (f", rms slope {slope:.2g}" if slope is not None else "") + ")"
+    if run.radius:
+        surface += f" on a sphere of R = {0.1 * run.radius:.4g} nm"
+    return (f"An elastic block on {surface}: {sites:.0f} × {sites:.0f} atoms, {0.1 * run.edge:.1f} nm wide, "
+            f"{general(run.key('block.thickness'))} layers thick.")
+
+
+def smooth_pull_off(run: Result, gamma: float) -> float:
+    """The force that stands for a work of adhesion (meV/Å²) of a sphere in result.json, eV/Å (JKR: 3πγR/2)."""
+    return 1.5 * math.pi * (run.radius or 0.0) * gamma / 1e3
+
+
+def key_numbers(run: Result) -> list[KeyNumber]:
+    """The numbers that stand at the top of a page."""
+    found: list[KeyNumber] = []
+    flat = run.number("delta_gamma") or 0.0
+
+    def gamma(key: str, name: str, symbol: str = "γ_{eff}/Δγ") -> None:
+        value = run.number(key)
+        if value is not None and flat > 0:
+            error = run.number(key + "_uncertainty") or run.number(key.rpartition(".")[0] + ".uncertainty")
+            note = energy(value) + (f" ± {error:.2g}" if error else "")
+            found.append(KeyNumber(minus(f"{value / flat:.3f}"), symbol, name, note))
+
+    force = run.number("pull_off_force")
+    into, out = run.number("work_of_adhesion.approach"), run.number("work_of_adhesion.pull_off")
+    if run.curved:  # energies over the nominal area mean nothing
+        gamma("jkr.out", "from the pull-off force, by JKR", "γ_{JKR}/Δγ")
+        gamma("jkr.in_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps", "γ_{JKR}/Δγ")
+        if force is not None:
+            jkr, maugis = (smooth_pull_off(run, run.number(k) or 0.0) / NANONEWTON
+                           for k in ("sphere.jkr", "sphere.maugis_images"))
+            found.append(KeyNumber(f"{force / NANONEWTON:.4g}", "nN", "pull-off force",
+                                   f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN"
+                                   if jkr > 0 and maugis > 0 else ""))
+        radius = run.number("contact_radius.zero_load")
+        if radius is not None:
+            found.append(KeyNumber(f"{radius:.1f}", "Å", "contact radius at zero load",
+                                   "√(area of the sites in contact / π)"))
+    else:
+        gamma("binding_energy", "binding energy at zero load")
+        contact, theory = run.number("contact_fraction"), run.number("theory.contact_fraction")
+        if contact is not None:
+            found.append(KeyNumber(percent(contact), "", "of the sites in contact at zero load",
+                                   f"theory: {percent(theory)}" if theory is not None else ""))
+        if force is not None and run.edge:
+            found.append(KeyNumber(f"{force / run.edge**2 / GIGAPASCAL:.3g}", "GPa",
+                                   "pull-off stress, the largest attraction on the way out",
+                                   f"{force / NANONEWTON:.4g} nN in all"))
+    loop = run.number("hysteresis.loop")
+    if loop is not None and into is not None and out is not None:
+        found.append(KeyNumber(minus(f"{loop if run.curved else out - into:.4g}"), "eV" if run.curved else "meV/Å²",
+                               "lost in a cycle (hysteresis)", "where surfaces snap together and apart"))
+    if not run.curved:
+        gamma("work_of_adhesion.approach", "work of adhesion, approach")
+        gamma("work_of_adhesion.pull_off", "work of adhesion, pull-off")
+    gamma("theory.gamma_eff", "Persson’s theory, of the flat surface" if run.curved else "Persson’s theory")
+    gamma("theory.renormalised.gamma_eff", "renormalised theory")
+    theory = run.number("theory.contact_fraction")
+    if theory is not None and run.number("contact_fraction") is None:
+        found.append(KeyNumber(percent(theory), "", "contact area in theory"))
+    residual = run.number("energy.residual")
+    if residual is not None and not run.failure_text:
+        found.append(KeyNumber(f"{abs(residual):.1e}", "", "energy balance", "relative to its largest term"))
+    return found
+
+
+def _state_sentence(run: Result, state: float, flat: float) -> str:
+    bonds, contact, pushed = (run.number(k) for k in ("work_of_adhesion.pairwise", "contact_fraction", "pushed_fraction"))
+    if run.curved:
+        text = f"Without external force the sphere is bound by {state * run.edge**2 / 1e3:.4g} eV."
+    else:
+        text = (f"Without external force the solids are bound by {energy(state)}, {percent(state / flat)} of the "
+                f"{energy(flat)} of two flat surfaces.")
+        if bonds is not None:
+            text += (f" The bonds across the interface give {energy(bonds)}; {energy(bonds - state)} of it is spent on "
+                     "bending the block into contact.")
+    if contact is not None:
+        text += f" {percent(contact)} of the sites are in contact"
+        if pushed is not None:
+            text += f", the force on {percent(pushed)} is repulsive"
+        text += "."
+    return text
+
+
+def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
+    if run.curved:
+        parts = [run.number("hysteresis." + k) for k in ("loop", "approach", "pull_off")]
+        if any(p is None for p in parts):
+            return ""
+        loop, approach, pull_off = (minus(f"{p:.4g}") for p in parts)
+        return (f"A cycle of approach and pull-off loses {loop} eV: {approach} on the way in, where the contact spreads "
+                f"by itself, and {pull_off} on the way out, where it detaches.")
+    lost = out - into
+    text = f"Coming together the interface does a work of {energy(into)}; taking it apart costs {energy(out)}."
+    if abs(lost) < 0.01 * flat:
+        return text + f" The two agree to {energy(abs(lost))}: hardly anything is lost on the way."
+    return text + (f" The difference, {energy(lost)}, is lost: where the surfaces snap together or apart, their energy "
+                   "goes into vibrations (hysteresis).")
+
+
+def findings(run: Result) -> list[str]:
+    """What the run came to, in sentences."""
+    text: list[str] = []
+    flat = run.number("delta_gamma") or 0.0
+    state, into, out = (run.number(k) for k in ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off"))
+    if state is not None and flat > 0:
+        text.append(_state_sentence(run, state, flat))
+    if into is not None and out is not None and flat > 0:
+        text.append(_cycle_sentence(run, into, out, flat))
+    theory = run.number("theory.gamma_eff")
+    if theory is not None and flat > 0:
+        sentence = f"Persson’s theory gives γ_{{eff}} = {energy(theory)} ({percent(theory / flat)} of Δγ)"
+        full, renormalised = run.number("theory.gamma_full_contact"), run.number("theory.renormalised.gamma_eff")
+        if full is not None:
+            sentence += f", and {energy(full)} if contact were full"
+        if renormalised is not None:
+            sentence += f"; the renormalised theory {energy(renormalised)} ({percent(renormalised / flat)})"
+        found = run.number("jkr.out") if run.curved else state
+        if found is not None:
+            sentence += f"; the simulation finds {energy(found)}" + \
+                (" by JKR from the pull-off force" if run.curved else "")
+        text.append(sentence + ".")
+    for note in (run.text("theory.note"), run.text("theory.renormalised.note")):
+        if note:
+            text.append(f"The theory has no number for this scene: {note}.")
+    return [t for t in text if t]
+
+
+def _has(run: Result, part: str) -> bool:
+    path = run.key("drive.path")
+    return isinstance(path, list) and part in path
+
+
+def simulated(run: Result) -> list[str]:
+    """What was simulated, by the scene."""
+    key = run.key
+    model = {"lattice": "a full lattice",
+             "multiscale": f"a lattice that coarsens with depth ({general(key('block.layers_per_level'))} layers a level)"
+             }.get(key("block.model"), "the lattice’s static response, wave by wave")
+    spacing, layers = run.number("scene.surface.spacing") or 0.0, run.number("scene.block.thickness") or 0.0
+    found = [f"the elastic block: {model}, {0.1 * layers * spacing:.1f} nm thick, E = {general(key('block.young'))} GPa, "
+             f"ν = {general(key('block.poisson'), 3)}"]
+    if key("interface.kind", "atoms") == "atoms":
+        found.append(f"every pair of atoms across the interface within {general(key('interface.cutoff'))} Å: Lennard-Jones, "
+                     f"ε = {general(key('interface.epsilon'))} eV, r_{{0}} = {general(key('interface.r0'))} Å"
+                     + (", with the continuum tail beyond" if key("interface.tail") is True else ""))
+    else:
+        found.append(f"a wall in place of the substrate’s atoms, law “{key('interface.law')}”")
+    quasistatic = key("drive.mode") == "quasistatic"
+    if _has(run, "zero-load"):
+        found.append("the relaxed state under zero load, straight from the undeformed block")
+    elif quasistatic:
+        along = "top plane’s path" if key("drive.hold") == "top" else "lowest layer’s mean height"
+        found.append(f"force balance at every {general(key('drive.step'), 3)} Å of the {along}")
+    else:
+        found.append(f"motion in time: the top plane driven at {general(key('drive.velocity'))} m/s, steps of "
+                     f"{general(key('drive.timestep'))} fs")
+    if _dynamic(run):
+        if run.number("scene.drive.damping"):
+            found.append(f"damping, {general(key('drive.damping'), 3)} per ps relative to the top plane")
+        if run.number("scene.drive.temperature"):
+            found.append(f"thermal motion at {general(key('drive.temperature'))} K")
+    if run.radius:
+        found.append(f"curvature: R = {run.radius:.4g} Å")
+    if run.number("scene.surface.lattice_ratio") not in (None, 1.0):
+        found.append(f"lattices that do not fit: spacings in the ratio {general(key('surface.lattice_ratio'))}")
+    if key("block.strain") == "finite":
+        found.append("finite strain")
+    if run.number("scene.drive.load"):
+        found.append(f"an external load of {general(key('drive.load'))} MPa")
+    return found
+
+
+def _dynamic(run: Result) -> bool:
+    return run.key("drive.mode") == "dynamic" and not _has(run, "zero-load")
+
+
+def not_simulated(run: Result) -> list[str]:
+    """What was left out, by the scene."""
+    key = run.key
+    found = [] if _dynamic(run) else ["time: no inertia, no vibrations, no rate"]
+    if not _dynamic(run) or not run.number("scene.drive.temperature"):
+        found.append("thermal motion: T = 0")
+    if key("surface.kind") != "flat":
+        found.append("deformation of the substrate, which is rigid")
+    found.append("plastic flow: the block is elastic throughout")
+    if key("block.strain") == "linear":
+        found.append("large strain: the block’s elasticity is linear")
+    if key("interface.tail") is False:
+        found.append(f"attraction beyond the cutoff of {general(key('interface.cutoff'))} Å")
+    if not run.radius:
+        found.append("curvature of the bodies")
+    return [*found, "edges: the box is periodic sideways"]
+
+
+def provenance(result: Values) -> list[list[str]]:
+    """Rows of names and words, of a run or a sweep."""
+    rows = []
+    for name, key in (("measured surface", "surface.origin"), ("version", "run.version"), ("git", "run.git"),
+                      ("compiler", "run.compiler"), ("flags", "run.flags"), ("machine", "run.machine"),
+                      ("device", "run.device"), ("kernels", "run.kernels"), ("ranks", "run.ranks"),
+                      ("threads a rank", "run.threads"), ("steps", "run.steps"),
+                      ("iterations of the relaxation", "run.iterations"), ("wall time", "run.wall_seconds"),
+                      ("stopped", "run.stopped")):
+        text, number = result.text(key), result.number(key)
+        if number is not None:
+            text = duration(number) if key == "run.wall_seconds" else f"{number:.10g}"
+        if text:
+            rows.append([name, "Asperity " * (key == "run.version") + text])
+    return rows
+
+
+def citations(result: Values) -> list[str]:
+    return [f"Asperity {result.text('run.version') or '?'} (commit {result.text('run.git') or '?'}): adhesion between "
+            "randomly rough elastic solids, from the atoms up.",
+            "N. Mulakaluri and B. N. J. Persson, Adhesion between elastic solids with randomly rough surfaces: "
+            "comparison of analytical theory with molecular dynamics simulations, arXiv:1112.5275 (2011).",
+            "B. N. J. Persson, Eur. Phys. J. E 8, 385 (2002): the theory of adhesion."]

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What a path says of its hysteresis, and the curves of a smooth sphere beside it.
+#include "engine/run/curve.hpp"
+
+#include "engine/setup/setup.hpp"
+#include "engine/units.hpp"
+#include "io/hdf5_file.hpp"
+#include "theory/half_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace asperity {
+namespace {
+
+TEST(Paths, TellWhatTheyLose) {
+    const Scene scene = read_scene_text(
+        "[surface]\nsites = 10\nspacing = 10\nradius = 1000\n[interface]\ncutoff = 10\n", "s.toml");
+    PathSeries path;
+    for (int i = 0; i < 40; ++i) {
+        const bool out = i >= 15;
+        path.leg.push_back(out ? 1.0 : 0.0);
+        path.time.push_back(0.25 * i); // eight rows in 2 ps
+        path.height.push_back(0.1 * i);
+        path.force.push_back(i == 20 ? -90.0 : i >= 25 && i < 33 ? -50.0 : 0.0);
+        path.contact_fraction.push_back(i == 20 ? 0.04 : 0.01);
+    }
+    io::ResultRecord record;
+    record.work_of_adhesion = {5.0, 8.0, {}};
+    record.binding_energy = 6.0;
+    add_path(path, scene, record);
+    const io::JsonValue json = io::result_json(record);
+    EXPECT_NEAR(json.find("hysteresis.loop")->number(), 3.0 * 100 * 100 / 1000, 1e-12);
+    EXPECT_NEAR(json.find("hysteresis.approach")->number(), 10.0, 1e-12);
+    EXPECT_NEAR(json.find("hysteresis.pull_off")->number(), 20.0, 1e-12);
+    EXPECT_NEAR(json.find("contact_radius.pull_off")->number(), std::sqrt(0.04 * 1e4 / M_PI), 1e-9);
+    // The single spike of 90 counts for an eighth of it in the mean.
+    EXPECT_NEAR(json.find("jkr.out_averaged")->number(), 1e3 * 50.0 / (1.5 * M_PI * 1000), 1e-9);
+}
+
+TEST(SphereCurves, AreThoseOfJkr) {
+    const Scene scene = read_scene_text(
+        "[surface]\nsites = 64\nrms = 0\nradius = 300\n[block]\nthickness = 16\n", "s.toml");
+    const FlatReference flat = make_setup(scene, 1).flat;
+    const std::string file = (std::filesystem::temp_directory_path() /
+                              ("asperity-curves-" + std::to_string(::getpid()) + ".h5"))
+                                 .string();
+    io::Hdf5File(file, io::Hdf5File::Mode::create).close();
+    PathSeries path;
+    path.leg = {0.0, 0.0, 1.0};
+    path.height = {9.0, 3.0, 9.0};
+    path.force = {0.0, 40.0, 0.0};
+    path.contact_fraction = {0.0, 0.1, 0.0};
+    write_sphere_curves(file, path, scene, flat);
+    const io::Hdf5File run(file, io::Hdf5File::Mode::read);
+    // The deepest attraction of JKR: 3/2 pi gamma R.
+    const double gamma = flat.work_of_adhesion / units::milli_per_unit;
+    const auto force = run.read<double>("/curves/jkr/force");
+    EXPECT_NEAR(*std::min_element(force.begin(), force.end()) / (-1.5 * M_PI * gamma * 300.0), 1.0,
+                1e-4);
+    EXPECT_EQ(run.read_text_attribute("/curves/jkr", "label"), "smooth sphere, JKR");
+    EXPECT_EQ(run.read_text_attribute("/curves/jkr/force", "unit"), "eV/Å");
+    for (const char* name : {"jkr", "jkr_images", "maugis_images"}) {
+        const std::string group = std::string("/curves/") + name;
+        EXPECT_EQ(run.read<double>(group + "/height").size(),
+                  run.read<double>(group + "/force").size());
+    }
+    std::filesystem::remove(file);
+}
+
+} // namespace
+} // namespace asperity

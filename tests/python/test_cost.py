@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""What accuracy costs: errors, fronts and orders on made-up runs, the knobs of a scene, and a run of it all."""
+
+import csv
+import math
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+
+import asperity
+from asperity import cost, program
+from asperity.cost_knobs import CostCase, Knob, KnobValue, cost_case, joined
+from asperity.result import Values
+from conftest import command
+from asperity.scene import scene_file
+
+NAN = math.nan
+
+
+def test_energies_are_compared_over_their_own_flat():
+    a = cost.numbers_of(Values({"delta_gamma": 50.0, "binding_energy": 30.0, "contact_fraction": 0.5}))
+    b = cost.numbers_of(Values({"delta_gamma": 100.0, "binding_energy": 60.0, "contact_fraction": 0.49}))
+    errors = cost.errors_of(b, a)
+    assert errors[0] == 0 and errors[1] == pytest.approx(-0.02) and math.isnan(errors[2])
+    assert cost.largest_error(b, a, "state") == pytest.approx(0.02)
+
+
+def test_what_was_not_followed_answers_nothing():
+    reference = [0.5, 0.9, 0.5, 0.5, 100.0]
+    state_only = [0.51, 0.9, NAN, NAN, NAN]
+    assert cost.largest_error(state_only, reference, "state") == pytest.approx(0.02)
+    assert math.isnan(cost.largest_error(state_only, reference, "path"))
+    assert math.isnan(cost.largest_error(state_only, state_only, "path"))
+    # What the reference itself lacks is not asked for.
+    assert cost.largest_error([0.5, 0.9, 0.45, NAN, NAN], [0.5, 0.9, 0.5, NAN, NAN], "path") == pytest.approx(0.1)
+
+
+def test_the_front_holds_what_nothing_beats_in_both():
+    seconds, errors = [1, 2, 3, 4, 2, 5, 1], [0.5, 0.2, 0.2, 0.1, 0.3, NAN, 0.5]
+    assert cost.pareto_front(seconds, errors) == [True, True, False, True, False, False, True]
+    assert [cost.cheapest_within(seconds, errors, t) for t in (0.25, 0.6, 0.01)] == [1, 0, None]
+
+
+@pytest.mark.parametrize("p", [2.0, 1.0, -4.0, -2.0, 0.5])
+def test_the_order_is_that_of_the_power_law(p):
+    x = [6, 5, 4, 3, 2, 1]
+    assert cost.order_of(x, [-3e-3 * v**p for v in x], None) == pytest.approx(p, abs=0.011)
+    # The run that it is compared with still has the error of x = 1/2.
+    assert cost.order_of(x, [3e-3 * (v**p - 0.5**p) for v in x], 0.5) == pytest.approx(p, abs=0.011)
+
+
+def test_no_order_is_made_up():
+    assert cost.order_of([3, 2, 1], [1e-9, 1e-8, 1e-9], None) is None
+    assert cost.order_of([3, 2, 1], [1e-2, NAN, 0.0], None) is None
+    assert cost.order_of([], [], None) is None
+
+
+def knobs(**sections):
+    with scene_file(sections) as file:
+        found = program.check(file)
+    return [k.name for k in cost_case(found["scene"], found["longest_timestep"]).knobs]
+
+
+def test_knobs_are_those_that_the_scene_has():
+    small = {"sites": 16}
+    assert knobs(surface=small) == ["cutoff", "tail", "layers", "thickness", "precision", "timestep", "velocity", "damping",
+                                    "tolerance", "step", "model"]
+    assert knobs(surface=small, drive={"path": ["zero-load"]}, block={"model": "spectral"}) == [
+        "cutoff", "tail", "thickness", "precision", "tolerance", "model"]
+    assert "damping" not in knobs(surface=small, drive={"damping": 0})
+    for bad in ({"drive": {"temperature": 300}}, {"drive": {"max_steps": 10}}, {"numerics": {"accuracy": 0.01}}):
+        with pytest.raises(asperity.SceneError):
+            knobs(surface={"sites": 32}, **bad)
+    assert joined(["a.b=1", "c.d=2"], ["a.b=3"]) == ["c.d=2", "a.b=3"]
+
+
+def test_tables_judge_what_was_run():
+    """Runs of a knob with errors of the square, under a reference."""
+    knob = Knob("timestep", [], KnobValue("1", ["drive.timestep=1"], 1.0), "2", "timestep", 2.0)
+    made = cost.Cost("made up", {}, CostCase([], "", [knob], [], []))
+
+    def add(name, x, error, seconds):
+        setting = [f"drive.timestep={x}"]
+        made.rows.append(cost.CostRow(name, str(x), setting, setting, x, name != "reference",
+                                      numbers=[1 + error, 1.0, NAN, NAN, NAN], seconds=seconds))
+    add("reference", 0, 0.0, 9.0)
+    add("scene", 2, 4e-3, 4.0)
+    for x in (4, 3, 2, 1):
+        add("timestep", x, 1.1e-3 * x * x, 8.0 / x)
+    made.judge()
+    assert made.rows[2].error["state"] == pytest.approx(0.0176) and made.rows[5].front["state"]
+    assert made.cheapest["state"] == [2, 3, None]  # 5 %, 1 %, nothing keeps 0.1 %
+    assert made.orders[0][1][0] == pytest.approx(2.0, abs=0.02)
+    found = cost.json_of(made)
+    assert len(found["settings"]) == 6 and found["cheapest"]["state"][1]["set"] == "--set drive.timestep=3"
+    assert len(cost.csv_of(made).splitlines()) == 7
+
+
+def rows(directory):
+    """The scene's knobs without the times and what follows from them."""
+    with open(directory / "cost.csv") as file:
+        return [{k: v for k, v in row.items() if "seconds" not in k and "front" not in k and k != "ratio"}
+                for row in csv.DictReader(file) if row["knob"] != "combination"]
+
+
+def test_cost_runs_stops_and_goes_on(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "tiny.toml").write_text("[surface]\nsites = 16\nrms = 0.3\n[block]\nthickness = 8\n[drive]\nvelocity = 60\n"
+                                        "timestep = 20\n")
+    assert "did you mean layers?" in command("cost", "tiny.toml", "--knobs", "layer", "--out", "bad", expect=2)
+    assert "those of their noise" in command("cost", "tiny.toml", "--set", "drive.temperature=300", "--out", "bad", expect=2)
+    command("cost", "tiny.toml", "--jobs", "0", "--out", "bad", expect=2)
+    command("cost", "tiny.toml", "--out", "bad", expect=2, env={"OMPI_COMM_WORLD_SIZE": "1"})
+    assert [p.name for p in tmp_path.iterdir()] == ["tiny.toml"]
+    words = ["cost", "tiny.toml", "--knobs", "timestep,precision", "--progress", "off", "--out"]
+    said = command(*words, "whole", "--jobs", "2")
+    assert "Cheapest for the whole path" in said and "velocity Verlet" in said
+    for name in ("cost.csv", "cost.json", "cost-state.svg", "cost-path.svg", "cost-path.png"):
+        assert (tmp_path / "whole" / name).stat().st_size > 0
+    # Killed after a while, it goes on with what is there, and nothing is run twice.
+    child = subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words, "cut"], stdout=subprocess.DEVNULL,
+                             stderr=subprocess.DEVNULL)
+    result = tmp_path / "cut/scene/result.json"
+    end = time.monotonic() + 60
+    while not result.exists() and time.monotonic() < end:
+        time.sleep(0.02)
+    child.send_signal(signal.SIGKILL)
+    child.wait()
+    before = result.stat().st_mtime_ns
+    assert "are there already" in command(*words, "cut")
+    assert result.stat().st_mtime_ns == before and rows(tmp_path / "whole") == rows(tmp_path / "cut")

@@ -1,0 +1,144 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Atoms and maps for other programs: read back by plain text, h5py and XML, and the same through a stop."""
+
+import shutil
+import xml.etree.ElementTree as tree
+
+import h5py
+import matplotlib.image
+import numpy as np
+import pytest
+
+import asperity
+from conftest import SMALL, command
+
+
+def frames_of_xyz(path):
+    """Header and columns of every frame."""
+    lines = path.read_text().splitlines()
+    found = []
+    while lines:
+        n = int(lines[0])
+        found.append((lines[1], np.array([line.split()[1:] for line in lines[2:2 + n]], float)))
+        lines = lines[2 + n:]
+    return found
+
+
+def frames_of_dump(path):
+    found = []
+    for block in path.read_text().split("ITEM: TIMESTEP\n")[1:]:
+        lines = block.splitlines()
+        names = next(line for line in lines if line.startswith("ITEM: ATOMS")).split()[2:]
+        start = next(i for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
+        rows = [line.split() for line in lines[start:]]
+        found.append((int(lines[0]), {n: [r[k] for r in rows] for k, n in enumerate(names)}))
+    return found
+
+
+def test_states_and_trajectory_as_atoms(path_run):
+    place = path_run.directory
+    said = command("export", place, "--to", "xyz")
+    assert f"{place}/export/zero-load.xyz" in said and f"{place}/export/trajectory.xyz" in said
+    (head, rows), = frames_of_xyz(place / "export/zero-load.xyz")
+    state = path_run.fields["zero-load"]
+    assert len(rows) == 2 * 32 * 32  # two layers
+    assert "Properties=species:S:1:pos:R:3:type:I:1:displacement:R:3:pressure:R:1:contact:I:1" in head
+    names = ["x", "y", "z", "type", "dx", "dy", "dz", "pressure", "contact", "gap", "distance"]
+    column = dict(zip(names, rows.T))
+    block = column["type"] == 2
+    for name in ("pressure", "contact", "gap", "distance"):
+        assert column[name][block] == pytest.approx(state[name].ravel(), rel=1e-5, abs=1e-6), name
+        assert (column[name][~block] == 0).all()
+    assert column["z"][~block] == pytest.approx(path_run.substrate.height.ravel(), abs=1e-6)
+    # The distances are those of the positions, over the periodic box.
+    at = np.flatnonzero(block)[5]
+    d = rows[at, :3] - rows[~block, :3]
+    d[:, :2] -= path_run.edge * np.round(d[:, :2] / path_run.edge)
+    assert np.sqrt((d**2).sum(1)).min() == pytest.approx(state.distance.ravel()[5], abs=1e-5)
+
+    command("export", place, "--to", "lammps")
+    (step, dump), = frames_of_dump(place / "export/zero-load.dump")
+    assert np.array(dump["z"], float) == pytest.approx(column["z"]) and set(dump["element"]) == {"X", "Au"}
+    with h5py.File(place / "run.h5") as file:
+        value = file["particles/trajectory/position/value"][:]
+        velocity = file["particles/trajectory/velocity/value"][:]
+        steps = list(file["particles/trajectory/position/step"])
+    dumps, texts = frames_of_dump(place / "export/trajectory.dump"), frames_of_xyz(place / "export/trajectory.xyz")
+    assert [s for s, _ in dumps] == steps and len(texts) == len(value) > 3
+    for k in (0, len(value) - 1):
+        assert texts[k][1][1024:, :3] == pytest.approx(value[k], abs=1e-4)
+        assert np.array([dumps[k][1][v][1024:] for v in ("vx", "vy", "vz")], float).T == pytest.approx(velocity[k], abs=1e-5)
+    assert "time=" in texts[0][0]
+
+
+def test_xdmf_points_to_what_is_there(path_run):
+    place = path_run.directory
+    assert "export/trajectory.h5" in command("export", place, "--to", "xdmf")
+    with h5py.File(place / "run.h5") as run:
+        value = run["particles/trajectory/position/value"][:]
+    frames = maps = 0
+    for item in tree.parse(place / "run.xdmf").iter("DataItem"):
+        if item.get("Format") != "HDF":
+            continue
+        file, dataset = item.text.split(":")
+        with h5py.File(place / file) as opened:
+            data = opened[dataset]
+            said = [int(n) for n in item.get("Dimensions").split()]
+            assert [n for n in said if n > 1] == list(data.shape), dataset
+            assert data.dtype.itemsize == int(item.get("Precision")), dataset
+            if dataset.startswith("/position-"):
+                assert (data[:] == value[frames]).all()
+                frames += 1
+            else:
+                maps += 1
+    assert frames == len(value) and maps == 8
+
+
+def test_pictures(path_run):
+    command("export", path_run.directory, "--to", "png")
+    for name in ("gap", "pressure", "contact"):
+        assert matplotlib.image.imread(path_run.directory / f"export/{name}-zero-load.png")[..., :3].std() > 0.02
+
+
+def test_a_trajectory_changes_no_numbers_and_survives_a_stop(path_run, tmp_path):
+    plain = asperity.run(SMALL, out=tmp_path / "plain")
+    assert plain.binding_energy == path_run.binding_energy
+    assert plain.find("work_of_adhesion") == path_run.find("work_of_adhesion")
+    scene = tmp_path / "small.toml"
+    scene.write_text("[surface]\nsites = 32\nrms = 0.5\n[drive]\nvelocity = 100\ntimestep = 20\n")
+    words = ["run", scene, "--progress", "off", "--set", "output.trajectory=300", "output.velocities=true", "--out",
+             tmp_path / "parts"]
+    command(*words, "--set", "drive.max_steps=345")
+    command(*words, "--resume", "auto")
+    for place in (path_run.directory, tmp_path / "parts"):
+        command("export", place, "--to", "xyz")
+    name = "export/trajectory.xyz"
+    assert (tmp_path / "parts" / name).read_bytes() == (path_run.directory / name).read_bytes()
+
+
+def test_what_cannot_be_exported_is_a_message(path_run, tmp_path):
+    assert "formats: xyz, lammps, xdmf, png" in command("export", path_run.directory, "--to", "pdb", expect=2)
+    command("export", path_run.directory, expect=2)
+    command("export", tmp_path / "gone", "--to", "xyz", expect=4)
+    scene = tmp_path / "s.toml"
+    scene.write_text("[surface]\nsites = 32\nrms = 0.5\n")
+    command("theory", scene, "--out", tmp_path / "theory")
+    assert "run.h5 is not in it" in command("export", tmp_path / "theory", "--to", "xyz", expect=4)
+    asperity.run(SMALL, {"drive.max_steps": 5}, out=tmp_path / "short")
+    said = command("export", tmp_path / "short", "--to", "lammps", expect=4)
+    assert "neither maps of a state nor a trajectory" in said
+    command("export", tmp_path / "short", "--to", "xdmf")  # the substrate is there
+
+
+@pytest.mark.parametrize("name, shape", [("substrate/height", (3000, 1)), ("substrate/height", ()),
+                                         ("fields/zero-load/u_x", (7,)), ("fields/zero-load/gap", (5, 5))])
+@pytest.mark.parametrize("kind", ["xyz", "xdmf"])
+def test_damaged_files_are_a_message(path_run, tmp_path, name, shape, kind):
+    copy = tmp_path / "copy"
+    shutil.copytree(path_run.directory, copy, ignore=shutil.ignore_patterns("report*", "export"))
+    with h5py.File(copy / "run.h5", "r+") as file:
+        del file[name]
+        file[name] = np.zeros(shape)
+    said = command("export", copy, "--to", kind, expect=4)
+    assert "Traceback" not in said

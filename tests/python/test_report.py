@@ -1,0 +1,238 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The page of a run and of a sweep: what it says, that it stands alone, and what becomes of damaged results."""
+
+import base64
+import json
+import re
+import shutil
+from html.parser import HTMLParser
+
+import h5py
+import matplotlib.image
+import numpy as np
+import pytest
+
+import asperity
+from asperity.report import write_run_page
+from conftest import ROOT, SMALL, STATE, command
+
+
+class PageText(HTMLParser):
+    """Text, links, sources, and the data of the read-outs of a page."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.text, self.links, self.data, self.tags, self.stack = "", [], [], [], []
+        self.feed(path.read_text())
+        self.text = re.sub(r"\s+", " ", self.text.replace("\u2060", "").replace("\u00a0", " "))
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        self.stack.append((tag, dict(attributes)))
+        self.links += [v for k, v in attributes if k in ("href", "src", "xlink:href")]
+
+    def handle_endtag(self, tag):
+        while self.stack and self.stack.pop()[0] != tag:
+            pass
+
+    def handle_data(self, data):
+        tag, attributes = self.stack[-1] if self.stack else ("", {})
+        if attributes.get("type") == "application/json":
+            self.data.append(json.loads(data))
+        elif tag not in ("script", "style"):
+            self.text += data
+
+
+def page(directory, whole=False):
+    """The report of a directory; whole: by the command, with all kinds of files."""
+    if whole:
+        assert "report.html: one page" in command("report", directory)
+    else:
+        write_run_page(asperity.load(directory), kinds=())
+    return PageText(directory / "report.html")
+
+
+def test_the_page_of_a_path(path_run):
+    before = (path_run.directory / "result.json").read_bytes()
+    found = page(path_run.directory, whole=True)
+    for text in ("small: rms 0.5 Å, 32 × 32", "binding energy at zero load", "Persson’s theory", "energy balance",
+                 "Not simulated", "Force and separation", "Energies", "Contact over the path", "The state at zero load",
+                 "Distribution of gaps", "Distribution of pressure", "hysteresis", "pull-off stress",
+                 "Height of the substrate", "Roughness spectrum", "Binding energy and roughness", "All numbers",
+                 "Time spent", "timestep = 20.0", "Provenance", "compiler", "machine", "arXiv:1112.5275"):
+        assert text in found.text, text
+    # Numbers are those of the result, to the digits that are shown.
+    assert f"{path_run.binding_energy / path_run.delta_gamma:.3f}" in found.text
+    assert f"{path_run.work_of_adhesion.pull_off:.2f} meV/Å²" in found.text
+    # Nothing is fetched from anywhere.
+    assert [v for v in found.links if not v.startswith(("#", "data:"))] == []
+    assert found.tags.count("figure") == found.tags.count("svg") == len(found.data) == 13
+    stems = {p.stem for p in (path_run.directory / "report").glob("*.csv")}
+    assert len(stems) == 13
+    for stem in stems:
+        for kind in ("png", "pdf", "svg"):
+            assert (path_run.directory / "report" / f"{stem}.{kind}").stat().st_size > 500
+        picture = matplotlib.image.imread(path_run.directory / "report" / f"{stem}.png")
+        assert picture[..., :3].std() > 0.02, f"{stem} is blank"
+    assert (path_run.directory / "result.json").read_bytes() == before
+    # The scene in the page is the scene.
+    text = re.search(r"<pre>(.*?)</pre>", (path_run.directory / "report.html").read_text(), re.S)[1]
+    scene = path_run.directory / "again.toml"
+    scene.write_text(text.replace("&#34;", '"').replace("&quot;", '"'))
+    assert asperity.program.check(str(scene))["scene"] == path_run.find("scene")
+    assert path_run.report() == path_run.directory / "report.html"
+
+
+def test_values_can_be_read_by_pointing(path_run):
+    found = page(path_run.directory)
+    curves = [d for d in found.data if "curves" in d]
+    maps = [d for d in found.data if "map" in d]
+    assert len(curves) == 9 and len(maps) == 4
+    force = dict(map(tuple, curves[0]["curves"]))  # force over separation comes first
+    leg = path_run.series["leg"] == 1
+    assert force["pull-off"][0] == pytest.approx([path_run.series["mean_height"][leg][0],
+                                                  path_run.series["force"][leg][0] / path_run.edge**2 * 160.21766], rel=1e-4)
+    one = next(d["map"] for d in maps if "gap" in d["map"]["unit"])
+    raw = np.frombuffer(base64.b64decode(one["values"]), "<u2").reshape(one["n"], one["n"])
+    gap = path_run.fields["zero-load"].gap
+    assert one["low"] + raw / 65534 * (one["high"] - one["low"]) == pytest.approx(gap, abs=2e-5 * np.ptp(gap))
+    left, top, right, bottom = curves[0]["frame"]
+    assert 0 < left < right <= 1 and 0 < top < bottom <= 1
+
+
+def test_a_sphere_has_its_own_numbers_and_curves(sphere_run):
+    found = page(sphere_run.directory)
+    for text in ("R = 100 Å", "Maugis-Dugdale with images", "by JKR", "pull-off force"):
+        assert text in found.text, text
+    labels = [label for d in found.data for label, _ in d.get("curves", [])]
+    for name in ("JKR", "JKR with images", "Maugis-Dugdale with images"):
+        assert f"theory: smooth sphere, {name}" in labels
+    # The curve goes as deep as JKR's pull-off force, 3πγR/2.
+    _, _, force = sphere_run.curves[0]
+    assert force.min() == pytest.approx(-1.5 * np.pi * sphere_run.sphere.jkr * 1e-3 * 100, rel=1e-3)
+
+
+def test_runs_that_failed_or_stopped_say_so_at_the_top(tmp_path):
+    with pytest.raises(asperity.PhysicsError):
+        asperity.run(SMALL, {"drive.timestep": 70, "drive.velocity": 3000}, out=tmp_path / "failed")
+    found = page(tmp_path / "failed")
+    assert "This run failed" in found.text and "why:" in found.text
+    assert found.text.index("This run failed") < found.text.index("Simulated")
+    asperity.run(SMALL, {"drive.max_steps": 50}, out=tmp_path / "stopped")
+    found = page(tmp_path / "stopped")
+    assert "stopped early" in found.text and "max_steps" in found.text and "Not simulated" in found.text
+
+
+def test_what_is_missing_or_damaged_is_left_out_and_told(path_run, tmp_path):
+    bare, damaged, shaped = (tmp_path / n for n in ("a <b> & c", "damaged", "shaped"))
+    for copy in (bare, damaged, shaped):
+        shutil.copytree(path_run.directory, copy, ignore=shutil.ignore_patterns("report*", "export"))
+    (bare / "run.h5").unlink()
+    (bare / "result.json").write_text('{"delta_gamma": 1}')
+    found = page(bare)
+    assert "a <b> & c" in found.text and "<b>" not in (bare / "report.html").read_text()
+    (damaged / "run.h5").write_text("nonsense")
+    found = page(damaged)
+    assert "it is not an HDF5 file" in found.text and "binding energy at zero load" in found.text
+    with h5py.File(shaped / "run.h5", "r+") as file:
+        del file["substrate/height"], file["fields/zero-load/gap"]
+        file["substrate/height"] = np.zeros((3000, 1))
+        file["fields/zero-load/gap"] = np.zeros(3)
+    found = page(shaped)
+    assert "Height of the substrate: no figure" in found.text and "Gap: no figure" in found.text
+    assert "Force and separation" in found.text
+
+
+HOSTILE = [{"scene": 3, "run": {"stopped": 3, "phases": [1]}, "theory": [], "binding_energy": "x"},
+           {"name": {}, "scene": {"surface": {"sites": "x", "spacing": []}, "drive": {"path": 3}}, "failure": [1]},
+           {"scene": {"surface": [], "drive": 1, "x": {"y": {"z": [None, {}]}}}, "units": [], "states": {"all": [1, {}]}},
+           {"delta_gamma": 1e300, "binding_energy": -1e300, "surface": {"rms": 1e-300, "origin": 4}, "run": {"steps": 1}},
+           {"scene": {"surface": {"sites": 1e300, "spacing": 1e300, "radius": -1.0}}, "pull_off_force": 1.0}]
+
+
+@pytest.mark.parametrize("result", HOSTILE, ids=range(len(HOSTILE)))
+def test_hostile_results_give_a_page_or_a_message(tmp_path, result):
+    (tmp_path / "result.json").write_text(json.dumps(result))
+    assert "How to cite" in page(tmp_path).text
+
+
+def test_theory_and_states(state_run, tmp_path):
+    found = page(state_run.directory)
+    assert "Gap" in found.text and "no inertia" in found.text
+    scene = tmp_path / "s.toml"
+    scene.write_text("[surface]\nsites = 32\nrms = 0.5\n")
+    command("theory", scene, "--out", tmp_path / "theory")
+    found = page(tmp_path / "theory")
+    assert "nothing was simulated" in found.text and "Persson’s theory" in found.text
+
+
+def test_a_measured_surface_says_whose_it_is(tmp_path):
+    measured = ROOT / "scenes/measured"
+    for name in ("uncd.toml", "uncd_afm_100nm_512.h5"):
+        shutil.copy(measured / name, tmp_path)
+    run = asperity.run(tmp_path / "uncd.toml", {"surface.sites": 24, "surface.file_size": 62.4, "surface.rms": 0.5},
+                       out=tmp_path / "run")
+    (tmp_path / "uncd_afm_100nm_512.h5").unlink()  # it need not be there any more
+    found = page(run.directory)
+    assert "L. Pastewka, CC BY 4.0" in found.text and "a measured substrate" in found.text
+    assert "with the map beside it" in found.text
+    labels = [label for d in found.data for label, _ in d.get("curves", [])]
+    assert "theory" in labels  # over the stored surface
+
+
+def test_the_page_of_a_sweep(tmp_path):
+    out = tmp_path / "points"
+    asperity.sweep(STATE, {"surface.rms": [0.2, 0.6], "surface.seed": [1, 2]}, out=out, jobs=2)
+    found = page(out, whole=True)
+    for text in ("4 points over surface.rms (0.2 to 0.6), surface.seed (1 to 2).", "All points", "±",
+                 "The scene that the points vary", "Binding energy", "Contact area"):
+        assert text in found.text, text
+    assert [v for v in found.links if not v.startswith(("#", "data:"))] == \
+        ["rms%3D0.2%2Cseed%3D1/report.html", "rms%3D0.6%2Cseed%3D1/report.html"] * 2
+    assert "theory" in (out / "report/gamma.csv").read_text().splitlines()[0]
+    assert (out / "rms=0.6,seed=1/report.html").exists() and not (out / "rms=0.6,seed=2/report.html").exists()
+    before = (out / "rms=0.6,seed=1/report.html").stat().st_mtime_ns
+    stored = json.loads((out / "sweep.json").read_text())
+    stored["points"][0].update(status="failed", failure={"exit_code": 3, "reason": "the balance is off"})
+    stored["points"][3].update(status="waiting", result={})
+    (out / "sweep.json").write_text(json.dumps(stored))
+    found = page(out, whole=True)
+    assert (out / "rms=0.6,seed=1/report.html").stat().st_mtime_ns == before  # not made again
+    assert "rms=0.2,seed=1 failed" in found.text and "the balance is off" in found.text
+    assert "This sweep is not finished" in found.text
+
+
+def test_the_page_of_a_sweep_of_the_theory(tmp_path):
+    scene = tmp_path / "small.toml"
+    scene.write_text("[surface]\nsites = 32\n")
+    command("sweep", scene, "--theory-only", "--set", "surface.rms=0.2:1:0.2", "drive.load=0,100", "--out",
+            tmp_path / "sweep")
+    found = page(tmp_path / "sweep", whole=True)
+    for text in ("10 points over surface.rms (0.2 to 1), drive.load (0 to 100)", "All points", "full theory"):
+        assert text in found.text, text
+    labels = [label for d in found.data for label, _ in d["curves"]]
+    assert "theory, load = 100 MPa" in labels
+
+
+def test_what_is_no_result_is_a_message(tmp_path):
+    assert "holds no result" in command("report", tmp_path, expect=4)
+    assert "there is no such directory" in command("report", tmp_path / "gone", expect=4)
+    (tmp_path / "file").write_text("")
+    assert "it is a file" in command("report", tmp_path / "file", expect=4)
+    command("report", expect=2)
+    (tmp_path / "sweep.json").write_text('{"points": 3}')
+    assert "is no sweep" in command("report", tmp_path, expect=4)
+    (tmp_path / "sweep.json").unlink()
+    (tmp_path / "result.json").write_text('{"scene": [1, ')
+    assert "it is not JSON" in command("report", tmp_path, expect=4)
+
+
+def test_under_mpirun_one_rank_speaks(tmp_path):
+    mpirun = shutil.which("mpirun")
+    import os
+    import subprocess
+    env = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    done = subprocess.run([mpirun, "--oversubscribe", "-n", "2", os.environ["ASPERITY_PROGRAM"], "report", str(tmp_path)],
+                          capture_output=True, text=True, env=env)
+    assert done.returncode == 4 and done.stderr.count("holds no result") == 1

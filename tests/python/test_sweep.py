@@ -1,0 +1,322 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Sweeps: their grid, the pool of processes, tables, and how they stop, resume and fail."""
+
+import csv
+import json
+import math
+import os
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+import asperity
+from asperity import grid, pool, tables
+from asperity.plots import sweep as plots
+from asperity.plots.style import drawn
+from asperity.sweeps import load_sweep, load_sweeps
+from conftest import STATE, command
+from matplotlib.figure import Figure
+
+SCENE = """
+[surface]
+sites = 24
+[block]
+model = "spectral"
+[drive]
+path = ["zero-load"]
+[sweep]
+surface.rms = [0.2, 0.4]
+surface.seed = [1, 2]
+"""
+PATH = """
+[surface]
+sites = 32
+rms = 0.5
+[block]
+thickness = 16
+[drive]
+timestep = 20
+max_steps = 6000
+[output]
+checkpoint = 0.2
+"""
+
+
+@pytest.fixture()
+def place(tmp_path, monkeypatch):
+    work = tmp_path / "a sweep"
+    work.mkdir()
+    monkeypatch.chdir(work)
+    (work / "state.toml").write_text(SCENE)
+    (work / "path.toml").write_text(PATH)
+    return work
+
+
+def numbers(directory):
+    """The table without what depends on time."""
+    with open(Path(directory) / "sweep.csv") as file:
+        rows = list(csv.DictReader(file))
+    return [{k: v for k, v in row.items() if "seconds" not in k} for row in rows]
+
+
+# The grid
+
+def axes(*sets, of_scene=()):
+    return grid.axes_of(list(sets), list(of_scene))
+
+
+def test_axes_come_from_the_command_line_and_the_scene():
+    of_scene = [{"key": "surface.rms", "values": "1,0.2 nm,3.5", "where": "s.toml:5:1"},
+                {"key": "surface.seed", "values": "1:3:1", "where": "s.toml:6:1"}]
+    found, fixed = axes(of_scene=of_scene)
+    assert [(a.key, a.values) for a in found] == [("surface.rms", ["1", "0.2 nm", "3.5"]),
+                                                  ("surface.seed", ["1", "2", "3"])]
+    assert [a.is_seed for a in found] == [False, True] and not fixed
+    found, fixed = axes("surface.seed=4", "drive.load=1,2", of_scene=of_scene)
+    assert [a.key for a in found] == ["drive.load", "surface.rms"] and fixed == ["surface.seed=4"]
+    assert axes('drive.path=["approach","pull-off"]')[1] == ['drive.path=["approach","pull-off"]']
+    assert axes("surface.rms=0.1:0.3:0.1")[0][0].values == ["0.1", "0.2", "0.3"]  # not 0.30000000000000004
+    assert grid.points_of(axes("surface.rms=1,2", "drive.load=0,5")[0])[1] == ["surface.rms=1", "drive.load=5"]
+
+
+@pytest.mark.parametrize("given, says", [
+    ("surface.rms=1:2:-1", "is a range without values"), ("surface.rms=1:2", "is no range"),
+    ("surface.rms=0:1:1e-9", "asks for 1e+09 values"), ("surface.rms=1,,2", "has an empty value"),
+    ("surface.rms=1:100:1 surface.seed=1:200:1", "more than 10000 points"),
+    ("surface.rms=1,2 surface.rms=3", "is given twice")])
+def test_axes_that_make_no_sense_are_refused(given, says):
+    with pytest.raises(asperity.SceneError, match=says.replace("+", r"\+")):
+        axes(*given.split())
+
+
+# The tables
+
+def nine_points():
+    """Three roughnesses with three seeds, the last of which lacks a run."""
+    points, value = [], 10.0
+    for rms in (1.0, 2.0, 3.5):
+        for seed in (1, 2, 3):
+            result = {"delta_gamma": 50.0, "binding_energy": value, "binding_energy_ratio": value / 50}
+            points.append({"set": {"surface.rms": rms, "surface.seed": seed}, "delta_gamma": 50.0, "status": "done",
+                           "theory": {"delta_gamma": 50.0, "gamma_eff": 40.0 - rms, "contact_fraction": 0.9,
+                                      "renormalised": {"gamma_eff_ratio": 0.8 - 0.1 * rms}},
+                           "directory": f"rms={rms:g},seed={seed}", "result": result})
+            value = value * 1.25 + 1
+    points[-1].update(status="waiting", result={})
+    return asperity.Sweep("s", {"surface": {"rms": 1.0}}, ["surface.rms", "surface.seed"], points, notes=["a note"],
+                          simulated=True)
+
+
+def test_tables_average_over_seeds(tmp_path):
+    sweep = nine_points()
+    first, _, last = sweep.table.spreads("binding_energy")
+    assert (first.count, last.count) == (3, 2)
+    assert first.mean == pytest.approx(41.375 / 3, rel=1e-14)
+    assert first.deviation == pytest.approx(math.sqrt((100 + 182.25 + 319.515625 - 41.375**2 / 3) / 2), rel=1e-12)
+    found = tables.json_of(sweep)
+    assert found["means"][0]["binding_energy"]["mean"] == pytest.approx(41.375 / 3)
+    assert found["means"][2]["binding_energy"]["count"] == 2
+    assert found["points"][8]["status"] == "waiting"
+
+
+def test_csv_hdf5_and_json_hold_the_same(tmp_path):
+    sweep = nine_points()
+    sweep.directory = tmp_path / "out"
+    written = tables.write_tables(sweep)
+    assert [p.name for p in written] == ["sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json"]
+    rows = numbers(sweep.directory)
+    assert list(rows[0])[:5] == ["surface.rms", "surface.seed", "delta_gamma", "binding_energy", "binding_energy_ratio"]
+    assert rows[7]["surface.rms"] == "3.5" and rows[8]["status"] == "waiting" and rows[8]["binding_energy"] == ""
+    with h5py.File(sweep.directory / "sweep.h5") as file:
+        assert list(file["points/surface.seed"]) == [1, 2, 3] * 3
+        assert list(file["means/surface.rms"]) == [1, 2, 3.5]
+        assert list(file["means/binding_energy.count"]) == [3, 3, 2]
+        assert file["points/binding_energy"].attrs["unit"] == "meV/Å^2"
+        assert file["points/surface.rms"].attrs["unit"] == "Å"
+        assert np.isnan(file["points/binding_energy"][-1])
+        assert file["points/theory.renormalised.gamma_eff_ratio"][0] == pytest.approx(0.7)
+    back = load_sweep(sweep.directory)
+    assert tables.text_of(back) == tables.text_of(sweep) and back.notes == ["a note"]
+    assert tables.csv_of(back.table) == (sweep.directory / "sweep.csv").read_text()
+    assert [s.name for s in load_sweeps(tmp_path)] == ["s"]  # in a folder of its own
+
+
+def test_plots_of_a_sweep_read_back_are_the_same(tmp_path):
+    sweep = nine_points()
+    sweep.directory = tmp_path
+    tables.write_tables(sweep)
+    def curves(of):
+        ax = Figure().add_subplot()
+        assert plots.plot([of], "gamma", ax)
+        return [(c.label, c.x.tolist(), c.y.tolist()) for c in drawn(ax).curves]
+    here = curves(sweep)
+    assert here == curves(load_sweep(tmp_path))
+    assert [label for label, _, _ in here] == ["theory", "renormalised theory", "state at zero load"]
+    assert here[2][2][0] == pytest.approx(41.375 / 150)
+    assert not plots.plot([sweep], "hysteresis", Figure().add_subplot())  # no cycle
+
+
+@pytest.mark.parametrize("text", ['{"points": 3}', "[]", "{}", '{"points": [{"set": 3, "theory": []}], "axes": 1, "run": 2}'])
+def test_damaged_sweep_json(tmp_path, text):
+    (tmp_path / "sweep.json").write_text(text)
+    try:
+        sweep = load_sweep(tmp_path)
+    except asperity.InputOutputError as error:
+        assert "is no sweep" in str(error)
+        return
+    assert len(sweep.table.status) == 1
+
+
+# The points
+
+def test_points_are_known_by_their_result(tmp_path):
+    job = pool.Job("rms=1", tmp_path / "point", "s.toml", [], {"surface": {"rms": 1.0}})
+    assert pool.look_at(job).status == pool.WAITING  # no directory
+    job.directory.mkdir()
+
+    def status(**keys):
+        (job.directory / "result.json").write_text(json.dumps({"scene": {"surface": {"rms": 1.0}}, **keys}))
+        return pool.look_at(job).status
+
+    assert status() == pool.DONE and status(run={"stopped": "max_steps"}) == pool.DONE
+    assert status(run={"stopped": "signal"}) == pool.WAITING and status(run={"stopped": "wall_limit"}) == pool.WAITING
+    assert status(run={"stopped": 3}) == pool.DONE  # a hostile number is no reason
+    assert status(failure={"exit_code": 3, "reason": "the balance is off\n    why: ..."}) == pool.FAILED
+    assert pool.look_at(job).reason == "the balance is off"
+    assert status(failure={"exit_code": 4}) == pool.WAITING  # the disk may have room by now
+    job.scene = {"surface": {"rms": 2.0}}
+    with pytest.raises(asperity.SceneError, match="holds the result of another scene"):
+        pool.look_at(job)
+
+
+@pytest.mark.parametrize("words, says", [
+    (["--set", "surface.rms=0.2,-1"], "surface.rms = -1 is out of range"),
+    (["--set", "drive.mode=dynamic", "drive.path=approach", "drive.timestep=10,500", "block.model=lattice"],
+     "over the stability limit"),
+    (["--set", "surface.rms=0.2,0.02nm,0.2"], "two points are the same"),
+    (["--set", "surface.rms=1", "surface.seed=1"], "nothing to sweep"), (["--jobs", "0"], "is no number from 1"),
+    (["--wall-limit", "soon"], "is no length of time"), (["--progress", "loud"], "choices: auto, bar, lines, off"),
+    (["state.toml"], "has the name of another scene"), (["--set", "surface.rsm=1,2"], "did you mean surface.rms?")])
+def test_what_is_wrong_is_said_before_anything_runs(place, words, says):
+    assert says in command("sweep", "state.toml", *words, "--out", "bad", expect=2)
+    assert sorted(p.name for p in place.iterdir()) == ["path.toml", "state.toml"]
+
+
+def test_a_sweep_is_not_started_under_mpirun(place):
+    assert "not started under mpirun" in command("sweep", "state.toml", expect=2, env={"OMPI_COMM_WORLD_SIZE": "1"})
+
+
+def test_the_table_is_the_same_for_any_number_of_jobs_and_from_python(place):
+    said = command("sweep", "state.toml", "--out", "one", "--progress", "off")
+    assert "4 of 4 points are done" in said and "±" in said
+    command("sweep", "state.toml", "--out", "two", "--progress", "off", "--jobs", "2")
+    sweep = asperity.sweep(STATE, {"surface.rms": [0.2, 0.4], "surface.seed": "1:2:1"}, out="three", jobs=2)
+    assert numbers("one") == numbers("two") == numbers("three")
+    for name in ("sweep.csv", "sweep-mean.csv", "sweep.json", "sweep.h5", "gamma.svg", "gamma.pdf", "area.png"):
+        assert (place / "one" / name).stat().st_size > 0
+    # A point is what a run makes of it.
+    alone = asperity.run("state.toml", {"surface.rms": 0.4, "surface.seed": 2}, out="alone")
+    assert alone.binding_energy == sweep.results()[3].binding_energy == sweep.table["binding_energy"][3]
+    assert sweep.table.units["binding_energy"] == "meV/Å^2"
+    # It goes on: points that are there stay, new ones come, another scene is not mixed in.
+    before = (place / "one/rms=0.2,seed=1/result.json").stat().st_mtime_ns
+    shutil.rmtree("one/rms=0.4,seed=1")
+    said = command("sweep", "state.toml", "--set", "surface.rms=0.2,0.4,0.6", "--out", "one", "--progress", "off")
+    assert "3 are there already" in said and "6 of 6 points are done" in said
+    assert (place / "one/rms=0.2,seed=1/result.json").stat().st_mtime_ns == before
+    assert "holds the result of another scene" in command("sweep", "state.toml", "--set", "block.thickness=12", "--out",
+                                                          "one", expect=2)
+
+
+def test_points_share_the_processors_unless_somebody_has_chosen(place):
+    def threads(directory):
+        return asperity.load(f"{directory}/seed=1").run.threads
+    words = ["sweep", "state.toml", "--progress", "off", "--jobs", "2", "--set", "surface.rms=0.2",
+             "--out"]  # two seeds
+    subprocess.run([os.environ["ASPERITY_PROGRAM"], *words, "shared"], check=True, capture_output=True,
+                   env={k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"})
+    assert threads("shared") == max(1, len(os.sched_getaffinity(0)) // 2)
+    command(*words, "chosen", env={"OMP_NUM_THREADS": "3"})
+    assert threads("chosen") == 3
+
+
+def test_several_scenes_share_their_plots(place):
+    (place / "other.toml").write_text(SCENE.replace("0.2, 0.4", "0.3, 0.5"))
+    command("sweep", "state.toml", "other.toml", "--out", "both", "--progress", "off", "--jobs", "2")
+    assert {s.name for s in load_sweeps(Path("both"))} == {"state", "other"}
+    ax = Figure().add_subplot()
+    assert plots.plot(load_sweeps(Path("both")), "gamma", ax)
+    assert {"other: state at zero load", "state: state at zero load"} <= {c.label for c in drawn(ax).curves}
+    assert (place / "both/gamma.svg").exists()
+
+
+def wait_for(condition, seconds=60):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.05)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_a_sweep_that_is_stopped_goes_on_to_the_same_table(place, number):
+    words = ["sweep", "path.toml", "--set", "drive.velocity=30,40", "--jobs", "2", "--progress", "off", "--out"]
+    command(*words, "whole")
+    child = subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words, "cut"], stdout=subprocess.DEVNULL,
+                             stderr=subprocess.DEVNULL)
+    points = [place / f"cut/velocity={v}" for v in (30, 40)]
+    wait_for(lambda: all((p / "checkpoint.h5").exists() for p in points))
+    child.send_signal(number)
+    assert child.wait() == (75 if number == signal.SIGINT else -number)
+
+    def running():  # a point that the sweep left behind stops as well
+        return any(b"cut/velocity" in (p / "cmdline").read_bytes() for p in Path("/proc").glob("[0-9]*")
+                   if (p / "cmdline").exists())
+    wait_for(lambda: not running())
+    assert any((p / "checkpoint.h5").exists() for p in points)
+    command(*words, "cut")
+    assert numbers("whole") == numbers("cut")
+
+
+def test_a_point_that_fails_is_told_and_the_others_go_on(place):
+    words = ["sweep", "path.toml", "--set", "drive.velocity=30,2000", "drive.timestep=70", "drive.max_steps=3000",
+             "--progress", "off", "--out", "part"]
+    said = command(*words, expect=3)
+    assert "failed: velocity=2000 (exit 3)" in said and "1 of 2 points are done" in said
+    assert [p["status"] for p in load_sweep("part").points] == ["done", "failed"]
+    assert "1 failed before" in command(*words, expect=3)
+
+
+def test_a_launcher_gives_ranks(place):
+    mpirun = shutil.which("mpirun")
+    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    command("sweep", "path.toml", "--set", "drive.velocity=30,40", "drive.max_steps=200", "--progress", "off", "--out",
+            "ranks", "--launch", f"{mpirun} --oversubscribe -n 2", env=root)
+    assert asperity.load("ranks/velocity=30").run.ranks == 2
+    said = command("sweep", "path.toml", "--set", "drive.velocity=30,40", "--progress", "off", "--out", "none",
+                   "--launch", "no-such-launcher", expect=127)
+    assert "'no-such-launcher' of --launch cannot be started" in said
+
+
+def test_the_theory_alone(place):
+    # Seeds mean nothing to the theory of a target spectrum.
+    said = command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2:0.6:0.2", "--out", "theory")
+    assert "3 points in" in said and "theory/gamma.svg" in said
+    rows = numbers("theory")
+    assert [r["status"] for r in rows] == ["adhesive"] * 3
+    assert list(rows[0])[:3] == ["surface.rms", "delta_gamma", "gamma_eff"]
+    one = asperity.program.theory("state.toml", ["surface.rms=0.4"])["theory"]
+    assert float(rows[1]["gamma_eff"]) == pytest.approx(one["gamma_eff"], rel=1e-9)
+    assert "already holds a sweep" in command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=1,2",
+                                              "--out", "theory", expect=2)
+    said = command("sweep", "state.toml", "--theory-only", "--set", "theory.area_factor=none,gaussian", "surface.rms=1",
+                   "--out", "words")
+    assert "no plots" in said and numbers("words")[0]["theory.area_factor"] == "none"
+    table = asperity.sweep(STATE, {"surface.rms": "0.5:2:0.5"}, out="py", theory_only=True).table
+    assert len(table["gamma_eff"]) == 4 and (np.diff(table["gamma_eff"]) < 0).all()
