@@ -54,8 +54,9 @@ std::string contents(const std::string& file) {
     if (!stream || error)
         refuse_map(file, "the height map cannot be opened",
                    error ? error.message() : std::strerror(errno), "check its permissions");
-    // A number takes two bytes of text at least, and eight here.
-    if (6.0 * static_cast<double>(size) > available_memory().bytes)
+    // A number takes two bytes of text at least, and eight here. Small files are not worth a look.
+    constexpr std::uintmax_t small = 16u << 20;
+    if (size > small && 6.0 * static_cast<double>(size) > available_memory().bytes)
         refuse_map(file, "the height map is larger than the memory",
                    fmt::format("it has {:.3g} GB", static_cast<double>(size) / 1e9),
                    "cut a piece out of it before");

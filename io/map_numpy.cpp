@@ -99,11 +99,12 @@ RawMap read_map_numpy(std::string_view bytes, const std::string& file) {
         refuse_map(file, "is no height map",
                    fmt::format("it has {} dimensions, a map has 2", count), "name another file");
     const std::size_t size = static_cast<std::size_t>(type[3] - '0');
-    if (extent[1] != 0 && extent[0] > data.size() / size / extent[1])
-        damaged(fmt::format("{} x {} numbers of {} bytes are declared, and {} bytes are there",
-                            extent[0], extent[1], size, data.size()));
     RawMap map;
     map.format = "NumPy";
+    if (extent[0] == 0 || extent[1] == 0) return map; // empty, whatever the other says
+    if (extent[0] > data.size() / size / extent[1])
+        damaged(fmt::format("{} x {} numbers of {} bytes are declared, and {} bytes are there",
+                            extent[0], extent[1], size, data.size()));
     map.rows = extent[0];
     map.columns = extent[1];
     map.heights.resize(map.rows * map.columns);

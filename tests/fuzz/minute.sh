@@ -19,7 +19,8 @@ for program in build/fuzz/tests/fuzz/fuzz_*; do
     target=${program##*/fuzz_}
     found=build/fuzz/found/$target
     mkdir -p "$found"
-    "$program" -max_total_time="$seconds" -max_len=16384 -timeout=20 -rss_limit_mb=4096 \
+    # Of what happens in a child process the fuzzer sees nothing: seeds are kept all the same.
+    "$program" -keep_seed=1 -max_total_time="$seconds" -max_len=16384 -timeout=20 -rss_limit_mb=4096 \
         -print_final_stats=1 -verbosity=0 -artifact_prefix="$found/finding-" "$found" \
         "$source/tests/fuzz/corpus/$target" || failed=1
 done
