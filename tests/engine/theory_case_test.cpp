@@ -5,7 +5,6 @@
 // expected numbers are those of theory.md (tests/theory judges the solver itself).
 #include "engine/run/theory_case.hpp"
 
-#include "engine/commands/sweep_grid.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
 #include "theory/error.hpp"
@@ -190,38 +189,6 @@ TEST(TheoryOfAScene, NeverMakesARunFail) {
     const io::JsonValue json = io::result_json(bad);
     ASSERT_NE(json.find("theory.note"), nullptr);
     EXPECT_NE(json.find("theory.note")->text().find("surface.cutoff"), std::string::npos);
-}
-
-TEST(SweepAxes, ReadListsRangesAndSingleValues) {
-    std::vector<std::string> fixed;
-    const auto axes = sweep_axes({"surface.rms=0.1:0.5:0.1,3", "surface.sites=32:96:32",
-                                  "theory.area_factor=none,gaussian", "drive.load=5",
-                                  "drive.path=approach,pull-off"},
-                                 fixed);
-    ASSERT_EQ(axes.size(), 3u);
-    EXPECT_EQ(axes[0].values, (std::vector<std::string>{"0.1", "0.2", "0.3", "0.4", "0.5", "3"}));
-    EXPECT_EQ(axes[1].values, (std::vector<std::string>{"32", "64", "96"}));
-    EXPECT_EQ(axes[2].values, (std::vector<std::string>{"none", "gaussian"}));
-    EXPECT_EQ(fixed, (std::vector<std::string>{"drive.load=5", "drive.path=approach,pull-off"}));
-    const auto grid = sweep_grid(axes);
-    ASSERT_EQ(grid.size(), 36u);
-    EXPECT_EQ(grid[1], (std::vector<std::string>{"surface.rms=0.1", "surface.sites=32",
-                                                 "theory.area_factor=gaussian"}));
-    const auto hundred = sweep_axes({"surface.rms=0.1:25:0.25"}, fixed);
-    EXPECT_EQ(hundred.at(0).values.size(), 100u);
-    EXPECT_EQ(hundred.at(0).values.back(), "24.85");
-    const auto down = sweep_axes({"drive.load=100:-100:-100"}, fixed);
-    EXPECT_EQ(down.at(0).values, (std::vector<std::string>{"100", "0", "-100"}));
-}
-
-TEST(SweepAxes, RefuseNonsense) {
-    std::vector<std::string> fixed;
-    for (const char* text : {"surface.rms=1:2:0", "surface.rms=1:2:-1", "surface.rms=1:2",
-                             "surface.rms=1,,2", "surface.rms=0:1:1e-9", "surface.rms=1:2:x"})
-        EXPECT_THROW(sweep_axes({text}, fixed), io::SceneError) << text;
-    EXPECT_THROW(sweep_axes({"surface.rms=1,2", "surface.rms=3,4"}, fixed), io::SceneError);
-    EXPECT_THROW(sweep_axes({"surface.rms=1:1000:1", "drive.load=1:1000:1"}, fixed),
-                 io::SceneError);
 }
 
 } // namespace
