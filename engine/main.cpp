@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The program: a table of commands, each with what it says of itself, what it takes and what it
-// does. The main loop of a simulation is DynamicRun::march() in engine/run/run.cpp. Every rank of
-// mpirun runs this; how they end together is in engine/commands/ending.hpp.
+// does. The main loop of a simulation is DynamicRun::integrate() in engine/run/dynamic_run.cpp.
+// Every rank of mpirun runs this; how they end together is in engine/commands/ending.hpp.
 #include "engine/commands/command_line.hpp"
 #include "engine/commands/ending.hpp"
 #include "engine/commands/inspect.hpp"
@@ -12,6 +12,7 @@
 #include "engine/commands/theory_points.hpp"
 #include "engine/commit.hpp"
 #include "engine/run/run.hpp"
+#include "engine/run/stop_signals.hpp"
 
 #include "decomposition/communicator.hpp"
 #include "io/build_info.hpp"
@@ -39,13 +40,15 @@ int on_root(const Communicator& world, const std::function<int()>& work) {
 const std::vector<Command> own_commands = {
     {"run",
      "simulate a scene",
-     {takes::scene, takes::out("results/<scene>"), takes::resume,
+     {takes::scene, takes::out("results/<scene>"), takes::resume, takes::restart,
       takes::wall_limit("stop with a checkpoint before this time has passed (exit 75)"),
       takes::progress},
      [](const Arguments& given, const Communicator& world) {
          const RunOptions options = run_options(given);
          return run(scene_of(given), options, world);
-     }},
+     },
+     "",
+     true},
     {"check",
      "look for mistakes in a scene without running it",
      {takes::scene, takes::json},
@@ -113,6 +116,7 @@ void choose_threads() {
 int main(int argc, char** argv) {
     using namespace asperity;
     if (const auto failed = hand_over_to_python(argc, argv)) return *failed;
+    stop_signals::catch_all();
     io::set_commit(build_commit);
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();

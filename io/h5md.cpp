@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/h5md.hpp"
 
-#include "io/error.hpp"
-
-#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,36 +26,19 @@ void write_h5md_head(Hdf5File& file, const std::string& creator_version) {
 }
 
 H5mdTrajectory::H5mdTrajectory(Hdf5File& file, std::uint64_t particles, std::array<double, 3> edges,
-                               bool velocities, std::int64_t step)
-    : file_(&file), particles_(particles), edges_(edges), velocities_(velocities) {
-    if (!file.exists(group)) {
-        file.make_group(member("box"));
-        file.write_attribute(member("box"), "dimension", std::int64_t{3});
-        file.write_text_list_attribute(member("box"), "boundary", {"periodic", "periodic", "none"});
-        file.make_series<float>(member("box/edges/value"), {3, 3});
-        file.write_attribute(member("box/edges/value"), "unit", "Angstrom");
-        element("box/edges", "");
-        file.make_series<float>(member("position/value"), {particles, 3});
-        element("position", "Angstrom");
-        if (velocities) {
-            file.make_series<float>(member("velocity/value"), {particles, 3});
-            element("velocity", "Angstrom ps-1");
-        }
-        return;
-    }
-    if (file.shape(member("position/value")) !=
-            Hdf5File::Shape{file.shape(member("position/step"))[0], particles, 3} ||
-        file.exists(member("velocity")) != velocities)
-        throw FileError(file.path(), "holds another trajectory",
-                        "its particles or columns are not those of this scene",
-                        "go on with the scene that began it, or start another --out");
-    const auto steps = file.read<std::int64_t>(member("position/step"));
-    const auto kept = static_cast<std::uint64_t>(
-        std::lower_bound(steps.begin(), steps.end(), step) - steps.begin());
-    for (const char* name : {"box/edges", "position", "velocity"})
-        if (velocities || name != std::string("velocity"))
-            for (const char* part : {"/value", "/step", "/time"})
-                file.truncate(member(name) + part, kept);
+                               bool velocities)
+    : file_(&file), edges_(edges), velocities_(velocities) {
+    file.make_group(member("box"));
+    file.write_attribute(member("box"), "dimension", std::int64_t{3});
+    file.write_text_list_attribute(member("box"), "boundary", {"periodic", "periodic", "none"});
+    file.make_series<float>(member("box/edges/value"), {3, 3});
+    file.write_attribute(member("box/edges/value"), "unit", "Angstrom");
+    element("box/edges", "");
+    file.make_series<float>(member("position/value"), {particles, 3});
+    element("position", "Angstrom");
+    if (!velocities) return;
+    file.make_series<float>(member("velocity/value"), {particles, 3});
+    element("velocity", "Angstrom ps-1");
 }
 
 void H5mdTrajectory::element(const std::string& name, const std::string& unit) {

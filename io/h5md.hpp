@@ -28,22 +28,18 @@ class H5mdTrajectory {
 public:
     static constexpr const char* group = "/particles/trajectory";
 
-    /// Makes the group if it is not there. An old one (of the same particles) is taken up before
-    /// `step`: its later frames are cut off. The file must outlive it. Throws FileError where the
-    /// file holds another number of particles or, asked for velocities, none.
+    /// Makes the group. The file must outlive it.
     H5mdTrajectory(Hdf5File& file, std::uint64_t particles, std::array<double, 3> edges,
-                   bool velocities, std::int64_t step);
+                   bool velocities);
 
     /// One frame: [particle][3] each; velocity is empty without velocities. time in ps.
     void append(std::int64_t step, double time, std::span<const float> position,
                 std::span<const float> velocity);
-    bool velocities() const { return velocities_; }
 
 private:
     void element(const std::string& name, const std::string& unit);
 
     Hdf5File* file_;
-    std::uint64_t particles_;
     std::array<double, 3> edges_;
     bool velocities_;
 };

@@ -6,16 +6,19 @@
 #include "io/hdf5_file.hpp"
 
 #include "io/error.hpp"
+#include "io/hdf5_disk.hpp"
 #include "io/hdf5_handle.hpp"
+#include "io/output_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -49,26 +52,70 @@ std::vector<hsize_t> extents(const Hdf5File::Shape& shape) { return {shape.begin
 
 } // namespace
 
-Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
-    silence();
-    std::error_code error;
-    if (mode != Mode::create) {
-        if (!std::filesystem::exists(path, error))
-            throw FileError(path, "cannot be opened", "there is no such file", "check the path");
-        if (H5Fis_hdf5(path.c_str()) <= 0)
-            throw FileError(path, "cannot be opened", "it is not an HDF5 file",
-                            "name another file, or remove this one if it was cut short");
+/// Where the bytes are: a file under construction, or one that is read.
+class Hdf5File::Storage {
+public:
+    explicit Storage(std::unique_ptr<OutputFile> created) : output(std::move(created)) {
+        disk.fd = output->fd();
     }
-    if (mode == Mode::create)
-        id_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    else
-        id_ =
-            H5Fopen(path.c_str(), mode == Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT);
+    explicit Storage(Descriptor opened) : input(std::move(opened)) { disk.fd = input.get(); }
+
+    std::unique_ptr<OutputFile> output; ///< null: the file is read
+    Descriptor input;
+    Hdf5Disk disk;
+};
+
+namespace {
+
+constexpr const char* seal_attribute = "asperity_digest";
+
+/// Every HDF5 file has its signature at 0, 512, 1024, 2048, ...
+bool has_signature(int fd) {
+    constexpr unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+    std::byte found[8];
+    for (std::uint64_t at = 0; read_some(fd, found, at) == sizeof found;
+         at = at == 0 ? 512 : 2 * at)
+        if (std::memcmp(found, signature, sizeof found) == 0) return true;
+    return false;
+}
+
+} // namespace
+
+Hdf5File::Hdf5File(const FilePlace& place, Mode mode) : path_(place.path()) {
+    silence();
+    if (mode == Mode::read) {
+        storage_ = std::make_unique<Storage>(place.open(O_RDONLY));
+        open_to_read();
+        return;
+    }
+    storage_ = std::make_unique<Storage>(std::make_unique<OutputFile>(place));
+    const Hdf5Handle access(hdf5_access(storage_->disk), H5Pclose);
+    id_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
     if (id_ < 0)
-        throw FileError(
-            path, mode == Mode::create ? "cannot be created" : "cannot be opened", cause(),
-            "check that the directory exists, its permissions, and that no other program "
-            "has the file open");
+        throw FileError(path_, "cannot be created", cause(),
+                        "check its directory and the space on its disk");
+    write_attribute("/", seal_attribute, std::int64_t{1});
+    sealed_ = true;
+}
+
+void Hdf5File::open_to_read() {
+    if (!storage_->input)
+        throw FileError(path_, "cannot be opened", std::strerror(errno), "check the path");
+    const int fd = storage_->input.get();
+    const Seal seal = check_seal(fd);
+    if (seal == Seal::broken)
+        throw FileError(path_, "is damaged", "its bytes are not those its digest was made of",
+                        "take a copy that is whole");
+    if (!has_signature(fd))
+        throw FileError(path_, "cannot be opened", "it is not an HDF5 file",
+                        "name another file, or remove this one if it was cut short");
+    const Hdf5Handle access(hdf5_access(storage_->disk), H5Pclose);
+    id_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);
+    if (id_ < 0) throw FileError(path_, "cannot be opened", cause(), "check that it is whole");
+    sealed_ = seal == Seal::whole;
+    if (!sealed_ && has_attribute("/", seal_attribute))
+        throw FileError(path_, "is damaged", "the digest at its end is missing",
+                        "take a copy that is whole");
 }
 
 Hdf5File::~Hdf5File() {
@@ -76,29 +123,41 @@ Hdf5File::~Hdf5File() {
 }
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
-    : path_(std::move(other.path_)), id_(std::exchange(other.id_, -1)) {}
+    : path_(std::move(other.path_)), storage_(std::move(other.storage_)), sealed_(other.sealed_),
+      id_(std::exchange(other.id_, -1)) {}
 
 Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
     if (this != &other) {
         if (id_ >= 0) H5Fclose(id_);
         path_ = std::move(other.path_);
+        storage_ = std::move(other.storage_);
+        sealed_ = other.sealed_;
         id_ = std::exchange(other.id_, -1);
     }
     return *this;
 }
 
 void Hdf5File::fail(const std::string& object, const std::string& what) const {
+    check_disk();
     throw FileError(path_, object.empty() ? what : object + " " + what, cause(),
-                    "check that the file is whole and that there is space on the disk");
+                    "check that the file is whole");
 }
 
-void Hdf5File::flush() {
-    if (H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0) fail("", "cannot be flushed");
+void Hdf5File::check_disk() const {
+    if (storage_ && storage_->disk.error != 0)
+        throw FileError(path_, "cannot be written", std::strerror(storage_->disk.error),
+                        "check the space on its disk");
 }
 
 void Hdf5File::close() {
     if (id_ < 0) return;
     if (H5Fclose(std::exchange(id_, -1)) < 0) fail("", "cannot be closed");
+    check_disk();
+    if (storage_->output) {
+        storage_->output->seal();
+        storage_->output->commit();
+    }
+    storage_.reset();
 }
 
 bool Hdf5File::exists(const std::string& object) const {
@@ -137,10 +196,6 @@ std::uint64_t Hdf5File::stored_bytes(const std::string& dataset) const {
     return H5Dget_storage_size(set);
 }
 
-void Hdf5File::remove(const std::string& object) {
-    if (H5Ldelete(id_, object.c_str(), H5P_DEFAULT) < 0) fail(object, "cannot be removed");
-}
-
 void Hdf5File::make_group(const std::string& group) {
     if (group.empty() || exists(group)) return;
     const std::size_t slash = group.rfind('/');
@@ -172,9 +227,13 @@ void Hdf5File::make_dataset(const std::string& dataset, const Shape& shape) {
         shape.empty() ? H5Screate(H5S_SCALAR)
                       : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
         H5Sclose);
-    const Hdf5Handle set(H5Dcreate2(id_, dataset.c_str(), hdf5_type<T>(), space, H5P_DEFAULT,
-                                    H5P_DEFAULT, H5P_DEFAULT),
-                         H5Dclose);
+    const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    // No times in the file: the same data are the same bytes.
+    if (!layout.good() || H5Pset_obj_track_times(layout, false) < 0)
+        fail(dataset, "cannot be made");
+    const Hdf5Handle set(
+        H5Dcreate2(id_, dataset.c_str(), hdf5_type<T>(), space, H5P_DEFAULT, layout, H5P_DEFAULT),
+        H5Dclose);
     if (!space.good() || !set.good()) fail(dataset, "cannot be made");
 }
 
@@ -189,6 +248,7 @@ void Hdf5File::write(const std::string& dataset, const Shape& shape, std::span<c
     if (!set.good() || (!data.empty() && H5Dwrite(set, hdf5_type<T>(), H5S_ALL, H5S_ALL,
                                                   H5P_DEFAULT, data.data()) < 0))
         fail(dataset, "cannot be written");
+    check_disk();
 }
 
 namespace {
@@ -219,6 +279,7 @@ void Hdf5File::write_slab(const std::string& dataset, const Shape& offset, const
     if (!set.good() || offset.size() != count.size() || data.size() != volume(count) ||
         !transfer(set, hdf5_type<T>(), offset, count, nullptr, data.data()))
         fail(dataset, fmt::format("does not take a block of {} at {}", count, offset));
+    check_disk();
 }
 
 template <class T>
@@ -269,7 +330,8 @@ void Hdf5File::make_series(const std::string& dataset, const Shape& row) {
     const int rank = static_cast<int>(extent.size());
     const Hdf5Handle space(H5Screate_simple(rank, extent.data(), most.data()), H5Sclose);
     const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    if (!space.good() || !layout.good() || H5Pset_chunk(layout, rank, chunk.data()) < 0)
+    if (!space.good() || !layout.good() || H5Pset_chunk(layout, rank, chunk.data()) < 0 ||
+        H5Pset_obj_track_times(layout, false) < 0)
         fail(dataset, "cannot be made as a series");
     const Hdf5Handle set(
         H5Dcreate2(id_, dataset.c_str(), hdf5_type<T>(), space, H5P_DEFAULT, layout, H5P_DEFAULT),
@@ -293,16 +355,7 @@ void Hdf5File::append(const std::string& dataset, std::span<const T> rows) {
     if (H5Dset_extent(set, extent.data()) < 0 ||
         !transfer(set, hdf5_type<T>(), offset, count, nullptr, rows.data()))
         fail(dataset, "cannot be appended to");
-}
-
-void Hdf5File::truncate(const std::string& dataset, std::uint64_t rows) {
-    Shape now = shape(dataset);
-    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good() || now.empty() || now[0] < rows)
-        fail(dataset, fmt::format("has fewer rows than the {} to keep", rows));
-    now[0] = rows;
-    const std::vector<hsize_t> extent = extents(now);
-    if (H5Dset_extent(set, extent.data()) < 0) fail(dataset, "cannot be cut");
+    check_disk();
 }
 
 #define ASPERITY_HDF5_TYPE(T)                                                                      \

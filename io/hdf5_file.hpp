@@ -7,9 +7,17 @@
 // Data sets are named by absolute paths ("/fields/zero-load/height"); groups on the way are made as
 // needed. Arrays are row-major, slowest index first. The stored type is the type written:
 // conversions are left to the reader. Collective (parallel) access is not used; one rank writes.
+//
+// A file is written like every other that matters (output_file.hpp): it appears in its place, whole
+// and on the disk, when close() returns; without a close it is dropped. It ends in a digest of all
+// its bytes, metadata included, which is checked when it is opened again. (HDF5 ignores what comes
+// after its own data.) A written file says in an attribute of its root that it has one.
 #pragma once
 
+#include "io/directory.hpp"
+
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,22 +28,21 @@ class Hdf5File {
 public:
     using Shape = std::vector<std::uint64_t>;
 
-    enum class Mode { create, read, edit };
-    /// create: a new file, an old one is truncated. edit: must exist, or use create.
-    Hdf5File(const std::string& path, Mode mode);
+    enum class Mode { create, read };
+    /// create: a new file, which replaces an old one. read: throws FileError if the file is damaged
+    /// as far as its digest tells; files without one, of other programs, are read as they are.
+    Hdf5File(const FilePlace& place, Mode mode);
     ~Hdf5File();
     Hdf5File(Hdf5File&& other) noexcept;
     Hdf5File& operator=(Hdf5File&& other) noexcept;
 
     const std::string& path() const { return path_; }
-    /// Everything to the operating system. Throws FileError.
-    void flush();
-    /// Closes and reports what closing found wrong (the destructor cannot).
+    /// Whether the file ends in a digest (which was right, or the file would not be open).
+    bool sealed() const { return sealed_; }
+    /// Puts a file that was created in its place. Throws FileError.
     void close();
 
     bool exists(const std::string& object) const;
-    /// Takes a group, with all that is in it, or a data set out of the file.
-    void remove(const std::string& object);
     /// Makes the group and those above it, if they are not there.
     void make_group(const std::string& group);
     /// Names of the members of a group, in alphabetical order.
@@ -95,13 +102,17 @@ public:
     /// Appends whole rows.
     template <class T>
     void append(const std::string& dataset, std::span<const T> rows);
-    /// Cuts a series to its first rows.
-    void truncate(const std::string& dataset, std::uint64_t rows);
 
 private:
+    class Storage;
+    void open_to_read();
     [[noreturn]] void fail(const std::string& object, const std::string& what) const;
+    /// Throws FileError if the disk has refused anything so far.
+    void check_disk() const;
 
     std::string path_;
+    std::unique_ptr<Storage> storage_;
+    bool sealed_ = false;
     std::int64_t id_ = -1;
 };
 

@@ -6,7 +6,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/map_file.hpp"
 #include "io/map_formats.hpp"
-#include "io/result.hpp"
+#include "io/output_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -170,23 +170,19 @@ void write_height_map(const std::string& file, const HeightMap& map) {
                 text += fmt::format("{}{}", map.heights[y * sites + x], x + 1 < sites ? ' ' : '\n');
         return write_whole(file, text);
     }
-    const std::string temporary = file + ".tmp";
-    {
-        Hdf5File out(temporary, Hdf5File::Mode::create);
-        out.write<double>("/heights", {sites, sites}, map.heights);
-        out.write_attribute("/heights", "unit", "Å");
-        if (!map.origin.empty()) out.write_attribute("/heights", "origin", map.origin);
-        if (map.size) {
-            out.write_attribute("/heights", "size_x", *map.size);
-            out.write_attribute("/heights", "size_y", *map.size);
-        }
-        out.close();
+    Hdf5File out(file, Hdf5File::Mode::create);
+    out.write<double>("/heights", {sites, sites}, map.heights);
+    out.write_attribute("/heights", "unit", "Å");
+    if (!map.origin.empty()) out.write_attribute("/heights", "origin", map.origin);
+    if (map.size) {
+        out.write_attribute("/heights", "size_x", *map.size);
+        out.write_attribute("/heights", "size_y", *map.size);
     }
-    std::error_code error;
-    fs::rename(temporary, file, error);
-    if (error)
-        throw FileError(file, "cannot be put in its place", error.message(),
-                        "check the permissions of its directory");
+    for (const HeightMap::Column& column : map.columns) {
+        out.write<double>(column.name, {column.values.size()}, column.values);
+        out.write_attribute(column.name, "unit", column.unit);
+    }
+    out.close();
 }
 
 } // namespace asperity::io

@@ -18,6 +18,13 @@ struct HeightMap {
     std::string source;               ///< the file (and data set)
     std::string origin;               ///< whose map it is, where the file tells it
     std::vector<std::string> notes{}; ///< what was assumed, filled or cut, one sentence each
+
+    /// Written beside the heights (HDF5 only), not read.
+    struct Column {
+        std::string name, unit; ///< "/spectrum/q"
+        std::vector<double> values;
+    };
+    std::vector<Column> columns{};
 };
 
 struct MapOptions {

@@ -104,11 +104,16 @@ void Progress::update(const State& state) {
     const std::string line = progress_line(state, seconds, state.steps - first_steps_,
                                            state.time_fs - first_time_, fraction_done);
     if (mode_ == ProgressMode::bar) {
-        fmt::print(to_, "\r\033[K{}", fitted(line, to_));
+        put("\r\033[K" + fitted(line, to_));
         bar_drawn_ = true;
     } else {
-        fmt::print(to_, "{}\n", line);
+        put(line + "\n");
     }
+}
+
+/// What nobody can read any more is no reason to end a run.
+void Progress::put(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), to_);
     std::fflush(to_);
 }
 
@@ -116,14 +121,12 @@ void Progress::say(const std::string& sentence) {
     first_steps_ = -1; // what follows is of another kind and speed
     if (mode_ == ProgressMode::off) return;
     finish();
-    fmt::print(to_, "{}\n", sentence);
-    std::fflush(to_);
+    put(sentence + "\n");
 }
 
 void Progress::finish() {
     if (!bar_drawn_) return;
-    fmt::print(to_, "\r\033[K");
-    std::fflush(to_);
+    put("\r\033[K");
     bar_drawn_ = false;
 }
 

@@ -49,6 +49,8 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
+    void put(const std::string& text);
+
     ProgressMode mode_;
     std::FILE* to_;
     Clock::time_point start_;

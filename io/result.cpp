@@ -3,23 +3,12 @@
 #include "io/result.hpp"
 
 #include "io/build_info.hpp"
-#include "io/error.hpp"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <utility>
-
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
 
 namespace asperity::io {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 void put_path(JsonValue& root, std::string_view path, const JsonValue& value) {
     const std::size_t dot = path.find('.');
@@ -104,85 +93,8 @@ JsonValue result_json(const ResultRecord& record) {
     return root;
 }
 
-void write_whole(const std::string& path, const std::string& text) {
-    const std::string temporary = fmt::format("{}.{}.tmp", path, ::getpid());
-    const auto fail = [&](const char* what) {
-        const int cause = errno;
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw FileError(path, what, std::strerror(cause),
-                        "check the permissions of its directory and the space on its disk");
-    };
-    const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (file < 0) fail("cannot be written");
-    std::size_t done = 0;
-    while (done < text.size()) {
-        const ssize_t n = ::write(file, text.data() + done, text.size() - done);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) {
-            const int cause = errno;
-            ::close(file);
-            errno = cause;
-            fail("cannot be written");
-        }
-        done += static_cast<std::size_t>(n);
-    }
-    // The name must not point to data that a power cut could still lose.
-    const bool synced = ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;
-    const int sync_cause = errno;
-    if (::close(file) != 0) fail("cannot be written to its end");
-    if (!synced) {
-        errno = sync_cause;
-        fail("cannot be written to its end");
-    }
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("cannot be put in its place");
-}
-
-void write_result(const std::string& directory, const ResultRecord& record) {
-    make_directory(directory);
-    write_whole((fs::path(directory) / "result.json").string(), result_json(record).dump() + "\n");
-}
-
-ResultPlace choose_result_directory(const std::string& asked, const std::string& name,
-                                    bool resuming) {
-    const auto holds_result = [](const fs::path& directory) {
-        std::error_code error;
-        return fs::exists(directory / "result.json", error);
-    };
-    std::error_code error;
-    if (!asked.empty()) {
-        if (fs::exists(asked, error) && !fs::is_directory(asked, error))
-            throw SceneError(Problem{"--out " + asked, "is not a directory",
-                                     "a file of that name is there", "name another directory"});
-        if (holds_result(asked) && !resuming)
-            throw SceneError(Problem{"--out " + asked, "already holds a result",
-                                     "results are not written over",
-                                     "name another directory, remove this one, or go on with it: "
-                                     "--resume auto"});
-        return {asked, ""};
-    }
-    const fs::path first = fs::path("results") / name;
-    if (resuming) { // the last of them
-        fs::path last = first;
-        for (int i = 2; fs::exists(fs::path(fmt::format("{}-{}", first.string(), i)), error); ++i)
-            last = fmt::format("{}-{}", first.string(), i);
-        return {last.string(), ""};
-    }
-    fs::path place = first;
-    for (int i = 2; holds_result(place); ++i)
-        place = fmt::format("{}-{}", first.string(), i);
-    if (place == first) return {first.string(), ""};
-    return {place.string(), fmt::format("{} already holds a result; this one goes to {}",
-                                        first.string(), place.string())};
-}
-
-void make_directory(const std::string& directory) {
-    std::error_code error;
-    fs::create_directories(directory, error);
-    if (error || !fs::is_directory(directory))
-        throw FileError(directory, "the directory cannot be made",
-                        error ? error.message() : "a file of that name is in the way",
-                        "name a directory you may write to: --out DIR");
+void write_result(const Directory& directory, const ResultRecord& record) {
+    write_whole({directory, "result.json"}, result_json(record).dump() + "\n");
 }
 
 } // namespace asperity::io

@@ -4,12 +4,12 @@
 // result.json: what a command found.
 //
 // ResultRecord mirrors the file key by key; what was not computed stays empty and is left out
-// of the file. A run that fails writes its record too, with the reason. The file appears whole or
-// not at all (written beside its place, then renamed), and a directory that already holds a result
-// is never written over without being asked.
+// of the file. A run that fails writes its record too, with the reason. Which directory it goes to
+// is result_directory.hpp's matter.
 #pragma once
 
 #include "io/json_value.hpp"
+#include "io/output_file.hpp"
 
 #include <optional>
 #include <string>
@@ -75,24 +75,7 @@ struct ResultRecord {
 /// The record in the layout of the file.
 JsonValue result_json(const ResultRecord& record);
 
-/// Writes directory/result.json, whole or not at all. Throws FileError.
-void write_result(const std::string& directory, const ResultRecord& record);
-
-/// Writes text to path, whole or not at all (temporary file beside it, then renamed). Throws
-/// FileError.
-void write_whole(const std::string& path, const std::string& text);
-
-/// Which directory a command writes to.
-struct ResultPlace {
-    std::string directory;
-    std::string note; ///< says so where the name is not the one expected; else empty
-};
-/// asked: the --out of the command line, or empty for results/<name>, then results/<name>-2, -3,
-/// ... A directory asked for that already holds result.json is refused (SceneError) unless
-/// resuming. Looks, but makes nothing.
-ResultPlace choose_result_directory(const std::string& asked, const std::string& name,
-                                    bool resuming);
-/// Makes the directory (and its parents). Throws FileError.
-void make_directory(const std::string& directory);
+/// Writes result.json, whole or not at all. Throws FileError.
+void write_result(const Directory& directory, const ResultRecord& record);
 
 } // namespace asperity::io

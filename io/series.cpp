@@ -26,19 +26,6 @@ Series::Series(Hdf5File& file, std::string group, std::vector<Column> columns)
     }
 }
 
-Series Series::reopen(Hdf5File& file, std::string group, std::vector<Column> columns,
-                      std::uint64_t rows) {
-    Series series;
-    series.file_ = &file;
-    series.group_ = std::move(group);
-    series.columns_ = std::move(columns);
-    series.buffer_.resize(series.columns_.size());
-    series.written_ = rows;
-    for (const Column& column : series.columns_)
-        file.truncate(series.group_ + "/" + column.name, rows);
-    return series;
-}
-
 void Series::append(std::span<const double> row) {
     if (row.size() != columns_.size())
         throw FileError(file_ ? file_->path() : "", "a row of the series has the wrong length",
@@ -57,7 +44,6 @@ void Series::flush() {
     }
     written_ += waiting_;
     waiting_ = 0;
-    file_->flush();
 }
 
 } // namespace asperity::io

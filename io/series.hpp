@@ -26,9 +26,6 @@ public:
     Series() = default;
     /// A new series. The file must outlive it.
     Series(Hdf5File& file, std::string group, std::vector<Column> columns);
-    /// Takes up an old one (of the same columns) after its first rows: what came later is cut off.
-    static Series reopen(Hdf5File& file, std::string group, std::vector<Column> columns,
-                         std::uint64_t rows);
 
     /// One value a column, in the order of the columns.
     void append(std::span<const double> row);

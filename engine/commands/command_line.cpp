@@ -3,6 +3,7 @@
 #include "engine/commands/command_line.hpp"
 
 #include "decomposition/communicator.hpp"
+#include "engine/run/stop_signals.hpp"
 #include "io/build_info.hpp"
 #include "io/error.hpp"
 #include "io/spelling.hpp"
@@ -50,7 +51,12 @@ RunOptions run_options(const Arguments& given) {
     RunOptions options;
     options.out = given.out;
     options.resume = given.resume;
+    options.restart = given.restart;
     io::Problems problems;
+    if (options.restart && options.resuming())
+        problems.add(io::Problem{"--restart", "and --resume exclude each other",
+                                 "one throws an unfinished run away, the other goes on with it",
+                                 "give one of them"});
     if (!given.wall_limit.empty()) {
         options.wall_limit = io::parse_duration(given.wall_limit);
         if (!options.wall_limit)
@@ -84,6 +90,11 @@ void scene(CLI::App& command, Arguments& given) {
 void resume(CLI::App& command, Arguments& given) {
     command.add_option("--resume", given.resume, "go on from a checkpoint: auto, or its file")
         ->type_name("auto|FILE");
+}
+
+void restart(CLI::App& command, Arguments& given) {
+    command.add_flag("--restart", given.restart,
+                     "throw away an unfinished run that the directory holds");
 }
 
 void progress(CLI::App& command, Arguments& given) {
@@ -173,7 +184,10 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
                                          "asperity --help, or asperity COMMAND --help"});
     }
     for (const Command& command : commands)
-        if (app.got_subcommand(command.name)) return command.act(given, world);
+        if (app.got_subcommand(command.name)) {
+            if (!command.looks_at_signals) stop_signals::release();
+            return command.act(given, world);
+        }
     return io::exit_code::internal;
 }
 

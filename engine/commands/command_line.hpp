@@ -31,6 +31,7 @@ struct Arguments {
     std::vector<std::string> overrides;
     std::string out;
     std::string resume;
+    bool restart = false;
     std::string wall_limit;
     std::string progress = "auto";
     int ranks = 0;      ///< to plan for; 0: as many as there are
@@ -57,12 +58,14 @@ struct Command {
     std::vector<Option> options;
     std::function<int(const Arguments&, const Communicator&)> act; ///< returns the exit code
     std::string footer = {};                                       ///< below its options
+    bool looks_at_signals = false; ///< it ends by itself when told to stop (stop_signals.hpp)
 };
 
 /// The options; where commands mean different things by one, it takes its words of explanation.
 namespace takes {
 void scene(CLI::App& command, Arguments& given); ///< and --set
 void resume(CLI::App& command, Arguments& given);
+void restart(CLI::App& command, Arguments& given);
 void progress(CLI::App& command, Arguments& given);
 void ranks(CLI::App& command, Arguments& given);
 void markdown(CLI::App& command, Arguments& given);

@@ -9,10 +9,10 @@
 #include "engine/setup/setup.hpp"
 #include "io/build_info.hpp"
 #include "io/error.hpp"
-#include "io/hdf5_file.hpp"
 #include "io/height_map.hpp"
 #include "io/map_file.hpp"
 #include "io/result.hpp"
+#include "io/result_directory.hpp"
 #include "io/table.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/variant.hpp"
@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -140,40 +141,38 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
     if (scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(scene); });
     const Surface surface = scene_surface(scene);
     if (!world.root()) return io::exit_code::done;
-    const io::ResultPlace place = io::choose_result_directory(out, scene.name + "-surface", false);
-    io::make_directory(place.directory);
+    const io::ResultDirectory place({out, scene.name + "-surface"});
 
     const SurfaceStatistics& statistics = surface.statistics;
-    const std::string map = (std::filesystem::path(place.directory) / "heights.h5").string();
-    io::write_height_map(map,
-                         {surface.sites, surface.height, surface.length, "Å", "", surface.origin});
-    io::Hdf5File file(map, io::Hdf5File::Mode::edit);
+    const std::string map = place.directory() / "heights.h5";
     std::vector<double> q, realised, target;
     for (const SpectrumBin& bin : statistics.spectrum) {
         q.push_back(bin.q);
         realised.push_back(bin.realised);
         target.push_back(bin.target);
     }
-    const auto column = [&](const std::string& name, const std::string& unit, const auto& values) {
-        file.write<double>("/spectrum/" + name, {values.size()}, values);
-        file.write_attribute("/spectrum/" + name, "unit", unit);
-    };
-    column("q", "1/Å", q);
-    column("realised", "Å^4", realised);
-    column("target", "Å^4", target);
     const LineStatistics lines = line_statistics(surface.height, surface.sites, surface.length);
-    column("line_q", "1/Å", lines.q);
-    column("c1d", "Å^3", lines.c1d);
-    column("line_r", "Å", lines.r);
-    column("autocorrelation", "Å^2", lines.acf);
-    file.close();
+    io::write_height_map(map, {surface.sites,
+                               surface.height,
+                               surface.length,
+                               "Å",
+                               "",
+                               surface.origin,
+                               {},
+                               {{"/spectrum/q", "1/Å", q},
+                                {"/spectrum/realised", "Å^4", realised},
+                                {"/spectrum/target", "Å^4", target},
+                                {"/spectrum/line_q", "1/Å", lines.q},
+                                {"/spectrum/c1d", "Å^3", lines.c1d},
+                                {"/spectrum/line_r", "Å", lines.r},
+                                {"/spectrum/autocorrelation", "Å^2", lines.acf}}});
 
     io::ResultRecord record;
     record.name = scene.name;
     record.scene = scene_json(scene);
     record.surface = {statistics.rms, statistics.rms_slope, statistics.lowest, statistics.highest,
                       surface.origin};
-    io::write_result(place.directory, record);
+    io::write_result(place.directory(), record);
 
     io::Table table({"the surface made", "", ""});
     table.align_left(2);
@@ -195,7 +194,8 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
     table.print(stdout);
     for (const std::string& note : surface.notes)
         fmt::print("note: {}\n", note);
-    if (!place.note.empty()) fmt::print("note: {}\n", place.note);
+    for (const std::string& note : place.notes())
+        fmt::print("note: {}\n", note);
     fmt::print("heights and spectrum in {}\n", map);
     return io::exit_code::done;
 }

@@ -7,6 +7,7 @@
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/result.hpp"
+#include "io/result_directory.hpp"
 #include "io/table.hpp"
 #include "theory/maugis.hpp"
 
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -183,15 +183,15 @@ int theory_command(const Scene& scene, const std::string& out, bool json) {
         fmt::print("{}\n", io::result_json(record).dump(-1));
         return io::exit_code::done;
     }
-    const io::ResultPlace place = io::choose_result_directory(out, scene.name + "-theory", false);
-    io::make_directory(place.directory);
-    write_profile((std::filesystem::path(place.directory) / "theory.h5").string(), what, numbers);
-    io::write_result(place.directory, record);
+    const io::ResultDirectory place({out, scene.name + "-theory"});
+    write_profile(place.directory() / "theory.h5", what, numbers);
+    io::write_result(place.directory(), record);
 
     print_theory(scene, what, numbers, beyond);
-    if (!place.note.empty()) fmt::print("  note: {}\n", place.note);
+    for (const std::string& note : place.notes())
+        fmt::print("  note: {}\n", note);
     fmt::print("  written: {0}/result.json, {0}/theory.h5 (the profile over magnification)\n",
-               place.directory);
+               place.path());
     return io::exit_code::done;
 }
 

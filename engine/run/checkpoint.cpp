@@ -7,9 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <utility>
@@ -18,7 +16,7 @@ namespace asperity {
 
 namespace {
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 
 /// Displacements and half-step velocities of each level.
 std::vector<StateArray> fields_of(Simulation& simulation) {
@@ -38,6 +36,11 @@ std::vector<StateArray> fields_of(Simulation& simulation) {
     return list;
 }
 
+std::vector<StateArray> joined(std::vector<StateArray> list, const std::vector<StateArray>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+    return list;
+}
+
 } // namespace
 
 double RestoreScalars::next(const char* name) {
@@ -48,13 +51,12 @@ double RestoreScalars::next(const char* name) {
     return values[at++].second;
 }
 
-void write_checkpoint(const std::string& path, const Communicator& ranks, const ProcessGrid& grid,
-                      const std::vector<StateArray>& arrays, const RunScalars& scalars,
-                      const std::string& fingerprint) {
-    const std::string temporary = path + ".part";
+void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
+                      const ProcessGrid& grid, const std::vector<StateArray>& arrays,
+                      const RunScalars& scalars, const std::string& fingerprint) {
     std::unique_ptr<io::Hdf5File> file;
     ranks.on_root([&] {
-        file = std::make_unique<io::Hdf5File>(temporary, io::Hdf5File::Mode::create);
+        file = std::make_unique<io::Hdf5File>(place, io::Hdf5File::Mode::create);
         file->write_attribute("/", "asperity_checkpoint", std::int64_t{format_version});
         file->write_attribute("/", "scene", fingerprint);
         std::string names;
@@ -63,10 +65,6 @@ void write_checkpoint(const std::string& path, const Communicator& ranks, const 
             names += name + "\n", values.push_back(value);
         file->write_attribute("/", "scalar_names", names);
         file->write<double>("/scalars", {values.size()}, values);
-        int last = -1;
-        for (const StateArray& array : arrays)
-            if (array.level != std::exchange(last, array.level))
-                file->make_group(fmt::format("/level{}", array.level));
     });
     for (const StateArray& array : arrays) {
         const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
@@ -83,17 +81,42 @@ void write_checkpoint(const std::string& path, const Communicator& ranks, const 
             });
         }
     }
-    ranks.on_root([&] {
-        file->close();
-        std::error_code failed;
-        std::filesystem::rename(temporary, path, failed);
-        if (failed)
-            throw io::FileError(path, "cannot be put in place", failed.message(),
-                                "the checkpoint is in " + temporary);
-    });
+    ranks.on_root([&] { file->close(); });
 }
 
-RunScalars read_checkpoint(const std::string& path, const Communicator& ranks,
+namespace {
+
+io::Hdf5File open_checkpoint(const io::FilePlace& place) {
+    io::Hdf5File file(place, io::Hdf5File::Mode::read);
+    if (!file.has_attribute("/", "asperity_checkpoint"))
+        throw io::FileError(file.path(), "is not a checkpoint",
+                            "it lacks the attribute asperity_checkpoint",
+                            "give the checkpoint.h5 of a run's result directory");
+    if (file.read_integer_attribute("/", "asperity_checkpoint") != format_version || !file.sealed())
+        throw io::FileError(file.path(), "has another checkpoint format",
+                            "it was written by another version", "run the scene from its start");
+    return file;
+}
+
+RunScalars scalars_of(const std::string& names, const std::vector<double>& values) {
+    RunScalars scalars;
+    std::size_t from = 0;
+    for (double value : values) {
+        const auto to = names.find('\n', from);
+        scalars.emplace_back(names.substr(from, to - from), value);
+        from = to + 1;
+    }
+    return scalars;
+}
+
+} // namespace
+
+RunScalars read_checkpoint_scalars(const io::FilePlace& place) {
+    const io::Hdf5File file = open_checkpoint(place);
+    return scalars_of(file.read_text_attribute("/", "scalar_names"), file.read<double>("/scalars"));
+}
+
+RunScalars read_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                            const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                            const std::string& fingerprint) {
     std::unique_ptr<io::Hdf5File> file;
@@ -101,18 +124,10 @@ RunScalars read_checkpoint(const std::string& path, const Communicator& ranks,
     std::vector<double> values;
     std::int64_t sizes[2] = {0, 0};
     ranks.on_root([&] {
-        file = std::make_unique<io::Hdf5File>(path, io::Hdf5File::Mode::read);
-        if (!file->has_attribute("/", "asperity_checkpoint"))
-            throw io::FileError(path, "is not a checkpoint",
-                                "it lacks the attribute asperity_checkpoint",
-                                "give the checkpoint.h5 of a run's result directory");
-        if (file->read_integer_attribute("/", "asperity_checkpoint") != format_version)
-            throw io::FileError(path, "has another checkpoint format",
-                                "it was written by another version",
-                                "run the scene from its start");
+        file = std::make_unique<io::Hdf5File>(open_checkpoint(place));
         if (file->read_text_attribute("/", "scene") != fingerprint)
             throw io::SceneError(
-                {path, "belongs to another scene",
+                {file->path(), "belongs to another scene",
                  "the physics of this scene differs from the one that wrote the checkpoint",
                  "give the scene it was made with, or start without --resume"});
         names = file->read_text_attribute("/", "scalar_names");
@@ -125,14 +140,6 @@ RunScalars read_checkpoint(const std::string& path, const Communicator& ranks,
     values.resize(static_cast<std::size_t>(sizes[1]));
     ranks.broadcast(std::as_writable_bytes(std::span(names)));
     ranks.broadcast(std::span<double>(values));
-
-    RunScalars scalars;
-    std::size_t from = 0;
-    for (double value : values) {
-        const auto to = names.find('\n', from);
-        scalars.emplace_back(names.substr(from, to - from), value);
-        from = to + 1;
-    }
     for (const StateArray& array : arrays) {
         const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
         for (int z = 0; z < array.planes; ++z) {
@@ -145,24 +152,25 @@ RunScalars read_checkpoint(const std::string& path, const Communicator& ranks,
             scatter_plane(ranks, grid, array.level, dense, array.field->plane(z));
         }
     }
-    return scalars;
+    return scalars_of(names, values);
 }
 
-void write_checkpoint(const std::string& path, Simulation& simulation, const RunScalars& scalars,
-                      const std::string& fingerprint) {
+void write_checkpoint(const io::FilePlace& place, Simulation& simulation, const RunScalars& scalars,
+                      const std::string& fingerprint, const std::vector<StateArray>& run_arrays) {
     CollectScalars collect;
     simulation.visit(collect);
     for (const auto& [name, value] : scalars)
         collect.values.emplace_back("run." + name, value);
-    write_checkpoint(path, simulation.communicator(), simulation.block().grid(),
-                     fields_of(simulation), collect.values, fingerprint);
+    write_checkpoint(place, simulation.communicator(), simulation.block().grid(),
+                     joined(fields_of(simulation), run_arrays), collect.values, fingerprint);
 }
 
-RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
-                           const std::string& fingerprint) {
+RunScalars read_checkpoint(const io::FilePlace& place, Simulation& simulation,
+                           const std::string& fingerprint,
+                           const std::vector<StateArray>& run_arrays) {
     const RunScalars scalars =
-        read_checkpoint(path, simulation.communicator(), simulation.block().grid(),
-                        fields_of(simulation), fingerprint);
+        read_checkpoint(place, simulation.communicator(), simulation.block().grid(),
+                        joined(fields_of(simulation), run_arrays), fingerprint);
     RestoreScalars restore{scalars};
     simulation.visit(restore);
     simulation.block().exchange();

@@ -6,12 +6,14 @@
 // block on the same number of ranks); a relaxation from the same state.
 //
 // A file holds the state's arrays (of a simulation: each level's displacements and half-step
-// velocities) as whole planes, so it does not know how the box was cut, and scalars by name. It is
-// written beside its place and renamed, so there is always a whole one.
+// velocities) as whole planes, so it does not know how the box was cut, and scalars by name. It
+// ends in a digest of all its bytes, without which it is not read. Which files a run keeps:
+// run_storage.hpp.
 #pragma once
 
 #include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/state_array.hpp"
+#include "io/directory.hpp"
 
 #include <string>
 #include <utility>
@@ -42,23 +44,27 @@ struct RestoreScalars {
     }
 };
 
-/// Writes arrays, each as whole planes, and scalars. Collective. fingerprint: of the scene; a
-/// checkpoint is taken up only by the scene that wrote it.
-void write_checkpoint(const std::string& path, const Communicator& ranks, const ProcessGrid& grid,
-                      const std::vector<StateArray>& arrays, const RunScalars& scalars,
-                      const std::string& fingerprint);
-/// Reads them back; halos are left to the caller. Collective. Throws io::FileError if the file
-/// cannot be read, io::SceneError if it is of another scene.
-RunScalars read_checkpoint(const std::string& path, const Communicator& ranks,
+/// Writes arrays, each as whole planes, and scalars. Collective. fingerprint: of the scene; only
+/// the scene that wrote a checkpoint goes on from it.
+void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
+                      const ProcessGrid& grid, const std::vector<StateArray>& arrays,
+                      const RunScalars& scalars, const std::string& fingerprint);
+/// Reads them back; halos are left to the caller. Collective. Throws io::FileError if the file is
+/// damaged or cannot be read, io::SceneError if it is of another scene.
+RunScalars read_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                            const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                            const std::string& fingerprint);
+/// The scalars alone, of whatever scene. Not collective. Throws io::FileError.
+RunScalars read_checkpoint_scalars(const io::FilePlace& place);
 
-/// A simulation with its fields, and the numbers of the run outside it (rows written, results found
-/// so far). Collective.
-void write_checkpoint(const std::string& path, Simulation& simulation, const RunScalars& scalars,
-                      const std::string& fingerprint);
-RunScalars read_checkpoint(const std::string& path, Simulation& simulation,
-                           const std::string& fingerprint);
+/// A simulation with its fields, and of the run outside it: arrays and numbers (rows recorded,
+/// results found so far). Collective.
+void write_checkpoint(const io::FilePlace& place, Simulation& simulation, const RunScalars& scalars,
+                      const std::string& fingerprint,
+                      const std::vector<StateArray>& run_arrays = {});
+RunScalars read_checkpoint(const io::FilePlace& place, Simulation& simulation,
+                           const std::string& fingerprint,
+                           const std::vector<StateArray>& run_arrays = {});
 
 /// The last state known to be good, in memory, to be written when a guard stops the run.
 class Snapshot {

@@ -169,12 +169,11 @@ void add_sphere(const Scene& scene, const FlatReference& flat, io::ResultRecord&
     }
 }
 
-void write_sphere_curves(const std::string& path_file, const PathSeries& path, const Scene& scene,
-                         const FlatReference& flat) {
-    if (!scene.surface.radius || path.leg.size() < 2) return;
-    io::Hdf5File file(path_file, io::Hdf5File::Mode::edit);
-    if (file.exists("/curves")) return; // of a run that was resumed after its end
-    const double strongest = *std::max_element(path.force.begin(), path.force.end());
+void write_sphere_curves(io::Hdf5File& file, const Scene& scene, const FlatReference& flat) {
+    if (!scene.surface.radius) return;
+    const std::vector<double> force = file.read<double>("/series/force");
+    if (force.size() < 2) return;
+    const double strongest = *std::max_element(force.begin(), force.end());
     for (const SphereCurve& curve : sphere_curves(scene, flat, strongest)) {
         if (curve.height.empty()) continue;
         const std::string group = std::string("/curves/") + curve.name;
@@ -184,7 +183,6 @@ void write_sphere_curves(const std::string& path_file, const PathSeries& path, c
         file.write_attribute(group + "/force", "unit", "eV/Å");
         file.write_attribute(group, "label", curve.label);
     }
-    file.close();
 }
 
 } // namespace asperity

@@ -13,6 +13,7 @@
 
 #include "engine/block/flat_reference.hpp"
 #include "engine/scene/scene.hpp"
+#include "io/hdf5_file.hpp"
 #include "io/result.hpp"
 
 #include <string>
@@ -47,10 +48,9 @@ void add_path(const PathSeries& path, const Scene& scene, io::ResultRecord& reco
 /// sphere.maugis_parameter.
 void add_sphere(const Scene& scene, const FlatReference& flat, io::ResultRecord& record);
 
-/// Of a curved scene with a path: what a smooth sphere would do, as /curves/{jkr, jkr_images,
-/// maugis_images} of run.h5, each with height (Å, mean height of the lowest layer above the apex)
-/// and force (eV/Å, positive presses). Throws io::FileError.
-void write_sphere_curves(const std::string& path_file, const PathSeries& path, const Scene& scene,
-                         const FlatReference& flat);
+/// Of a curved scene with a path in this file: what a smooth sphere would do, as /curves/{jkr,
+/// jkr_images, maugis_images} of run.h5, each with height (Å, mean height of the lowest layer above
+/// the apex) and force (eV/Å, positive presses). Throws io::FileError.
+void write_sphere_curves(io::Hdf5File& file, const Scene& scene, const FlatReference& flat);
 
 } // namespace asperity

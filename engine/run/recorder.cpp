@@ -3,6 +3,10 @@
 #include "engine/run/recorder.hpp"
 
 #include "io/build_info.hpp"
+#include "io/h5md.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/result_directory.hpp"
+#include "io/series.hpp"
 
 #include <algorithm>
 #include <array>
@@ -102,38 +106,103 @@ std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
     return gather_plane(ranks, grid, 0, std::as_const(field).plane(0));
 }
 
+/// Records of the journal.
+enum RecordKind : std::uint64_t { rows_record, fields_record, frame_record };
+
+constexpr std::size_t rows_in_memory = 64;
+
+/// The maps of a state, in the order of their record; all but the last are doubles.
+constexpr std::pair<const char*, const char*> map_columns[] = {
+    {"gap", "Å"}, {"pressure", "GPa"}, {"distance", "Å"}, {"u_x", "Å"}, {"u_y", "Å"}, {"u_z", "Å"}};
+
+void write_substrate(io::Hdf5File& file, const Surface& surface) {
+    const auto n = static_cast<std::uint64_t>(surface.sites);
+    file.make_group("/substrate");
+    file.write<double>("/substrate/height", {n, n}, surface.height);
+    file.write_attribute("/substrate/height", "unit", "Å");
+    file.write_attribute("/substrate", "edge", surface.length);
+    std::vector<double> q, realised, target;
+    for (const SpectrumBin& bin : surface.statistics.spectrum) {
+        q.push_back(bin.q);
+        realised.push_back(bin.realised);
+        target.push_back(bin.target);
+    }
+    if (q.empty()) return;
+    file.write<double>("/substrate/spectrum_q", {q.size()}, q);
+    file.write<double>("/substrate/spectrum", {q.size()}, realised);
+    file.write<double>("/substrate/spectrum_target", {q.size()}, target);
+}
+
+/// P(u), normalised to one: 200 bins from the least to the greatest gap.
+void write_gap_density(io::Hdf5File& file, const std::string& group,
+                       const std::vector<double>& gap) {
+    const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
+    constexpr std::size_t bins = 200;
+    const double width = std::max((*greatest - *least) / bins, 1e-12);
+    std::vector<double> density(bins, 0.0), edge(bins + 1);
+    for (std::size_t i = 0; i <= bins; ++i)
+        edge[i] = *least + width * static_cast<double>(i);
+    for (double u : gap) {
+        const auto bin = static_cast<std::size_t>((u - *least) / width);
+        density[std::min(bin, bins - 1)] += 1.0 / (width * static_cast<double>(gap.size()));
+    }
+    file.write<double>(group + "/gap_edges", {bins + 1}, edge);
+    file.write<double>(group + "/gap_density", {bins}, density);
+}
+
+void write_fields(io::Hdf5File& file, io::PayloadReader record) {
+    const auto name_length = record.get<std::uint64_t>();
+    const auto name = record.get<char>(name_length);
+    const std::string group = "/fields/" + std::string(name.begin(), name.end());
+    const auto n = record.get<std::uint64_t>();
+    const auto reference_height = record.get<double>();
+    file.make_group(group);
+    std::vector<double> gap;
+    for (const auto& [map, unit] : map_columns) {
+        const std::vector<double> values = record.get<double>(n * n);
+        file.write<double>(group + "/" + map, {n, n}, values);
+        file.write_attribute(group + "/" + map, "unit", unit);
+        if (gap.empty()) gap = values;
+    }
+    file.write<std::uint8_t>(group + "/contact", {n, n}, record.get<std::uint8_t>(n * n));
+    file.write_attribute(group, "reference_height", reference_height);
+    write_gap_density(file, group, gap);
+}
+
+/// The frames of a journal become a trajectory.
+class TrajectoryWriter {
+public:
+    explicit TrajectoryWriter(io::Hdf5File& file) : file_(file) {}
+    void append(io::PayloadReader record) {
+        const auto particles = record.get<std::uint64_t>();
+        const bool velocities = record.get<std::uint64_t>() != 0;
+        std::array<double, 3> edges{};
+        for (double& edge : edges)
+            edge = record.get<double>();
+        if (!trajectory_) trajectory_.emplace(file_, particles, edges, velocities);
+        const auto step = record.get<std::int64_t>();
+        const auto time = record.get<double>();
+        const std::vector<float> position = record.get<float>(3 * particles);
+        const std::vector<float> velocity = record.get<float>(velocities ? 3 * particles : 0);
+        trajectory_->append(step, time, position, velocity);
+    }
+
+private:
+    io::Hdf5File& file_;
+    std::optional<io::H5mdTrajectory> trajectory_;
+};
+
 } // namespace
 
-Recorder::Recorder(const std::string& path, const Surface& surface,
-                   const Communicator& communicator, DriveMode mode, bool resume,
-                   std::uint64_t rows)
-    : communicator_(communicator), mode_(mode), rows_(resume ? rows : 0) {
+Recorder::Recorder(const io::Directory& directory, const Surface& surface,
+                   const Communicator& communicator, DriveMode mode,
+                   const std::optional<Position>& resume, AddToFile add)
+    : communicator_(communicator), directory_(directory), surface_(surface), add_(std::move(add)),
+      mode_(mode) {
+    if (resume) rows_ = resume->rows;
     communicator_.on_root([&] {
-        if (resume) {
-            file_ = std::make_unique<io::Hdf5File>(path, io::Hdf5File::Mode::edit);
-            series_ = io::Series::reopen(*file_, "/series", columns(mode), rows);
-            return;
-        }
-        file_ = std::make_unique<io::Hdf5File>(path, io::Hdf5File::Mode::create);
-        io::write_h5md_head(*file_, io::build_info().version);
-        series_ = io::Series(*file_, "/series", columns(mode));
-        const auto n = static_cast<std::uint64_t>(surface.sites);
-        file_->make_group("/substrate");
-        file_->write<double>("/substrate/height", {n, n}, surface.height);
-        file_->write_attribute("/substrate/height", "unit", "Å");
-        file_->write_attribute("/substrate", "edge", surface.length);
-        std::vector<double> q, realised, target;
-        for (const SpectrumBin& bin : surface.statistics.spectrum) {
-            q.push_back(bin.q);
-            realised.push_back(bin.realised);
-            target.push_back(bin.target);
-        }
-        if (!q.empty()) {
-            file_->write<double>("/substrate/spectrum_q", {q.size()}, q);
-            file_->write<double>("/substrate/spectrum", {q.size()}, realised);
-            file_->write<double>("/substrate/spectrum_target", {q.size()}, target);
-        }
-        file_->flush();
+        journal_.emplace(directory_, io::run_file::journal, resume ? resume->mark.bytes : 0);
+        build();
     });
 }
 
@@ -141,75 +210,45 @@ void Recorder::row(const StepRecord& record, bool pulling, int sites) {
     const Row row{record, pulling, static_cast<double>(sites) * sites};
     ++rows_;
     communicator_.on_root([&] {
-        std::vector<double> values;
         for (const RecordColumn& c : record_columns)
-            if (is_in(c, mode_)) values.push_back(c.value(row));
-        series_.append(std::span<const double>(values));
+            if (is_in(c, mode_)) waiting_.push_back(c.value(row));
+        if (rows_ % rows_in_memory == 0) append_rows();
     });
+}
+
+void Recorder::append_rows() {
+    if (waiting_.empty()) return;
+    journal_->append(rows_record, std::as_bytes(std::span(std::as_const(waiting_))));
+    waiting_.clear();
 }
 
 void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
                       const ProcessGrid& grid, const Interface& interface,
                       double reference_height) {
     const InterfaceMaps maps = interface.maps(layer, reference_height);
-    std::vector<double> contact(maps.contact.begin(), maps.contact.end());
-    const auto gap = whole(communicator_, grid, maps.gap);
-    const auto pressure = whole(communicator_, grid, maps.pressure);
-    const auto distance = whole(communicator_, grid, maps.distance);
+    const std::vector<double> contact(maps.contact.begin(), maps.contact.end());
+    const std::array<std::vector<double>, 6> columns = {
+        whole(communicator_, grid, maps.gap),
+        whole(communicator_, grid, maps.pressure),
+        whole(communicator_, grid, maps.distance),
+        gather_plane(communicator_, grid, 0, layer.x),
+        gather_plane(communicator_, grid, 0, layer.y),
+        gather_plane(communicator_, grid, 0, layer.z)};
     const auto touching = whole(communicator_, grid, contact);
-    const auto ux = gather_plane(communicator_, grid, 0, layer.x);
-    const auto uy = gather_plane(communicator_, grid, 0, layer.y);
-    const auto uz = gather_plane(communicator_, grid, 0, layer.z);
     communicator_.on_root([&] {
-        const std::string group = "/fields/" + state;
-        if (file_->exists(group)) file_->remove(group); // of an earlier such state
-        file_->make_group(group);
-        const auto n = static_cast<std::uint64_t>(grid.tile(0).sites);
-        const auto write = [&](const char* name, const char* unit, const std::vector<double>& map) {
-            file_->write<double>(group + "/" + name, {n, n}, map);
-            file_->write_attribute(group + "/" + name, "unit", unit);
-        };
-        write("gap", "Å", gap);
-        write("pressure", "GPa", pressure);
-        write("distance", "Å", distance);
-        write("u_x", "Å", ux);
-        write("u_y", "Å", uy);
-        write("u_z", "Å", uz);
-        file_->write<std::uint8_t>(group + "/contact", {n, n},
-                                   std::vector<std::uint8_t>(touching.begin(), touching.end()));
-        file_->write_attribute(group, "reference_height", reference_height);
-
-        // P(u), normalised to one: 200 bins from the least to the greatest gap.
-        const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
-        constexpr std::size_t bins = 200;
-        const double width = std::max((*greatest - *least) / bins, 1e-12);
-        std::vector<double> density(bins, 0.0), edge(bins + 1);
-        for (std::size_t i = 0; i <= bins; ++i)
-            edge[i] = *least + width * static_cast<double>(i);
-        for (double u : gap) {
-            const auto bin = static_cast<std::size_t>((u - *least) / width);
-            density[std::min(bin, bins - 1)] += 1.0 / (width * static_cast<double>(gap.size()));
-        }
-        file_->write<double>(group + "/gap_edges", {bins + 1}, edge);
-        file_->write<double>(group + "/gap_density", {bins}, density);
-        file_->flush();
+        io::PayloadWriter record;
+        record.put<std::uint64_t>(state.size());
+        record.put(std::span<const char>(state));
+        record.put(static_cast<std::uint64_t>(grid.tile(0).sites));
+        record.put(reference_height);
+        for (const std::vector<double>& column : columns)
+            record.put(column);
+        record.put(std::vector<std::uint8_t>(touching.begin(), touching.end()));
+        journal_->append(fields_record, record.bytes());
     });
 }
 
-void Recorder::begin_trajectory(const Simulation& simulation, bool velocities) {
-    velocities_ = velocities;
-    communicator_.on_root([&] {
-        const auto& block = simulation.options().block;
-        const auto n = static_cast<std::uint64_t>(block.sites);
-        const double edge = block.sites * block.spacing;
-        const double height = 2.0 * simulation.interface().start_height() + // room for both ends
-                              block.thickness * block.spacing;
-        trajectory_.emplace(*file_, n * n, std::array{edge, edge, height}, velocities,
-                            simulation.steps());
-    });
-}
-
-void Recorder::frame(const Simulation& simulation) {
+void Recorder::frame(const Simulation& simulation, bool velocities) {
     const Block::Level& level = simulation.block().levels().front();
     const ProcessGrid& grid = simulation.block().grid();
     const auto whole_layer = [&](const VectorPlane<const double>& plane) {
@@ -219,7 +258,7 @@ void Recorder::frame(const Simulation& simulation) {
     };
     const auto u = whole_layer(level.u.view()[0]);
     std::array<std::vector<double>, 3> v;
-    if (velocities_) v = whole_layer(level.v.view()[0]);
+    if (velocities) v = whole_layer(level.v.view()[0]);
     communicator_.on_root([&] {
         const auto& block = simulation.options().block;
         const auto sites = static_cast<std::size_t>(block.sites);
@@ -233,21 +272,93 @@ void Recorder::frame(const Simulation& simulation) {
             for (std::size_t c = 0; c < 3; ++c)
                 position[3 * i + c] = static_cast<float>(rest[c] + u[c][i]);
         }
-        if (velocities_) {
+        if (velocities) {
             velocity.resize(position.size());
             for (std::size_t i = 0; i < sites * sites; ++i)
                 for (std::size_t c = 0; c < 3; ++c)
                     velocity[3 * i + c] = static_cast<float>(1e3 * v[c][i]); // Å/fs to Å/ps
         }
-        trajectory_->append(simulation.steps(), simulation.time() * 1e-3, position, velocity);
+        const double edge = block.sites * block.spacing;
+        const double height = 2.0 * simulation.interface().start_height() + // room for both ends
+                              block.thickness * block.spacing;
+        io::PayloadWriter record;
+        record.put(static_cast<std::uint64_t>(sites * sites));
+        record.put<std::uint64_t>(velocities ? 1 : 0);
+        for (const double length : {edge, edge, height})
+            record.put(length);
+        record.put<std::int64_t>(simulation.steps());
+        record.put(simulation.time() * 1e-3);
+        record.put(position);
+        record.put(velocity);
+        journal_->append(frame_record, record.bytes());
     });
 }
 
-void Recorder::flush() {
+Recorder::Position Recorder::position() {
+    Position now{rows_, {}};
     communicator_.on_root([&] {
-        series_.flush();
-        file_->flush();
+        append_rows();
+        now.mark = journal_->mark();
+    });
+    return now;
+}
+
+void Recorder::synchronize() {
+    communicator_.on_root([&] {
+        append_rows();
+        journal_->synchronize();
     });
 }
+
+void Recorder::write() {
+    communicator_.on_root([&] { write_on_root(); });
+}
+
+void Recorder::write_on_root() {
+    append_rows();
+    build();
+}
+
+void Recorder::write_if_cheap() {
+    communicator_.on_root([&] {
+        const double since = std::chrono::duration<double>(Clock::now() - built_).count();
+        if (build_seconds_ <= largest_share * since) write_on_root();
+    });
+}
+
+/// run.h5 anew, from all records. Root only.
+void Recorder::build() {
+    const Clock::time_point start = Clock::now();
+    io::Hdf5File file({directory_, "run.h5"}, io::Hdf5File::Mode::create);
+    io::write_h5md_head(file, io::build_info().version);
+    write_substrate(file, surface_);
+    io::Series series(file, "/series", columns(mode_));
+    const std::size_t width = series.columns().size();
+    TrajectoryWriter trajectory(file);
+    journal_->replay([&](std::uint64_t kind, io::Journal::Bytes payload) {
+        io::PayloadReader record(payload);
+        if (kind == rows_record)
+            while (!record.at_end())
+                series.append(record.get<double>(width));
+        else if (kind == fields_record)
+            write_fields(file, record);
+        else
+            trajectory.append(record);
+    });
+    series.flush();
+    add_(file);
+    file.close();
+    built_ = Clock::now();
+    build_seconds_ = std::chrono::duration<double>(built_ - start).count();
+}
+
+bool Recorder::in_place() const { return !journal_ || journal_->in_place(); }
+
+void Recorder::move_to(const io::Directory& directory) {
+    directory_ = directory;
+    journal_->move_to(directory);
+}
+
+void Recorder::remove_journal() { directory_.remove(io::run_file::journal); }
 
 } // namespace asperity

@@ -1,50 +1,88 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// run.h5: the series along the path, the maps of states, and the trajectory of the lowest layer
+// What a run records along its way: rows of the series, maps of states, frames of the trajectory
 // (collective; the root writes).
+//
+// Records are appended to run.journal (io/journal.hpp), which a checkpoint refers to. run.h5 is
+// made of them: at the start, at the end, and at checkpoints as long as that takes less than a
+// small share of the time. It is always whole.
 #pragma once
 
 #include "engine/dynamics/simulation.hpp"
 #include "engine/scene/scene.hpp"
-#include "io/h5md.hpp"
+#include "io/directory.hpp"
 #include "io/hdf5_file.hpp"
-#include "io/series.hpp"
+#include "io/journal.hpp"
 
-#include <memory>
+#include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace asperity {
 
 class Recorder {
 public:
-    /// A new file, or (rows > 0) an old one taken up after its first rows.
-    Recorder(const std::string& path, const Surface& surface, const Communicator& communicator,
-             DriveMode mode, bool resume, std::uint64_t rows);
+    /// How much was recorded at some moment.
+    struct Position {
+        std::uint64_t rows = 0;
+        io::Journal::Mark mark; ///< on the root
+    };
+
+    /// What else goes into run.h5, when the records are in it.
+    using AddToFile = std::function<void(io::Hdf5File&)>;
+
+    /// A new journal, or one that goes on from a position which it holds (Journal::holds). The
+    /// surface must outlive the recorder.
+    Recorder(const io::Directory& directory, const Surface& surface,
+             const Communicator& communicator, DriveMode mode,
+             const std::optional<Position>& resume, AddToFile add);
 
     /// One row: an observed step, or a point of a quasi-static path (which has no time, no kinetic
     /// energy and no damping, and no columns for them). sites: N.
     void row(const StepRecord& record, bool pulling, int sites);
     std::uint64_t rows() const { return rows_; }
     /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
+    /// Once for each name.
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface, double reference_height);
-    /// Makes room for frames (H5MD); a trajectory taken up from a file loses what came after the
-    /// simulation's present step.
-    void begin_trajectory(const Simulation& simulation, bool velocities);
-    /// One frame: the lowest layer as it stands between two steps. Velocities are half a step old.
-    void frame(const Simulation& simulation);
-    void flush();
+    /// One frame (H5MD): the lowest layer as it stands between two steps. Velocities are half a
+    /// step old.
+    void frame(const Simulation& simulation, bool velocities);
+
+    /// Everything recorded so far, in the journal.
+    Position position();
+    /// Brings the journal to the disk.
+    void synchronize();
+    /// Writes run.h5.
+    void write();
+    /// At a checkpoint: writes it if that takes less than largest_share of the time since the last.
+    void write_if_cheap();
+
+    // Root only.
+    void write_on_root();
+    bool in_place() const; ///< nobody has removed the journal
+    void move_to(const io::Directory& directory);
+    void remove_journal(); ///< the run is over
 
 private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr double largest_share = 0.005;
+    void append_rows();
+    void build();
+
     Communicator communicator_;
-    std::unique_ptr<io::Hdf5File> file_; ///< root only
-    io::Series series_;
+    io::Directory directory_;
+    const Surface& surface_;
+    AddToFile add_;
     DriveMode mode_;
-    std::optional<io::H5mdTrajectory> trajectory_; ///< root only
-    bool velocities_ = false;
+    std::optional<io::Journal> journal_; ///< root only
+    std::vector<double> waiting_;        ///< rows that are not in the journal yet; root only
     std::uint64_t rows_ = 0;
+    double build_seconds_ = 0.0; ///< of the last run.h5
+    Clock::time_point built_ = Clock::now();
 };
 
 } // namespace asperity

@@ -17,6 +17,7 @@ class Communicator;
 struct RunOptions {
     std::string out;                  ///< --out; empty: results/<scene>
     std::string resume;               ///< --resume: "", "auto", or a checkpoint file
+    bool restart = false;             ///< --restart: an unfinished run is thrown away
     std::optional<double> wall_limit; ///< s
     io::ProgressMode progress = io::ProgressMode::automatic;
 

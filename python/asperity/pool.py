@@ -168,11 +168,8 @@ class Pool:
     def _start(self, i: int) -> None:
         job = self.jobs[i]
         files.directory(job.directory)
-        checkpoint = (job.directory / "checkpoint.h5").exists()
-        if not checkpoint:
-            (job.directory / "result.json").unlink(missing_ok=True)  # of a failure that is tried again
         words = [*self.options.launch, program.path(), "run", job.file, "--out", str(job.directory),
-                 "--progress", "lines", *(["--resume", "auto"] if checkpoint else []), *program.sets(job.overrides)]
+                 "--progress", "lines", "--resume", "auto", *program.sets(job.overrides)]
         environment = dict(os.environ)
         threads = self.options.threads
         if not threads and "OMP_NUM_THREADS" not in environment and not self.options.launch:
@@ -182,6 +179,8 @@ class Pool:
         parent = os.getpid()
 
         def prepare() -> None:  # in the child
+            if not self.options.launch:  # a signal that comes early waits until the run can catch it
+                signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGUSR1, signal.SIGTERM, signal.SIGINT})
             _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGUSR1)
             if os.getppid() != parent:
                 os._exit(STOPPED)

@@ -62,6 +62,7 @@ TEST(HeightMap, Hdf5UnitsAndSizes) {
         file.write_attribute("/surface", "size_x", 100.0);
         file.write_attribute("/surface", "size_y", 100.0);
         file.write<double>("/line", {2}, std::vector<double>{1, 2}); // one dimension: no map
+        file.close();
     }
     HeightMap map = read_height_map(scratch / "afm.h5");
     EXPECT_EQ(map.heights, (std::vector<double>{0.0, 5.0, 10.0, -10.0}));
@@ -71,13 +72,16 @@ TEST(HeightMap, Hdf5UnitsAndSizes) {
     EXPECT_EQ(map.heights[1], 0.5);
     EXPECT_EQ(map.size, 1000.0);
     {
-        Hdf5File file(scratch / "afm.h5", Hdf5File::Mode::edit);
+        Hdf5File file(scratch / "two.h5", Hdf5File::Mode::create);
+        file.write<double>("/surface", {2, 2}, std::vector<double>{0, 1, 2, 3});
         file.write<double>("/group/other", {2, 2}, std::vector<double>{1, 2, 3, 4});
+        file.write<double>("/line", {2}, std::vector<double>{1, 2}); // one dimension: no map
+        file.close();
     }
-    EXPECT_EQ(refused(scratch / "afm.h5").what, "holds more than one height map");
-    EXPECT_EQ(read_height_map((scratch / "afm.h5") + ":/group/other").heights.back(), 4.0);
-    EXPECT_EQ(refused((scratch / "afm.h5") + ":/group").what, "has no data set /group");
-    EXPECT_EQ(refused((scratch / "afm.h5") + ":/line").why, "it has 1 dimensions, a map has 2");
+    EXPECT_EQ(refused(scratch / "two.h5").what, "holds more than one height map");
+    EXPECT_EQ(read_height_map((scratch / "two.h5") + ":/group/other").heights.back(), 4.0);
+    EXPECT_EQ(refused((scratch / "two.h5") + ":/group").what, "has no data set /group");
+    EXPECT_EQ(refused((scratch / "two.h5") + ":/line").why, "it has 1 dimensions, a map has 2");
 }
 
 TEST(HeightMap, Hdf5Mistakes) {

@@ -107,40 +107,12 @@ TEST(Result, NumbersKeepTheirBits) {
     EXPECT_THROW(JsonValue::parse(objects + "1" + std::string(50000, '}'), "f.json"), FileError);
 }
 
-TEST(Result, IsWrittenWholeAndNeverOver) {
+TEST(Result, IsWrittenWhole) {
     const Scratch scratch;
-    const std::string directory = scratch / "a/b";
+    const Directory directory = Directory::make(scratch / "a/b");
     write_result(directory, ResultRecord{});
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory), {}), 1); // no litter
-    EXPECT_NO_THROW(JsonValue::parse(contents(directory + "/result.json"), ""));
-
-    EXPECT_THROW(choose_result_directory(directory, "x", false), SceneError);
-    EXPECT_EQ(choose_result_directory(directory, "x", true).directory, directory);
-    EXPECT_EQ(choose_result_directory(scratch / "new", "x", false).directory, scratch / "new");
-    EXPECT_FALSE(std::filesystem::exists(scratch / "new"));
-    EXPECT_THROW(choose_result_directory(scratch.write("file", ""), "x", false), SceneError);
-    EXPECT_THROW(make_directory((scratch / "file") + "/sub"), FileError);
-    EXPECT_THROW(write_whole(scratch / "none/result.json", "x"), FileError);
-    std::filesystem::create_directories(scratch / "taken/x");
-    EXPECT_THROW(write_whole(scratch / "taken", "x"), FileError);
-    EXPECT_FALSE(std::filesystem::exists((scratch / "taken") + ".tmp"));
-}
-
-TEST(Result, NumbersItsDirectories) {
-    const Scratch scratch;
-    const auto before = std::filesystem::current_path();
-    std::filesystem::current_path(scratch / "");
-    ResultPlace place = choose_result_directory("", "gold", false);
-    EXPECT_EQ(place.directory, "results/gold");
-    EXPECT_EQ(place.note, "");
-    write_result(place.directory, {});
-    place = choose_result_directory("", "gold", false);
-    EXPECT_EQ(place.directory, "results/gold-2");
-    EXPECT_EQ(place.note, "results/gold already holds a result; this one goes to results/gold-2");
-    write_result(place.directory, {});
-    EXPECT_EQ(choose_result_directory("", "gold", false).directory, "results/gold-3");
-    EXPECT_EQ(choose_result_directory("", "gold", true).directory, "results/gold-2");
-    std::filesystem::current_path(before);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1);
+    EXPECT_NO_THROW(JsonValue::parse(contents(directory / "result.json"), ""));
 }
 
 } // namespace

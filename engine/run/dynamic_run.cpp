@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The parts of the path one after the other in time: steps until the drive has come to its end;
+// when the approach has ended, a copy of the block is relaxed under zero load.
+#include "engine/run/dynamic_run.hpp"
+
+#include "decomposition/global_largest.hpp"
+#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/run/checkpoint.hpp"
+#include "engine/run/run_record.hpp"
+#include "engine/run/run_session.hpp"
+#include "engine/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace asperity {
+
+namespace {
+
+/// Largest relative error of the energy balance that counts as physics.
+constexpr double energy_limit = 0.02;
+/// Observed steps between two states kept in memory for the guard.
+constexpr long long rows_between_snapshots = 10;
+
+class DynamicRun {
+public:
+    DynamicRun(const Scene& scene, const RunOptions& options, const Communicator& ranks)
+        : run_(scene, options, ranks), scene_(scene),
+          simulation_(run_.setup.simulation, run_.surface, ranks, run_.grid) {}
+
+    int carry_out() {
+        const std::size_t bytes = simulation_.block().bytes() + simulation_.interface().bytes();
+        const auto work = [&] {
+            if (!resume()) simulation_.start(simulation_.interface().start_height());
+            integrate();
+            run_.write_kept_fields(simulation_.interface());
+        };
+        return run_.carry_out(bytes, work,
+                              {[&](io::ResultRecord& record) { add_to(record); },
+                               [&] { return simulation_.energy_residual(); }});
+    }
+
+private:
+    /// The loop over time: step, guard, record, tell the drive; a leg that has ended is concluded
+    /// one step later.
+    void integrate() {
+        for (;;) {
+            if (concluding_) {
+                if (!conclude(*concluding_)) return;
+                concluding_.reset();
+            }
+            if (!ended_ && simulation_.drive().done()) return;
+            if (!ended_ && scene_.drive.max_steps > 0 &&
+                simulation_.steps() >= scene_.drive.max_steps) {
+                run_.stop_at_max_steps();
+                run_.save_if_on(state_writer());
+                return;
+            }
+            if (run_.look_is_due() && run_.stop_here(state_writer(), position())) return;
+            if (frame_is_due()) record_frame();
+            // The step after a leg and the last of all are observed, so that the guard has seen the
+            // energy balance before anything is concluded.
+            const bool due = simulation_.steps() % scene_.output.series == 0;
+            const StepRecord& now = simulation_.step(due || ended_ || next_step_is_last());
+            guard(now);
+            if (now.observed) record_row();
+            watch_step(now);
+            if (ended_)
+                concluding_ = std::exchange(ended_, std::nullopt);
+            else
+                ended_ = follow_drive(now);
+            write_delayed_fields(now.time);
+            if (run_.progress.due()) run_.progress.update(progress_state(now));
+        }
+    }
+
+    bool next_step_is_last() const {
+        return scene_.drive.max_steps > 0 && simulation_.steps() + 1 >= scene_.drive.max_steps;
+    }
+    bool frame_is_due() const {
+        return scene_.output.trajectory && simulation_.steps() % *scene_.output.trajectory == 0;
+    }
+
+    /// Tells the drive what the step felt. The leg that ended with it, if one did.
+    std::optional<Leg> follow_drive(const StepRecord& now) {
+        const Leg leg = simulation_.leg();
+        double& attraction =
+            leg == Leg::approach ? run_.findings.attraction_in : run_.findings.attraction_out;
+        attraction = std::max(attraction, -now.force);
+        const double strongest =
+            std::max(run_.findings.attraction_in, run_.findings.attraction_out);
+        const bool gone = now.top >= 0.0 && std::abs(now.force) <= 1e-6 * strongest;
+        if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
+        if (leg == Leg::approach) run_.findings.contact_made = now.time;
+        return leg;
+    }
+
+    /// Maps that are due so long after the approach has ended.
+    void write_delayed_fields(double time) {
+        while (!delayed_fields_.empty() && is_due(delayed_fields_.front().first, time)) {
+            const auto t = run_.phases.time(Phase::output);
+            run_.recorder().fields(delayed_fields_.front().second,
+                                   std::as_const(simulation_).block().lowest_layer(), run_.grid,
+                                   simulation_.interface(), simulation_.reference_height());
+            delayed_fields_.erase(delayed_fields_.begin());
+        }
+    }
+    bool is_due(double delay, double time) const { // ps, fs
+        return run_.findings.contact_made &&
+               time >= *run_.findings.contact_made + delay * units::picosecond;
+    }
+
+    /// What a leg has shown. False: stopped on the way to it.
+    bool conclude(Leg leg) {
+        const double area = scene_.edge() * scene_.edge();
+        if (leg == Leg::pull_off) {
+            run_.findings.pull_off = -units::milli_per_unit * simulation_.ledger().pull_off / area;
+            return true;
+        }
+        run_.findings.approach = units::milli_per_unit * simulation_.ledger().approach / area;
+        // The relaxation works on a copy: a run that is stopped in it starts it again from here.
+        run_.save_if_on(state_writer());
+        run_.progress.say("contact is made; relaxing a copy of this state under zero load");
+        if (!relax_copy()) {
+            run_.stop_now(state_writer(), position());
+            return false;
+        }
+        if (!simulation_.drive().done()) run_.progress.say("pull-off begins");
+        return true;
+    }
+
+    /// False: stopped before the state was found.
+    bool relax_copy() {
+        const auto t = run_.phases.time(Phase::relax);
+        const auto copy = at_rest(simulation_.block().copy_at_rest());
+        run_.findings.zero_load =
+            find_zero_load(*copy, simulation_.interface(), simulation_.reference_height(), 0.0,
+                           scene_, run_.setup, [&](long long iteration, double residual) {
+                               show_relaxation(run_.progress, iteration, residual);
+                               return run_.stop_relaxation(iteration, residual);
+                           });
+        if (!run_.findings.zero_load) return false;
+        if (scene_.writes_field("zero-load"))
+            run_.recorder().fields("zero-load", copy->lowest_layer(), run_.grid,
+                                   simulation_.interface(), simulation_.reference_height());
+        return true;
+    }
+
+    void guard(const StepRecord& now) {
+        const bool finite = std::isfinite(now.force) && std::isfinite(now.mean_height) &&
+                            std::isfinite(now.top_force);
+        const double residual = now.observed ? simulation_.energy_residual() : 0.0;
+        const bool balanced = std::isfinite(residual) && std::abs(residual) <= energy_limit;
+        if (finite && balanced) return;
+        const StepRecord failed = now; // what follows puts the simulation back
+        const std::string where = fastest_site();
+        std::string kept = "no earlier state was kept";
+        if (!snapshot_.empty()) {
+            snapshot_.restore(simulation_);
+            const char* file = "last-good.h5";
+            write_checkpoint(run_.file(file), simulation_, snapshot_scalars_, run_.fingerprint());
+            kept = fmt::format("the last good state, step {}, is in {} for a look",
+                               snapshot_.step(), file);
+        }
+        const double limit = run_.setup.longest_timestep;
+        throw io::PhysicsError(
+            finite ? fmt::format("the energy balance is off by {:.1f} % at step {}",
+                                 100.0 * residual, failed.step)
+                   : fmt::format("the motion diverged at step {}: the force is {}", failed.step,
+                                 failed.force),
+            fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
+                        "contact, and less "
+                        "where atoms are pressed into the wall or hit it fast",
+                        where, scene_.drive.timestep, limit),
+            fmt::format("start again with a smaller drive.timestep (for example {:.2g} fs) or "
+                        "drive.velocity; {}",
+                        std::min(0.5 * scene_.drive.timestep, 0.2 * limit), kept));
+    }
+
+    /// The site of the lowest layer with the largest velocity, which may be infinite or no number.
+    std::string fastest_site() {
+        const auto& level = simulation_.block().levels().front();
+        const auto v = level.v.view()[0];
+        const LargestSite fastest = global_largest(run_.ranks, level.tile, [&](int x, int y) {
+            return std::sqrt(v.x(x, y) * v.x(x, y) + v.y(x, y) * v.y(x, y) + v.z(x, y) * v.z(x, y));
+        });
+        return fmt::format("site ({}, {}) moves at {:.3g} m/s", fastest.x, fastest.y,
+                           fastest.value / units::metre_per_second);
+    }
+
+    void record_row() {
+        const auto t = run_.phases.time(Phase::output);
+        const bool keep = run_.recorder().rows() % rows_between_snapshots == 0;
+        const bool pulling = simulation_.leg() == Leg::pull_off ||
+                             (simulation_.leg() == Leg::done && scene_.has(PathPart::pull_off));
+        run_.recorder().row(simulation_.now(), pulling, scene_.surface.sites);
+        if (!keep) return;
+        snapshot_.take(simulation_);
+        snapshot_scalars_ = run_.scalars();
+    }
+
+    void record_frame() {
+        const auto t = run_.phases.time(Phase::output);
+        run_.recorder().frame(simulation_, scene_.output.velocities);
+    }
+
+    /// The block is a step further than what was observed: no more than it moves in one.
+    void watch_step(const StepRecord& now) {
+        if (!run_.watches_fields()) return;
+        if (!now.observed && !run_.field_is_due(now.step)) return;
+        const auto t = run_.phases.time(Phase::output);
+        run_.watch_fields(now.step, simulation_.leg(), now.observed ? -now.force : 0.0,
+                          std::as_const(simulation_).block().lowest_layer(),
+                          simulation_.interface(), simulation_.reference_height());
+    }
+
+    /// Goes on from a checkpoint if asked. True if it did.
+    bool resume() {
+        const std::optional<io::FilePlace> place = run_.checkpoint_to_resume();
+        if (!place) {
+            run_.open_recorder();
+            return false;
+        }
+        const RunScalars scalars =
+            read_checkpoint(*place, simulation_, run_.fingerprint(), run_.arrays());
+        RestoreScalars restore{scalars};
+        visit(restore);
+        run_.restore({scalars.begin() + static_cast<std::ptrdiff_t>(restore.at), scalars.end()});
+        run_.open_recorder();
+        std::erase_if(delayed_fields_, [&](const auto& field) { // written before it stopped
+            return is_due(field.first, simulation_.now().time);
+        });
+        run_.progress.say(
+            fmt::format("going on from step {} of {}", simulation_.steps(), place->path()));
+        return true;
+    }
+
+    RunSession::WriteState state_writer() {
+        return [&](const io::FilePlace& place) {
+            CollectScalars collect;
+            visit(collect);
+            const RunScalars run = run_.scalars();
+            collect.values.insert(collect.values.end(), run.begin(), run.end());
+            write_checkpoint(place, simulation_, collect.values, run_.fingerprint(), run_.arrays());
+        };
+    }
+    std::string position() const { return fmt::format("step {}", simulation_.steps()); }
+
+    /// Where the loop stands, for checkpoints.
+    template <class Visitor>
+    void visit(Visitor& v) {
+        const auto leg = [&](const char* name, std::optional<Leg>& value) {
+            int number = value ? static_cast<int>(*value) : -1;
+            v(name, number);
+            value = number < 0 ? std::nullopt : std::optional(static_cast<Leg>(number));
+        };
+        leg("ended", ended_);
+        leg("concluding", concluding_);
+    }
+
+    io::Progress::State progress_state(const StepRecord& now) const {
+        return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force),
+                simulation_.steps(), now.time,
+                run_.way_done(simulation_.leg(), now.top, simulation_.interface().start_height())};
+    }
+
+    /// Steps and energies.
+    void add_to(io::ResultRecord& r) const {
+        add_phases(simulation_.phases(), r);
+        r.run.steps = simulation_.steps();
+        r.extra.emplace_back("run.device", describe_device(run_.setup.simulation.device));
+        if (simulation_.steps() == 0) return;
+        const StepRecord& now = simulation_.now(); // energies of the last observed step
+        r.energy = {now.residual,         now.work,  now.kinetic_energy, now.elastic_energy,
+                    now.interface_energy, now.damped};
+    }
+
+    RunSession run_;
+    const Scene& scene_;
+    Simulation simulation_;
+    std::optional<Leg> ended_;      ///< the leg that the last step ended
+    std::optional<Leg> concluding_; ///< the leg that ended the step before
+    std::vector<std::pair<double, std::string>> delayed_fields_ = scene_.delayed_fields();
+    Snapshot snapshot_;
+    RunScalars snapshot_scalars_;
+};
+
+} // namespace
+
+int run_in_time(const Scene& scene, const RunOptions& options, const Communicator& communicator) {
+    return DynamicRun(scene, options, communicator).carry_out();
+}
+
+} // namespace asperity

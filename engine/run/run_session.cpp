@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/run_session.hpp"
+
+#include "engine/run/plan.hpp"
+#include "engine/run/run_record.hpp"
+#include "engine/run/stop_signals.hpp"
+#include "engine/run/summary.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include <sys/resource.h>
+
+namespace asperity {
+
+namespace {
+
+/// Prints. A standard output that was closed, or is full, is no reason to end a run: its numbers
+/// are in its files.
+template <class Print>
+void print_unless_closed(const Print& print) {
+    try {
+        print();
+    } catch (const std::system_error&) {
+    }
+}
+
+/// What may not change between a checkpoint and its resumption.
+std::string physics_of(const Scene& scene) {
+    const io::JsonValue all = scene_json(scene);
+    io::JsonValue part = io::JsonValue::object();
+    for (const char* section : {"surface", "block", "interface", "drive"})
+        if (const auto* value = all.find(section)) part[section] = *value;
+    part["drive"]["max_steps"] = 0;
+    return part.dump(-1);
+}
+
+} // namespace
+
+RunSession::RunSession(const Scene& of, const RunOptions& options, const Communicator& on)
+    : scene(of), ranks(on), options_(options), storage_(options, scene.name, ranks),
+      setup(make_setup(scene, ranks.size())), surface(scene_surface(scene)),
+      grid(make_grid(scene, setup, ranks.size(), ranks.rank())),
+      progress(options.progress, !ranks.root()), fingerprint_(physics_of(scene)) {
+    if (scene.writes_field("pull-off")) strongest_.layer = VectorField<double>(grid.tile(0), 1);
+    print_notes();
+}
+
+void RunSession::print_notes() {
+    progress.finish();
+    for (const std::string& note : storage_.take_notes()) // however little progress is shown
+        print_unless_closed([&] { fmt::print(stderr, "{}\n", note); });
+}
+
+int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
+                          const Ending& ending) {
+    last_checkpoint_ = seconds();
+    try {
+        if (ranks.root())
+            print_unless_closed([&] {
+                print_opening(stdout, scene, setup, surface, grid, omp_get_max_threads(), bytes,
+                              storage_.path());
+            });
+        work();
+        const auto t = phases.time(Phase::output);
+        bring_back_directory(); // the numbers are there: they go where they can
+        recorder_->write();
+    } catch (const io::Error& error) {
+        progress.finish();
+        write_failure(error, ending);
+        throw;
+    }
+    progress.finish();
+    ranks.on_root([&] {
+        write_result({}, ending);
+        throw_if_directory_gone();
+        print_unless_closed([&] {
+            print_summary(stdout, scene, setup, findings, ending.energy_residual(),
+                          storage_.path());
+            if (!stopped_.empty())
+                fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);
+        });
+    });
+    return stopped_ == "wall_limit" || stopped_ == "signal" ? io::exit_code::stopped
+                                                            : io::exit_code::done;
+}
+
+void RunSession::throw_if_directory_gone() {
+    if (stopped_ != "directory") return;
+    throw io::FileError(
+        storage_.directory().path(), "was moved or removed while the run was using it",
+        fmt::format("at {} it was not there any more", saved_at_),
+        fmt::format("the state is in {0}; resume with --resume auto --out {0}", storage_.path()));
+}
+
+RunSession::Due RunSession::due() {
+    constexpr double nothing = 0.0, save = 1.0, wall = 2.0, signal = 3.0, gone = 4.0;
+    double decision = nothing; // the greatest wins
+    if (ranks.root()) {
+        const double now = seconds();
+        if (setup.effects.on(Effect::checkpoints) &&
+            now - last_checkpoint_ >= scene.output.checkpoint)
+            decision = save;
+        if (options_.wall_limit && now >= *options_.wall_limit) decision = wall;
+    }
+    if (stop_signals::caught()) decision = signal;
+    if (ranks.root() && !storage_.in_place(*recorder_)) decision = gone;
+    std::array<double, 1> agreed = {decision};
+    ranks.max(agreed);
+    if (agreed[0] == nothing) return Due::nothing;
+    if (agreed[0] == save) return Due::save;
+    stopped_ = agreed[0] == wall ? "wall_limit" : agreed[0] == signal ? "signal" : "directory";
+    return Due::stop;
+}
+
+bool RunSession::look_is_due() {
+    if (--steps_to_look_ > 0) return false;
+    // The root's clock decides how many steps are about half a second.
+    constexpr double interval = 0.5, most = 1000.0;
+    std::array<double, 1> stride = {1.0};
+    if (ranks.root()) {
+        const double each = (seconds() - last_look_) / static_cast<double>(looked_every_);
+        stride[0] = std::clamp(std::floor(interval / std::max(each, 1e-9)), 1.0, most);
+    }
+    ranks.broadcast(std::span<double>(stride));
+    steps_to_look_ = looked_every_ = static_cast<long long>(stride[0]);
+    last_look_ = seconds();
+    return true;
+}
+
+bool RunSession::stop_here(const WriteState& write, const std::string& where) {
+    saved_at_ = where;
+    const Due now = due();
+    if (now == Due::stop) stop_now(write, where);
+    if (now == Due::save) save(write);
+    last_look_ = seconds();
+    return !stopped_.empty();
+}
+
+void RunSession::stop_now(const WriteState& write, const std::string& where) {
+    bring_back_directory();
+    save(write);
+    if (ranks.root())
+        progress.say(fmt::format(
+            "stopping: the state at {} is in {}/checkpoint.h5; resume with --resume auto", where,
+            storage_.path()));
+}
+
+bool RunSession::stop_relaxation(long long iteration, double residual) {
+    constexpr long long patience = 5000;
+    if (iteration == 0 || iteration < descent_.last || residual < 0.5 * descent_.smallest) {
+        descent_.smallest = residual;
+        descent_.found_at = iteration;
+    }
+    descent_.last = iteration;
+    if (iteration - descent_.found_at > patience)
+        throw io::PhysicsError(
+            fmt::format("the relaxation makes no progress after {} iterations", iteration),
+            fmt::format("the largest force left, {:.2e} eV/Å, has not halved in {} iterations, and "
+                        "drive.tolerance is {:.2e} eV/Å",
+                        residual, patience, scene.drive.tolerance),
+            "a looser drive.tolerance ends where rounding still allows it");
+    return due() == Due::stop;
+}
+
+void RunSession::save(const WriteState& write) {
+    const auto t = phases.time(Phase::checkpoint);
+    const auto save_once = [&] {
+        recorder_->synchronize();
+        storage_.save(write);
+    };
+    try {
+        save_once();
+    } catch (const std::exception&) { // on every rank; the root knows whether it was this:
+        if (!bring_back_directory()) throw;
+        stopped_ = "directory";
+        save_once();
+    }
+    recorder_->write_if_cheap();
+    last_checkpoint_ = seconds();
+}
+
+/// Of a directory that was moved or removed: makes it usable again. False: it was not. Collective.
+bool RunSession::bring_back_directory() {
+    std::array<double, 1> gone = {0.0};
+    if (ranks.root()) gone[0] = storage_.in_place(*recorder_) ? 0.0 : 1.0;
+    ranks.max(gone);
+    if (gone[0] != 0.0) ranks.on_root([&] { storage_.bring_back(*recorder_); });
+    return gone[0] != 0.0;
+}
+
+void RunSession::save_if_on(const WriteState& write) {
+    if (setup.effects.on(Effect::checkpoints)) save(write);
+}
+
+io::FilePlace RunSession::file(const std::string& name) const {
+    return ranks.root() ? storage_.file(name) : io::FilePlace(name);
+}
+
+std::optional<io::FilePlace> RunSession::checkpoint_to_resume() {
+    const auto place = storage_.checkpoint_to_resume();
+    print_notes();
+    return place;
+}
+
+void RunSession::open_recorder() {
+    recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
+                      scene.without_time() ? DriveMode::quasistatic : DriveMode::dynamic,
+                      resumed_at_,
+                      [this](io::Hdf5File& file) { write_sphere_curves(file, scene, setup.flat); });
+}
+
+void RunSession::watch_fields(long long step, Leg leg, double attraction,
+                              const VectorPlane<const double>& layer, const Interface& interface,
+                              double reference_height) {
+    if (field_is_due(step))
+        recorder_->fields(fmt::format("step-{}", step), layer, grid, interface, reference_height);
+    if (leg != Leg::pull_off || attraction <= strongest_.attraction ||
+        !scene.writes_field("pull-off"))
+        return;
+    strongest_.attraction = attraction;
+    strongest_.reference_height = reference_height;
+    strongest_.kept = true;
+    const VectorPlane<double> to = strongest_.layer.plane(0);
+    for (int y = 0; y < to.x.ny; ++y) {
+        std::copy_n(layer.x.line(y), to.x.nx, to.x.line(y));
+        std::copy_n(layer.y.line(y), to.y.nx, to.y.line(y));
+        std::copy_n(layer.z.line(y), to.z.nx, to.z.line(y));
+    }
+}
+
+void RunSession::write_kept_fields(const Interface& interface) {
+    if (!strongest_.kept) return;
+    recorder_->fields("pull-off", std::as_const(strongest_.layer).plane(0), grid, interface,
+                      strongest_.reference_height);
+    strongest_.kept = false;
+}
+
+RunScalars RunSession::scalars() {
+    CollectScalars collect;
+    add_position(recorder_->position(), collect.values);
+    collect("strongest.attraction", strongest_.attraction);
+    collect("strongest.reference_height", strongest_.reference_height);
+    collect("strongest.kept", strongest_.kept);
+    collect.values.emplace_back("processor_seconds", processor_seconds());
+    findings.visit(collect);
+    return collect.values;
+}
+
+std::vector<StateArray> RunSession::arrays() {
+    if (strongest_.layer.empty()) return {};
+    return {{"/pull-off/x", 0, &strongest_.layer.x, 1},
+            {"/pull-off/y", 0, &strongest_.layer.y, 1},
+            {"/pull-off/z", 0, &strongest_.layer.z, 1}};
+}
+
+void RunSession::restore(const RunScalars& from) {
+    resumed_at_ = position_in(from);
+    RestoreScalars restore{from};
+    for (const char* name : {"rows", "journal.bytes", "journal.digest_high", "journal.digest_low"})
+        restore.next(name);
+    restore("strongest.attraction", strongest_.attraction);
+    restore("strongest.reference_height", strongest_.reference_height);
+    restore("strongest.kept", strongest_.kept);
+    restore("processor_seconds", processor_before_);
+    findings.visit(restore);
+}
+
+double RunSession::processor_seconds() const {
+    rusage used{};
+    ::getrusage(RUSAGE_SELF, &used);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return processor_before_ + seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+double RunSession::way_done(Leg leg, double top, double start_height) const {
+    const ExpectedWay way = expected_way(setup, start_height);
+    const double done = leg == Leg::approach ? -top : 2.0 * way.down + top;
+    return std::clamp(done / (way.down + way.up), 0.0, 0.99);
+}
+
+void RunSession::write_failure(const io::Error& error, const Ending& ending) {
+    if (!ranks.root()) return;
+    try {
+        if (recorder_) recorder_->write_on_root();
+    } catch (const std::exception&) { // what run.h5 held before must do
+    }
+    io::ResultRecord::Failure failure;
+    failure.exit_code = error.code();
+    failure.reason = error.what();
+    try {
+        write_result(failure, ending);
+    } catch (const std::exception&) { // the first error is the one to report
+    }
+}
+
+/// On the root.
+void RunSession::write_result(const io::ResultRecord::Failure& failure, const Ending& ending) {
+    io::ResultRecord r = run_record(scene, surface, setup, findings, ranks.size());
+    ending.add_to(r);
+    r.run.wall_seconds = seconds();
+    r.extra.emplace_back("run.processor_seconds", processor_seconds());
+    add_phases(phases, r);
+    if (recorder_) {
+        add_path(read_path(storage_.path() + "/run.h5"), scene, r);
+    }
+    r.run.stopped = stopped_;
+    r.failure = failure;
+    io::write_result(storage_.directory(), r);
+    if (!stopped_.empty() || failure.exit_code != 0) return;
+    storage_.remove_checkpoints();
+    recorder_->remove_journal();
+}
+
+} // namespace asperity

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The result directory of a run: who owns it, its checkpoints, and what becomes of it when somebody
+// moves or removes it.
+//
+//     run.lock               while a run uses the directory (io/result_directory.hpp)
+//     run.journal            what was recorded; until the run is over
+//     run.h5                 the same as HDF5 (recorder.hpp)
+//     checkpoint.h5          the newest state, and the one before; until the run is over
+//     checkpoint-before.h5
+//     result.json            how it ended
+//
+// Everything is written by io::OutputFile: whole, or not at all. The root does all of it; the
+// member functions are not collective unless they say so.
+#pragma once
+
+#include "decomposition/communicator.hpp"
+#include "engine/run/checkpoint.hpp"
+#include "engine/run/recorder.hpp"
+#include "engine/run/run.hpp"
+#include "io/result_directory.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+class RunStorage {
+public:
+    /// Takes the directory. Collective.
+    RunStorage(const RunOptions& options, const std::string& name, const Communicator& ranks);
+
+    /// Where it is now. Root only, like all that follows.
+    std::string path() const;
+    io::FilePlace file(const std::string& name) const { return {directory(), name}; }
+    const io::Directory& directory() const { return owner_->directory(); }
+    /// What the user should know, once.
+    std::vector<std::string> take_notes();
+
+    /// The newest checkpoint that is whole and whose records the journal holds, if the run was
+    /// asked to go on and there is one. A damaged one is set aside (checkpoint-damaged.h5) and
+    /// noted. Throws io::FileError where there are only damaged ones. Collective; empty on other
+    /// ranks means the same as on the root.
+    std::optional<io::FilePlace> checkpoint_to_resume();
+    /// Has write_state(place) write a checkpoint; the last one is kept as the one before.
+    /// Collective.
+    void save(const std::function<void(const io::FilePlace&)>& write_state);
+    /// The run is over: what only serves to go on is removed.
+    void remove_checkpoints();
+
+    /// Whether the directory and the journal are where they were.
+    bool in_place(const Recorder& recorder) const;
+    /// Of a removed directory: makes it again and saves the journal. A moved one is used as it is.
+    void bring_back(Recorder& recorder);
+
+private:
+    std::optional<io::FilePlace> newest_whole();
+    std::optional<io::FilePlace> named();
+
+    const RunOptions& options_;
+    Communicator ranks_;
+    std::unique_ptr<io::ResultDirectory> owner_; ///< root only
+    std::vector<std::string> notes_;
+};
+
+/// The position of the journal among the scalars of a run.
+void add_position(const Recorder::Position& position, RunScalars& scalars);
+/// Throws io::FileError where it is missing.
+Recorder::Position position_in(const RunScalars& scalars);
+
+} // namespace asperity

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/directory.hpp"
+
+#include "io/error.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace asperity::io {
+
+Descriptor::~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+}
+
+Descriptor::Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+    if (this != &other) {
+        if (fd_ >= 0) ::close(fd_);
+        fd_ = std::exchange(other.fd_, -1);
+    }
+    return *this;
+}
+
+bool Descriptor::close() { return ::close(std::exchange(fd_, -1)) == 0; }
+
+Directory::Directory(const std::string& path)
+    : path_(path), fd_(std::make_shared<const Descriptor>(
+                       ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))) {
+    if (!*fd_)
+        throw FileError(path, "cannot be opened as a directory", std::strerror(errno),
+                        "check the path and its permissions");
+}
+
+Directory Directory::make(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error || !std::filesystem::is_directory(path))
+        throw FileError(path, "the directory cannot be made",
+                        error ? error.message() : "a file of that name is in the way",
+                        "name a directory you may write to: --out DIR");
+    return Directory(path);
+}
+
+bool Directory::exists(const std::string& name) const {
+    struct stat status {};
+    return ::fstatat(fd(), name.c_str(), &status, 0) == 0;
+}
+
+Descriptor Directory::open(const std::string& name, int flags) const {
+    return Descriptor(::openat(fd(), name.c_str(), flags | O_CLOEXEC, 0644));
+}
+
+void make_directory(const std::string& directory) { Directory::make(directory); }
+
+void Directory::remove(const std::string& name) const {
+    if (::unlinkat(fd(), name.c_str(), 0) != 0 && errno != ENOENT)
+        throw FileError(*this / name, "cannot be removed", std::strerror(errno),
+                        "check the permissions of its directory");
+}
+
+void Directory::rename(const std::string& from, const std::string& to) const {
+    if (::renameat(fd(), from.c_str(), fd(), to.c_str()) != 0)
+        throw FileError(*this / to, "cannot be put in its place", std::strerror(errno),
+                        "check the permissions of its directory");
+}
+
+void Directory::sync() const {
+    // Some file systems cannot do this for directories and say so.
+    if (::fsync(fd()) != 0 && errno != EINVAL && errno != EROFS)
+        throw FileError(path_, "its entries cannot be brought to the disk", std::strerror(errno),
+                        "check the disk");
+}
+
+Directory::Place Directory::place() const {
+    struct stat mine {
+    }, there{};
+    if (::fstat(fd(), &mine) != 0 || mine.st_nlink == 0) return Place::removed;
+    if (::stat(path_.c_str(), &there) == 0 && there.st_dev == mine.st_dev &&
+        there.st_ino == mine.st_ino)
+        return Place::here;
+    return Place::moved;
+}
+
+std::string Directory::present_path() const {
+    std::error_code error;
+    const auto path = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(fd()), error);
+    return error ? path_ : path.string();
+}
+
+std::string FilePlace::name() const {
+    return directory_ ? name_ : name_.substr(name_.rfind('/') + 1); // npos + 1 is 0
+}
+
+Directory FilePlace::directory() const {
+    if (directory_) return *directory_;
+    const std::size_t slash = name_.rfind('/');
+    if (slash == std::string::npos) return Directory(".");
+    return Directory(slash == 0 ? "/" : name_.substr(0, slash));
+}
+
+Descriptor FilePlace::open(int flags) const {
+    if (directory_) return directory_->open(name_, flags);
+    return Descriptor(::open(name_.c_str(), flags | O_CLOEXEC, 0644));
+}
+
+} // namespace asperity::io

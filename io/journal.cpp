@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/journal.hpp"
+
+#include "io/error.hpp"
+#include "io/output_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace asperity::io {
+
+namespace {
+
+/// In front of each payload.
+struct Head {
+    std::uint64_t kind;
+    std::uint64_t size; ///< of the payload, bytes
+};
+
+/// Calls take with the first bytes of the file, part by part. False: there are fewer.
+bool read_first(int fd, std::uint64_t bytes, const std::function<void(Journal::Bytes)>& take) {
+    std::vector<std::byte> buffer(std::size_t{1} << 20);
+    for (std::uint64_t at = 0; at < bytes;) {
+        const std::span<std::byte> part(buffer.data(),
+                                        std::min<std::uint64_t>(buffer.size(), bytes - at));
+        if (read_some(fd, part, at) != static_cast<std::ptrdiff_t>(part.size())) return false;
+        take(part);
+        at += part.size();
+    }
+    return true;
+}
+
+} // namespace
+
+bool Journal::holds(const Directory& directory, const std::string& name, const Mark& mark) {
+    const Descriptor file = directory.open(name, O_RDONLY);
+    if (!file) return false;
+    Digest digest;
+    return read_first(file.get(), mark.bytes, [&](Bytes part) { digest.update(part); }) &&
+           digest.value() == mark.digest;
+}
+
+void Journal::copy(const Directory& from, const Directory& to, const std::string& name,
+                   const Mark& mark) {
+    const Descriptor source = from.open(name, O_RDONLY);
+    OutputFile target({to, name});
+    if (!source || !read_first(source.get(), mark.bytes, [&](Bytes part) { target.write(part); }))
+        throw FileError(from / name, "cannot be copied", std::strerror(errno),
+                        "keep a checkpoint and its run.journal in one directory");
+    target.commit();
+}
+
+Journal::Journal(const Directory& directory, std::string name, std::uint64_t bytes)
+    : name_(std::move(name)), path_(directory / name_),
+      file_(directory.open(name_, O_RDWR | O_CREAT | O_NOFOLLOW)), bytes_(bytes) {
+    if (!file_ || ::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0)
+        fail("cannot be written");
+    if (!read_first(file_.get(), bytes, [&](Bytes part) { digest_.update(part); }))
+        fail("cannot be read");
+}
+
+void Journal::fail(const char* what) const {
+    throw FileError(path_, what, std::strerror(errno),
+                    "check the permissions of its directory and the space on its disk");
+}
+
+void Journal::append(std::uint64_t kind, Bytes payload) {
+    const Head head = {kind, payload.size()};
+    const auto first = std::as_bytes(std::span(&head, 1));
+    if (failed_) errno = EIO;
+    if (failed_ || !write_all(file_.get(), first, bytes_) ||
+        !write_all(file_.get(), payload, bytes_ + first.size())) {
+        failed_ = true;
+        fail("cannot be appended to");
+    }
+    digest_.update(first);
+    digest_.update(payload);
+    bytes_ += first.size() + payload.size();
+}
+
+void Journal::synchronize() {
+    if (::fdatasync(file_.get()) != 0 && errno != EINVAL && errno != EROFS) {
+        failed_ = true;
+        fail("cannot be brought to the disk");
+    }
+}
+
+void Journal::replay(const std::function<void(std::uint64_t, Bytes)>& take) const {
+    std::vector<std::byte> payload;
+    for (std::uint64_t at = 0; at < bytes_;) {
+        Head head{};
+        const auto first = std::as_writable_bytes(std::span(&head, 1));
+        const bool read = read_some(file_.get(), first, at) == sizeof head;
+        at += sizeof head;
+        if (!read || head.size > bytes_ - at) fail("cannot be read back");
+        payload.resize(head.size);
+        if (read_some(file_.get(), payload, at) != static_cast<std::ptrdiff_t>(head.size))
+            fail("cannot be read back");
+        take(head.kind, payload);
+        at += head.size;
+    }
+}
+
+bool Journal::in_place() const {
+    struct stat status {};
+    return ::fstat(file_.get(), &status) == 0 && status.st_nlink > 0;
+}
+
+void Journal::move_to(const Directory& directory) {
+    OutputFile copy({directory, name_});
+    if (!read_first(file_.get(), bytes_, [&](Bytes part) { copy.write(part); }))
+        fail("cannot be read back");
+    copy.commit();
+    path_ = directory / name_;
+    file_ = directory.open(name_, O_RDWR | O_NOFOLLOW);
+    if (!file_) fail("cannot be opened again");
+}
+
+void PayloadReader::take(std::span<std::byte> to) {
+    if (to.size() > bytes_.size())
+        throw FileError("run.journal", "holds a record that is too short",
+                        fmt::format("{} bytes where {} are expected", bytes_.size(), to.size()),
+                        "this is a mistake in the program");
+    std::copy_n(bytes_.begin(), to.size(), to.begin());
+    bytes_ = bytes_.subspan(to.size());
+}
+
+} // namespace asperity::io

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The directory that a command writes its result to, and its owner.
+//
+// Which one: what --out names, else results/<name>, then results/<name>-2, -3, ... A result that is
+// there is never written over. A run that has not come to its end leaves run.journal; a directory
+// that holds one is refused unless the run goes on (--resume) or is thrown away (--restart).
+//
+// Whose: one process at a time, by the file run.lock, which names host, process and since when. It
+// appears whole (written beside its place and linked into it, which is atomic on NFS as well), and
+// its owner keeps a flock on it as long as it lives. A lock whose owner is gone is broken with a
+// note: no flock on it, same host, and no process of that number and start time (or another boot).
+// Of another host nothing can be known, so its lock is never broken.
+#pragma once
+
+#include "io/directory.hpp"
+
+#include <string>
+#include <vector>
+
+namespace asperity::io {
+
+struct ResultRequest {
+    std::string asked; ///< --out; empty: results/<name>
+    std::string name;
+    bool resume = false; ///< an unfinished run goes on; without --out in the last directory of name
+    bool restart = false; ///< an unfinished run is thrown away
+};
+
+class ResultDirectory {
+public:
+    /// Makes the directory and takes it. Throws SceneError where it holds a result, or an
+    /// unfinished run that nobody spoke of; FileError where it is in use or cannot be made.
+    explicit ResultDirectory(const ResultRequest& request);
+    /// Gives it back. One that was made and is still empty is removed.
+    ~ResultDirectory();
+    ResultDirectory(const ResultDirectory&) = delete;
+    ResultDirectory& operator=(const ResultDirectory&) = delete;
+
+    const Directory& directory() const { return directory_; }
+    const std::string& path() const { return directory_.path(); }
+    /// What its user should know: another name than expected, a lock that was broken.
+    const std::vector<std::string>& notes() const { return notes_; }
+    /// After the directory was removed: makes it again, and takes it.
+    void make_again();
+
+private:
+    void lock();
+    void unlock();
+
+    std::vector<std::string> notes_;
+    bool made_ = false; ///< by this object
+    Directory directory_;
+    Descriptor lock_;
+};
+
+/// Files of a run in its directory.
+namespace run_file {
+inline constexpr const char* journal = "run.journal";
+inline constexpr const char* checkpoint = "checkpoint.h5";
+inline constexpr const char* checkpoint_before = "checkpoint-before.h5";
+inline constexpr const char* lock = "run.lock";
+} // namespace run_file
+
+} // namespace asperity::io

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Whose a result directory is, and which one is taken.
+#include "io/error.hpp"
+#include "io/result.hpp"
+#include "io/result_directory.hpp"
+
+#include "support/scratch.hpp"
+
+#include <optional>
+
+#include <sys/wait.h>
+
+namespace asperity::io {
+namespace {
+
+std::string refusal(const ResultRequest& request) {
+    try {
+        const ResultDirectory directory(request);
+    } catch (const Error& error) {
+        return std::to_string(error.code()) + " " + error.what();
+    }
+    return "";
+}
+
+bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(ResultDirectory, IsOnesAlone) {
+    const Scratch scratch;
+    const std::string path = scratch / "a";
+    std::optional<ResultDirectory> owner(std::in_place, ResultRequest{path, "x"});
+    EXPECT_TRUE(std::filesystem::exists(path + "/run.lock"));
+    const std::string text = refusal({path, "x"});
+    EXPECT_TRUE(holds(text, "4 ") && holds(text, "is in use") &&
+                holds(text, std::to_string(::getpid())))
+        << text;
+    owner.reset();
+    EXPECT_FALSE(std::filesystem::exists(path)) << "made for nothing";
+    EXPECT_EQ(refusal({path, "x"}), "");
+}
+
+TEST(ResultDirectory, BreaksTheLockOfTheDeadAndOfNobodyElse) {
+    const Scratch scratch;
+    const std::string path = scratch / "a", file = path + "/run.lock";
+    // A child takes it and dies without giving it back.
+    const pid_t child = ::fork();
+    if (child == 0) {
+        new ResultDirectory({path, "x"});
+        ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+    const std::string left = contents(file);
+    ASSERT_TRUE(holds(left, "process " + std::to_string(child))) << left;
+    {
+        const ResultDirectory owner({path, "x"});
+        ASSERT_EQ(owner.notes().size(), 1u);
+        EXPECT_TRUE(holds(owner.notes()[0], "is gone")) << owner.notes()[0];
+    }
+    // The same of another host, and one that tells nothing.
+    std::filesystem::create_directories(path);
+    const std::size_t name = left.find(' ') + 1;
+    scratch.write("a/run.lock", left.substr(0, name) + "elsewhere" + left.substr(left.find('\n')));
+    EXPECT_TRUE(holds(refusal({path, "x"}), "on host elsewhere"));
+    scratch.write("a/run.lock", "");
+    EXPECT_TRUE(holds(refusal({path, "x"}), "does not say by whom"));
+    // A number that another process has by now, and an earlier boot.
+    const auto with = [&](const std::string& key, const std::string& value) {
+        const std::size_t from = left.find(key + " ") + key.size() + 1;
+        return left.substr(0, from) + value + left.substr(left.find('\n', from));
+    };
+    std::string mine = with("process", std::to_string(::getpid()));
+    scratch.write("a/run.lock", mine);
+    EXPECT_EQ(refusal({path, "x"}), "");
+    std::filesystem::create_directories(path);
+    scratch.write("a/run.lock", with("boot", "another"));
+    EXPECT_EQ(refusal({path, "x"}), "");
+}
+
+TEST(ResultDirectory, RefusesResultsAndUnfinishedRuns) {
+    const Scratch scratch;
+    const std::string path = scratch / "a";
+    const auto write = [&](const char* name, const std::string& text) {
+        std::filesystem::create_directories(path);
+        scratch.write(std::string("a/") + name, text);
+    };
+    write("run.journal", "x");
+    EXPECT_TRUE(holds(refusal({path, "x"}), "2 ") && holds(refusal({path, "x"}), "--restart"));
+    EXPECT_EQ(refusal({path, "x", true}), "");
+    write("result.json", R"({"run": {"stopped": "signal"}})");
+    EXPECT_TRUE(holds(refusal({path, "x"}), "unfinished"));
+    write("result.json", R"({"failure": {"exit_code": 4}, "run": {}})");
+    EXPECT_TRUE(holds(refusal({path, "x"}), "unfinished"));
+    write("x.part", "left over");
+    EXPECT_EQ(refusal({path, "x", false, true}), "");
+    EXPECT_TRUE(std::filesystem::is_empty(path)) << "--restart leaves something";
+    // A result is never thrown away.
+    write("result.json", R"({"run": {}})");
+    write("run.journal", "x");
+    for (const bool restart : {false, true})
+        EXPECT_TRUE(holds(refusal({path, "x", false, restart}), "already holds a result"));
+    for (const char* odd : {"", "[]", R"({"run": 3})", R"({"run": {"stopped": 7}})"}) {
+        write("result.json", odd);
+        EXPECT_TRUE(holds(refusal({path, "x"}), "already holds a result")) << odd;
+    }
+    EXPECT_TRUE(holds(refusal({scratch.write("file", ""), "x"}), "is not a directory"));
+    EXPECT_THROW(make_directory((scratch / "file") + "/sub"), FileError);
+}
+
+TEST(ResultDirectory, NumbersItsDirectories) {
+    const Scratch scratch;
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(scratch / "");
+    for (const char* name : {"results/gold", "results/gold-2"}) {
+        const ResultDirectory place({"", "gold"});
+        EXPECT_EQ(place.path(), name);
+        write_result(place.directory(), {});
+    }
+    {
+        const ResultDirectory place({"", "gold"});
+        EXPECT_EQ(place.path(), "results/gold-3");
+        EXPECT_EQ(place.notes().at(0),
+                  "results/gold already holds a result; this one goes to results/gold-3");
+    }
+    EXPECT_EQ(ResultDirectory({"", "gold", true}).path(), "results/gold-2");
+    std::filesystem::current_path(before);
+}
+
+} // namespace
+} // namespace asperity::io
