@@ -296,7 +296,7 @@ def test_a_point_that_fails_is_told_and_the_others_go_on(place):
 def test_a_launcher_gives_ranks(place):
     mpirun = shutil.which("mpirun")
     root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    command("sweep", "path.toml", "--set", "drive.velocity=30,40", "drive.max_steps=200", "--progress", "off", "--out",
+    command("sweep", "path.toml", "--set", "drive.velocity=30,40", "drive.max_steps=20", "--progress", "off", "--out",
             "ranks", "--launch", f"{mpirun} --oversubscribe -n 2", env=root)
     assert asperity.load("ranks/velocity=30").run.ranks == 2
     said = command("sweep", "path.toml", "--set", "drive.velocity=30,40", "--progress", "off", "--out", "none",
