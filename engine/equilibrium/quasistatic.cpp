@@ -167,7 +167,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double top, const StepCh
     interface_work +=
         -step.work + 0.5 * (state.top_force * next_stretch - record_.top_force * stretch);
     LegError& error = leg == Leg::approach ? approach_error_ : pull_off_error_;
-    error.gap += step.gap;
+    error.gap += std::abs(step.gap);
     error.squares += step.uncertain * step.uncertain;
     record_.work += step.work;
     if (step.dissipated > 0.0) {

@@ -74,12 +74,12 @@ public:
     /// under a prescribed top plane, F is what the block's spring exerts.
     double approach_work() const { return approach_; }
     double pull_off_work() const { return pull_off_; }
-    /// What these, and what was dissipated on the leg, may be wrong by, eV: the gap in the leg's
-    /// energy balance, and twice the root of the sum of squares of what the work of each step with
-    /// an instability is not known by.
+    /// What these, and what was dissipated on the leg, may be wrong by, eV: the sum of the gaps in
+    /// the energy balance of its steps, and twice the root of the sum of squares of what the work
+    /// of each step with an instability is not known by.
     double uncertainty(Leg leg) const {
         const LegError& e = error(leg);
-        return std::abs(e.gap) + 2.0 * std::sqrt(e.squares);
+        return e.gap + 2.0 * std::sqrt(e.squares);
     }
     const Dissipation& dissipation() const { return dissipation_; }
     long long iterations() const { return points_.iterations(); }
