@@ -99,7 +99,10 @@ void judge(const ResultRequest& request, const std::string& path) {
                                  "or throw it away: --restart"});
 }
 
-bool is_left_over(const std::string& name) { return name.ends_with(OutputFile::suffix); }
+/// Not the locks of others that are about to be taken.
+bool is_left_over(const std::string& name) {
+    return name.ends_with(OutputFile::suffix) && !name.starts_with(run_file::lock);
+}
 
 bool is_of_run(const std::string& name) {
     return name == run_file::journal || name == run_file::checkpoint ||
@@ -220,6 +223,10 @@ ResultDirectory::~ResultDirectory() {
 
 void ResultDirectory::lock() {
     const Turn turn(directory_);
+    // Of processes that died on the way; those that live wait for their turn.
+    remove_files(directory_, [](const std::string& name) {
+        return name.starts_with(run_file::lock) && name.ends_with(OutputFile::suffix);
+    });
     const std::string temporary =
         fmt::format("{}.{}{}", run_file::lock, ::getpid(), OutputFile::suffix);
     const std::string text = lock_text();
