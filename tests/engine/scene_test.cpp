@@ -83,6 +83,7 @@ TEST(Scene, DefaultsAreThePapers) {
         {"theory.area_factor", "\"gaussian\""},
         {"theory.spectrum", "\"target\""},
         {"theory.clip", "true"},
+        {"theory.renormalised", "true"},
         {"numerics.precision", "\"double\""},
         {"numerics.accuracy", "\"none\""},
         {"numerics.device", "\"none\""},

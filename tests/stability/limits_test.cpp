@@ -260,7 +260,8 @@ TEST(Theory, AtTheEndsOfItsKeys) {
                                                  std::string("surface.hurst=") + hurst,
                                                  std::string("interface.epsilon=") + epsilon,
                                                  std::string("surface.rolloff=") + rolloff,
-                                                 std::string("theory.area_factor=") + area});
+                                                 std::string("theory.area_factor=") + area,
+                                                 "theory.renormalised=false"});
                             const TheoryCase c = theory_case(scene);
                             const TheoryNumbers n = solve_theory(c);
                             EXPECT_TRUE(std::isfinite(n.gamma_eff)) << what;
@@ -277,4 +278,23 @@ TEST(Theory, AtTheEndsOfItsKeys) {
                     }
     std::printf("theory: %d answers, %d refusals\n", answers, refusals);
     EXPECT_GT(answers, 100);
+}
+
+// The renormalised theory at the ends: numbers with an error, or a reason.
+TEST(Theory, RenormalisedAtTheEndsOfItsKeys) {
+    for (const char* rms : {"0.001", "3", "30"})
+        for (const char* epsilon : {"1e-4", "10"}) {
+            const Scene scene = read_scene_text(
+                "[surface]\nsites = 512\n", "test.toml",
+                {std::string("surface.rms=") + rms, std::string("interface.epsilon=") + epsilon});
+            const TheoryNumbers n = solve_theory(theory_case(scene));
+            ASSERT_TRUE(n.renormalised.has_value());
+            const auto& found = n.renormalised->numbers;
+            EXPECT_TRUE(found || !n.renormalised->note.empty()) << rms << " " << epsilon;
+            if (!found) continue;
+            EXPECT_TRUE(std::isfinite(found->gamma_eff)) << rms << " " << epsilon;
+            EXPECT_TRUE(std::isfinite(found->gamma_eff_error)) << rms << " " << epsilon;
+            EXPECT_GE(found->gamma_eff_ratio, -1e-4) << rms << " " << epsilon;
+            EXPECT_LE(found->gamma_eff_ratio, 1.0 + 1e-4) << rms << " " << epsilon;
+        }
 }
