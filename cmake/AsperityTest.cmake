@@ -19,6 +19,7 @@ function(asperity_test_program folder)
     cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
     add_executable(test_${folder})
     target_link_libraries(test_${folder} PRIVATE asperity_warnings asperity_test_main ${ARG_LINK})
+    target_precompile_headers(test_${folder} REUSE_FROM asperity_test_main)
     target_compile_definitions(test_${folder} PRIVATE ASPERITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endfunction()
 
