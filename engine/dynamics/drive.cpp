@@ -20,6 +20,10 @@ std::string_view name(Leg leg) {
     return "done";
 }
 
+bool out_of_reach(double top, double force, double strongest) {
+    return top >= 0.0 && std::abs(force) <= 1e-6 * strongest;
+}
+
 Drive::Drive(const DriveOptions& options)
     : options_(options), leg_(options.approach   ? Leg::approach
                               : options.pull_off ? Leg::pull_off
@@ -34,7 +38,7 @@ double Drive::velocity(double t) const {
     return from + (to - from) * 0.5 * (1.0 - std::cos(std::numbers::pi * s));
 }
 
-bool Drive::observe(double t, double force, bool out_of_reach) {
+bool Drive::observe(double t, double force, bool gone) {
     if (leg_ == Leg::approach) {
         // Through attraction (beyond the load, if that pulls) and back to the load; or, where
         // nothing attracts that much, pressed.
@@ -52,7 +56,7 @@ bool Drive::observe(double t, double force, bool out_of_reach) {
         turned_at_ = t;
         return true;
     }
-    if (leg_ == Leg::pull_off && out_of_reach) {
+    if (leg_ == Leg::pull_off && gone) {
         leg_ = Leg::done;
         return true;
     }

@@ -25,6 +25,12 @@ struct DriveOptions {
     bool pull_off = true;
 };
 
+/// Whether a pull-off has come to its end: the top plane is back where the approach started or
+/// beyond (top, Å), where a relaxed block would be out of reach, and the force is gone beside the
+/// strongest attraction met (eV/Å). The force alone does not tell: it passes through zero on the
+/// way out of compression.
+bool out_of_reach(double top, double force, double strongest);
+
 class Drive {
 public:
     explicit Drive(const DriveOptions& options);
@@ -35,9 +41,8 @@ public:
     double velocity(double t) const;
 
     /// Told of the force on the lowest layer at time t (eV/Å, positive: pushed up). True at the
-    /// step at which a leg ends. out_of_reach: no pair interacts, and would not if the block were
-    /// relaxed at the present top.
-    bool observe(double t, double force, bool out_of_reach);
+    /// step at which a leg ends. gone: out_of_reach() at this step.
+    bool observe(double t, double force, bool gone);
 
     /// The state of the machine, for checkpoints.
     template <class Visitor>

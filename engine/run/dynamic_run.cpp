@@ -97,7 +97,7 @@ private:
         attraction = std::max(attraction, -now.force);
         const double strongest =
             std::max(run_.findings.attraction_in, run_.findings.attraction_out);
-        const bool gone = now.top >= 0.0 && std::abs(now.force) <= 1e-6 * strongest;
+        const bool gone = out_of_reach(now.top, now.force, strongest);
         if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
         if (leg == Leg::approach) run_.findings.contact_made = now.time;
         return leg;

@@ -46,6 +46,41 @@ TEST(Paths, TellWhatTheyLose) {
     EXPECT_NEAR(json.find("jkr.out_averaged")->number(), 1e3 * 50.0 / (1.5 * M_PI * 1000), 1e-9);
 }
 
+/// The value of `key` for a path of rows every 0.1 ps whose force is -1 eV/Å from row `from` for
+/// `count` rows of the approach and, 200 rows later, of the pull-off.
+double averaged(std::size_t from, std::size_t count, const char* key) {
+    PathSeries path;
+    for (std::size_t i = 0; i < 400; ++i) {
+        const std::size_t row = i % 200;
+        path.leg.push_back(i < 200 ? 0.0 : 1.0);
+        path.time.push_back(0.1 * static_cast<double>(i));
+        path.height.push_back(5.0);
+        path.force.push_back(row >= from && row < from + count ? -1.0 : 0.0);
+        path.contact_fraction.push_back(0.1);
+    }
+    Scene scene;
+    scene.surface.radius = 100.0;
+    io::ResultRecord record;
+    record.work_of_adhesion.approach = record.work_of_adhesion.pull_off = 1.0;
+    add_path(path, scene, record);
+    for (const auto& [name, value] : record.extra)
+        if (name == key) return value.number();
+    ADD_FAILURE() << key << " is missing";
+    return std::nan("");
+}
+
+TEST(Curve, TheRunningMeanIsOverTwoPicoseconds) {
+    for (const char* key : {"jkr.in_averaged", "jkr.out_averaged"}) {
+        // A force of JKR's pull-off, 3/2 pi w R, in meV/Å^2.
+        const double whole = 1e3 / (1.5 * std::acos(-1.0) * 100.0);
+        EXPECT_NEAR(averaged(0, 200, key), whole, 1e-12 * whole) << key;
+        EXPECT_NEAR(averaged(50, 20, key), whole, 1e-12 * whole) << key << ": 20 rows fill it";
+        EXPECT_NEAR(averaged(50, 19, key), 0.95 * whole, 1e-12 * whole) << key;
+        EXPECT_NEAR(averaged(0, 10, key), 0.5 * whole, 1e-12 * whole) << key << ", the first rows";
+        EXPECT_NEAR(averaged(190, 10, key), 0.5 * whole, 1e-12 * whole) << key << ", the last";
+    }
+}
+
 TEST(SphereCurves, AreThoseOfJkr) {
     const Scene scene = read_scene_text(
         "[surface]\nsites = 64\nrms = 0\nradius = 300\n[block]\nthickness = 16\n", "s.toml");

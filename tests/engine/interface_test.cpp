@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -357,6 +358,54 @@ TEST(InterfaceOptionsCheck, SaysWhatIsWrong) {
     EXPECT_THROW(Interface(s, tile, a, o), std::invalid_argument);
     EXPECT_THROW(Interface(rough(13, 8 * a, 0.0, 1), tile, a, with(InterfaceMethod::lattice)),
                  std::invalid_argument);
+}
+
+TEST(InterfaceMaps, TheGapIsBilinearBetweenTheAtomsBelow) {
+    // Heights b + c i + d j + e i j, which bilinear interpolation reproduces wherever a site
+    // stands: between atoms of the box's inside, i and j in units of their spacing.
+    constexpr int n = 10;
+    const auto height = [](double i, double j) {
+        return 0.3 + 0.05 * i - 0.02 * j + 0.011 * i * j;
+    };
+    Surface surface;
+    surface.sites = n;
+    surface.length = n * a;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+            surface.height.push_back(height(i, j));
+    const Tile tile{0, 0, n, n, n};
+    const Interface interface(surface, tile, a, {});
+    const State state(n, 1.9, 0.5, 7);
+    const VectorField<double> u = state.on(tile);
+    const InterfaceMaps maps = interface.maps(u.plane(0), 4.0);
+    for (int y = 1; y < n - 2; ++y)
+        for (int x = 1; x < n - 2; ++x) {
+            const auto at = static_cast<std::size_t>(y * n + x);
+            const double below = height(x + 0.5 + state.u[0][at] / a, y + 0.5 + state.u[1][at] / a);
+            EXPECT_NEAR(maps.gap[at], 4.0 + state.u[2][at] - below, 1e-12) << x << ", " << y;
+        }
+}
+
+TEST(InterfaceTail, RepulsiveSitesAreCountedWithTheTail) {
+    // The tail attracts: with it fewer sites are repelled, and the count is that of the forces.
+    InterfaceOptions options;
+    options.potential.cutoff = 6.0;
+    const Surface surface = rough(16, 16 * a, 0.5, 3);
+    const State state(16, 0.3, 0.4, 4);
+    const auto repulsive = [](const Outcome& o) {
+        return std::count_if(o.force[2].begin(), o.force[2].end(),
+                             [](double f) { return f > 0.0; });
+    };
+    std::int64_t fewer = 0;
+    for (const double z : {2.9, 3.0, 3.1, 3.2, 3.3, 3.4}) {
+        options.tail = false;
+        const std::int64_t without = sweep(surface, state, options, z, true).sums.pushed;
+        options.tail = true;
+        const Outcome with = sweep(surface, state, options, z, true);
+        EXPECT_EQ(with.sums.pushed, repulsive(with)) << z;
+        fewer += without - with.sums.pushed;
+    }
+    EXPECT_GT(fewer, 0) << "no site at which the tail decides";
 }
 
 } // namespace

@@ -103,6 +103,14 @@ TEST(Drive, PullOffEndsOutOfReach) {
     EXPECT_TRUE(drive.done());
 }
 
+TEST(Drive, NothingIsOutOfReachBeforeTheTopIsBackAtItsStart) {
+    EXPECT_FALSE(out_of_reach(-1e-9, 0.0, 9.0)) << "the force passes through zero on the way";
+    EXPECT_TRUE(out_of_reach(0.0, 0.0, 9.0));
+    EXPECT_TRUE(out_of_reach(1.0, -8.9e-6, 9.0));
+    EXPECT_FALSE(out_of_reach(1.0, -9.1e-6, 9.0));
+    EXPECT_FALSE(out_of_reach(1.0, 9.1e-6, 9.0));
+}
+
 TEST(Drive, LegsThatWereNotAskedForAreLeftOut) {
     auto options = both_ways();
     options.pull_off = false;
@@ -157,6 +165,27 @@ TEST(Simulation, NothingHappensOutOfReach) {
     EXPECT_NEAR(now.elastic_energy, 0.0, 1e-20);
     EXPECT_NEAR(simulation.ledger().damped, 0.0, 1e-20);
     EXPECT_EQ(simulation.leg(), Leg::approach);
+}
+
+TEST(Simulation, TheTopMovesByTheIntegralOfItsVelocity) {
+    // From rest along half a cosine: half the ramp at full velocity. The midpoint rule is exact,
+    // for every step of the ramp has its mirror image.
+    SimulationOptions options;
+    options.block = test::paper_block(8, 4, 0);
+    options.interface = test::paper_interface();
+    options.drive.approach = false;
+    options.drive.ramp = 40 * options.dt;
+    Simulation simulation(options, test::flat_surface(8), Communicator(),
+                          test::serial_grid(options.block));
+    simulation.start(20.0);
+    const double v = options.drive.velocity;
+    for (int n = 0; n < 41; ++n)
+        simulation.step(n == 40);
+    EXPECT_NEAR(simulation.now().top, 20 * options.dt * v, 1e-12);
+    for (int n = 0; n < 10; ++n)
+        simulation.step(true);
+    EXPECT_NEAR(simulation.now().top, 30 * options.dt * v, 1e-12);
+    EXPECT_NEAR(simulation.block().top(), 31 * options.dt * v, 1e-12);
 }
 
 TEST(Simulation, MomentumIsWhatTheForcesGave) {

@@ -129,6 +129,27 @@ TEST(Quasistatic, EndsExactlyAtItsLoad) {
     }
 }
 
+TEST(Quasistatic, WorkUnderLoadIsTheEnergyOfTheInterface) {
+    // Flat on flat without a snap: the interface's force depends on the mean height alone, so the
+    // work on the mean height is the interface's energy, whatever load stretches or compresses the
+    // block.
+    for (double pressure : {2.0, -2.0}) { // GPa
+        Case c(test::paper_block(10, 3, 0), test::flat_surface(10), true);
+        constexpr double tolerance = 1e-5;
+        QuasistaticPath path =
+            c.path(tolerance, 0.25, pressure * units::gigapascal * 6.76 * c.sites());
+        path.start();
+        const double before = path.now().interface_energy;
+        follow(path, Leg::approach);
+        EXPECT_EQ(path.dissipation().total(), 0.0);
+        const double stored = path.now().elastic_energy;
+        const double allowed = tolerance * c.sites() * 13.0;
+        ASSERT_GT(stored, 20.0 * allowed) << "the case must tell one sign from the other";
+        EXPECT_NEAR(path.approach_work(), before - path.now().interface_energy, allowed)
+            << pressure;
+    }
+}
+
 TEST(Quasistatic, RoughWorkIsEnergyPlusLoss) {
     for (bool spectral : {true, false}) {
         Case c(test::paper_block(32, 200, spectral ? 0 : 4),
