@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Plants bugs one at a time and runs the tests that should see them.
+
+    mutants.py --build build/mutants              every mutant of mutants.toml
+    mutants.py --build build/mutants gap tail     those whose names contain one of these words
+    mutants.py --check                            only: does every mutant's text still exist, once?
+
+The sources are copied to BUILD/source and built there, each mutant with the least that its tests need;
+the working tree is not touched. First the tests run without a mutant and must pass. A mutant is killed
+if one of its tests fails or runs longer than ten times what it took without, or if it does not compile
+(reported apart: such a mutant says nothing about the tests). Exit code 1 if any survives.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+import tomllib
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+
+
+def read_list(words):
+    mutants = tomllib.loads((HERE / "mutants.toml").read_text())["mutant"]
+    names = [m["name"] for m in mutants]
+    if len(set(names)) != len(names):
+        sys.exit("mutants.toml: two mutants have the same name")
+    chosen = [m for m in mutants if not words or any(w in m["name"] for w in words)]
+    return chosen or sys.exit(f"no mutant's name contains {' or '.join(words)}")
+
+
+def check(mutants):
+    """The mutants whose text is not in its file exactly once."""
+    lost = 0
+    for m in mutants:
+        file = ROOT / m["file"]
+        count = file.read_text().count(m["old"]) if file.is_file() else 0
+        if count != 1:
+            lost += 1
+            print(f"{m['name']}: its text is {count} times in {m['file']}; it must be there once:\n    {m['old']}")
+    return lost
+
+
+class Copy:
+    """The tracked and new files of the working tree, in a folder of their own with a build."""
+
+    def __init__(self, build):
+        self.source, self.build = build / "source", build / "build"
+        self.source.mkdir(parents=True, exist_ok=True)
+        listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-co", "--exclude-standard", "-z"], check=True,
+                                capture_output=True, text=True).stdout
+        files = {name for name in listed.split("\0") if name and (ROOT / name).is_file()}
+        for old in [p for p in self.source.rglob("*") if p.is_file() and str(p.relative_to(self.source)) not in files]:
+            old.unlink()
+        for name in files:  # what has not changed keeps its time, and is not compiled again
+            to, text = self.source / name, (ROOT / name).read_bytes()
+            if not to.is_file() or to.read_bytes() != text:
+                to.parent.mkdir(parents=True, exist_ok=True)
+                to.write_bytes(text)
+        if not (self.build / "build.ninja").exists():
+            subprocess.run(["cmake", "-G", "Ninja", "-S", self.source, "-B", self.build, "-DCMAKE_BUILD_TYPE=Release",
+                            "-DASPERITY_PERF=OFF", "-DASPERITY_WERROR=OFF"], check=True, stdout=subprocess.DEVNULL)
+
+    def make(self, programs):
+        return subprocess.run(["ninja", "-C", self.build, *(f"tests/{p}" for p in programs)], capture_output=True,
+                              text=True)
+
+    def test(self, suite, limit):
+        """Whether program:file passes within so many seconds."""
+        program, file = suite.split(":")
+        env = {**os.environ, "OMP_NUM_THREADS": "1"}
+        try:
+            done = subprocess.run([self.build / "tests" / program, file, "--gtest_fail_fast", "--gtest_brief=1"],
+                                  env=env, capture_output=True, text=True, timeout=limit, cwd=self.build)
+        except subprocess.TimeoutExpired:
+            return False
+        if done.returncode == 2:
+            sys.exit(f"{suite}: {done.stderr}")
+        return done.returncode == 0
+
+
+def programs(mutants):
+    return sorted({s.split(":")[0] for m in mutants for s in m["tests"]})
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--build", type=Path)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("words", nargs="*")
+    options = parser.parse_args()
+    mutants = read_list(options.words)
+    if check(mutants):
+        return 2
+    if options.check:
+        print(f"{len(mutants)} mutants apply")
+        return 0
+    copy = Copy(options.build.resolve())
+    made = copy.make(programs(mutants))
+    if made.returncode:
+        sys.exit(made.stdout[-3000:])
+    limit = {}
+    for suite in sorted({s for m in mutants for s in m["tests"]}):
+        start = time.monotonic()
+        if not copy.test(suite, 3600):
+            sys.exit(f"{suite} fails without a mutant")
+        limit[suite] = 10 * (time.monotonic() - start) + 10
+    outcomes = {}
+    for m in mutants:
+        file = copy.source / m["file"]
+        text = file.read_text()
+        file.write_text(text.replace(m["old"], m["new"]))
+        try:
+            if copy.make(programs([m])).returncode:
+                outcome = "does not compile"
+            else:
+                killer = next((s for s in m["tests"] if not copy.test(s, limit[s])), None)
+                outcome = f"killed by {killer}" if killer else "SURVIVED"
+        finally:
+            file.write_text(text)
+        outcomes[m["name"]] = outcome
+        print(f"{m['name']:<40} {outcome}", flush=True)
+    bad = [n for n, o in outcomes.items() if not o.startswith("killed")]
+    print(f"{len(outcomes) - len(bad)} of {len(outcomes)} killed" + (f"; not: {', '.join(bad)}" if bad else ""))
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
