@@ -125,7 +125,9 @@ RunSession::Due RunSession::due() {
 bool RunSession::look_is_due() {
     if (--steps_to_look_ > 0) return false;
     // The root's clock decides how many steps are about half a second.
-    constexpr double interval = 0.5, most = 1000.0;
+    constexpr double most = 1000.0;
+    const double interval =
+        setup.effects.on(Effect::checkpoints) ? std::min(0.5, scene.output.checkpoint) : 0.5;
     std::array<double, 1> stride = {1.0};
     if (ranks.root()) {
         const double each = (seconds() - last_look_) / static_cast<double>(looked_every_);

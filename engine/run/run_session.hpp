@@ -89,8 +89,8 @@ public:
 
     // Reasons to stop.
 
-    /// Whether it is time to call stop_here(), about every half second: for steps too short to call
-    /// it at each.
+    /// Whether it is time to call stop_here(), about every half second (more often where
+    /// checkpoints are): for steps too short to call it at each.
     bool look_is_due();
     /// Between two steps or points: looks at signals, the wall limit, the checkpoint interval and
     /// the result directory, and writes a checkpoint if one of them asks for it. True: the run must
