@@ -19,6 +19,7 @@ from .grid import is_seed, shown
 from .page import Page, Row, file_name, minus
 from .plots import run as run_plots
 from .plots import sweep as plots
+from .plots.files import KINDS
 from .plots.style import COLOURS, CONTACT, DASHES, GREY, curve, finish
 from .pool import DONE, FAILED
 from .report import end, write_run_page
@@ -182,10 +183,11 @@ def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
         page.add("paragraph", f"Measured surface: {points.origin}.")
 
 
-def write_sweep_page(directory: Path) -> Page:
-    """DIR/report.html of a sweep, and the pages of its points."""
+def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
+    """DIR/report.html of a sweep, and the pages of its points; kinds: of files of its figures."""
     sweeps = load_sweeps(directory)
-    page = Page(directory, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps))
+    page = Page(directory, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps),
+                kinds=kinds)
     points = [_Points(sweep, directory) for sweep in sweeps]
     for sweep in sweeps:
         _notices(page, sweep)

@@ -15,6 +15,7 @@ import pytest
 
 import asperity
 from asperity.report import write_run_page
+from asperity.report_sweep import holds_sweep, write_sweep_page
 from conftest import ROOT, SMALL, STATE, command
 
 
@@ -48,6 +49,8 @@ def page(directory, whole=False):
     """The report of a directory; whole: by the command, with all kinds of files."""
     if whole:
         assert "report.html: one page" in command("report", directory)
+    elif holds_sweep(directory):
+        write_sweep_page(directory, kinds=())
     else:
         write_run_page(asperity.load(directory), kinds=())
     return PageText(directory / "report.html")
@@ -81,7 +84,6 @@ def test_the_page_of_a_path(path_run):
     scene = path_run.directory / "again.toml"
     scene.write_text(text.replace("&#34;", '"').replace("&quot;", '"'))
     assert asperity.program.check(str(scene))["scene"] == path_run.find("scene")
-    assert path_run.report() == path_run.directory / "report.html"
 
 
 def test_values_can_be_read_by_pointing(path_run):
@@ -183,7 +185,8 @@ def test_a_measured_surface_says_whose_it_is(tmp_path):
 
 def test_the_page_of_a_sweep(tmp_path):
     out = tmp_path / "points"
-    asperity.sweep(STATE, {"surface.rms": [0.2, 0.6], "surface.seed": [1, 2]}, out=out, jobs=2)
+    sweep = asperity.sweep(STATE, {"surface.rms": [0.2, 0.6], "surface.seed": [1, 2]}, out=out, jobs=2)
+    assert sweep.directory == out
     found = page(out, whole=True)
     for text in ("4 points over surface.rms (0.2 to 0.6), surface.seed (1 to 2).", "All points", "±",
                  "The scene that the points vary", "Binding energy", "Contact area"):
@@ -197,7 +200,7 @@ def test_the_page_of_a_sweep(tmp_path):
     stored["points"][0].update(status="failed", failure={"exit_code": 3, "reason": "the balance is off"})
     stored["points"][3].update(status="waiting", result={})
     (out / "sweep.json").write_text(json.dumps(stored))
-    found = page(out, whole=True)
+    found = page(out)
     assert (out / "rms=0.6,seed=1/report.html").stat().st_mtime_ns == before  # not made again
     assert "rms=0.2,seed=1 failed" in found.text and "the balance is off" in found.text
     assert "This sweep is not finished" in found.text
@@ -208,7 +211,7 @@ def test_the_page_of_a_sweep_of_the_theory(tmp_path):
     scene.write_text("[surface]\nsites = 32\n")
     command("sweep", scene, "--theory-only", "--set", "surface.rms=0.2:1:0.2", "drive.load=0,100", "--out",
             tmp_path / "sweep")
-    found = page(tmp_path / "sweep", whole=True)
+    found = page(tmp_path / "sweep")
     for text in ("10 points over surface.rms (0.2 to 1), drive.load (0 to 100)", "All points", "full theory"):
         assert text in found.text, text
     labels = [label for d in found.data for label, _ in d["curves"]]
