@@ -63,7 +63,7 @@ struct RoughInterface {
 
 struct RenormalisedOptions {
     double tolerance = 1e-4; ///< on γ_eff/Δγ and on the contact fraction
-    int max_refinement = 4;  ///< halvings beyond the first two grids
+    int max_refinement = 3;  ///< halvings beyond the first two grids
     int steps = 14;          ///< of the coarsest grid in ln q; others follow the rms
     double spacing =
         0.125; ///< of the coarsest grid at the minimum, over its distance to inflection
