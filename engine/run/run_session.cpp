@@ -294,6 +294,8 @@ double RunSession::way_done(Leg leg, double top, double start_height) const {
 
 void RunSession::write_failure(const io::Error& error, const Ending& ending) {
     if (!ranks.root()) return;
+    // A run that could not begin to record leaves no result: there is nothing to resume.
+    if (!recorder_ && error.code() == io::exit_code::input_output) return;
     try {
         if (recorder_) recorder_->write_on_root();
     } catch (const std::exception&) { // what run.h5 held before must do
