@@ -88,14 +88,12 @@ TEST(SphereCurves, AreThoseOfJkr) {
     const std::string file = (std::filesystem::temp_directory_path() /
                               ("asperity-curves-" + std::to_string(::getpid()) + ".h5"))
                                  .string();
-    io::Hdf5File whole(file, io::Hdf5File::Mode::create);
-    PathSeries path;
-    path.leg = {0.0, 0.0, 1.0};
-    path.height = {9.0, 3.0, 9.0};
-    path.force = {0.0, 40.0, 0.0};
-    path.contact_fraction = {0.0, 0.1, 0.0};
-    write_sphere_curves(whole, path, scene, flat);
-    whole.close();
+    {
+        io::Hdf5File whole(file, io::Hdf5File::Mode::create);
+        whole.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
+        write_sphere_curves(whole, scene, flat);
+        whole.close();
+    }
     const io::Hdf5File run(file, io::Hdf5File::Mode::read);
     // The deepest attraction of JKR: 3/2 pi gamma R.
     const double gamma = flat.work_of_adhesion / units::milli_per_unit;
