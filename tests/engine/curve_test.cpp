@@ -88,12 +88,11 @@ TEST(SphereCurves, AreThoseOfJkr) {
     const std::string file = (std::filesystem::temp_directory_path() /
                               ("asperity-curves-" + std::to_string(::getpid()) + ".h5"))
                                  .string();
-    {
-        io::Hdf5File whole(file, io::Hdf5File::Mode::create);
-        whole.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
-        write_sphere_curves(whole, scene, flat);
-        whole.close();
-    }
+    io::Hdf5File written(file, io::Hdf5File::Mode::create);
+    written.make_group("/series");
+    written.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
+    write_sphere_curves(written, scene, flat);
+    written.close();
     const io::Hdf5File run(file, io::Hdf5File::Mode::read);
     // The deepest attraction of JKR: 3/2 pi gamma R.
     const double gamma = flat.work_of_adhesion / units::milli_per_unit;
