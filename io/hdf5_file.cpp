@@ -94,7 +94,12 @@ Hdf5File::Hdf5File(const FilePlace& place, Mode mode) : path_(place.path()) {
     if (id_ < 0)
         throw FileError(path_, "cannot be created", cause(),
                         "check its directory and the space on its disk");
-    write_attribute("/", seal_attribute, std::int64_t{1});
+    try {
+        write_attribute("/", seal_attribute, std::int64_t{1});
+    } catch (...) {
+        H5Fclose(std::exchange(id_, -1));
+        throw;
+    }
     sealed_ = true;
 }
 
@@ -113,9 +118,11 @@ void Hdf5File::open_to_read() {
     id_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);
     if (id_ < 0) throw FileError(path_, "cannot be opened", cause(), "check that it is whole");
     sealed_ = seal == Seal::whole;
-    if (!sealed_ && has_attribute("/", seal_attribute))
+    if (!sealed_ && has_attribute("/", seal_attribute)) {
+        H5Fclose(std::exchange(id_, -1)); // no destructor does it for a constructor that throws
         throw FileError(path_, "is damaged", "the digest at its end is missing",
                         "take a copy that is whole");
+    }
 }
 
 Hdf5File::~Hdf5File() {
