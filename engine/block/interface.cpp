@@ -200,6 +200,20 @@ struct LatticeReach {
 double margin_for(double spacing) { return 2.0 * spacing; }
 int blocks_in_row(const Tile& tile) { return (tile.nx + interface_block - 1) / interface_block; }
 
+/// Atoms of a substrate of another spacing that lie within `widest` of a tile's sites.
+Tile atoms_under(const Tile& tile, double spacing, int atoms, double widest) {
+    const double b = tile.sites * spacing / atoms;
+    const auto first = [&](int begin) {
+        return static_cast<int>(std::floor(((begin + 0.5) * spacing - widest) / b));
+    };
+    const auto count = [&](int begin, int sites) {
+        const double end = (begin + sites - 0.5) * spacing + widest;
+        return static_cast<int>(std::ceil(end / b)) + 1 - first(begin);
+    };
+    return {first(tile.x0), first(tile.y0), count(tile.x0, tile.nx), count(tile.y0, tile.ny),
+            atoms};
+}
+
 } // namespace
 
 Interface::LatticeTables Interface::lattice_tables() const {
@@ -231,6 +245,23 @@ Interface::TableSizes Interface::lattice_tables_for(const InterfaceOptions& opti
             size(tile.sites, tile.sites) * sizeof(double)};
 }
 
+std::size_t Interface::bytes_for(const InterfaceOptions& options, const Tile& tile, double spacing,
+                                 int substrate_sites) {
+    const TableSizes lattice = lattice_tables_for(options, tile, spacing);
+    const auto atoms = static_cast<std::size_t>(substrate_sites);
+    std::size_t bytes = atoms * atoms * sizeof(double) + 2 * lattice.reach + lattice.mean_height;
+    const bool same_lattice = substrate_sites == tile.sites;
+    const double widest = options.potential.cutoff + margin_for(spacing);
+    const Tile under = same_lattice ? tile : atoms_under(tile, spacing, substrate_sites, widest);
+    const int halo =
+        same_lattice ? LatticeReach(widest, spacing).half_offsets + 1 : int{interface_block};
+    if (same_lattice) bytes += lattice.columns;
+    if (!options.mixed) bytes += Field<double>::bytes_for(under, 1, halo);
+    if (options.mixed || options.single_too)
+        bytes += Field<std::int32_t>::bytes_for(under, 1, halo);
+    return bytes;
+}
+
 /// The tile's heights with their halo, and how many offsets lie within each lateral distance.
 void Interface::build_lattice() {
     const LatticeReach reach(options_.potential.cutoff + margin_, spacing_);
@@ -258,19 +289,10 @@ void Interface::build_lattice() {
 
 /// The heights of the atoms around the tile, on the substrate's own lattice.
 void Interface::build_rows() {
-    const double b = map_.spacing;
-    const double widest = options_.potential.cutoff + margin_;
-    const auto first = [&](int begin) {
-        return static_cast<int>(std::floor(((begin + 0.5) * spacing_ - widest) / b));
-    };
-    const auto count = [&](int begin, int sites) {
-        const double end = (begin + sites - 0.5) * spacing_ + widest;
-        return static_cast<int>(std::ceil(end / b)) + 1 - first(begin);
-    };
-    rows_.i0 = first(tile_.x0);
-    rows_.j0 = first(tile_.y0);
-    const Tile atoms{rows_.i0, rows_.j0, count(tile_.x0, tile_.nx), count(tile_.y0, tile_.ny),
-                     map_.sites};
+    const Tile atoms =
+        atoms_under(tile_, spacing_, map_.sites, options_.potential.cutoff + margin_);
+    rows_.i0 = atoms.x0;
+    rows_.j0 = atoms.y0;
     rows_.heights = heights_on(atoms, interface_block);
     rows_.reach = reach_;
     rows_.map = map_;

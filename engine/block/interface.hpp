@@ -100,6 +100,9 @@ public:
     InterfaceMethod method() const { return method_; }
     const InterfaceOptions& options() const { return options_; }
     std::size_t bytes() const;
+    /// What an interface over a substrate of N x N atoms would hold, without making it.
+    static std::size_t bytes_for(const InterfaceOptions& options, const Tile& tile, double spacing,
+                                 int substrate_sites);
     std::size_t tail_bytes() const { return mean_height_.empty() ? 0 : mean_height_.bytes(); }
 
 private:

@@ -33,24 +33,6 @@ double making_bytes(const Scene& scene) {
     return atoms_of(scene) * (heights + copies * waves);
 }
 
-/// Interface: a copy of the map, the rings, the heights under the tile with a border as wide as the
-/// interaction reaches, the tail.
-double interface_bytes(const Scene& scene, const Setup& setup, const Tile& tile) {
-    const InterfaceOptions& options = setup.simulation.interface;
-    const double spacing = scene.surface.spacing, sites = scene.surface.sites;
-    const double atoms = std::sqrt(atoms_of(scene));
-    const double reach =
-        (options.potential.cutoff + 2.0 * spacing) * atoms / (sites * spacing) + 2.0;
-    const double ratio = atoms / sites;
-    const double under = (tile.nx * ratio + 2.0 * reach) * (tile.ny * ratio + 2.0 * reach);
-    const double each =
-        (options.mixed ? 0.0 : 8.0) + (options.mixed || options.single_too ? 4.0 : 0.0);
-    const double blocks = std::ceil(tile.nx / static_cast<double>(interface_block));
-    double bytes = 8.0 * atoms_of(scene) + 16.0 * interface_rings * blocks * tile.ny + each * under;
-    if (options.tail) bytes += static_cast<double>(Field<double>::bytes_for(tile, 1));
-    return bytes;
-}
-
 /// The ranks of this machine: their values added up. Collective.
 double sum_on_machine(double mine, const Communicator& ranks) {
     char name[256] = {};
@@ -104,7 +86,9 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
     MemoryNeed need;
     need.making = making_bytes(scene);
     need.surface = 8.0 * atoms_of(scene);
-    need.interface = interface_bytes(scene, setup, tile);
+    need.interface = static_cast<double>(
+        Interface::bytes_for(setup.simulation.interface, tile, scene.surface.spacing,
+                             substrate_sites(scene.surface.sites, scene.surface.lattice_ratio)));
     if (scene.block.model == BlockModel::spectral) {
         const double columns = scene.surface.sites / 2 + 1;
         const double parts = scene.interface.frictionless ? 1.0 : 3.0;

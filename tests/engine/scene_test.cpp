@@ -49,6 +49,8 @@ TEST(Scene, DefaultsAreThePapers) {
         {"surface.file", "\"heights.h5\""},
         {"surface.file_size", "\"auto\""},
         {"surface.file_unit", "\"auto\""},
+        {"surface.file_missing", "\"refuse\""},
+        {"surface.file_crop", "\"none\""},
         {"surface.detrend", "\"none\""},
         {"surface.resample", "\"none\""},
         {"block.model", "\"multiscale\""},
