@@ -176,6 +176,7 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     constexpr long long long_enough = 3000;
     double smallest = std::numeric_limits<double>::infinity();
     long long found_at = 0;
+    int unsettled = 0; // times that the residual was small and Newton's next step was not
     for (;; ++state.iterations) {
         state.residual = descent.residual();
         if (state.residual < 0.5 * smallest) {
@@ -187,8 +188,10 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
                           state.iterations > found_at + long_enough;
         state.interrupted = options.report && state.iterations % 10 == 0 &&
                             options.report(state.iterations, state.residual);
-        if (over || state.interrupted ||
-            (state.residual <= options.tolerance && descent.settled())) {
+        // Where forces step at a short cutoff, Newton's next step need not become small.
+        constexpr int enough = 5;
+        const bool within = state.residual <= options.tolerance;
+        if (over || state.interrupted || (within && (descent.settled() || ++unsettled > enough))) {
             state.residual = descent.conclude();
             state.converged = state.residual <= options.tolerance;
             if (over || state.interrupted || state.converged) break;
