@@ -134,6 +134,7 @@ TEST(MapFile, SameMapInEveryFormat) {
         file.write<double>("/h", {n, n}, heights);
         file.write_attribute("/h", "unit", "nm");
         file.write_attribute("/h", "size_x", pixel_nm * n);
+        file.close();
     }
     expect_sized(scratch / "map.h5", "HDF5");
 
