@@ -22,12 +22,6 @@ Scene scene_with(const std::vector<std::string>& overrides) {
                            "test.toml", overrides);
 }
 
-/// counted: not less than what is there, and not much more.
-void expect_close(double counted, std::size_t there, const std::string& what) {
-    EXPECT_GE(counted, 0.99 * static_cast<double>(there)) << what;
-    EXPECT_LE(counted, 1.15 * static_cast<double>(there)) << what;
-}
-
 TEST(Memory, IsThatOfTheObjects) {
     for (const std::vector<std::string>& what : std::vector<std::vector<std::string>>{
              {},
