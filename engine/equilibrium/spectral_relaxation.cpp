@@ -58,11 +58,6 @@ public:
         if (spreading_) return options_.site_stiffness * way_;
         return rms_ <= options_.tolerance ? largest_residual() : rms_;
     }
-    /// A small residual is no equilibrium where the curvature is small too, as close to an
-    /// instability: what Newton's next step would move a site by must be small as well.
-    bool settled() const {
-        return !spreading_ && std::isfinite(before_) && moved_ * rms_ <= settled_move * before_;
-    }
     /// The residual of the state as it is reported; energies in sums().
     double conclude() {
         rough_ = false;
@@ -116,7 +111,7 @@ private:
         }
         if (way_ > near || iterations_ < patience) return;
         spreading_ = false;
-        before_ = moved_ = std::numeric_limits<double>::infinity();
+        before_ = std::numeric_limits<double>::infinity();
         ball_.stop();
         block_.settle();
     }
@@ -129,8 +124,7 @@ private:
         if (!newton_.direction(interface_, height_, forcing, g_, d_)) return false;
         combine(1.0, d_, 0.0, work_);
         block_.at_sites(work_, at_sites_);
-        moved_ = largest(block_.communicator(), at_sites_);
-        if (!(moved_ <= options_.max_move)) return false;
+        if (!(largest(block_.communicator(), at_sites_) <= options_.max_move)) return false;
         block_.displace(1.0, d_, at_sites_);
         return true;
     }
@@ -138,7 +132,6 @@ private:
     static constexpr double close_by = 3e-3;  ///< eV/Å: of an equilibrium, to try Newton at once
     static constexpr double near = 0.002;     ///< Å: of its goal, to try Newton
     static constexpr long long patience = 10; ///< iterations of heavy balls before that
-    static constexpr double settled_move = 0.01; ///< Å
     static constexpr double forcing = 0.1;
     static constexpr double least_stiffness = 2e-4; ///< eV/Å^2: where hardly a site is in contact
     /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
@@ -157,12 +150,10 @@ private:
     SiteField<float> at_sites_; ///< Newton's direction, or the residual
     InterfaceSums sums_;
     bool spreading_ = false;
-    long long iterations_ = 0; ///< iterations of this stage
-    double way_ = 0.0;         ///< the longest to a goal, Å
-    double rms_ = 0.0;         ///< mean residual, eV/Å
-    double before_ =
-        std::numeric_limits<double>::infinity(); ///< mean residual before Newton's last step
-    double moved_ = std::numeric_limits<double>::infinity(); ///< by it, the site that moved most, Å
+    long long iterations_ = 0;                                ///< iterations of this stage
+    double way_ = 0.0;                                        ///< the longest to a goal, Å
+    double rms_ = 0.0;                                        ///< mean residual, eV/Å
+    double before_ = std::numeric_limits<double>::infinity(); ///< Newton's last step
     bool rough_ = true;
 };
 
@@ -176,7 +167,6 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     constexpr long long long_enough = 3000;
     double smallest = std::numeric_limits<double>::infinity();
     long long found_at = 0;
-    int unsettled = 0; // times that the residual was small and Newton's next step was not
     for (;; ++state.iterations) {
         state.residual = descent.residual();
         if (state.residual < 0.5 * smallest) {
@@ -188,10 +178,7 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
                           state.iterations > found_at + long_enough;
         state.interrupted = options.report && state.iterations % 10 == 0 &&
                             options.report(state.iterations, state.residual);
-        // Where forces step at a short cutoff, Newton's next step need not become small.
-        constexpr int enough = 5;
-        const bool within = state.residual <= options.tolerance;
-        if (over || state.interrupted || (within && (descent.settled() || ++unsettled > enough))) {
+        if (over || state.interrupted || state.residual <= options.tolerance) {
             state.residual = descent.conclude();
             state.converged = state.residual <= options.tolerance;
             if (over || state.interrupted || state.converged) break;
