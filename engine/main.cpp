@@ -81,10 +81,10 @@ const std::vector<Command> own_commands = {
      }},
     {"defaults",
      "every key of a scene with its default, as TOML",
-     {takes::markdown, takes::plain, takes::json},
+     {takes::markdown, takes::plain, takes::json, takes::results},
      [](const Arguments& given, const Communicator& world) {
          return given.json ? schema_command(world)
-                           : defaults_command(given.markdown, given.plain, world);
+                           : defaults_command(given.markdown, given.plain, given.results, world);
      }},
     {"info",
      "what this program was built from and runs on",

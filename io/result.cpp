@@ -3,98 +3,101 @@
 #include "io/result.hpp"
 
 #include "io/build_info.hpp"
+#include "io/json_value.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include <nlohmann/json.hpp>
 
 namespace asperity::io {
 
 namespace {
 
-void put_path(JsonValue& root, std::string_view path, const JsonValue& value) {
-    const std::size_t dot = path.find('.');
-    if (dot == std::string_view::npos)
-        root[path] = value;
-    else
-        put_path(root[path.substr(0, dot)], path.substr(dot + 1), value);
+using Json = nlohmann::ordered_json;
+
+/// Where a name leads in a tree, made on the way. "*" stands for member and "[]" for element; the
+/// tree of units has one entry for all elements.
+Json& place(Json& root, std::string_view name, const std::string& member, std::size_t element,
+            bool units) {
+    Json* at = &root;
+    while (!name.empty()) {
+        const std::size_t dot = std::min(name.find('.'), name.size());
+        std::string_view part = name.substr(0, dot);
+        name.remove_prefix(std::min(dot + 1, name.size()));
+        const bool list = part.ends_with("[]");
+        if (list) part.remove_suffix(2);
+        at = &(*at)[part == "*" ? member : std::string(part)];
+        if (list && !units) at = &(*at)[element];
+    }
+    return *at;
 }
 
-/// An object of those quantities that are there; null if none is.
-JsonValue group(std::initializer_list<std::pair<const char*, Quantity>> members) {
-    JsonValue object;
-    for (const auto& [name, value] : members)
-        object.put(name, value);
-    return object;
-}
-
-void put_group(JsonValue& root, const char* name, JsonValue object) {
-    if (!object.is_null()) root[name] = std::move(object);
-}
+/// A tree put together elsewhere.
+Json from(const JsonValue& value) { return Json::parse(value.dump(-1)); }
 
 } // namespace
 
-JsonValue result_json(const ResultRecord& record) {
-    JsonValue root = JsonValue::object();
-    if (!record.name.empty()) root["name"] = record.name;
-    if (!record.scene.is_null()) root["scene"] = record.scene;
-    const auto& s = record.surface;
-    put_group(root, "surface",
-              group({{"rms", s.rms}, {"rms_slope", s.rms_slope}, {"min", s.min}, {"max", s.max}}));
-    if (!s.origin.empty()) root["surface"]["origin"] = s.origin;
-    root.put("delta_gamma", record.delta_gamma);
-    root.put("binding_energy", record.binding_energy);
-    const auto& w = record.work_of_adhesion;
-    put_group(
-        root, "work_of_adhesion",
-        group({{"approach", w.approach}, {"pull_off", w.pull_off}, {"pairwise", w.pairwise}}));
-    root.put("contact_fraction", record.contact_fraction);
-    root.put("pushed_fraction", record.pushed_fraction);
-    root.put("pull_off_force", record.pull_off_force);
-    put_group(root, "jkr", group({{"in", record.jkr.in}, {"out", record.jkr.out}}));
-    const auto& t = record.theory;
-    put_group(root, "theory",
-              group({{"gamma_eff", t.gamma_eff},
-                     {"contact_fraction", t.contact_fraction},
-                     {"gamma_full_contact", t.gamma_full_contact}}));
-    const auto& e = record.energy;
-    put_group(root, "energy",
-              group({{"residual", e.residual},
-                     {"work", e.work},
-                     {"kinetic", e.kinetic},
-                     {"elastic", e.elastic},
-                     {"interface", e.interface},
-                     {"damped", e.damped}}));
-
-    JsonValue& run = root["run"];
-    run.put("wall_seconds", record.run.wall_seconds);
-    run.put("steps", record.run.steps);
-    run.put("iterations", record.run.iterations);
-    run.put("ranks", record.run.ranks);
-    run.put("threads", record.run.threads);
-    JsonValue phases = JsonValue::object();
-    for (const ResultRecord::Phase& phase : record.run.phases) {
-        phases[phase.name]["seconds"] = phase.seconds;
-        phases[phase.name]["calls"] = phase.calls;
-    }
-    run["phases"] = std::move(phases);
-    if (!record.run.stopped.empty()) run["stopped"] = record.run.stopped;
+Result::Result() : values_(std::make_unique<Json>(Json::object())) {
+    // Members appear in the order in which they are made.
+    for (const Quantity& q : result_quantities)
+        (*values_)[std::string(q.name.substr(0, q.name.find('.')))];
+    (*values_)["scene"];
+    (*values_)["units"];
     const BuildInfo build = build_info();
-    run["version"] = build.version;
-    run["git"] = build.git;
-    run["compiler"] = build.compiler;
-    run["flags"] = build.flags;
-    run["machine"] = machine();
+    set("run.version", build.version);
+    set("run.git", build.git);
+    set("run.compiler", build.compiler);
+    set("run.flags", build.flags);
+    set("run.machine", machine());
+}
+Result::~Result() = default;
+Result::Result(Result&&) noexcept = default;
+Result& Result::operator=(Result&&) noexcept = default;
 
-    if (record.failure.exit_code != 0 || !record.failure.reason.empty()) {
-        root["failure"]["exit_code"] = record.failure.exit_code;
-        root["failure"]["reason"] = record.failure.reason;
-    }
-    for (const auto& [path, value] : record.extra)
-        put_path(root, path, value);
-    return root;
+void Result::put(Key key, const std::string& member, std::size_t element, Value&& value) {
+    const Quantity& q = *key.quantity;
+    std::visit([&](auto&& v) { place(*values_, q.name, member, element, false) = std::move(v); },
+               std::move(value));
+    place((*values_)["units"], q.name, member, element, true) = std::string(q.unit);
 }
 
-void write_result(const Directory& directory, const ResultRecord& record) {
-    write_whole({directory, "result.json"}, result_json(record).dump() + "\n");
+void Result::set(Key key, Value value) { put(key, {}, 0, std::move(value)); }
+void Result::set(Key key, std::string_view member, Value value) {
+    put(key, std::string(member), 0, std::move(value));
+}
+void Result::set(Key key, std::size_t element, Value value) {
+    put(key, {}, element, std::move(value));
+}
+
+void Result::set_scene(const JsonValue& scene, const JsonValue& units) {
+    (*values_)["scene"] = from(scene);
+    (*values_)["units"]["scene"] = from(units);
+}
+
+std::optional<double> Result::number(Key key) const {
+    std::string pointer = "/" + std::string(key.quantity->name);
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    const Json::json_pointer at(pointer);
+    if (!values_->contains(at)) return std::nullopt;
+    const Json& value = values_->at(at);
+    return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+}
+
+Json Result::json() const {
+    Json all = Json::object();
+    for (const auto& [name, value] : values_->items())
+        if (!value.is_null()) all[name] = value;
+    return all;
+}
+
+std::string Result::text(int indent) const {
+    // A path on Linux may be any bytes; what is no UTF-8 is replaced rather than refused.
+    return json().dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_result(const Directory& directory, const Result& result) {
+    write_whole({directory, "result.json"}, result.text());
 }
 
 } // namespace asperity::io

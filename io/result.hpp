@@ -1,81 +1,70 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// result.json: what a command found.
+// result.json: what a command computed.
 //
-// ResultRecord mirrors the file key by key; what was not computed stays empty and is left out
-// of the file. A run that fails writes its record too, with the reason. Which directory it goes to
-// is result_directory.hpp's matter.
+// A Result holds values under the names of io/quantities.hpp, and the unit of each; what was not
+// computed is left out of the file. A run that fails writes its result too, with the reason. The
+// directory is chosen in io/result_directory.hpp.
 #pragma once
 
-#include "io/json_value.hpp"
 #include "io/output_file.hpp"
+#include "io/quantities.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace asperity::io {
 
-using Quantity = std::optional<double>;
+class JsonValue;
 
-struct ResultRecord {
-    std::string name; ///< of the scene
-    JsonValue scene;  ///< everything that was used, defaults filled in
+class Result {
+public:
+    using Value = std::variant<bool, long long, double, std::string, std::vector<double>,
+                               std::vector<long long>, std::vector<std::string>>;
 
-    struct Surface {
-        Quantity rms, rms_slope, min, max; ///< Å, -, Å, Å
-        std::string origin;                ///< whose map it is; empty: not told
-    } surface;
+    /// With what the program was built from (run.version, ...) and nothing else.
+    Result();
+    ~Result();
+    Result(Result&&) noexcept;
+    Result& operator=(Result&&) noexcept;
 
-    Quantity delta_gamma;    ///< flat reference, meV/Å^2, same cutoff and sites
-    Quantity binding_energy; ///< meV/Å^2, relaxed zero-load state
-    struct Work {
-        Quantity approach, pull_off, pairwise; ///< meV/Å^2
-    } work_of_adhesion;
-    Quantity contact_fraction, pushed_fraction; ///< at zero load
-    Quantity pull_off_force;                    ///< eV/Å, positive
-    struct Jkr {
-        Quantity in, out; ///< meV/Å^2, of a curved surface
-    } jkr;
-    struct Theory {
-        Quantity gamma_eff, contact_fraction, gamma_full_contact; ///< meV/Å^2, -, meV/Å^2
-    } theory;
-    struct Energy {
-        Quantity residual;                                  ///< relative
-        Quantity work, kinetic, elastic, interface, damped; ///< eV
-    } energy;
+    /// Sets a value; one that is set already is replaced. NaN and infinity are written as null.
+    void set(Key key, Value value);
+    /// Nothing where the optional is empty.
+    template <class T>
+    void set(Key key, const std::optional<T>& value) {
+        if (value) set(key, Value(*value));
+    }
+    /// member: in place of the "*" of the key.
+    void set(Key key, std::string_view member, Value value);
+    /// element: in place of the "[]" of the key; elements before it must be there.
+    void set(Key key, std::size_t element, Value value);
+    /// The scene and the units of its keys (Schema::json(), Schema::units()).
+    void set_scene(const JsonValue& scene, const JsonValue& units);
 
-    struct Phase {
-        std::string name;
-        double seconds = 0.0;
-        long long calls = 0;
-    };
-    struct Run {
-        Quantity wall_seconds;
-        std::optional<long long> steps, iterations;
-        std::optional<int> ranks, threads;
-        std::vector<Phase> phases;
-        std::string
-            stopped; ///< "max_steps", "wall_limit", "signal"; empty: the path's end was reached
-        // version, git, compiler, flags and machine are filled in from build_info.
-    } run;
+    /// A number that was set (of a key without "*" and "[]"), or nothing.
+    std::optional<double> number(Key key) const;
 
-    /// Why the command failed; empty: it did not.
-    struct Failure {
-        int exit_code = 0;
-        std::string reason;
-    } failure;
+    /// The file: values in the order of result_quantities, then `scene` and `units`.
+    nlohmann::ordered_json json() const;
+    /// indent < 0: one line.
+    std::string text(int indent = 2) const;
 
-    /// Whatever else is worth keeping; dots lead deeper ("run.levels"). Never a name listed above.
-    std::vector<std::pair<std::string, JsonValue>> extra;
+private:
+    void put(Key key, const std::string& member, std::size_t element, Value&& value);
+
+    std::unique_ptr<nlohmann::ordered_json> values_; ///< with `units` among them
 };
 
-/// The record in the layout of the file.
-JsonValue result_json(const ResultRecord& record);
-
 /// Writes result.json, whole or not at all. Throws FileError.
-void write_result(const Directory& directory, const ResultRecord& record);
+void write_result(const Directory& directory, const Result& result);
 
 } // namespace asperity::io

@@ -217,6 +217,8 @@ public:
     /// The fields as a scene; with docs, each key has its line of explanation.
     std::string toml(bool with_docs) const;
     JsonValue json() const;
+    /// The unit of each value of json(): "1" for a pure number, "" for what is no number.
+    JsonValue units() const;
     /// The reference page.
     std::string markdown() const;
 

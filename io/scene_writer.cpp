@@ -109,6 +109,16 @@ JsonValue Schema::json() const {
     return root;
 }
 
+JsonValue Schema::units() const {
+    JsonValue root = JsonValue::object();
+    for (const Key& key : keys_) {
+        if (key.omitted && key.omitted()) continue;
+        const bool number = key.kind == Kind::number || key.kind == Kind::integer;
+        root[key.section][key.name] = !number ? "" : key.unit.empty() ? "1" : key.unit;
+    }
+    return root;
+}
+
 std::string Schema::markdown() const {
     std::string text;
     for (const auto& [section, section_doc] : sections_) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/series.hpp"
 
+#include "io/described.hpp"
 #include "io/error.hpp"
 
 #include <utility>
@@ -12,17 +13,14 @@ namespace asperity::io {
 
 namespace {
 constexpr std::uint64_t rows_in_memory = 64;
-}
+const std::string group = "/series/";
+} // namespace
 
-Series::Series(Hdf5File& file, std::string group, std::vector<Column> columns)
-    : file_(&file), group_(std::move(group)), columns_(std::move(columns)),
-      buffer_(columns_.size()) {
-    file.make_group(group_);
-    for (const Column& column : columns_) {
-        const std::string dataset = group_ + "/" + column.name;
-        file.make_series<double>(dataset);
-        if (!column.unit.empty()) file.write_attribute(dataset, "unit", column.unit);
-        if (!column.doc.empty()) file.write_attribute(dataset, "description", column.doc);
+Series::Series(Hdf5File& file, std::vector<std::string> columns)
+    : file_(&file), columns_(std::move(columns)), buffer_(columns_.size()) {
+    for (const std::string& column : columns_) {
+        file.make_series<double>(group + column);
+        describe(file, group + column);
     }
 }
 
@@ -39,7 +37,7 @@ void Series::append(std::span<const double> row) {
 void Series::flush() {
     if (!file_) return;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-        file_->append<double>(group_ + "/" + columns_[i].name, buffer_[i]);
+        file_->append<double>(group + columns_[i], buffer_[i]);
         buffer_[i].clear();
     }
     written_ += waiting_;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The series along the path of a run: named columns with units, one growing data set each, under
-// one group of run.h5 (by default /series: it has its own sampling, so it stays out of H5MD's
-// observables). Rows are gathered in memory and written when they are enough or when asked.
+// The series along the path of a run: named columns, one growing data set each, under /series of
+// run.h5 (it has a sampling of its own, so it stays out of H5MD's observables). Units and
+// descriptions are those of io/quantities.hpp. Rows are gathered in memory and written when they
+// are enough or when asked.
 #pragma once
 
 #include "io/hdf5_file.hpp"
@@ -15,17 +16,11 @@
 
 namespace asperity::io {
 
-struct Column {
-    std::string name;
-    std::string unit; ///< "" : a pure number
-    std::string doc;
-};
-
 class Series {
 public:
     Series() = default;
     /// A new series. The file must outlive it.
-    Series(Hdf5File& file, std::string group, std::vector<Column> columns);
+    Series(Hdf5File& file, std::vector<std::string> columns);
 
     /// One value a column, in the order of the columns.
     void append(std::span<const double> row);
@@ -36,12 +31,10 @@ public:
     std::uint64_t rows() const { return written_ + waiting_; }
     /// Everything to the file.
     void flush();
-    const std::vector<Column>& columns() const { return columns_; }
 
 private:
     Hdf5File* file_ = nullptr;
-    std::string group_;
-    std::vector<Column> columns_;
+    std::vector<std::string> columns_;
     std::vector<std::vector<double>> buffer_; ///< one a column
     std::uint64_t written_ = 0;
     std::uint64_t waiting_ = 0;

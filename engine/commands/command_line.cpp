@@ -111,6 +111,11 @@ void markdown(CLI::App& command, Arguments& given) {
     command.add_flag("--markdown", given.markdown, "as the reference page docs/scene.md");
 }
 
+void results(CLI::App& command, Arguments& given) {
+    command.add_flag("--results", given.results,
+                     "every name of result.json and run.h5: the reference page docs/result.md");
+}
+
 void plain(CLI::App& command, Arguments& given) {
     command.add_flag("--plain", given.plain, "without explanations");
 }

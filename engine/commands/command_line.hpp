@@ -40,6 +40,7 @@ struct Arguments {
     bool plain = false;
     bool json = false;
     bool runnable = false;
+    bool results = false;
 };
 
 /// The scene named by the words, read and checked with its overrides.
@@ -72,6 +73,7 @@ void markdown(CLI::App& command, Arguments& given);
 void plain(CLI::App& command, Arguments& given);
 void json(CLI::App& command, Arguments& given);
 void points(CLI::App& command, Arguments& given); ///< and --runnable
+void results(CLI::App& command, Arguments& given);
 Option out(const std::string& otherwise);
 Option wall_limit(const std::string& explanation);
 } // namespace takes

@@ -4,6 +4,7 @@
 
 #include "decomposition/communicator.hpp"
 #include "engine/run/plan.hpp"
+#include "engine/run/run_record.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/scene/map_statistics.hpp"
 #include "engine/setup/setup.hpp"
@@ -167,12 +168,7 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
                                 {"/spectrum/line_r", "Å", lines.r},
                                 {"/spectrum/autocorrelation", "Å^2", lines.acf}}});
 
-    io::ResultRecord record;
-    record.name = scene.name;
-    record.scene = scene_json(scene);
-    record.surface = {statistics.rms, statistics.rms_slope, statistics.lowest, statistics.highest,
-                      surface.origin};
-    io::write_result(place.directory(), record);
+    io::write_result(place.directory(), surface_result(scene, surface));
 
     io::Table table({"the surface made", "", ""});
     table.align_left(2);
@@ -200,9 +196,11 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
     return io::exit_code::done;
 }
 
-int defaults_command(bool markdown, bool plain, const Communicator& world) {
+int defaults_command(bool markdown, bool plain, bool results, const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
-    fmt::print("{}", markdown ? scene_markdown() : scene_toml(Scene{}, !plain));
+    fmt::print("{}", results    ? io::result_markdown()
+                     : markdown ? scene_markdown()
+                                : scene_toml(Scene{}, !plain));
     return io::exit_code::done;
 }
 

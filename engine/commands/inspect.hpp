@@ -21,7 +21,7 @@ int plan_command(const Scene& scene, int ranks, const Communicator& world);
 /// `asperity surface`: heights.h5 and result.json in `out` (empty: results/<scene>-surface).
 int surface_command(const Scene& scene, const std::string& out, const Communicator& world);
 /// `asperity defaults`: as TOML, with or without explanations, or as the page docs/scene.md.
-int defaults_command(bool markdown, bool plain, const Communicator& world);
+int defaults_command(bool markdown, bool plain, bool results, const Communicator& world);
 /// `asperity defaults --json`: of every key its kind, unit, default, choices and meaning.
 int schema_command(const Communicator& world);
 /// `asperity info`

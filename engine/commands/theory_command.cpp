@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/theory_command.hpp"
 
+#include "engine/run/run_record.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
@@ -166,26 +167,23 @@ int theory_command(const Scene& scene, const std::string& out, bool json) {
     const TheoryNumbers numbers = solve_theory(what);
     const Beyond beyond = look_beyond(what);
 
-    io::ResultRecord record;
-    record.name = scene.name;
-    record.scene = scene_json(scene);
-    record.surface.origin = what.origin;
-    record.delta_gamma = what.flat;
-    record_theory(what, numbers, record);
+    io::Result result = scene_result(scene);
+    if (!what.origin.empty()) result.set("surface.origin", what.origin);
+    result.set("delta_gamma", what.flat);
+    record_theory(what, numbers, result);
     if (beyond.critical) {
-        record.extra.emplace_back("theory.critical_rms", beyond.critical->h_rms);
-        record.extra.emplace_back("theory.critical_rms_full_contact",
-                                  beyond.critical->full_contact_h_rms);
+        result.set("theory.critical_rms", beyond.critical->h_rms);
+        result.set("theory.critical_rms_full_contact", beyond.critical->full_contact_h_rms);
     }
-    record.run.wall_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.set("run.wall_seconds",
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     if (json) {
-        fmt::print("{}\n", io::result_json(record).dump(-1));
+        fmt::print("{}", result.text(-1));
         return io::exit_code::done;
     }
     const io::ResultDirectory place({out, scene.name + "-theory"});
     write_profile(place.directory() / "theory.h5", what, numbers);
-    io::write_result(place.directory(), record);
+    io::write_result(place.directory(), result);
 
     print_theory(scene, what, numbers, beyond);
     for (const std::string& note : place.notes())

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/theory_points.hpp"
 
+#include "engine/run/run_record.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/setup/setup.hpp"
@@ -63,12 +64,10 @@ std::vector<std::string> overrides_of(const std::string& line, const std::string
 JsonValue point_json(const Scene& scene, SurfaceCache& surfaces) {
     const TheoryCase what = theory_case(scene, surfaces.of(scene));
     const TheoryNumbers numbers = solve_theory(what);
-    io::ResultRecord record;
-    record.name = scene.name;
-    record.scene = scene_json(scene);
-    record.delta_gamma = what.flat;
-    record_theory(what, numbers, record);
-    const JsonValue result = io::result_json(record);
+    io::Result values = scene_result(scene);
+    values.set("delta_gamma", what.flat);
+    record_theory(what, numbers, values);
+    const JsonValue result = JsonValue::parse(values.text(), "");
     JsonValue point = JsonValue::object();
     for (const char* key : {"name", "scene", "delta_gamma", "theory"})
         if (const JsonValue* value = result.find(key)) point[key] = *value;

@@ -43,9 +43,7 @@ public:
             integrate();
             run_.write_kept_fields(simulation_.interface());
         };
-        return run_.carry_out(bytes, work,
-                              {[&](io::ResultRecord& record) { add_to(record); },
-                               [&] { return simulation_.energy_residual(); }});
+        return run_.carry_out(bytes, work, [&](io::Result& result) { add_to(result); });
     }
 
 private:
@@ -273,14 +271,11 @@ private:
     }
 
     /// Steps and energies.
-    void add_to(io::ResultRecord& r) const {
-        add_phases(simulation_.phases(), r);
-        r.run.steps = simulation_.steps();
-        r.extra.emplace_back("run.device", describe_device(run_.setup.simulation.device));
-        if (simulation_.steps() == 0) return;
-        const StepRecord& now = simulation_.now(); // energies of the last observed step
-        r.energy = {now.residual,         now.work,  now.kinetic_energy, now.elastic_energy,
-                    now.interface_energy, now.damped};
+    void add_to(io::Result& result) const {
+        add_phases(simulation_.phases(), result);
+        result.set("run.steps", simulation_.steps());
+        result.set("run.device", describe_device(run_.setup.simulation.device));
+        if (simulation_.steps() > 0) add_energies(simulation_.now(), result);
     }
 
     RunSession run_;

@@ -9,13 +9,13 @@
 #include "engine/equilibrium/equilibrium.hpp"
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/equilibrium/state_search.hpp"
+#include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -40,9 +40,8 @@ public:
             follow_parts();
             run_.write_kept_fields(interface_);
         };
-        return run_.carry_out(
-            block_->bytes() + interface_.bytes(), work,
-            {[&](io::ResultRecord& record) { add_to(record); }, [&] { return energy_residual(); }});
+        return run_.carry_out(block_->bytes() + interface_.bytes(), work,
+                              [&](io::Result& result) { add_to(result); });
     }
 
 private:
@@ -180,9 +179,6 @@ private:
         return true;
     }
 
-    double energy_residual() const {
-        return points() ? path_.now().residual : std::numeric_limits<double>::quiet_NaN();
-    }
     bool points() const { return path_.now().observed; }
     std::string position() const {
         return searching_ ? fmt::format("point {} of the search for states",
@@ -191,20 +187,20 @@ private:
                           : "an unfinished relaxation";
     }
     /// Points and energies.
-    void add_to(io::ResultRecord& r) const {
-        r.energy.kinetic = 0.0;
-        r.run.steps = path_.now().step;
+    void add_to(io::Result& result) const {
+        result.set("run.steps", path_.now().step);
         if (points()) {
-            const StepRecord& now = path_.now();
-            r.run.iterations = path_.iterations();
-            r.energy = {now.residual,         now.work,  0.0, now.elastic_energy,
-                        now.interface_energy, now.damped};
-        } else if (run_.findings.zero_load) {
-            r.run.iterations =
-                static_cast<long long>(run_.findings.zero_load->iterations) + search_.iterations();
+            result.set("run.iterations", path_.iterations());
+            add_energies(path_.now(), result);
+        } else {
+            result.set("energy.kinetic", 0.0);
+            if (!run_.findings.zero_load) return;
+            const ZeroLoad& z = *run_.findings.zero_load;
             const double area = scene_.edge() * scene_.edge() / units::milli_per_unit;
-            r.energy.elastic = run_.findings.zero_load->elastic * area;
-            r.energy.interface = -run_.findings.zero_load->pairwise * area;
+            result.set("run.iterations",
+                       static_cast<long long>(z.iterations) + search_.iterations());
+            result.set("energy.elastic", z.elastic * area);
+            result.set("energy.interface", -z.pairwise * area);
         }
     }
 

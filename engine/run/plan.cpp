@@ -20,19 +20,19 @@ namespace asperity {
 
 namespace {
 
-/// Writing a checkpoint, bytes/s; and one solution of the theory, s: from experience.
+/// Typical: writing a checkpoint, bytes/s; one solution of the theory, s.
 constexpr double disk = 2e8, theory_seconds = 0.3;
-/// Iterations of a relaxation, from experience (first-contact and flat-3A, N = 64 to 512); of a
-/// quasi-static path likewise (first-contact, N = 32 to 128, some with steep falls).
-long long usual_iterations(const Scene& scene, double start, const Setup& setup) {
+/// Typical iterations of a relaxation (first-contact and flat-3A, N = 64 to 512) or of a
+/// quasi-static path (first-contact, N = 32 to 128, some with large instabilities).
+long long typical_iterations(const Scene& scene, double start, const Setup& setup) {
     if (scene.drive.mode == DriveMode::quasistatic &&
         (scene.has(PathPart::approach) || scene.has(PathPart::pull_off))) {
-        const ExpectedWay way = expected_way(setup, start);
-        const double points = 1.5 * (way.down + way.up) / scene.drive.step;
+        const ExpectedPath path = expected_path(setup, start);
+        const double points = 1.5 * (path.approach + path.pull_off) / scene.drive.step;
         return std::llround(65.0 * points);
     }
     if (scene.block.model == BlockModel::spectral) return 130;
-    if (!scene.has(PathPart::zero_load)) return 90; // from contact, which is near
+    if (!scene.has(PathPart::zero_load)) return 90; // from contact
     return std::llround(13.0 * std::sqrt(scene.surface.sites));
 }
 
@@ -54,24 +54,25 @@ std::string memory_text(double bytes) {
 
 } // namespace
 
-ExpectedWay expected_way(const Setup& setup, double start) {
+ExpectedPath expected_path(const Setup& setup, double start) {
     const auto& [block, drive] = std::tie(setup.simulation.block, setup.simulation.drive);
-    ExpectedWay way;
-    if (drive.approach) way.down = start - setup.flat.separation;
-    if (!drive.pull_off) return way;
-    // A block that is pulled with half the largest tension is longer by so much when it comes off.
+    ExpectedPath path;
+    if (drive.approach) path.approach = start - setup.flat.separation;
+    if (!drive.pull_off) return path;
+    // Elongation of the block when it separates, at half the largest tension.
     const double modulus = block.lame() + 2.0 * block.shear_modulus();
     const double stretch = 0.5 * setup.flat.largest_tension * units::gigapascal * block.thickness *
                            block.spacing / modulus;
-    way.up = std::max(way.down, stretch);
-    way.turn = drive.ramp;
-    return way;
+    path.pull_off = std::max(path.approach, stretch);
+    path.turn = drive.ramp;
+    return path;
 }
 
 long long expected_steps(const Scene& scene, const Setup& setup, double start) {
     if (!setup.effects.on(Effect::inertia)) return 0;
-    const ExpectedWay way = expected_way(setup, start);
-    const double time = (way.down + way.up) / setup.simulation.drive.velocity + way.turn;
+    const ExpectedPath path = expected_path(setup, start);
+    const double time =
+        (path.approach + path.pull_off) / setup.simulation.drive.velocity + path.turn;
     const long long steps = std::llround(time / setup.simulation.dt);
     return scene.drive.max_steps > 0 ? std::min(steps, scene.drive.max_steps) : steps;
 }
@@ -80,7 +81,7 @@ namespace {
 
 /// Sites above which a piece of the surface is made instead of it.
 constexpr int largest_surface = 512;
-/// Highest point of a rough surface over its rms height, from experience.
+/// Typical: highest point of a rough surface over its rms height.
 constexpr double highest_over_rms = 4.5;
 
 /// A box of largest_surface sites with those waves of the scene's surface that fit into it.
@@ -108,7 +109,7 @@ Scene smaller_box(const Scene& scene) {
     return piece;
 }
 
-/// Fills in a plan: what a scene has to do, times the rates of this process.
+/// Fills in a plan: the work of a scene times the rates of this process.
 class Estimate {
 public:
     Estimate(Plan& plan, const Scene& scene) : plan_(plan), scene_(scene) {
@@ -148,7 +149,7 @@ public:
                                   -touched * (1.0 - in_contact_) * (rates_.near - rates_.far)};
     }
 
-    /// The block on its way in time.
+    /// The block in motion.
     void motion() {
         if (!on(Effect::inertia)) return;
         const double node_steps = share_ * steps_ * nodes_, site_steps = share_ * steps_ * sites_;
@@ -167,13 +168,13 @@ public:
     void relaxation() {
         EffectCost& all = cost(Effect::relaxation);
         if (on(Effect::relaxation)) {
-            plan_.iterations = usual_iterations(scene_, start_, plan_.setup);
+            plan_.iterations = typical_iterations(scene_, start_, plan_.setup);
             all = {need_.relaxation + (on(Effect::inertia) ? 0.0 : need_.block),
                    share_ * iterations() * nodes_ * rates_.iteration};
         }
         if (on(Effect::coarse_levels)) cost(Effect::coarse_levels).bytes = coarse_bytes_;
         if (on(Effect::inertia)) return;
-        // All there is is the relaxation.
+        // Without inertia, all time goes into the relaxation.
         if (on(Effect::lateral)) cost(Effect::lateral).bytes = 2.0 * all.bytes / 3.0;
         if (on(Effect::coarse_levels))
             cost(Effect::coarse_levels).seconds = all.seconds * coarse_ / nodes_;
@@ -191,14 +192,16 @@ public:
         if (on(Effect::theory)) cost(Effect::theory).seconds = theory_seconds;
     }
 
-    /// Those that are part of another line (coarse levels, skipping, lateral, the time of finite
-    /// strain) do not count twice.
+    /// The sum of all lines but those that are part of another one.
     void add_up() {
         plan_.bytes = need_.most() + cost(Effect::maps).bytes;
         plan_.seconds = plan_.making.seconds + plan_.interface.seconds;
-        for (Effect e : {Effect::inertia, Effect::damping, Effect::temperature, Effect::tail,
-                         Effect::relaxation, Effect::observation, Effect::maps, Effect::theory}) {
-            plan_.seconds += cost(e).seconds;
+        for (std::size_t i = 0; i < effect_count; ++i) {
+            const auto effect = static_cast<Effect>(i);
+            if (effect == Effect::lateral || effect == Effect::coarse_levels ||
+                effect == Effect::skipping || effect == Effect::finite_strain)
+                continue;
+            plan_.seconds += cost(effect).seconds;
         }
         if (on(Effect::coarse_levels)) plan_.seconds += share_ * steps_ * sites_ * rates_.hanging;
         if (!on(Effect::checkpoints)) return;
@@ -222,10 +225,10 @@ private:
         steps_ = static_cast<double>(plan_.steps);
         const double turning =
             setup.simulation.drive.pull_off && steps_ > 0.0
-                ? std::min(1.0, expected_way(setup, start_).turn / (steps_ * setup.simulation.dt))
+                ? std::min(1.0, expected_path(setup, start_).turn / (steps_ * setup.simulation.dt))
                 : 0.0;
-        // On its way down and up a site's cost goes from that of one out of reach to that of one in
-        // contact; in the turn it is in contact.
+        // During approach and pull-off the cost of a site changes between that of one out of reach
+        // and that of one in contact; in the turn it is in contact.
         in_contact_ = turning + 0.5 * (1.0 - turning);
     }
 
@@ -256,7 +259,7 @@ private:
     double share_ = 1.0; ///< of the work, on the slowest rank with its threads, over this process
     double sites_ = 0.0, nodes_ = 0.0, coarse_ = 0.0; ///< coarse: nodes above level 0
     double steps_ = 0.0;
-    double start_ = 0.0;        ///< height from which the block comes down, Å
+    double start_ = 0.0;        ///< height of the lowest layer at the start, Å
     double in_contact_ = 0.5;   ///< fraction of the steps that a site is in contact
     double coarse_bytes_ = 0.0; ///< of the block's coarse levels
 };
@@ -321,8 +324,7 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
                    longer->timestep, longer->timestep / scene.drive.timestep,
                    100.0 * longer->error);
     if (plan.iterations > 0)
-        fmt::print(to, "iterations  some {} in the relaxation (from experience)\n",
-                   plan.iterations);
+        fmt::print(to, "iterations  about {} in the relaxation (typical)\n", plan.iterations);
     const io::AvailableMemory there = io::available_memory();
     fmt::print(to, "memory      {}, the most held at once on all ranks; {} available here ({})\n",
                memory_text(plan.bytes), memory_text(there.bytes), there.because);
@@ -340,9 +342,10 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
     fmt::print(to, "wall time   {}, without messages between machines; {}\n",
                time_text(plan.seconds), plan.rates);
     fmt::print(
-        to, "Coarse levels, lateral displacements and what finite strain takes longer are parts of "
-            "inertia or\nrelaxation; what skipping saves is not in the interface's line. Nothing "
-            "was run, nothing was written.\n");
+        to,
+        "Coarse levels, lateral displacements and the time of finite strain are parts of inertia "
+        "or relaxation;\nthe time that skipping saves is already left out of the interface's "
+        "line. Nothing was run or written.\n");
 }
 
 } // namespace asperity

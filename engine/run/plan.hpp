@@ -5,9 +5,8 @@
 //
 // Memory follows from sizes. Time follows from the work (node-steps, site-steps, iterations) and
 // the rates of the real kernels, measured for some 0.3 s on a smaller piece of the scene: the same
-// layers, the same interface and a cut-out of the same surface. What cannot be known before (how
-// often a contact snaps, how many iterations a relaxation takes) is a figure from experience and is
-// called that.
+// layers, the same interface and a part of the same surface. Numbers that are not known beforehand
+// (instabilities, iterations of a relaxation) are typical ones and are called that.
 #pragma once
 
 #include "engine/scene/surface.hpp"
@@ -19,15 +18,15 @@
 
 namespace asperity {
 
-/// The way of the top plane through a path, as far as it can be known beforehand. Å, fs.
-struct ExpectedWay {
-    double down = 0.0; ///< from the start to contact
-    double up = 0.0;   ///< from there until the contact is torn and the start passed
-    double turn = 0.0; ///< time that the turn takes
+/// Distances that the top plane moves along a path, as far as they are known beforehand.
+struct ExpectedPath {
+    double approach = 0.0; ///< from the start to contact, Å
+    double pull_off = 0.0; ///< from there until the contact has separated, Å
+    double turn = 0.0;     ///< duration of the turn between them, fs
 };
-/// start: the height from which the block comes down, Å.
-ExpectedWay expected_way(const Setup& setup, double start);
-/// Of the same path, in steps; at most the scene's drive.max_steps. 0 where no time passes.
+/// start: height of the lowest layer at the start, Å.
+ExpectedPath expected_path(const Setup& setup, double start);
+/// Time steps of this path, at most the scene's drive.max_steps. 0 where no time passes.
 long long expected_steps(const Scene& scene, const Setup& setup, double start);
 
 struct EffectCost {

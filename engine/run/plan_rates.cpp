@@ -22,8 +22,8 @@ double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A smaller piece of the scene: a cut-out of its surface under as many layers as a piece of that
-/// width takes.
+/// A smaller piece of the scene: a part of its surface, and as many layers as a piece of that width
+/// needs.
 struct Piece {
     SimulationOptions options;
     Surface surface;
@@ -56,7 +56,7 @@ ProcessGrid one_rank(const BlockOptions& block) {
     return ProcessGrid(1, 0, block.sites, static_cast<int>(plan_levels(block).size()));
 }
 
-/// Repeats work for about so many seconds; the shortest of them.
+/// Repeats work for about this long; the shortest time.
 template <class Work>
 double shortest(double seconds, const Work& work) {
     double best = 1e300;
@@ -69,7 +69,7 @@ double shortest(double seconds, const Work& work) {
     return best;
 }
 
-/// Sweeps of a block that lies on the surface like a cloth, and of one out of reach.
+/// Sweeps of a lowest layer that follows the surface at this separation, and of one out of reach.
 void measure_sweeps(const Interface& interface, const Piece& piece, double separation,
                     Rates& rates) {
     const BlockOptions& block = piece.options.block;
@@ -101,7 +101,7 @@ void measure_steps(const Piece& piece, Rates& rates) {
     const auto spent = [&](Phase p) { return simulation.phases()[p].seconds; };
     simulation.step(false);
     const double nodes = nodes_of(plan_levels(piece.options.block));
-    // The best of some steps, phase by phase.
+    // The shortest of some steps, phase by phase.
     const std::array phases = {Phase::advance,  Phase::thermostat, Phase::interpolate,
                                Phase::exchange, Phase::sums,       Phase::observe};
     std::array<double, phases.size()> best;
@@ -135,7 +135,7 @@ void measure_steps(const Piece& piece, Rates& rates) {
     rates.node -= rates.damping;
 }
 
-/// Forces of the piece's block, against those of its twin at small strain.
+/// What forces at finite strain take more than those at small strain.
 void measure_strain(const Piece& piece, Rates& rates) {
     const auto forces_take = [&](bool finite) {
         BlockOptions options = piece.options.block;

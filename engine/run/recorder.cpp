@@ -3,8 +3,8 @@
 #include "engine/run/recorder.hpp"
 
 #include "io/build_info.hpp"
+#include "io/described.hpp"
 #include "io/h5md.hpp"
-#include "io/hdf5_file.hpp"
 #include "io/result_directory.hpp"
 #include "io/series.hpp"
 
@@ -27,69 +27,41 @@ struct Row {
 enum class In { both, dynamic, quasistatic };
 
 struct RecordColumn {
-    io::Column column;
+    const char* name;
     In in;
     double (*value)(const Row&);
 };
 
 const RecordColumn record_columns[] = {
-    {{"step", "", "time step; of a quasi-static path: point"},
-     In::both,
-     [](const Row& w) { return static_cast<double>(w.r.step); }},
-    {{"time", "ps", "simulated time"}, In::dynamic, [](const Row& w) { return w.r.time * 1e-3; }},
-    {{"leg", "", "0 approach, 1 pull-off"},
-     In::both,
-     [](const Row& w) { return w.pulling ? 1.0 : 0.0; }},
-    {{"top", "Å", "displacement of the top plane"}, In::both, [](const Row& w) { return w.r.top; }},
-    {{"mean_height", "Å", "mean height of the lowest layer above the substrate's mean plane"},
-     In::both,
-     [](const Row& w) { return w.r.mean_height; }},
-    {{"force", "eV/Å", "total normal force of the substrate on the lowest layer; positive pushes"},
-     In::both,
-     [](const Row& w) { return w.r.force; }},
-    {{"top_force", "eV/Å", "elastic force on the top plane along z"},
-     In::both,
-     [](const Row& w) { return w.r.top_force; }},
-    {{"interface_energy", "eV", "Lennard-Jones energy"},
-     In::both,
-     [](const Row& w) { return w.r.interface_energy; }},
-    {{"elastic_energy", "eV", "elastic energy of the block"},
-     In::both,
-     [](const Row& w) { return w.r.elastic_energy; }},
-    {{"kinetic_energy", "eV", "kinetic energy of the block"},
-     In::dynamic,
-     [](const Row& w) { return w.r.kinetic_energy; }},
-    {{"work", "eV", "work done on the block since the start"},
-     In::both,
-     [](const Row& w) { return w.r.work; }},
-    {{"damped", "eV", "energy damped since the start"},
-     In::dynamic,
-     [](const Row& w) { return w.r.damped; }},
-    {{"dissipated", "eV", "energy lost where the block became unstable, since the start"},
-     In::quasistatic,
-     [](const Row& w) { return w.r.damped; }},
-    {{"residual", "", "energy balance: (work - change of energy - loss) over the largest term"},
-     In::both,
-     [](const Row& w) { return w.r.residual; }},
-    {{"contact_fraction", "", "sites closer than the inflection of the potential to an atom"},
-     In::both,
+    {"step", In::both, [](const Row& w) { return static_cast<double>(w.r.step); }},
+    {"time", In::dynamic, [](const Row& w) { return w.r.time * 1e-3; }},
+    {"leg", In::both, [](const Row& w) { return w.pulling ? 1.0 : 0.0; }},
+    {"top", In::both, [](const Row& w) { return w.r.top; }},
+    {"mean_height", In::both, [](const Row& w) { return w.r.mean_height; }},
+    {"force", In::both, [](const Row& w) { return w.r.force; }},
+    {"top_force", In::both, [](const Row& w) { return w.r.top_force; }},
+    {"interface_energy", In::both, [](const Row& w) { return w.r.interface_energy; }},
+    {"elastic_energy", In::both, [](const Row& w) { return w.r.elastic_energy; }},
+    {"kinetic_energy", In::dynamic, [](const Row& w) { return w.r.kinetic_energy; }},
+    {"work", In::both, [](const Row& w) { return w.r.work; }},
+    {"damped", In::dynamic, [](const Row& w) { return w.r.damped; }},
+    {"dissipated", In::quasistatic, [](const Row& w) { return w.r.damped; }},
+    {"residual", In::both, [](const Row& w) { return w.r.residual; }},
+    {"contact_fraction", In::both,
      [](const Row& w) { return static_cast<double>(w.r.in_contact) / w.sites; }},
-    {{"pushed_fraction", "", "sites whose net normal force is repulsive"},
-     In::both,
+    {"pushed_fraction", In::both,
      [](const Row& w) { return static_cast<double>(w.r.pushed) / w.sites; }},
-    {{"closest", "Å", "smallest distance between a site and an atom; infinite out of reach"},
-     In::both,
-     [](const Row& w) { return w.r.closest; }},
+    {"closest", In::both, [](const Row& w) { return w.r.closest; }},
 };
 
 bool is_in(const RecordColumn& c, DriveMode mode) {
     return c.in == In::both || (c.in == In::dynamic) == (mode == DriveMode::dynamic);
 }
 
-std::vector<io::Column> columns(DriveMode mode) {
-    std::vector<io::Column> list;
+std::vector<std::string> columns(DriveMode mode) {
+    std::vector<std::string> list;
     for (const RecordColumn& c : record_columns)
-        if (is_in(c, mode)) list.push_back(c.column);
+        if (is_in(c, mode)) list.emplace_back(c.name);
     return list;
 }
 
@@ -111,16 +83,13 @@ enum RecordKind : std::uint64_t { rows_record, fields_record, frame_record };
 
 constexpr std::size_t rows_in_memory = 64;
 
-/// The maps of a state, in the order of their record; all but the last are doubles.
-constexpr std::pair<const char*, const char*> map_columns[] = {
-    {"gap", "Å"}, {"pressure", "GPa"}, {"distance", "Å"}, {"u_x", "Å"}, {"u_y", "Å"}, {"u_z", "Å"}};
+/// The maps of a state that are doubles, in the order of their record.
+constexpr const char* map_columns[] = {"gap", "pressure", "distance", "u_x", "u_y", "u_z"};
 
 void write_substrate(io::Hdf5File& file, const Surface& surface) {
     const auto n = static_cast<std::uint64_t>(surface.sites);
-    file.make_group("/substrate");
-    file.write<double>("/substrate/height", {n, n}, surface.height);
-    file.write_attribute("/substrate/height", "unit", "Å");
-    file.write_attribute("/substrate", "edge", surface.length);
+    io::write_described(file, "/substrate/height", {n, n}, surface.height);
+    io::write_described_attribute(file, "/substrate", "edge", surface.length);
     std::vector<double> q, realised, target;
     for (const SpectrumBin& bin : surface.statistics.spectrum) {
         q.push_back(bin.q);
@@ -128,9 +97,9 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
         target.push_back(bin.target);
     }
     if (q.empty()) return;
-    file.write<double>("/substrate/spectrum_q", {q.size()}, q);
-    file.write<double>("/substrate/spectrum", {q.size()}, realised);
-    file.write<double>("/substrate/spectrum_target", {q.size()}, target);
+    io::write_described(file, "/substrate/spectrum_q", {q.size()}, q);
+    io::write_described(file, "/substrate/spectrum", {q.size()}, realised);
+    io::write_described(file, "/substrate/spectrum_target", {q.size()}, target);
 }
 
 /// P(u), normalised to one: 200 bins from the least to the greatest gap.
@@ -146,8 +115,8 @@ void write_gap_density(io::Hdf5File& file, const std::string& group,
         const auto bin = static_cast<std::size_t>((u - *least) / width);
         density[std::min(bin, bins - 1)] += 1.0 / (width * static_cast<double>(gap.size()));
     }
-    file.write<double>(group + "/gap_edges", {bins + 1}, edge);
-    file.write<double>(group + "/gap_density", {bins}, density);
+    io::write_described(file, group + "/gap_edges", {bins + 1}, edge);
+    io::write_described(file, group + "/gap_density", {bins}, density);
 }
 
 void write_fields(io::Hdf5File& file, io::PayloadReader record) {
@@ -156,16 +125,14 @@ void write_fields(io::Hdf5File& file, io::PayloadReader record) {
     const std::string group = "/fields/" + std::string(name.begin(), name.end());
     const auto n = record.get<std::uint64_t>();
     const auto reference_height = record.get<double>();
-    file.make_group(group);
     std::vector<double> gap;
-    for (const auto& [map, unit] : map_columns) {
+    for (const char* map : map_columns) {
         const std::vector<double> values = record.get<double>(n * n);
-        file.write<double>(group + "/" + map, {n, n}, values);
-        file.write_attribute(group + "/" + map, "unit", unit);
+        io::write_described(file, group + "/" + map, {n, n}, values);
         if (gap.empty()) gap = values;
     }
-    file.write<std::uint8_t>(group + "/contact", {n, n}, record.get<std::uint8_t>(n * n));
-    file.write_attribute(group, "reference_height", reference_height);
+    io::write_described(file, group + "/contact", {n, n}, record.get<std::uint8_t>(n * n));
+    io::write_described_attribute(file, group, "reference_height", reference_height);
     write_gap_density(file, group, gap);
 }
 
@@ -332,14 +299,14 @@ void Recorder::build() {
     io::Hdf5File file({directory_, "run.h5"}, io::Hdf5File::Mode::create);
     io::write_h5md_head(file, io::build_info().version);
     write_substrate(file, surface_);
-    io::Series series(file, "/series", columns(mode_));
-    const std::size_t width = series.columns().size();
+    const std::vector<std::string> names = columns(mode_);
+    io::Series series(file, names);
     TrajectoryWriter trajectory(file);
     journal_->replay([&](std::uint64_t kind, io::Journal::Bytes payload) {
         io::PayloadReader record(payload);
         if (kind == rows_record)
             while (!record.at_end())
-                series.append(record.get<double>(width));
+                series.append(record.get<double>(names.size()));
         else if (kind == fields_record)
             write_fields(file, record);
         else

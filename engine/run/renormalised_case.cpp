@@ -109,21 +109,18 @@ RenormalisedResult solve_renormalised(const RenormalisedCase& what) {
     return result;
 }
 
-void record_renormalised(const RenormalisedResult& result, io::ResultRecord& record) {
-    const auto extra = [&](const char* name, io::JsonValue value) {
-        record.extra.emplace_back(std::string("theory.renormalised.") + name, std::move(value));
-    };
-    if (result.numbers) {
-        const RenormalisedNumbers& n = *result.numbers;
-        extra("gamma_eff", n.gamma_eff);
-        extra("gamma_eff_ratio", n.gamma_eff_ratio);
-        extra("contact_fraction", n.contact_fraction);
-        if (n.separation) extra("separation", *n.separation);
-        extra("tension", n.tension);
-        extra("gamma_eff_error", n.gamma_eff_error);
-        extra("contact_fraction_error", n.contact_fraction_error);
+void record_renormalised(const RenormalisedResult& renormalised, io::Result& result) {
+    if (renormalised.numbers) {
+        const RenormalisedNumbers& n = *renormalised.numbers;
+        result.set("theory.renormalised.gamma_eff", n.gamma_eff);
+        result.set("theory.renormalised.gamma_eff_ratio", n.gamma_eff_ratio);
+        result.set("theory.renormalised.contact_fraction", n.contact_fraction);
+        result.set("theory.renormalised.separation", n.separation);
+        result.set("theory.renormalised.tension", n.tension);
+        result.set("theory.renormalised.gamma_eff_error", n.gamma_eff_error);
+        result.set("theory.renormalised.contact_fraction_error", n.contact_fraction_error);
     }
-    if (!result.note.empty()) extra("note", result.note);
+    if (!renormalised.note.empty()) result.set("theory.renormalised.note", renormalised.note);
 }
 
 } // namespace asperity

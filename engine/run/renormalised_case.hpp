@@ -44,6 +44,6 @@ struct RenormalisedResult {
 RenormalisedResult solve_renormalised(const RenormalisedCase& what);
 
 /// Fills in `theory.renormalised`.
-void record_renormalised(const RenormalisedResult& result, io::ResultRecord& record);
+void record_renormalised(const RenormalisedResult& renormalised, io::Result& result);
 
 } // namespace asperity

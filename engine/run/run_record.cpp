@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run_record.hpp"
 
-#include "engine/run/curve.hpp"
+#include "engine/run/smooth_sphere.hpp"
 #include "engine/run/states_record.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/scene/accuracy.hpp"
@@ -19,100 +19,144 @@ namespace asperity {
 
 namespace {
 
-/// { name: { on, why } }
-io::JsonValue effects_json(const Effects& effects) {
-    io::JsonValue all = io::JsonValue::object();
+void add_surface(const Surface& surface, io::Result& result) {
+    const SurfaceStatistics& s = surface.statistics;
+    result.set("surface.rms", s.rms);
+    result.set("surface.rms_slope", s.rms_slope);
+    result.set("surface.min", s.lowest);
+    result.set("surface.max", s.highest);
+    if (!surface.origin.empty()) result.set("surface.origin", surface.origin);
+}
+
+void add_zero_load(const ZeroLoad& z, io::Result& result) {
+    result.set("binding_energy", z.binding_energy);
+    result.set("binding_energy_uncertainty", z.uncertainty);
+    result.set("work_of_adhesion.pairwise", z.pairwise);
+    result.set("contact_fraction", z.contact_fraction);
+    result.set("pushed_fraction", z.pushed_fraction);
+    result.set("zero_load.elastic_energy", z.elastic);
+    result.set("zero_load.mean_height", z.mean_height);
+    result.set("zero_load.residual_force", z.residual);
+    result.set("run.iterations", static_cast<long long>(z.iterations));
+}
+
+void add_path(const Findings& findings, std::optional<double> radius, io::Result& result) {
+    result.set("work_of_adhesion.approach", findings.approach);
+    result.set("work_of_adhesion.pull_off", findings.pull_off);
+    if (findings.approach) result.set("approach_force", findings.attraction_in);
+    if (findings.pull_off) result.set("pull_off_force", findings.attraction_out);
+    if (!radius) return;
+    const auto as_work = [&](double force) {
+        return units::milli_per_unit * theory::jkr::work_from_pull_off(force, *radius);
+    };
+    if (findings.approach) result.set("jkr.in", as_work(findings.attraction_in));
+    if (findings.pull_off) result.set("jkr.out", as_work(findings.attraction_out));
+}
+
+void add_dissipation(const Findings& findings, const Scene& scene, io::Result& result) {
+    const Dissipation& lost = *findings.dissipated;
+    const double area = scene.edge() * scene.edge();
+    const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
+    result.set("dissipated.approach", units::milli_per_unit * lost.approach / area);
+    result.set("dissipated.pull_off", units::milli_per_unit * lost.pull_off / area);
+    result.set("dissipated.energy", lost.total());
+    const auto uncertainty = [&](const std::optional<double>& work, double value, io::Key of_work,
+                                 io::Key of_loss) {
+        if (!work) return;
+        result.set(of_work, value);
+        result.set(of_loss, value);
+    };
+    uncertainty(findings.approach, findings.approach_uncertainty,
+                "work_of_adhesion.uncertainty.approach", "dissipated.uncertainty.approach");
+    uncertainty(findings.pull_off, findings.pull_off_uncertainty,
+                "work_of_adhesion.uncertainty.pull_off", "dissipated.uncertainty.pull_off");
+    result.set("dissipated.events", lost.events);
+    for (std::size_t i = 0; i < lost.jumps.size(); ++i) {
+        const Instability& jump = lost.jumps[i];
+        const auto both = [](double before, double after) { return std::vector{before, after}; };
+        result.set("dissipated.jumps[].leg", i, jump.leg == 0.0 ? "approach" : "pull-off");
+        result.set("dissipated.jumps[].energy", i, jump.energy);
+        result.set("dissipated.jumps[].top", i, jump.top);
+        result.set("dissipated.jumps[].mean_height", i,
+                   both(jump.height_before, jump.height_after));
+        result.set("dissipated.jumps[].force", i, both(jump.force_before, jump.force_after));
+        result.set("dissipated.jumps[].contact_fraction", i,
+                   both(jump.contact_before / sites, jump.contact_after / sites));
+        result.set(
+            "dissipated.jumps[].site", i,
+            std::vector{static_cast<long long>(jump.site_x), static_cast<long long>(jump.site_y)});
+        result.set("dissipated.jumps[].largest_move", i, jump.largest_move);
+        result.set("dissipated.jumps[].sites_moved", i, static_cast<long long>(jump.sites_moved));
+    }
+}
+
+void add_accuracy(const AccuracyChoice& choice, io::Result& result) {
+    std::vector<std::string> chosen;
+    for (const auto& [key, value] : choice.settings)
+        chosen.push_back(key + " = " + value);
+    result.set("accuracy.target", choice.target);
+    result.set("accuracy.expected_error", choice.expected_error);
+    result.set("accuracy.chosen", std::move(chosen));
+    result.set("accuracy.kept", choice.kept);
+    result.set("accuracy.calibration", choice.calibration);
+}
+
+void add_effects(const Effects& effects, io::Result& result) {
     for (std::size_t i = 0; i < effect_count; ++i) {
         const auto effect = static_cast<Effect>(i);
-        io::JsonValue one = io::JsonValue::object();
-        one["on"] = effects.on(effect);
-        one["why"] = effects.why(effect);
-        all[name(effect)] = std::move(one);
+        result.set("run.effects.*.on", name(effect), effects.on(effect));
+        result.set("run.effects.*.why", name(effect), effects.why(effect));
     }
-    return all;
 }
 
 } // namespace
 
-io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Setup& setup,
-                            const Findings& findings, int ranks) {
-    io::ResultRecord r;
-    r.name = scene.name;
-    r.scene = scene_json(scene);
-    const auto& s = surface.statistics;
-    r.surface = {s.rms, s.rms_slope, s.lowest, s.highest, surface.origin};
-    r.delta_gamma = setup.flat.work_of_adhesion;
-    r.work_of_adhesion.approach = findings.approach;
-    r.work_of_adhesion.pull_off = findings.pull_off;
-    if (findings.zero_load) {
-        const ZeroLoad& z = *findings.zero_load;
-        r.binding_energy = z.binding_energy;
-        r.work_of_adhesion.pairwise = z.pairwise;
-        r.contact_fraction = z.contact_fraction;
-        r.pushed_fraction = z.pushed_fraction;
-        r.run.iterations = static_cast<long long>(z.iterations);
-        r.extra.emplace_back("binding_energy_uncertainty", z.uncertainty);
-        r.extra.emplace_back("zero_load.elastic_energy", z.elastic);
-        r.extra.emplace_back("zero_load.mean_height", z.mean_height);
-        r.extra.emplace_back("zero_load.residual_force", z.residual);
-    }
-    if (findings.states) r.extra.emplace_back("states", states_json(*findings.states));
-    if (findings.pull_off) r.pull_off_force = findings.attraction_out;
-    if (scene.surface.radius) {
-        const auto jkr = [&](double f) {
-            return units::milli_per_unit *
-                   theory::jkr::work_from_pull_off(f, *scene.surface.radius);
-        };
-        if (findings.approach) r.jkr.in = jkr(findings.attraction_in);
-        if (findings.pull_off) r.jkr.out = jkr(findings.attraction_out);
-    }
-    add_sphere(scene, setup.flat, r);
-    if (findings.dissipated) {
-        const Dissipation& lost = *findings.dissipated;
-        const double area = scene.edge() * scene.edge();
-        const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
-        io::JsonValue d = io::JsonValue::object();
-        d["approach"] = units::milli_per_unit * lost.approach / area;
-        d["pull_off"] = units::milli_per_unit * lost.pull_off / area;
-        d["energy"] = lost.total();
-        io::JsonValue u = io::JsonValue::object();
-        if (findings.approach) u["approach"] = findings.approach_uncertainty;
-        if (findings.pull_off) u["pull_off"] = findings.pull_off_uncertainty;
-        d["uncertainty"] = u;
-        r.extra.emplace_back("work_of_adhesion.uncertainty", std::move(u));
-        d["events"] = lost.events;
-        d["jumps"] = io::JsonValue::array();
-        for (const Instability& jump : lost.jumps) {
-            io::JsonValue j = io::JsonValue::object();
-            j["leg"] = jump.leg == 0.0 ? "approach" : "pull-off";
-            j["energy"] = jump.energy;
-            j["top"] = jump.top;
-            j["mean_height"] = io::JsonValue::Array{jump.height_before, jump.height_after};
-            j["force"] = io::JsonValue::Array{jump.force_before, jump.force_after};
-            j["contact_fraction"] =
-                io::JsonValue::Array{jump.contact_before / sites, jump.contact_after / sites};
-            j["site"] =
-                io::JsonValue::Array{static_cast<int>(jump.site_x), static_cast<int>(jump.site_y)};
-            j["largest_move"] = jump.largest_move;
-            j["sites_moved"] = static_cast<long long>(jump.sites_moved);
-            d["jumps"].push_back(std::move(j));
-        }
-        r.extra.emplace_back("dissipated", std::move(d));
-    }
-    add_theory(scene, surface, setup.flat.work_of_adhesion, r);
-    r.extra.emplace_back("run.effects", effects_json(setup.effects));
-    r.extra.emplace_back("run.kernels", std::string(name(processor_level())));
-    if (scene.choice) r.extra.emplace_back("accuracy", accuracy_json(*scene.choice));
-    r.run.ranks = ranks;
-    r.run.threads = omp_get_max_threads();
-    return r;
+io::Result scene_result(const Scene& scene) {
+    io::Result result;
+    if (!scene.name.empty()) result.set("name", scene.name);
+    result.set_scene(scene_json(scene), scene_units(scene));
+    return result;
 }
 
-void add_phases(const Phases& phases, io::ResultRecord& record) {
+io::Result surface_result(const Scene& scene, const Surface& surface) {
+    io::Result result = scene_result(scene);
+    add_surface(surface, result);
+    return result;
+}
+
+io::Result run_result(const Scene& scene, const Surface& surface, const Setup& setup,
+                      const Findings& findings, int ranks) {
+    io::Result result = surface_result(scene, surface);
+    result.set("delta_gamma", setup.flat.work_of_adhesion);
+    add_path(findings, scene.surface.radius, result);
+    if (findings.zero_load) add_zero_load(*findings.zero_load, result);
+    if (findings.states) add_states(*findings.states, result);
+    if (findings.dissipated) add_dissipation(findings, scene, result);
+    add_sphere(scene, setup.flat, result);
+    add_theory(scene, surface, setup.flat.work_of_adhesion, result);
+    if (scene.choice) add_accuracy(*scene.choice, result);
+    result.set("run.ranks", ranks);
+    result.set("run.threads", omp_get_max_threads());
+    result.set("run.kernels", std::string(name(processor_level())));
+    add_effects(setup.effects, result);
+    return result;
+}
+
+void add_energies(const StepRecord& now, io::Result& result) {
+    result.set("energy.residual", now.residual);
+    result.set("energy.work", now.work);
+    result.set("energy.kinetic", now.kinetic_energy);
+    result.set("energy.elastic", now.elastic_energy);
+    result.set("energy.interface", now.interface_energy);
+    result.set("energy.damped", now.damped);
+}
+
+void add_phases(const Phases& phases, io::Result& result) {
     for (std::size_t p = 0; p < phase_names.size(); ++p) {
         const PhaseClock& clock = phases[static_cast<Phase>(p)];
-        if (clock.calls > 0)
-            record.run.phases.push_back({std::string(phase_names[p]), clock.seconds, clock.calls});
+        if (clock.calls == 0) continue;
+        result.set("run.phases.*.seconds", phase_names[p], clock.seconds);
+        result.set("run.phases.*.calls", phase_names[p], clock.calls);
     }
 }
 

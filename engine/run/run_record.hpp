@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What every run puts into result.json, whether it moved in time or looked for an equilibrium.
+// From what a run computed to result.json: each number is named here, where it is collected, and
+// described in io/quantities.hpp.
 #pragma once
 
 #include "engine/equilibrium/findings.hpp"
@@ -10,11 +11,17 @@
 
 namespace asperity {
 
-/// The scene, its surface, its effects, what was found, theory, ranks and threads; without times
-/// and energies of a path.
-io::ResultRecord run_record(const Scene& scene, const Surface& surface, const Setup& setup,
-                            const Findings& findings, int ranks);
+/// A result with the scene's name, keys and their units.
+io::Result scene_result(const Scene& scene);
+/// The same with the statistics of the surface.
+io::Result surface_result(const Scene& scene, const Surface& surface);
+/// What runs in time and without it have in common: the scene, its surface, its effects, the
+/// findings, theory, ranks and threads.
+io::Result run_result(const Scene& scene, const Surface& surface, const Setup& setup,
+                      const Findings& findings, int ranks);
 
-void add_phases(const Phases& phases, io::ResultRecord& record);
+/// Energies of the last observed step or point.
+void add_energies(const StepRecord& now, io::Result& result);
+void add_phases(const Phases& phases, io::Result& result);
 
 } // namespace asperity

@@ -4,8 +4,10 @@
 
 #include "engine/run/plan.hpp"
 #include "engine/run/run_record.hpp"
+#include "engine/run/smooth_sphere.hpp"
 #include "engine/run/stop_signals.hpp"
 #include "engine/run/summary.hpp"
+#include "io/described.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -62,7 +64,7 @@ void RunSession::print_notes() {
 }
 
 int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
-                          const Ending& ending) {
+                          const AddToResult& add_to) {
     last_checkpoint_ = seconds();
     try {
         if (ranks.root())
@@ -76,16 +78,15 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
         recorder_->write();
     } catch (const io::Error& error) {
         progress.finish();
-        write_failure(error, ending);
+        write_failure(error, add_to);
         throw;
     }
     progress.finish();
     ranks.on_root([&] {
-        write_result({}, ending);
+        const io::Result result = write_result(nullptr, add_to);
         throw_if_directory_gone();
         print_unless_closed([&] {
-            print_summary(stdout, scene, setup, findings, ending.energy_residual(),
-                          storage_.path());
+            print_summary(stdout, scene, result, findings.states, storage_.path());
             if (!stopped_.empty())
                 fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);
         });
@@ -215,10 +216,13 @@ std::optional<io::FilePlace> RunSession::checkpoint_to_resume() {
 }
 
 void RunSession::open_recorder() {
+    const auto add = [this](io::Hdf5File& file) {
+        io::describe_origin(file, scene_toml(scene, false));
+        write_sphere_curves(file, scene, setup.flat);
+    };
     recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
                       scene.without_time() ? DriveMode::quasistatic : DriveMode::dynamic,
-                      resumed_at_,
-                      [this](io::Hdf5File& file) { write_sphere_curves(file, scene, setup.flat); });
+                      resumed_at_, add);
 }
 
 void RunSession::watch_fields(long long step, Leg leg, double attraction,
@@ -287,12 +291,12 @@ double RunSession::processor_seconds() const {
 }
 
 double RunSession::way_done(Leg leg, double top, double start_height) const {
-    const ExpectedWay way = expected_way(setup, start_height);
-    const double done = leg == Leg::approach ? -top : 2.0 * way.down + top;
-    return std::clamp(done / (way.down + way.up), 0.0, 0.99);
+    const ExpectedPath path = expected_path(setup, start_height);
+    const double done = leg == Leg::approach ? -top : 2.0 * path.approach + top;
+    return std::clamp(done / (path.approach + path.pull_off), 0.0, 0.99);
 }
 
-void RunSession::write_failure(const io::Error& error, const Ending& ending) {
+void RunSession::write_failure(const io::Error& error, const AddToResult& add_to) {
     if (!ranks.root()) return;
     // A run that could not begin to record leaves no result: there is nothing to resume.
     if (!recorder_ && error.code() == io::exit_code::input_output) return;
@@ -300,31 +304,31 @@ void RunSession::write_failure(const io::Error& error, const Ending& ending) {
         if (recorder_) recorder_->write_on_root();
     } catch (const std::exception&) { // what run.h5 held before must do
     }
-    io::ResultRecord::Failure failure;
-    failure.exit_code = error.code();
-    failure.reason = error.what();
     try {
-        write_result(failure, ending);
+        write_result(&error, add_to);
     } catch (const std::exception&) { // the first error is the one to report
     }
 }
 
-/// On the root.
-void RunSession::write_result(const io::ResultRecord::Failure& failure, const Ending& ending) {
-    io::ResultRecord r = run_record(scene, surface, setup, findings, ranks.size());
-    ending.add_to(r);
-    r.run.wall_seconds = seconds();
-    r.extra.emplace_back("run.processor_seconds", processor_seconds());
-    add_phases(phases, r);
-    if (recorder_) {
-        add_path(read_path(storage_.path() + "/run.h5"), scene, r);
+io::Result RunSession::write_result(const io::Error* failure, const AddToResult& add_to) {
+    io::Result result = run_result(scene, surface, setup, findings, ranks.size());
+    add_to(result);
+    result.set("run.wall_seconds", seconds());
+    result.set("run.processor_seconds", processor_seconds());
+    add_phases(phases, result);
+    if (!stopped_.empty()) result.set("run.stopped", stopped_);
+    if (failure) {
+        result.set("failure.exit_code", failure->code());
+        result.set("failure.reason", failure->what());
     }
-    r.run.stopped = stopped_;
-    r.failure = failure;
-    io::write_result(storage_.directory(), r);
-    if (!stopped_.empty() || failure.exit_code != 0) return;
+    if (recorder_) {
+        add_cycle(read_path(storage_.path() + "/run.h5"), scene, result);
+    }
+    io::write_result(storage_.directory(), result);
+    if (failure || !stopped_.empty()) return result;
     storage_.remove_checkpoints();
     recorder_->remove_journal();
+    return result;
 }
 
 } // namespace asperity

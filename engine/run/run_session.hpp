@@ -8,7 +8,7 @@
 // in time, equilibrium_run.cpp without.
 //
 //     RunSession run(scene, options, ranks);
-//     return run.carry_out(bytes, [&] { ... the run ... }, ending);
+//     return run.carry_out(bytes, [&] { ... the run ... }, add_to);
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -56,16 +56,12 @@ public:
 
     // The run as a whole.
 
-    /// How a run tells its end: into the record, and the relative residual of its energy balance
-    /// (NaN: there is none). Called on the root.
-    struct Ending {
-        std::function<void(io::ResultRecord&)> add_to;
-        std::function<double()> energy_residual;
-    };
+    /// Adds what a kind of run knows to the result: steps and energies. Called on the root.
+    using AddToResult = std::function<void(io::Result&)>;
     /// Prints the opening, does the work, writes the result (also of a failure, which is thrown on)
     /// and prints the summary. bytes: of the block and the interface, for the opening. Returns the
     /// exit code.
-    int carry_out(std::size_t bytes, const std::function<void()>& work, const Ending& ending);
+    int carry_out(std::size_t bytes, const std::function<void()>& work, const AddToResult& add_to);
     /// The work ends here, at drive.max_steps.
     void stop_at_max_steps() { stopped_ = "max_steps"; }
 
@@ -133,8 +129,9 @@ private:
     double processor_seconds() const;
     void print_notes();
     bool bring_back_directory();
-    void write_failure(const io::Error& error, const Ending& ending);
-    void write_result(const io::ResultRecord::Failure& failure, const Ending& ending);
+    void write_failure(const io::Error& error, const AddToResult& add_to);
+    /// failure: why the run failed, or null. Root only.
+    io::Result write_result(const io::Error* failure, const AddToResult& add_to);
     void throw_if_directory_gone();
 
     const std::string fingerprint_;

@@ -6,27 +6,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
-#include <utility>
 
 namespace asperity {
 
 namespace {
 
 double megapascals(double barrier) { return barrier / units::megapascal; }
-
-io::JsonValue state_json(const StateList::State& state) {
-    const ZeroLoad& z = state.numbers;
-    io::JsonValue s = io::JsonValue::object();
-    s["binding_energy"] = z.binding_energy;
-    s["contact_fraction"] = z.contact_fraction;
-    s["pushed_fraction"] = z.pushed_fraction;
-    s["mean_height"] = z.mean_height;
-    s["elastic_energy"] = z.elastic;
-    s["barrier"] = io::JsonValue();
-    if (state.barrier) s["barrier"] = megapascals(*state.barrier);
-    return s;
-}
 
 std::string what_is_missed(const StateList& states) {
     return fmt::format(
@@ -37,24 +24,35 @@ std::string what_is_missed(const StateList& states) {
 
 } // namespace
 
-io::JsonValue states_json(const StateList& states) {
-    io::JsonValue all = io::JsonValue::object();
-    all["first"] = state_json(states.all.front());
-    all["deepest"] = state_json(states.deepest());
-    all["all"] = io::JsonValue::array();
-    for (const StateList::State& state : states.all)
-        all["all"].push_back(state_json(state));
-    io::JsonValue search = io::JsonValue::object();
-    search["step"] = states.step;
-    search["points"] = states.points;
-    search["instabilities"] = states.instabilities;
-    search["innermost"] = states.innermost;
-    search["ended"] = states.end == StateList::End::contact          ? "no area left to attract"
-                      : states.end == StateList::End::no_equilibrium ? "no equilibrium"
-                                                                     : "stopped";
-    search["may_miss"] = what_is_missed(states);
-    all["search"] = std::move(search);
-    return all;
+void add_states(const StateList& states, io::Result& result) {
+    /// Puts a state's value under the first key as a member, or under the second as an element.
+    const auto add = [&](const StateList::State& state, const auto& put) {
+        const ZeroLoad& z = state.numbers;
+        put("states.*.binding_energy", "states.all[].binding_energy", z.binding_energy);
+        put("states.*.contact_fraction", "states.all[].contact_fraction", z.contact_fraction);
+        put("states.*.pushed_fraction", "states.all[].pushed_fraction", z.pushed_fraction);
+        put("states.*.mean_height", "states.all[].mean_height", z.mean_height);
+        put("states.*.elastic_energy", "states.all[].elastic_energy", z.elastic);
+        put("states.*.barrier", "states.all[].barrier",
+            state.barrier ? megapascals(*state.barrier) : std::nan("")); // written as null
+    };
+    const auto add_named = [&](const char* name, const StateList::State& state) {
+        add(state, [&](io::Key named, io::Key, double value) { result.set(named, name, value); });
+    };
+    add_named("first", states.all.front());
+    add_named("deepest", states.deepest());
+    for (std::size_t i = 0; i < states.all.size(); ++i)
+        add(states.all[i],
+            [&](io::Key, io::Key listed, double value) { result.set(listed, i, value); });
+    result.set("states.search.step", states.step);
+    result.set("states.search.points", states.points);
+    result.set("states.search.instabilities", states.instabilities);
+    result.set("states.search.innermost", states.innermost);
+    result.set("states.search.ended",
+               states.end == StateList::End::contact          ? "no area left to attract"
+               : states.end == StateList::End::no_equilibrium ? "no equilibrium"
+                                                              : "stopped");
+    result.set("states.search.may_miss", what_is_missed(states));
 }
 
 void print_states(std::FILE* to, const StateList& states) {

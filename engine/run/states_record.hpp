@@ -5,15 +5,14 @@
 #pragma once
 
 #include "engine/equilibrium/findings.hpp"
-#include "io/json_value.hpp"
+#include "io/result.hpp"
 
 #include <cstdio>
 
 namespace asperity {
 
-/// "states": first, deepest, all from the outermost inwards, and how they were looked for. Energies
-/// in meV/Å^2, heights in Å, barriers in MPa.
-io::JsonValue states_json(const StateList& states);
+/// "states": first, deepest, all from the outermost inwards, and how they were searched for.
+void add_states(const StateList& states, io::Result& result);
 /// As lines of the summary.
 void print_states(std::FILE* to, const StateList& states);
 

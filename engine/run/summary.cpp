@@ -4,13 +4,12 @@
 
 #include "engine/run/states_record.hpp"
 #include "engine/scene/accuracy.hpp"
-#include "engine/units.hpp"
 #include "io/table.hpp"
-#include "theory/jkr.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace asperity {
@@ -19,7 +18,7 @@ namespace {
 
 std::string levels_text(const Scene& scene, const Setup& setup) {
     if (scene.block.model == BlockModel::spectral)
-        return "the lattice's static answer, wave by wave";
+        return "static response of the lattice, wave by wave";
     const auto& levels = setup.levels;
     const char* strain = scene.block.strain == Strain::finite ? "; finite strain" : "";
     if (levels.size() == 1)
@@ -29,7 +28,7 @@ std::string levels_text(const Scene& scene, const Setup& setup) {
         nodes += static_cast<long long>(l.sites) * l.sites * l.cells;
     const auto& block = setup.simulation.block;
     const double all = static_cast<double>(block.sites) * block.sites * block.thickness;
-    return fmt::format("{} levels, {:.3g} nodes stand for {:.3g} atoms{}", levels.size(),
+    return fmt::format("{} levels, {:.3g} nodes for {:.3g} atoms{}", levels.size(),
                        static_cast<double>(nodes), all, strain);
 }
 
@@ -38,6 +37,26 @@ std::string surface_text(const Scene& scene, const Surface& surface) {
     const auto& s = surface.statistics;
     return fmt::format("rms {:.3f} Å, rms slope {:.3f}, heights {:.2f} to {:.2f} Å", s.rms,
                        s.rms_slope, s.lowest, s.highest);
+}
+
+using Number = std::optional<double>;
+
+/// Numbers of a result by their names.
+struct Numbers {
+    const io::Result& result;
+    Number operator()(io::Key key) const { return result.number(key); }
+};
+
+std::string number(Number value, int digits) {
+    return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+/// With the unit behind it, as people print it.
+std::string named(const std::string& name, io::Key key) {
+    std::string unit(io::unit_of(key));
+    if (unit == "1") return name;
+    if (const std::size_t at = unit.find("^2"); at != std::string::npos) unit.replace(at, 2, "²");
+    return name + ", " + unit;
 }
 
 } // namespace
@@ -81,93 +100,72 @@ void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const 
     std::fflush(to);
 }
 
-void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const Findings& findings,
-                   double residual, const std::string& directory) {
-    const double flat = setup.flat.work_of_adhesion;
-    const auto number = [](std::optional<double> v, int digits = 2) {
-        return v ? fmt::format("{:.{}f}", *v, digits) : std::string("-");
-    };
-    const auto& z = findings.zero_load;
-    const auto of_state = [&](auto member) -> std::optional<double> {
-        if (!z) return std::nullopt;
-        return (*z).*member;
-    };
-    const std::optional<double> state = of_state(&ZeroLoad::binding_energy);
-    const auto share = [&](std::optional<double> v) -> std::optional<double> {
-        if (!v || flat == 0.0) return std::nullopt;
-        return *v / flat;
-    };
+void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
+                   const std::optional<StateList>& states, const std::string& directory) {
+    const Numbers of{result};
+    const double flat = of("delta_gamma").value_or(0.0);
     io::Table table({"", "approach", "pull-off", "state at zero load"});
-    table.row({"work of adhesion, meV/Å²", number(findings.approach), number(findings.pull_off),
-               number(state)});
-    table.row({fmt::format("  over flat on flat ({:.2f})", flat),
-               number(share(findings.approach), 4), number(share(findings.pull_off), 4),
-               number(share(state), 4)});
-    if (const auto& lost = findings.dissipated) {
-        const double per_area = units::milli_per_unit / (scene.edge() * scene.edge());
-        table.row({"lost where it fell, meV/Å²",
-                   scene.has(PathPart::approach) ? number(per_area * lost->approach) : "-",
-                   scene.has(PathPart::pull_off) ? number(per_area * lost->pull_off) : "-", ""});
-    }
-    const auto force = [&](double f, bool there) -> std::string {
-        return there && f > 0.0 ? fmt::format("{:.1f}", f) : "-";
+    const auto row = [&](const std::string& name, io::Key unit, int digits, Number approach,
+                         Number pull_off, Number state) {
+        table.row({named(name, unit), number(approach, digits), number(pull_off, digits),
+                   number(state, digits)});
     };
-    table.row({"largest attraction, eV/Å",
-               force(findings.attraction_in, findings.approach.has_value()),
-               force(findings.attraction_out, findings.pull_off.has_value()), "0"});
-    if (scene.surface.radius) {
-        const auto jkr = [&](double f, bool there) -> std::string {
-            return there && f > 0.0
-                       ? fmt::format("{:.2f}",
-                                     units::milli_per_unit *
-                                         theory::jkr::work_from_pull_off(f, *scene.surface.radius))
-                       : "-";
-        };
-        table.row({"  as a JKR sphere, meV/Å²",
-                   jkr(findings.attraction_in, findings.approach.has_value()),
-                   jkr(findings.attraction_out, findings.pull_off.has_value()), ""});
-    }
-    table.row({"contact area fraction", "", "", number(of_state(&ZeroLoad::contact_fraction), 4)});
-    table.row({"sites pushed, fraction", "", "", number(of_state(&ZeroLoad::pushed_fraction), 4)});
-    table.row({"elastic energy stored, meV/Å²", "", "", number(of_state(&ZeroLoad::elastic))});
-    table.row({"atom-by-atom work, meV/Å²", "", "", number(of_state(&ZeroLoad::pairwise))});
+    const Number approach = of("work_of_adhesion.approach"),
+                 pull_off = of("work_of_adhesion.pull_off"), state = of("binding_energy");
+    row("work of adhesion", "binding_energy", 2, approach, pull_off, state);
+    const auto share = [&](Number v) { return v && flat != 0.0 ? Number(*v / flat) : Number(); };
+    table.row({fmt::format("  over flat on flat ({:.2f})", flat), number(share(approach), 4),
+               number(share(pull_off), 4), number(share(state), 4)});
+    const bool quasistatic = of("dissipated.energy").has_value();
+    if (quasistatic)
+        row("dissipated at instabilities", "dissipated.approach", 2,
+            scene.has(PathPart::approach) ? of("dissipated.approach") : Number(),
+            scene.has(PathPart::pull_off) ? of("dissipated.pull_off") : Number(), {});
+    row("largest attraction", "pull_off_force", 1, of("approach_force"), of("pull_off_force"), 0.0);
+    if (scene.surface.radius)
+        row("  as a JKR sphere", "jkr.in", 2, of("jkr.in"), of("jkr.out"), {});
+    row("contact area fraction", "contact_fraction", 4, {}, {}, of("contact_fraction"));
+    row("repulsive sites, fraction", "pushed_fraction", 4, {}, {}, of("pushed_fraction"));
+    row("elastic energy stored", "zero_load.elastic_energy", 2, {}, {},
+        of("zero_load.elastic_energy"));
+    row("energy of the pairs alone", "work_of_adhesion.pairwise", 2, {}, {},
+        of("work_of_adhesion.pairwise"));
     fmt::print(to, "\n");
     table.print(to);
-    fmt::print(to, "\n");
-    fmt::print(to, "How to read it\n");
-    if (z)
+    fmt::print(to, "\nHow to read it\n");
+    if (state)
         fmt::print(to,
-                   "  The state at zero load binds with {:.2f} meV/Å², {:.1f} % of what two flat "
-                   "surfaces would:\n"
-                   "  the bonds give {:.2f}, and {:.2f} of it is spent on bending the solids into "
-                   "contact.\n"
+                   "  The state at zero load has a binding energy of {:.2f} meV/Å², {:.1f} % of "
+                   "that of two flat surfaces:\n"
+                   "  {:.2f} of the pairs across the interface, less {:.2f} of elastic energy in "
+                   "the block.\n"
                    "  {:.1f} % of the block's surface atoms are in contact.\n",
-                   z->binding_energy, 100.0 * z->binding_energy / flat, z->pairwise, z->elastic,
-                   100.0 * z->contact_fraction);
-    if (findings.states) print_states(to, *findings.states);
-    if (findings.approach && findings.pull_off && z) {
-        const double lost = *findings.pull_off - *findings.approach;
+                   *state, 100.0 * *state / flat, *of("work_of_adhesion.pairwise"),
+                   *of("zero_load.elastic_energy"), 100.0 * *of("contact_fraction"));
+    if (states) print_states(to, *states);
+    if (approach && pull_off && state) {
+        const double loop = *pull_off - *approach;
         fmt::print(to, "  Approach and pull-off are the work of the interface's force on the mean "
-                       "surface. Where nothing\n"
-                       "  snaps, both equal the state's energy");
-        if (lost < 0.01 * flat)
-            fmt::print(to, ", as they do here to {:.2f} meV/Å².\n", std::abs(lost));
+                       "height of the surface.\n"
+                       "  Without instabilities both equal the binding energy");
+        if (loop < 0.01 * flat)
+            fmt::print(to, ", as they do here to {:.2f} meV/Å².\n", std::abs(loop));
         else
             fmt::print(to,
-                       "; pull-off minus approach, {:.2f} meV/Å², is energy that\n"
-                       "  snapping in and off has turned into vibrations (hysteresis). {}\n",
-                       lost,
+                       "; their difference, {:.2f} meV/Å², is energy\n"
+                       "  that instabilities of snap-in and snap-off turn into vibrations "
+                       "(hysteresis).\n  {}\n",
+                       loop,
                        scene.drive.hold == Hold::mean_height
-                           ? "With the mean height held, the\n  surface did so in patches, not as "
-                             "a whole."
-                           : "A thick block is a soft spring and\n  snaps as a whole; a thinner "
-                             "one (block.thickness) follows the interface more closely.");
+                           ? "At a held mean height they happen in patches of the surface."
+                           : "A thick block is a soft spring and becomes unstable as a whole; a "
+                             "thinner one (block.thickness) less so.");
     }
-    if (std::isfinite(residual))
+    if (const Number residual = of("energy.residual"))
         fmt::print(to,
                    "  Energy balance: work done = energy gained + energy {}, to {:.1e} of the "
                    "largest term.\n",
-                   findings.dissipated ? "lost" : "damped", std::abs(residual));
+                   quasistatic ? "dissipated" : "damped", std::abs(*residual));
     fmt::print(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What the terminal says at the beginning and at the end of a run.
+// What a run prints at its beginning and at its end.
 #pragma once
 
 #include "engine/equilibrium/findings.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/setup/setup.hpp"
+#include "io/result.hpp"
 
 #include <cstdio>
 #include <string>
@@ -18,9 +19,8 @@ void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const 
                    const ProcessGrid& grid, int threads, std::size_t bytes,
                    const std::string& directory);
 
-/// The numbers side by side, and how to read them. residual: of the energy balance (dynamic runs),
-/// or NaN.
-void print_summary(std::FILE* to, const Scene& scene, const Setup& setup, const Findings& findings,
-                   double residual, const std::string& directory);
+/// The numbers of result.json side by side, and how to read them. states: where all were asked for.
+void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
+                   const std::optional<StateList>& states, const std::string& directory);
 
 } // namespace asperity

@@ -195,30 +195,29 @@ TheoryNumbers solve_theory(const TheoryCase& what) {
     });
 }
 
-void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::ResultRecord& record) {
-    record.theory = {n.gamma_eff, n.state.area, n.gamma_full_contact};
-    const auto extra = [&](const char* name, io::JsonValue value) {
-        record.extra.emplace_back(std::string("theory.") + name, std::move(value));
-    };
-    extra("delta_gamma", what.delta_gamma);
-    extra("gamma_eff_error", n.state.gamma_ratio_error * what.delta_gamma);
-    extra("contact_fraction_error", n.state.area_error);
-    extra("elastic_energy", units::milli_per_unit * n.state.elastic_energy);
-    extra("h_rms", n.h_rms);
-    extra("rms_slope", n.rms_slope);
-    if (n.theta) extra("theta", *n.theta);
-    if (n.jkr_pull_off_force) extra("jkr_pull_off_force", *n.jkr_pull_off_force);
-    extra("status", std::string(theory::name(n.state.status)));
-    extra("converged", n.state.converged);
-    if (n.renormalised) record_renormalised(*n.renormalised, record);
+void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::Result& result) {
+    result.set("theory.gamma_eff", n.gamma_eff);
+    result.set("theory.contact_fraction", n.state.area);
+    result.set("theory.gamma_full_contact", n.gamma_full_contact);
+    result.set("theory.delta_gamma", what.delta_gamma);
+    result.set("theory.gamma_eff_error", n.state.gamma_ratio_error * what.delta_gamma);
+    result.set("theory.contact_fraction_error", n.state.area_error);
+    result.set("theory.elastic_energy", units::milli_per_unit * n.state.elastic_energy);
+    result.set("theory.h_rms", n.h_rms);
+    result.set("theory.rms_slope", n.rms_slope);
+    result.set("theory.theta", n.theta);
+    result.set("theory.jkr_pull_off_force", n.jkr_pull_off_force);
+    result.set("theory.status", std::string(theory::name(n.state.status)));
+    result.set("theory.converged", n.state.converged);
+    if (n.renormalised) record_renormalised(*n.renormalised, result);
 }
 
-void add_theory(const Scene& scene, const Surface& surface, double flat, io::ResultRecord& record) {
+void add_theory(const Scene& scene, const Surface& surface, double flat, io::Result& result) {
     try {
         const TheoryCase what = theory_case(scene, &surface, flat);
-        record_theory(what, solve_theory(what), record);
+        record_theory(what, solve_theory(what), result);
     } catch (const std::exception& error) {
-        record.extra.emplace_back("theory.note", std::string(error.what()));
+        result.set("theory.note", error.what());
     }
 }
 

@@ -63,9 +63,9 @@ struct TheoryNumbers {
 TheoryNumbers solve_theory(const TheoryCase& what);
 
 /// Fills in `theory` of a result.
-void record_theory(const TheoryCase& what, const TheoryNumbers& numbers, io::ResultRecord& record);
+void record_theory(const TheoryCase& what, const TheoryNumbers& numbers, io::Result& result);
 
 /// The same for a run, which the theory must never make fail: what went wrong becomes theory.note.
-void add_theory(const Scene& scene, const Surface& surface, double flat, io::ResultRecord& record);
+void add_theory(const Scene& scene, const Surface& surface, double flat, io::Result& result);
 
 } // namespace asperity

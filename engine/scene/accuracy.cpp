@@ -242,18 +242,4 @@ std::vector<std::string> accuracy_lines(const AccuracyChoice& choice) {
     return lines;
 }
 
-io::JsonValue accuracy_json(const AccuracyChoice& choice) {
-    io::JsonValue all = io::JsonValue::object();
-    all["target"] = choice.target;
-    all["expected_error"] = choice.expected_error;
-    all["chosen"] = io::JsonValue::array();
-    for (const auto& [key, value] : choice.settings)
-        all["chosen"].push_back(key + " = " + value);
-    all["kept"] = io::JsonValue::array();
-    for (const std::string& key : choice.kept)
-        all["kept"].push_back(key);
-    all["calibration"] = choice.calibration;
-    return all;
-}
-
 } // namespace asperity

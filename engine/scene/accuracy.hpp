@@ -19,9 +19,8 @@ namespace asperity {
 /// scene or the target. Nothing is done without numerics.accuracy.
 void choose_accuracy(Scene& scene, io::Problems& problems);
 
-/// What was chosen, for people, and for result.json.
+/// What was chosen, as lines for the terminal.
 std::vector<std::string> accuracy_lines(const AccuracyChoice& choice);
-io::JsonValue accuracy_json(const AccuracyChoice& choice);
 
 /// A time step that would do as well.
 struct LongerStep {

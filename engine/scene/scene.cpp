@@ -242,6 +242,11 @@ io::JsonValue scene_json(const Scene& scene) {
     return bind(copy).json();
 }
 
+io::JsonValue scene_units(const Scene& scene) {
+    Scene copy = scene;
+    return bind(copy).units();
+}
+
 std::string scene_markdown() {
     Scene defaults;
     return "# The scene file\n\n"

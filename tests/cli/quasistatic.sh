@@ -30,7 +30,7 @@ mode = "quasistatic"
 fields = ["zero-load", "pull-off", "every:40"]
 EOF
 expect 0 run path.toml --progress off --out whole
-says "lost where it fell"
+says "dissipated at instabilities"
 # The balance of the legs: approach + lost = state = pull-off - lost, to the tolerance on the way.
 state=$(number whole binding_energy)
 awk -v s="$state" -v a="$(sed -n '/"work_of_adhesion"/,/}/s/.*"approach": \([0-9.]*\),*/\1/p' whole/result.json)" \

@@ -4,6 +4,7 @@
 // What a path says of its hysteresis, and the curves of a smooth sphere beside it.
 #include "engine/run/curve.hpp"
 
+#include "engine/run/smooth_sphere.hpp"
 #include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
@@ -33,11 +34,12 @@ TEST(Paths, TellWhatTheyLose) {
         path.force.push_back(i == 20 ? -90.0 : i >= 25 && i < 33 ? -50.0 : 0.0);
         path.contact_fraction.push_back(i == 20 ? 0.04 : 0.01);
     }
-    io::ResultRecord record;
-    record.work_of_adhesion = {5.0, 8.0, {}};
-    record.binding_energy = 6.0;
-    add_path(path, scene, record);
-    const io::JsonValue json = io::result_json(record);
+    io::Result result;
+    result.set("work_of_adhesion.approach", 5.0);
+    result.set("work_of_adhesion.pull_off", 8.0);
+    result.set("binding_energy", 6.0);
+    add_cycle(path, scene, result);
+    const io::JsonValue json = io::JsonValue::parse(result.text(), "");
     EXPECT_NEAR(json.find("hysteresis.loop")->number(), 3.0 * 100 * 100 / 1000, 1e-12);
     EXPECT_NEAR(json.find("hysteresis.approach")->number(), 10.0, 1e-12);
     EXPECT_NEAR(json.find("hysteresis.pull_off")->number(), 20.0, 1e-12);

@@ -3,6 +3,7 @@
 //
 // The scene against its contract: names, defaults, contradictions.
 #include "engine/scene/scene.hpp"
+#include "io/quantities.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -313,6 +314,12 @@ TEST(Scene, ScenesThatComeWithAsperity) {
     EXPECT_EQ(flat.drive.timestep, 40.0);
     flat.drive.timestep = Scene{}.drive.timestep; // the rest is the defaults, spelt out
     EXPECT_EQ(scene_toml(flat, false), scene_toml(Scene{}, false));
+}
+
+TEST(Scene, PageOfResultsIsUpToDate) {
+    std::ifstream page(std::string(ASPERITY_SOURCE_DIR) + "/docs/result.md");
+    const std::string text((std::istreambuf_iterator<char>(page)), {});
+    EXPECT_EQ(text, io::result_markdown()) << "./asperity defaults --results > docs/result.md";
 }
 
 TEST(Scene, ReferencePageIsUpToDate) {

@@ -120,20 +120,20 @@ TEST(TheoryOfAScene, RenormalisedHasTheLatticesStiffness) {
 TEST(TheoryOfAScene, RenormalisedIsLeftOutWhereTheSceneSaysSo) {
     Scene s = small(1);
     s.theory.renormalised = false;
-    io::ResultRecord record;
-    add_theory(s, scene_surface(s), 98.0, record);
-    EXPECT_EQ(io::result_json(record).find("theory.renormalised"), nullptr);
+    io::Result result;
+    add_theory(s, scene_surface(s), 98.0, result);
+    EXPECT_EQ(io::JsonValue::parse(result.text(), "").find("theory.renormalised"), nullptr);
     s.theory.renormalised = true;
     s.interface.frictionless = true;
     const TheoryCase without = theory_case(s);
     s.interface.frictionless = false;
     EXPECT_LT(solve_theory(without).renormalised->numbers->gamma_eff,
               solve_theory(theory_case(s)).renormalised->numbers->gamma_eff);
-    add_theory(s, scene_surface(s), 98.0, record);
+    add_theory(s, scene_surface(s), 98.0, result);
+    const io::JsonValue json = io::JsonValue::parse(result.text(), "");
     for (const char* key : {"gamma_eff", "gamma_eff_ratio", "contact_fraction", "separation",
                             "tension", "gamma_eff_error", "contact_fraction_error"})
-        EXPECT_NE(io::result_json(record).find(std::string("theory.renormalised.") + key), nullptr)
-            << key;
+        EXPECT_NE(json.find(std::string("theory.renormalised.") + key), nullptr) << key;
 }
 
 TEST(TheoryOfAScene, RealisedSpectrumHasTheRmsAndTheFullContactEnergyOfTheMap) {
@@ -178,15 +178,15 @@ TEST(TheoryOfAScene, OfASphereIsJkrWithTheEffectiveEnergy) {
 TEST(TheoryOfAScene, NeverMakesARunFail) {
     Scene s = small(1);
     const Surface surface = scene_surface(s);
-    io::ResultRecord good;
+    io::Result good;
     add_theory(s, surface, 98.0, good);
-    EXPECT_TRUE(good.theory.gamma_eff.has_value());
+    EXPECT_TRUE(good.number("theory.gamma_eff").has_value());
     s.surface.cutoff = 1.0; // a band of no width
     s.surface.rolloff = 1.0;
-    io::ResultRecord bad;
+    io::Result bad;
     add_theory(s, surface, 98.0, bad);
-    EXPECT_FALSE(bad.theory.gamma_eff.has_value());
-    const io::JsonValue json = io::result_json(bad);
+    EXPECT_FALSE(bad.number("theory.gamma_eff").has_value());
+    const io::JsonValue json = io::JsonValue::parse(bad.text(), "");
     ASSERT_NE(json.find("theory.note"), nullptr);
     EXPECT_NE(json.find("theory.note")->text().find("surface.cutoff"), std::string::npos);
 }

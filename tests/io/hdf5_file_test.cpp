@@ -131,11 +131,11 @@ TEST(Hdf5File, ReadOnlyFilesStayAsTheyAre) {
 
 TEST(Series, ColumnsWithUnits) {
     const Scratch scratch;
-    const std::vector<Column> columns = {{"step", "", "time step"}, {"force", "eV/Å", "total"}};
+    const std::vector<std::string> columns = {"step", "force"};
     {
         Hdf5File file(scratch / "run.h5", Hdf5File::Mode::create);
         write_h5md_head(file, "0.1.0");
-        Series series(file, "/series", columns);
+        Series series(file, columns);
         for (int i = 0; i < 150; ++i)
             series.append({1.0 * i, -0.5 * i});
         EXPECT_EQ(series.rows(), 150u);
@@ -147,6 +147,7 @@ TEST(Series, ColumnsWithUnits) {
     const Hdf5File file(scratch / "run.h5", Hdf5File::Mode::read);
     EXPECT_EQ(file.read<double>("/series/force").at(149), -74.5);
     EXPECT_EQ(file.read_text_attribute("/series/force", "unit"), "eV/Å");
+    EXPECT_EQ(file.read_text_attribute("/series/step", "unit"), "1");
     EXPECT_EQ(file.read_text_attribute("/h5md/creator", "version"), "0.1.0");
 }
 

@@ -1,90 +1,138 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 #include "io/error.hpp"
+#include "io/json_value.hpp"
 #include "io/result.hpp"
+#include "io/units.hpp"
 
 #include "support/scratch.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <set>
+
+#include <nlohmann/json.hpp>
 
 namespace asperity::io {
 namespace {
 
-TEST(Result, HasTheNamesOfTheContract) {
-    ResultRecord r;
-    r.scene["surface"]["sites"] = 128;
-    r.surface = {1, 2, 3, 4, "somebody's"};
-    r.delta_gamma = r.binding_energy = 5;
-    r.work_of_adhesion = {6, 7, 8};
-    r.contact_fraction = r.pushed_fraction = r.pull_off_force = 0.5;
-    r.jkr = {1, 2};
-    r.theory = {1, 2, 3};
-    r.energy = {1, 2, 3, 4, 5, 6};
-    r.run.wall_seconds = 1.5;
-    r.run.steps = 1000;
-    r.run.iterations = 3;
-    r.run.ranks = 2;
-    r.run.threads = 1;
-    r.run.phases = {{"advance", 0.5, 1000}};
-    r.run.stopped = "max_steps";
-    r.extra = {{"run.levels", 4}, {"new.deep.thing", "yes"}};
-    const JsonValue json = JsonValue::parse(result_json(r).dump(), "x");
-    for (const char* path : {"scene.surface.sites",
-                             "surface.rms",
-                             "surface.rms_slope",
-                             "surface.min",
-                             "surface.max",
-                             "surface.origin",
-                             "delta_gamma",
-                             "binding_energy",
-                             "work_of_adhesion.approach",
-                             "work_of_adhesion.pull_off",
-                             "work_of_adhesion.pairwise",
-                             "contact_fraction",
-                             "pushed_fraction",
-                             "pull_off_force",
-                             "jkr.in",
-                             "jkr.out",
-                             "theory.gamma_eff",
-                             "theory.contact_fraction",
-                             "theory.gamma_full_contact",
-                             "energy.residual",
-                             "energy.work",
-                             "energy.kinetic",
-                             "energy.elastic",
-                             "energy.interface",
-                             "energy.damped",
-                             "run.wall_seconds",
-                             "run.steps",
-                             "run.iterations",
-                             "run.ranks",
-                             "run.threads",
-                             "run.phases.advance.seconds",
-                             "run.phases.advance.calls",
-                             "run.version",
-                             "run.git",
-                             "run.compiler",
-                             "run.flags",
-                             "run.stopped",
-                             "run.levels",
-                             "new.deep.thing"})
-        EXPECT_NE(json.find(path), nullptr) << path;
-    EXPECT_EQ(json.find("work_of_adhesion.pairwise")->number(), 8.0);
-    EXPECT_EQ(json.find("run.phases.advance.calls")->integer(), 1000);
-    EXPECT_EQ(json.find("failure"), nullptr);
+using Json = nlohmann::ordered_json;
+
+/// A value or a unit by its path, or null.
+Json at(const Json& json, std::string path) {
+    std::replace(path.begin(), path.end(), '.', '/');
+    const Json::json_pointer pointer("/" + path);
+    return json.contains(pointer) ? json.at(pointer) : Json();
 }
 
-TEST(Result, LeavesOutWhatWasNotComputed) {
-    ResultRecord r;
-    r.work_of_adhesion.approach = 3.0;
-    r.failure = {3, "the time step turned unstable"};
-    const JsonValue json = result_json(r);
-    EXPECT_EQ(json.find("binding_energy"), nullptr);
-    EXPECT_EQ(json.find("theory"), nullptr);
-    EXPECT_EQ(json.find("scene"), nullptr);
-    EXPECT_EQ(json.find("work_of_adhesion.pull_off"), nullptr);
-    EXPECT_EQ(json.find("failure.exit_code")->integer(), 3);
-    EXPECT_EQ(json.find("run.stopped"), nullptr);
+TEST(Result, HasTheNamesOfTheContract) {
+    // The result file of the interface's contract, name by name with its unit.
+    const std::pair<const char*, const char*> contract[] = {
+        {"surface.rms", "Å"},
+        {"surface.rms_slope", "1"},
+        {"surface.min", "Å"},
+        {"surface.max", "Å"},
+        {"delta_gamma", "meV/Å^2"},
+        {"binding_energy", "meV/Å^2"},
+        {"work_of_adhesion.approach", "meV/Å^2"},
+        {"work_of_adhesion.pull_off", "meV/Å^2"},
+        {"work_of_adhesion.pairwise", "meV/Å^2"},
+        {"contact_fraction", "1"},
+        {"pushed_fraction", "1"},
+        {"pull_off_force", "eV/Å"},
+        {"jkr.in", "meV/Å^2"},
+        {"jkr.out", "meV/Å^2"},
+        {"theory.gamma_eff", "meV/Å^2"},
+        {"theory.contact_fraction", "1"},
+        {"theory.gamma_full_contact", "meV/Å^2"},
+        {"energy.residual", "1"},
+        {"energy.work", "eV"},
+        {"energy.kinetic", "eV"},
+        {"energy.elastic", "eV"},
+        {"energy.interface", "eV"},
+        {"energy.damped", "eV"},
+        {"run.wall_seconds", "s"},
+        {"run.steps", "1"},
+        {"run.iterations", "1"},
+        {"run.ranks", "1"},
+        {"run.threads", "1"},
+        {"run.phases.*.seconds", "s"},
+        {"run.phases.*.calls", "1"},
+        {"run.version", ""},
+        {"run.git", ""},
+        {"run.compiler", ""},
+        {"run.flags", ""},
+        {"run.stopped", ""},
+    };
+    for (const auto& [name, unit] : contract) {
+        const auto found =
+            std::find_if(std::begin(result_quantities), std::end(result_quantities),
+                         [name = name](const Quantity& q) { return q.name == name; });
+        ASSERT_NE(found, std::end(result_quantities)) << name;
+        EXPECT_EQ(found->unit, unit) << name;
+    }
+}
+
+TEST(Result, PutsValuesAndUnitsAtTheSamePlace) {
+    Result result;
+    result.set("work_of_adhesion.pairwise", 8.0);
+    result.set("work_of_adhesion.approach", std::optional<double>());
+    result.set("run.phases.*.seconds", "advance", 0.5);
+    result.set("run.phases.*.calls", "advance", 1000LL);
+    result.set("dissipated.jumps[].energy", 0, 1.5);
+    result.set("dissipated.jumps[].force", 0, std::vector{1.0, 2.0});
+    result.set("dissipated.jumps[].energy", 1, 2.5);
+    result.set("theory.converged", true);
+    result.set("run.stopped", "max_steps");
+    JsonValue scene, units;
+    scene["surface"]["sites"] = 128;
+    units["surface"]["sites"] = "1";
+    result.set_scene(scene, units);
+    const Json json = Json::parse(result.text());
+    EXPECT_EQ(at(json, "work_of_adhesion.pairwise"), 8.0);
+    EXPECT_EQ(at(json, "units.work_of_adhesion.pairwise"), "meV/Å^2");
+    EXPECT_TRUE(at(json, "work_of_adhesion.approach").is_null());
+    EXPECT_TRUE(at(json, "units.work_of_adhesion.approach").is_null());
+    EXPECT_EQ(at(json, "run.phases.advance.seconds"), 0.5);
+    EXPECT_EQ(at(json, "run.phases.advance.calls"), 1000);
+    EXPECT_EQ(at(json, "units.run.phases.advance.seconds"), "s");
+    EXPECT_EQ(at(json, "dissipated.jumps.1.energy"), 2.5);
+    EXPECT_EQ(at(json, "dissipated.jumps.0.force.1"), 2.0);
+    EXPECT_EQ(at(json, "units.dissipated.jumps.energy"), "eV");
+    EXPECT_EQ(at(json, "units.dissipated.jumps.force"), "eV/Å");
+    EXPECT_EQ(at(json, "theory.converged"), true);
+    EXPECT_EQ(at(json, "run.stopped"), "max_steps");
+    EXPECT_EQ(at(json, "scene.surface.sites"), 128);
+    EXPECT_EQ(at(json, "units.scene.surface.sites"), "1");
+    EXPECT_EQ(result.number("work_of_adhesion.pairwise"), 8.0);
+    EXPECT_EQ(result.number("run.stopped"), std::nullopt);
+    EXPECT_EQ(result.number("binding_energy"), std::nullopt);
+    for (const char* absent : {"binding_energy", "theory.gamma_eff", "failure", "zero_load"})
+        EXPECT_TRUE(at(json, absent).is_null()) << absent;
+}
+
+TEST(Quantities, HaveUnitsThatCanBeReadAndNoNameTwice) {
+    std::set<std::string_view> names;
+    const auto check = [&](const Quantity& q) {
+        EXPECT_TRUE(names.insert(q.name).second) << q.name;
+        EXPECT_FALSE(q.meaning.empty()) << q.name;
+        EXPECT_TRUE(q.unit.empty() || q.unit == "1" || parse_unit(q.unit)) << q.unit;
+    };
+    for (const Quantity& q : result_quantities)
+        check(q);
+    names.clear();
+    for (const Quantity& q : run_quantities)
+        check(q);
+}
+
+TEST(Quantities, OfRunFilesAreFoundByTheirPaths) {
+    EXPECT_EQ(run_quantity("/series/force")->unit, "eV/Å");
+    EXPECT_EQ(run_quantity("/fields/zero-load/gap")->unit, "Å");
+    EXPECT_EQ(run_quantity("/fields/every:5/gap_density")->unit, "1/Å");
+    EXPECT_EQ(run_quantity("/fields/pull-off@reference_height")->unit, "Å");
+    for (const char* none : {"/series/forces", "/fields/gap", "/fields//gap", "/fields/a/b/gap",
+                             "/fields/a@b@reference_height"})
+        EXPECT_EQ(run_quantity(none), nullptr) << none;
 }
 
 TEST(Result, NumbersKeepTheirBits) {
@@ -110,7 +158,7 @@ TEST(Result, NumbersKeepTheirBits) {
 TEST(Result, IsWrittenWhole) {
     const Scratch scratch;
     const Directory directory = Directory::make(scratch / "a/b");
-    write_result(directory, ResultRecord{});
+    write_result(directory, Result());
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1);
     EXPECT_NO_THROW(JsonValue::parse(contents(directory / "result.json"), ""));
 }

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Every number and text of result.json, and every data set of run.h5: name, unit, normalisation and
+// meaning.
+//
+// This is the one place where a result is described. Result (io/result.hpp) takes no name that is
+// not here and states the units from here in result.json; the summary of a run, the columns and
+// attributes of run.h5 and docs/result.md (`asperity defaults --results`) follow.
+//
+// Names: dots lead deeper; "*" stands for any name, "[]" for each element of a list.
+// Units: as io/units.hpp reads them; "1" for a pure number, "" for what is no number.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace asperity::io {
+
+struct Quantity {
+    std::string_view name;
+    std::string_view unit;
+    std::string_view per; ///< what it is divided by, or the whole that it belongs to
+    std::string_view meaning;
+};
+
+namespace per {
+inline constexpr std::string_view area = "nominal area", block = "whole block",
+                                  sites = "all sites of the lowest layer", rank = "first rank";
+}
+
+/// In the order of the file.
+inline constexpr Quantity result_quantities[] = {
+    {"name", "", "", "name of the scene"},
+    {"failure.exit_code", "1", "", "exit code of a command that failed"},
+    {"failure.reason", "", "", "why it failed: problem, reason, remedy"},
+    {"delta_gamma", "meV/Å^2", per::area,
+     "flat reference Δγ: flat on flat with the same potential, cutoff and lattices"},
+    {"binding_energy", "meV/Å^2", per::area,
+     "-(U_LJ + U_el) of the relaxed state without external force"},
+    {"binding_energy_uncertainty", "meV/Å^2", per::area,
+     "its uncertainty by the forces left in the relaxed state"},
+    {"work_of_adhesion.approach", "meV/Å^2", per::area,
+     "work of the interface's force on the mean height of the lowest layer, during the approach"},
+    {"work_of_adhesion.pull_off", "meV/Å^2", per::area,
+     "work against that force during the pull-off"},
+    {"work_of_adhesion.pairwise", "meV/Å^2", per::area,
+     "-U_LJ of the zero-load state: the pair energies alone"},
+    {"work_of_adhesion.uncertainty.approach", "meV/Å^2", per::area,
+     "uncertainty of the work of a quasi-static approach"},
+    {"work_of_adhesion.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+    {"contact_fraction", "1", per::sites,
+     "sites closer to an atom than the inflection of the pair potential, at zero load"},
+    {"pushed_fraction", "1", per::sites, "sites whose net normal force is repulsive, at zero load"},
+    {"approach_force", "eV/Å", per::block, "largest attraction during the approach"},
+    {"pull_off_force", "eV/Å", per::block, "largest attraction during the pull-off"},
+    {"jkr.in", "meV/Å^2", per::area,
+     "work of adhesion by JKR, F/(1.5 π R), from the largest attraction of the approach (spheres)"},
+    {"jkr.out", "meV/Å^2", per::area, "the same of the pull-off"},
+    {"jkr.in_averaged", "meV/Å^2", per::area,
+     "as jkr.in, from the largest attraction of a running mean over 2 ps, which leaves out the "
+     "vibrations after an instability; needs output.series of 0.5 ps or less"},
+    {"jkr.out_averaged", "meV/Å^2", per::area, "the same of the pull-off"},
+    {"contact_radius.zero_load", "Å", "", "√(contact area/π) at zero load (spheres)"},
+    {"contact_radius.pull_off", "Å", "", "√(contact area/π) at the largest attraction"},
+    {"sphere.jkr", "meV/Å^2", per::area,
+     "pull-off force of the smooth sphere by JKR, as a work of adhesion by JKR"},
+    {"sphere.maugis_parameter", "1", "",
+     "Maugis' λ of the smooth sphere; its stress is the largest tension of flat on flat"},
+    {"sphere.jkr_images", "meV/Å^2", per::area, "as sphere.jkr, with the periodic images"},
+    {"sphere.maugis_images", "meV/Å^2", per::area,
+     "as sphere.jkr_images, by the theory of Maugis and Dugdale"},
+    {"sphere.note", "", "", "why one of these is missing"},
+    {"hysteresis.loop", "eV", per::block, "area of the loop of force and mean height, -∮ F dz"},
+    {"hysteresis.approach", "eV", per::block,
+     "its part from the approach: binding energy less work of the approach"},
+    {"hysteresis.pull_off", "eV", per::block,
+     "its part from the pull-off: work of the pull-off less binding energy"},
+    {"dissipated.approach", "meV/Å^2", per::area,
+     "energy dissipated at instabilities of a quasi-static approach"},
+    {"dissipated.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+    {"dissipated.energy", "eV", per::block, "both together"},
+    {"dissipated.uncertainty.approach", "meV/Å^2", per::area, "uncertainty of dissipated.approach"},
+    {"dissipated.uncertainty.pull_off", "meV/Å^2", per::area, "uncertainty of dissipated.pull_off"},
+    {"dissipated.events", "1", "", "number of instabilities"},
+    {"dissipated.jumps[].leg", "", "",
+     "\"approach\" or \"pull-off\" (the 20 largest instabilities)"},
+    {"dissipated.jumps[].energy", "eV", per::block, "energy dissipated"},
+    {"dissipated.jumps[].top", "Å", "", "displacement of the top plane"},
+    {"dissipated.jumps[].mean_height", "Å", "",
+     "mean height of the lowest layer, before and after"},
+    {"dissipated.jumps[].force", "eV/Å", per::block, "force on the top plane, before and after"},
+    {"dissipated.jumps[].contact_fraction", "1", per::sites, "contact fraction, before and after"},
+    {"dissipated.jumps[].site", "1", "", "x and y of the site that moved furthest"},
+    {"dissipated.jumps[].largest_move", "Å", "", "how far it moved"},
+    {"dissipated.jumps[].sites_moved", "1", "", "sites that moved more than half as far"},
+    {"states.*.binding_energy", "meV/Å^2", per::area,
+     "of the stable states at zero load (drive.states = \"all\"), \"first\" and \"deepest\""},
+    {"states.*.contact_fraction", "1", per::sites, "as contact_fraction"},
+    {"states.*.pushed_fraction", "1", per::sites, "as pushed_fraction"},
+    {"states.*.mean_height", "Å", "", "as zero_load.mean_height"},
+    {"states.*.elastic_energy", "meV/Å^2", per::area, "elastic energy of the state"},
+    {"states.*.barrier", "MPa", "",
+     "largest pressure on the way to the next state inwards; null for the innermost"},
+    {"states.all[].binding_energy", "meV/Å^2", per::area, "the same of every state, inwards"},
+    {"states.all[].contact_fraction", "1", per::sites, "as above"},
+    {"states.all[].pushed_fraction", "1", per::sites, "as above"},
+    {"states.all[].mean_height", "Å", "", "as above"},
+    {"states.all[].elastic_energy", "meV/Å^2", per::area, "as above"},
+    {"states.all[].barrier", "MPa", "", "as above"},
+    {"states.search.step", "Å", "", "step of the mean height near a crossing of the load"},
+    {"states.search.points", "1", "", "points of the search"},
+    {"states.search.instabilities", "1", "", "instabilities that it passed"},
+    {"states.search.innermost", "Å", "", "mean height where it ended"},
+    {"states.search.ended", "", "", "why it ended"},
+    {"states.search.may_miss", "", "", "states that this search does not find"},
+    {"theory.gamma_eff", "meV/Å^2", per::area, "effective work of adhesion, Persson's theory"},
+    {"theory.contact_fraction", "1", per::area, "area of real contact, projected"},
+    {"theory.gamma_full_contact", "meV/Å^2", per::area,
+     "effective work of adhesion if contact is assumed to be complete"},
+    {"theory.delta_gamma", "meV/Å^2", per::area, "the Δγ that the theory was given"},
+    {"theory.gamma_eff_error", "meV/Å^2", per::area, "numerical error of gamma_eff"},
+    {"theory.contact_fraction_error", "1", per::area, "numerical error of contact_fraction"},
+    {"theory.elastic_energy", "meV/Å^2", per::area, "elastic energy stored in the contact"},
+    {"theory.h_rms", "Å", "", "rms height of the spectrum that was solved for"},
+    {"theory.rms_slope", "1", "", "rms slope of that spectrum"},
+    {"theory.theta", "1", "", "adhesion parameter E* h² q0/Δγ"},
+    {"theory.jkr_pull_off_force", "eV/Å", per::block, "pull-off force by JKR with gamma_eff"},
+    {"theory.critical_rms", "Å", "", "rms height beyond which adhesion vanishes"},
+    {"theory.critical_rms_full_contact", "Å", "", "the same if contact is assumed to be complete"},
+    {"theory.status", "", "", "\"adhesive\", \"pressed\" or \"no contact\""},
+    {"theory.converged", "", "", "whether the relative errors are below 1e-5"},
+    {"theory.note", "", "", "why the theory has no solution for this scene"},
+    {"theory.renormalised.gamma_eff", "meV/Å^2", per::area,
+     "effective work of adhesion, renormalised theory"},
+    {"theory.renormalised.gamma_eff_ratio", "1", "flat reference", "gamma_eff over Δγ"},
+    {"theory.renormalised.contact_fraction", "1", per::area, "sites in contact"},
+    {"theory.renormalised.separation", "Å", "", "mean separation; left out where nothing binds"},
+    {"theory.renormalised.tension", "GPa", "", "largest tension of the renormalised potential"},
+    {"theory.renormalised.gamma_eff_error", "meV/Å^2", per::area, "numerical error of gamma_eff"},
+    {"theory.renormalised.contact_fraction_error", "1", per::area,
+     "numerical error of contact_fraction"},
+    {"theory.renormalised.note", "", "", "why there is no solution, or its error is large"},
+    {"zero_load.elastic_energy", "meV/Å^2", per::area, "elastic energy of the zero-load state"},
+    {"zero_load.mean_height", "Å", "",
+     "mean height of the lowest layer above the substrate's mean plane (its apex, if it is "
+     "curved)"},
+    {"zero_load.residual_force", "eV/Å", "", "largest force left on a node"},
+    {"energy.residual", "1", "largest term",
+     "energy balance: work less change of energy less loss, at the last recorded step"},
+    {"energy.work", "eV", per::block, "work done on the block since the start"},
+    {"energy.kinetic", "eV", per::block, "kinetic energy at the last recorded step"},
+    {"energy.elastic", "eV", per::block, "elastic energy at the last recorded step"},
+    {"energy.interface", "eV", per::block, "Lennard-Jones energy at the last recorded step"},
+    {"energy.damped", "eV", per::block,
+     "energy lost since the start: damped in time, dissipated at instabilities without time"},
+    {"surface.rms", "Å", "", "rms height of the substrate, without the cap"},
+    {"surface.rms_slope", "1", "", "rms slope √⟨(∇h)²⟩, without the cap"},
+    {"surface.min", "Å", "", "lowest atom of the substrate"},
+    {"surface.max", "Å", "", "highest atom"},
+    {"surface.origin", "", "", "whose measurement a map is, where its file says so"},
+    {"accuracy.target", "1", "", "relative error asked for (numerics.accuracy)"},
+    {"accuracy.expected_error", "1", "", "relative error expected with the settings chosen"},
+    {"accuracy.chosen", "", "", "settings chosen, \"key = value\""},
+    {"accuracy.kept", "", "", "keys that the scene sets itself"},
+    {"accuracy.calibration", "", "", "the measurement that the choice is based on"},
+    {"run.wall_seconds", "s", "", "wall time of this process"},
+    {"run.processor_seconds", "s", per::rank,
+     "processor time of all threads, from the first start"},
+    {"run.steps", "1", "", "time steps; of a quasi-static path: points"},
+    {"run.iterations", "1", "", "iterations of the relaxations"},
+    {"run.stopped", "", "",
+     "\"max_steps\", \"wall_limit\" or \"signal\": the path is not complete"},
+    {"run.ranks", "1", "", "MPI ranks"},
+    {"run.threads", "1", "", "threads of a rank"},
+    {"run.phases.*.seconds", "s", per::rank, "wall time spent in a phase of the run"},
+    {"run.phases.*.calls", "1", per::rank, "how often the phase was entered"},
+    {"run.effects.*.on", "", "", "whether the scene switches this effect on"},
+    {"run.effects.*.why", "", "", "the key that decides it"},
+    {"run.device", "", "", "what took the steps: \"none\" for the processor"},
+    {"run.kernels", "", "", "instruction set of the kernels used: \"v2\", \"v3\", \"v4\""},
+    {"run.version", "", "", "version of Asperity"},
+    {"run.git", "", "", "commit that it was built from"},
+    {"run.compiler", "", "", "compiler"},
+    {"run.flags", "", "", "build type and compiler flags"},
+    {"run.machine", "", "", "processor and number of processors"},
+};
+
+/// In run.h5; "@" leads to an attribute.
+inline constexpr Quantity run_quantities[] = {
+    {"series/step", "1", "", "time step; of a quasi-static path: point"},
+    {"series/time", "ps", "", "simulated time"},
+    {"series/leg", "1", "", "0 approach, 1 pull-off"},
+    {"series/top", "Å", "", "displacement of the top plane"},
+    {"series/mean_height", "Å", "",
+     "mean height of the lowest layer above the substrate's mean plane (its apex, if it is "
+     "curved)"},
+    {"series/force", "eV/Å", per::block,
+     "normal force of the substrate on the lowest layer; repulsion is positive"},
+    {"series/top_force", "eV/Å", per::block, "elastic force on the top plane along z"},
+    {"series/interface_energy", "eV", per::block, "Lennard-Jones energy"},
+    {"series/elastic_energy", "eV", per::block, "elastic energy"},
+    {"series/kinetic_energy", "eV", per::block, "kinetic energy"},
+    {"series/work", "eV", per::block, "work done on the block since the start"},
+    {"series/damped", "eV", per::block, "energy damped since the start"},
+    {"series/dissipated", "eV", per::block, "energy dissipated at instabilities since the start"},
+    {"series/residual", "1", "largest term",
+     "energy balance: work less change of energy less loss"},
+    {"series/contact_fraction", "1", per::sites,
+     "sites closer to an atom than the inflection of the pair potential"},
+    {"series/pushed_fraction", "1", per::sites, "sites whose net normal force is repulsive"},
+    {"series/closest", "Å", "", "smallest distance of a site and an atom; infinite out of reach"},
+    {"fields/*/gap", "Å", "", "height of a site above the substrate below it"},
+    {"fields/*/pressure", "GPa", "a² of a site", "normal force on a site; repulsion is positive"},
+    {"fields/*/distance", "Å", "",
+     "distance of a site and the nearest atom; infinite out of reach"},
+    {"fields/*/contact", "1", "", "1 where that is less than the inflection of the potential"},
+    {"fields/*/u_x", "Å", "", "displacement of a site"},
+    {"fields/*/u_y", "Å", "", "displacement of a site"},
+    {"fields/*/u_z", "Å", "", "displacement of a site"},
+    {"fields/*/gap_edges", "Å", "", "edges of the bins of gap_density"},
+    {"fields/*/gap_density", "1/Å", "", "distribution of gaps P(u), its integral is 1"},
+    {"fields/*@reference_height", "Å", "", "height of the undisplaced lowest layer"},
+    {"substrate/height", "Å", "", "heights of the atoms of the substrate, [y][x]"},
+    {"substrate/spectrum_q", "1/Å", "", "wavevectors of the bins of the spectrum"},
+    {"substrate/spectrum", "Å^4", "", "C(q) of the surface, averaged over rings"},
+    {"substrate/spectrum_target", "Å^4", "", "C(q) that the scene asks for"},
+    {"substrate@edge", "Å", "", "edge of the periodic box"},
+    {"curves/*/height", "Å", "", "mean height, by the theory that the group's label names"},
+    {"curves/*/force", "eV/Å", per::block, "force at that height; repulsion is positive"},
+};
+
+/// The name of a quantity of result.json; one that is not in the table does not compile.
+struct Key {
+    consteval Key(const char* name) : quantity(&find(name)) {}
+    const Quantity* quantity;
+
+private:
+    static constexpr const Quantity& find(std::string_view name) {
+        for (const Quantity& q : result_quantities)
+            if (q.name == name) return q;
+        throw "no quantity of that name in result_quantities";
+    }
+};
+
+inline std::string_view unit_of(Key key) { return key.quantity->unit; }
+
+/// The quantity of run.h5 with this path ("/fields/zero-load/gap"); nullptr if there is none.
+const Quantity* run_quantity(std::string_view path);
+
+/// docs/result.md.
+std::string result_markdown();
+
+} // namespace asperity::io

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What a run writes, against itself: the same quantity in result.json, in the series and in the
+// maps of run.h5, each converted by the unit that the file states.
+#include "decomposition/communicator.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/scene.hpp"
+#include "io/error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/quantities.hpp"
+#include "io/units.hpp"
+#include "support/scratch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+using namespace asperity;
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// A run and what it wrote.
+class Written {
+public:
+    explicit Written(const std::string& scene)
+        : scene_(read_scene_text(scene, "test.toml")), directory_(scratch_ / "run") {
+        RunOptions options;
+        options.out = directory_;
+        options.progress = io::ProgressMode::off;
+        EXPECT_EQ(run(scene_, options, Communicator()), io::exit_code::done);
+        json = Json::parse(io::contents(directory_ + "/result.json"));
+        file.emplace(directory_ + "/run.h5", io::Hdf5File::Mode::read);
+    }
+
+    /// A number of result.json ("energy.elastic") in this unit.
+    double number(std::string path, const char* unit) const {
+        std::replace(path.begin(), path.end(), '.', '/');
+        const Json::json_pointer at("/" + path), units("/units/" + path);
+        if (!json.contains(at) || !json.contains(units)) {
+            ADD_FAILURE() << path << " or its unit is missing";
+            return NAN;
+        }
+        return json.at(at).get<double>() * factor(json.at(units).get<std::string>(), unit);
+    }
+    /// A data set of run.h5 in this unit.
+    std::vector<double> data(const std::string& path, const char* unit) const {
+        std::vector<double> values = file->read<double>(path);
+        const double by = factor(file->read_text_attribute(path, "unit"), unit);
+        for (double& value : values)
+            value *= by;
+        return values;
+    }
+    double area() const { return scene_.edge() * scene_.edge(); }
+    const Scene& scene() const { return scene_; }
+
+    Json json;
+    std::optional<io::Hdf5File> file;
+
+private:
+    static double factor(const std::string& from, const std::string& to) {
+        if (from == to) return 1.0;
+        const auto factor = io::conversion(from, to);
+        EXPECT_TRUE(factor) << from << " is not in " << to;
+        return factor.value_or(NAN);
+    }
+
+    io::Scratch scratch_;
+    Scene scene_;
+    std::string directory_;
+};
+
+double mean(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Paths of the values that have no unit.
+void without_unit(const Json& value, const Json& unit, const std::string& path,
+                  std::vector<std::string>& list) {
+    if (value.is_object())
+        for (const auto& [name, member] : value.items()) {
+            if (path.empty() && name == "units") continue;
+            without_unit(member, unit.contains(name) ? unit.at(name) : Json(), path + "/" + name,
+                         list);
+        }
+    else if (value.is_array() && !value.empty() && value.front().is_object())
+        for (const Json& element : value)
+            without_unit(element, unit, path + "[]", list);
+    else if (!unit.is_string() || (value.is_number() && unit == ""))
+        list.push_back(path);
+}
+
+void datasets(const io::Hdf5File& file, const std::string& group, std::vector<std::string>& list) {
+    for (const std::string& name : file.members(group.empty() ? "/" : group)) {
+        const std::string path = group + "/" + name;
+        if (path == "/h5md" || path == "/particles") continue; // described by H5MD
+        if (file.is_dataset(path))
+            list.push_back(path);
+        else
+            datasets(file, path, list);
+    }
+}
+
+void expect_units_everywhere(const Written& run) {
+    std::vector<std::string> bare, all;
+    without_unit(run.json, run.json.at("units"), "", bare);
+    EXPECT_EQ(bare, std::vector<std::string>());
+    datasets(*run.file, "", all);
+    EXPECT_GT(all.size(), 15u);
+    for (const std::string& path : all)
+        EXPECT_TRUE(run.file->has_attribute(path, "unit") &&
+                    run.file->has_attribute(path, "description"))
+            << path;
+    const std::string scene = run.file->read_text_attribute("/", "scene");
+    EXPECT_EQ(scene_toml(read_scene_text(scene, "attribute"), false),
+              scene_toml(run.scene(), false));
+    EXPECT_EQ(run.file->read_text_attribute("/", "version"), run.json.at("run").at("version"));
+}
+
+const char* const quasistatic = R"(
+[surface]
+sites = 16
+rms = 0.7
+[block]
+model = "spectral"
+thickness = 60
+[drive]
+mode = "quasistatic"
+[output]
+fields = ["zero-load", "pull-off"]
+)";
+
+} // namespace
+
+TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
+    const Written run(quasistatic);
+    expect_units_everywhere(run);
+    const double area = run.area(), gpa = 1.0 / 160.2176634; // eV/Å^3
+    const auto energy = [&](const char* path) { return area * run.number(path, "eV/Å^2"); };
+
+    // Per area and as a whole.
+    EXPECT_NEAR(run.number("hysteresis.loop", "eV"),
+                energy("work_of_adhesion.pull_off") - energy("work_of_adhesion.approach"), 1e-9);
+    EXPECT_NEAR(run.number("dissipated.energy", "eV"),
+                energy("dissipated.approach") + energy("dissipated.pull_off"), 1e-9);
+    EXPECT_NEAR(energy("binding_energy"),
+                energy("work_of_adhesion.pairwise") - energy("zero_load.elastic_energy"), 1e-9);
+
+    // The series.
+    const auto force = run.data("/series/force", "eV/Å"), leg = run.data("/series/leg", "1"),
+               height = run.data("/series/mean_height", "Å");
+    double strongest[2] = {0.0, 0.0}, work[2] = {0.0, 0.0};
+    for (std::size_t i = 0; i < force.size(); ++i) {
+        const std::size_t out = leg[i] == 1.0;
+        strongest[out] = std::max(strongest[out], -force[i]);
+        if (i > 0) work[out] += 0.5 * (force[i] + force[i - 1]) * (height[i] - height[i - 1]);
+    }
+    EXPECT_EQ(run.number("approach_force", "eV/Å"), strongest[0]);
+    EXPECT_EQ(run.number("pull_off_force", "eV/Å"), strongest[1]);
+    EXPECT_GT(strongest[1], strongest[0]);
+    // Points where the step was halved do not see the same trapezia: to a percent.
+    EXPECT_NEAR(energy("work_of_adhesion.approach"), work[0], 0.01 * std::abs(work[0]));
+    EXPECT_NEAR(-energy("work_of_adhesion.pull_off"), work[1], 0.01 * std::abs(work[1]));
+    EXPECT_EQ(run.number("energy.work", "eV"), run.data("/series/work", "eV").back());
+    EXPECT_EQ(run.number("energy.damped", "eV"), run.data("/series/dissipated", "eV").back());
+    EXPECT_EQ(run.number("run.steps", "1"), run.data("/series/step", "1").back());
+
+    // The maps.
+    const std::string state = "/fields/zero-load/";
+    const auto pressure = run.data(state + "pressure", "GPa");
+    const auto repulsive =
+        std::count_if(pressure.begin(), pressure.end(), [](double p) { return p > 0.0; });
+    EXPECT_EQ(run.number("pushed_fraction", "1"),
+              static_cast<double>(repulsive) / static_cast<double>(pressure.size()));
+    EXPECT_EQ(run.number("contact_fraction", "1"), mean(run.data(state + "contact", "1")));
+    EXPECT_NE(run.number("contact_fraction", "1"), run.number("pushed_fraction", "1"));
+    EXPECT_NEAR(run.number("zero_load.mean_height", "Å"),
+                run.file->read_number_attribute("/fields/zero-load", "reference_height") +
+                    mean(run.data(state + "u_z", "Å")),
+                1e-9);
+    EXPECT_NEAR(area * gpa * mean(pressure), 0.0, 1e-2);
+    EXPECT_NEAR(area * gpa * mean(run.data("/fields/pull-off/pressure", "GPa")), -strongest[1],
+                1e-6 * strongest[1]);
+    const auto edges = run.data(state + "gap_edges", "Å"),
+               density = run.data(state + "gap_density", "1/Å");
+    EXPECT_NEAR(mean(density) * (edges.back() - edges.front()), 1.0, 1e-12);
+}
+
+TEST(Results, OfAStateAreEnergiesPerArea) {
+    const Written run("[surface]\nsites = 16\nrms = 0.7\n[drive]\npath = [\"zero-load\"]\n"
+                      "[block]\nthickness = 16\n");
+    std::vector<std::string> bare;
+    without_unit(run.json, run.json.at("units"), "", bare);
+    EXPECT_EQ(bare, std::vector<std::string>());
+    EXPECT_NEAR(run.number("energy.elastic", "eV"),
+                run.area() * run.number("zero_load.elastic_energy", "eV/Å^2"), 1e-9);
+    EXPECT_NEAR(run.number("energy.interface", "eV"),
+                -run.area() * run.number("work_of_adhesion.pairwise", "eV/Å^2"), 1e-9);
+    EXPECT_GT(run.number("energy.elastic", "eV"), 0.0);
+}
+
+TEST(Results, OfACurvedSceneHoldTheTheoryOfTheSmoothSphere) {
+    const Written run("[surface]\nsites = 32\nrms = 0.2\nradius = 300\n[block]\nthickness = 16\n"
+                      "[drive]\nmax_steps = 40\n[output]\nseries = 10\nfields = [\"every:20\"]\n"
+                      "trajectory = 20\n");
+    expect_units_everywhere(run);
+    ASSERT_EQ(run.file->members("/curves"),
+              (std::vector<std::string>{"jkr", "jkr_images", "maugis_images"}));
+    for (const char* name : {"jkr", "jkr_images", "maugis_images"}) {
+        const std::string group = std::string("/curves/") + name;
+        EXPECT_NE(run.file->read_text_attribute(group, "label").find("smooth sphere"),
+                  std::string::npos);
+        EXPECT_EQ(run.data(group + "/height", "Å").size(),
+                  run.data(group + "/force", "eV/Å").size());
+    }
+    // JKR's pull-off force in closed form.
+    const auto force = run.data("/curves/jkr/force", "eV/Å");
+    const double strongest = -*std::min_element(force.begin(), force.end());
+    EXPECT_NEAR(strongest, 1.5 * std::numbers::pi * 300.0 * run.number("delta_gamma", "eV/Å^2"),
+                1e-3 * strongest);
+}
