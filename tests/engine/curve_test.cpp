@@ -50,7 +50,7 @@ TEST(Paths, TellWhatTheyLose) {
 
 /// The value of `key` for a path of rows every 0.1 ps whose force is -1 eV/Å from row `from` for
 /// `count` rows of the approach and, 200 rows later, of the pull-off.
-double averaged(std::size_t from, std::size_t count, const char* key) {
+double averaged(std::size_t from, std::size_t count, io::Key key) {
     PathSeries path;
     for (std::size_t i = 0; i < 400; ++i) {
         const std::size_t row = i % 200;
@@ -62,24 +62,27 @@ double averaged(std::size_t from, std::size_t count, const char* key) {
     }
     Scene scene;
     scene.surface.radius = 100.0;
-    io::ResultRecord record;
-    record.work_of_adhesion.approach = record.work_of_adhesion.pull_off = 1.0;
-    add_path(path, scene, record);
-    for (const auto& [name, value] : record.extra)
-        if (name == key) return value.number();
-    ADD_FAILURE() << key << " is missing";
-    return std::nan("");
+    io::Result result;
+    result.set("work_of_adhesion.approach", 1.0);
+    result.set("work_of_adhesion.pull_off", 1.0);
+    add_cycle(path, scene, result);
+    const std::optional<double> value = result.number(key);
+    EXPECT_TRUE(value) << key.quantity->name << " is missing";
+    return value.value_or(std::nan(""));
 }
 
 TEST(Curve, TheRunningMeanIsOverTwoPicoseconds) {
-    for (const char* key : {"jkr.in_averaged", "jkr.out_averaged"}) {
+    for (const io::Key key : {io::Key("jkr.in_averaged"), io::Key("jkr.out_averaged")}) {
         // A force of JKR's pull-off, 3/2 pi w R, in meV/Å^2.
         const double whole = 1e3 / (1.5 * std::acos(-1.0) * 100.0);
-        EXPECT_NEAR(averaged(0, 200, key), whole, 1e-12 * whole) << key;
-        EXPECT_NEAR(averaged(50, 20, key), whole, 1e-12 * whole) << key << ": 20 rows fill it";
-        EXPECT_NEAR(averaged(50, 19, key), 0.95 * whole, 1e-12 * whole) << key;
-        EXPECT_NEAR(averaged(0, 10, key), 0.5 * whole, 1e-12 * whole) << key << ", the first rows";
-        EXPECT_NEAR(averaged(190, 10, key), 0.5 * whole, 1e-12 * whole) << key << ", the last";
+        EXPECT_NEAR(averaged(0, 200, key), whole, 1e-12 * whole) << key.quantity->name;
+        EXPECT_NEAR(averaged(50, 20, key), whole, 1e-12 * whole)
+            << key.quantity->name << ": 20 rows fill it";
+        EXPECT_NEAR(averaged(50, 19, key), 0.95 * whole, 1e-12 * whole) << key.quantity->name;
+        EXPECT_NEAR(averaged(0, 10, key), 0.5 * whole, 1e-12 * whole)
+            << key.quantity->name << ", the first rows";
+        EXPECT_NEAR(averaged(190, 10, key), 0.5 * whole, 1e-12 * whole)
+            << key.quantity->name << ", the last";
     }
 }
 
