@@ -49,10 +49,10 @@ std::string physics_of(const Scene& scene) {
 } // namespace
 
 RunSession::RunSession(const Scene& of, const RunOptions& options, const Communicator& on)
-    : scene(of), ranks(on), options_(options), storage_(options, scene.name, ranks),
-      setup(make_setup(scene, ranks.size())), surface(scene_surface(scene)),
-      grid(make_grid(scene, setup, ranks.size(), ranks.rank())),
-      progress(options.progress, !ranks.root()), fingerprint_(physics_of(scene)) {
+    : scene(of), ranks(on), options_(options), setup(make_setup(scene, ranks.size())),
+      surface(scene_surface(scene)), grid(make_grid(scene, setup, ranks.size(), ranks.rank())),
+      storage_(options, scene.name, ranks), progress(options.progress, !ranks.root()),
+      fingerprint_(physics_of(scene)) {
     if (scene.writes_field("pull-off")) strongest_.layer = VectorField<double>(grid.tile(0), 1);
     print_notes();
 }

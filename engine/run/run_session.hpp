@@ -44,12 +44,12 @@ public:
 
 private:
     const RunOptions& options_;
-    RunStorage storage_; // taken before the surface is made
 
 public:
     const Setup setup;
     const Surface surface;
     const ProcessGrid grid;
+    RunStorage storage_; // after the surface: a map that is refused leaves no directory
     io::Progress progress;
     Findings findings;
     Phases phases; ///< relaxations, checkpoints, output

@@ -106,6 +106,7 @@ class Bench:
         with open(os.path.join(out, "result.json")) as file:
             result = json.load(file)
         run = result.pop("run")
+        result["units"].pop("run")  # of the phases that there were
         return data, result, run.get("steps")
 
     def resumes(self, out, kind="dynamic", what="", ranks=1):
