@@ -29,7 +29,7 @@ while IFS= read -r line; do
     command=${command//.\/asperity/\"$asperity\"}
     command=${command//docs\/scene.md/scene.md}
     command=${command//mpirun /mpirun --oversubscribe }
-    out=$(eval "timeout 120 $command" 2>&1 </dev/null)
+    out=$(eval "timeout 400 $command" 2>&1 </dev/null)
     code=$?
     [ $code -eq "$wanted" ] || fail "exit code $code, not $wanted: $command
 $out"
