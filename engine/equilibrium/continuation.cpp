@@ -25,15 +25,17 @@ void Continuation::put_back() {
     block_.settle(constraint(at_));
 }
 
+bool Continuation::predicts(double at) const {
+    constexpr double furthest = 1.0; // Å: of a site in contact, out of which it still comes back
+    return at_ != before_at_ && std::abs((at - at_) / (at_ - before_at_)) * moved_ <= furthest;
+}
+
 RelaxedState Continuation::relax_at(double at, bool predicted, const Report& report) {
     const auto arrays = block_.state();
     last_.restore(arrays);
-    constexpr double furthest = 1.0; // Å: of a site in contact, out of which it still comes back
-    if (predicted && at_ != before_at_) {
-        const double ratio = (at - at_) / (at_ - before_at_);
-        if (std::abs(ratio) * moved_ <= furthest) before_.extrapolate(ratio, arrays);
-    }
     RelaxOptions options;
+    options.start = predicted ? Start::predicted : Start::near;
+    if (predicted) before_.extrapolate((at - at_) / (at_ - before_at_), arrays);
     options.tolerance = options_.tolerance;
     options.site_stiffness = options_.site_stiffness;
     options.report = report;

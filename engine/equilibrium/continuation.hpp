@@ -37,8 +37,11 @@ public:
     /// Puts the block back to the last point, from wherever it was taken.
     void put_back();
 
-    /// Relaxes from the last point with the coordinate there, or from the prediction if one is
-    /// possible. report as in RelaxOptions. Collective.
+    /// Whether a prediction is possible.
+    bool predicts(double at) const;
+    /// Relaxes from the last point with the coordinate there, or from the prediction, which must be
+    /// possible: that may end without an equilibrium where none is close. report as in
+    /// RelaxOptions. Collective.
     using Report = std::function<bool(long long, double)>;
     RelaxedState relax_at(double at, bool predicted, const Report& report);
     /// Towards the last point from where the block is: this share of the way.

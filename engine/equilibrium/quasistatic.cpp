@@ -29,7 +29,7 @@ void QuasistaticPath::start() {
     block_.set_uniform(0.0);
     points_.accept(0.0);
     first_point(0.0);
-    reversible_ = true;
+    predicts_ = reversible_ = true;
     direction_ = -1.0;
 }
 
@@ -58,6 +58,17 @@ void QuasistaticPath::resume() {
     record_.observed = true;
 }
 
+std::vector<StateArray> QuasistaticPath::states() {
+    const auto arrays = block_.state();
+    std::vector<StateArray> list = points_.states();
+    if (ahead_layer_.empty()) ahead_layer_.take(arrays);
+    for (const StateArray& array : ahead_layer_.arrays(arrays, "ahead_"))
+        list.push_back(array);
+    std::stable_sort(list.begin(), list.end(),
+                     [](const StateArray& a, const StateArray& b) { return a.level < b.level; });
+    return list;
+}
+
 QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     const double direction = leg == Leg::approach ? -1.0 : 1.0;
     if (direction != direction_) {
@@ -67,23 +78,23 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         (leg == Leg::approach ? approach_ : pull_off_) = 0.0;
         (leg == Leg::approach ? approach_error_ : pull_off_error_) = {};
         direction_ = direction;
+        ahead_.known = 0.0;
+        predicts_ = reversible_;
+        closing_in_ = false;
     }
     const double aim = attracted_ ? options_.load : std::max(options_.load, 0.0);
-    const double slack = 0.25 * options_.tolerance * sites_; // what points are relaxed to
-    const double length = length_;
-    const long long iterations = points_.iterations();
-    bool at_load = false, predicted = reversible_;
-    for (;;) {
+    while (!(ahead_.known != 0.0 && jump_ahead(leg, aim))) {
         const double top = record_.top + direction * length_;
-        const RelaxedState state = points_.relax_at(top, predicted, options_.report);
+        predicts_ = predicts_ && points_.predicts(top);
+        const long long iterations = points_.iterations();
+        const RelaxedState state = points_.relax_at(top, predicts_, options_.report);
         if (state.interrupted) {
             put_back();
-            length_ = length;
             points_.set_iterations(iterations);
             return Outcome::interrupted;
         }
         const bool last_try = length_ <= smallest_step();
-        if (!state.converged && last_try)
+        if (!state.converged && !predicts_ && last_try)
             throw io::PhysicsError(
                 fmt::format("no equilibrium was found with the {} displaced by {:.6g} Å",
                             options_.along == Constraint::Of::top ? "top plane" : "mean height",
@@ -92,37 +103,66 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
                             "is asked for (a quarter of drive.tolerance)",
                             state.residual, state.iterations, 0.25 * options_.tolerance),
                 "a looser drive.tolerance");
-        // Also where the attraction was too weak to be told from the slack.
-        const bool beyond =
-            leg == Leg::approach && record_.force <= aim + slack && state.force > aim + slack;
-        if (state.converged && beyond && !last_try) {
+        if (state.converged && leg == Leg::approach && passes_load(state, aim) && !last_try) {
             const double part = (aim - record_.force) / (state.force - record_.force);
             length_ *= std::clamp(part, 0.02, 0.98);
-            at_load = true;
+            closing_in_ = true;
             continue;
         }
         StepCheck step;
         if (state.converged) step = check(state, top);
-        if (last_try) step.accepted = true;
-        if (predicted && (step.excess || (step.accepted && step.dissipated > 0.0))) {
-            predicted = false;
-            continue;
+        if (last_try) step.accepted = state.converged;
+        if (step.accepted && (!predicts_ || step.dissipated == 0.0)) {
+            accept(state, top, step, leg);
+            break;
         }
-        if (!step.accepted) {
-            length_ *= 0.5;
-            continue;
+        // What looks like an instability after a prediction is looked at again without.
+        if (std::exchange(predicts_, false)) continue;
+        if (state.converged && !step.excess) {
+            ahead_ = {1.0, top, state};
+            ahead_layer_.take(block_.state());
         }
-        accept(state, top, step, leg);
-        if (leg == Leg::approach) {
-            attracted_ = attracted_ || record_.force < std::min(options_.load, 0.0) - slack;
-            const bool back = attracted_ && record_.force >= options_.load;
-            if (back || (at_load && record_.force >= aim - slack)) return Outcome::at_load;
-        } else if (options_.reference_height + record_.top >= interface_.start_height() &&
-                   std::abs(record_.force) <= 1e-6 * strongest_) {
-            return Outcome::apart;
-        }
-        return Outcome::point;
+        length_ *= 0.5;
+        predicts_ = reversible_;
     }
+    const double slack = 0.25 * options_.tolerance * sites_; // what points are relaxed to
+    if (leg == Leg::approach) {
+        attracted_ = attracted_ || record_.force < std::min(options_.load, 0.0) - slack;
+        const bool back = attracted_ && record_.force >= options_.load;
+        const bool there =
+            back || (std::exchange(closing_in_, false) && record_.force >= aim - slack);
+        return there ? Outcome::at_load : Outcome::point;
+    }
+    const bool apart = options_.reference_height + record_.top >= interface_.start_height() &&
+                       std::abs(record_.force) <= 1e-6 * strongest_;
+    return apart ? Outcome::apart : Outcome::point;
+}
+
+/// On the approach, with the last point still on the other side of it. Also where the attraction
+/// was too weak to be told from the slack.
+bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
+    const double slack = 0.25 * options_.tolerance * sites_;
+    return record_.force <= aim + slack && state.force > aim + slack;
+}
+
+/// The state ahead becomes the next point if that is close enough. Otherwise the next step is
+/// half of the way there.
+bool QuasistaticPath::jump_ahead(Leg leg, double aim) {
+    const double way = std::abs(ahead_.top - record_.top);
+    const StepCheck step = check(ahead_.state, ahead_.top);
+    const bool loaded = leg == Leg::approach && passes_load(ahead_.state, aim);
+    if (loaded || step.excess) {
+        ahead_.known = 0.0;
+        return false;
+    }
+    if (step.accepted || way <= smallest_step()) {
+        ahead_layer_.restore(block_.state());
+        block_.settle({options_.along, ahead_.top});
+        accept(ahead_.state, ahead_.top, step, leg);
+        return true;
+    }
+    length_ = std::min(length_, 0.5 * way);
+    return false;
 }
 
 QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, double top) const {
@@ -179,7 +219,8 @@ void QuasistaticPath::accept(const RelaxedState& state, double top, const StepCh
     else
         trail_.begin(top, state.top_force);
     points_.accept(top);
-    reversible_ = step.dissipated == 0.0;
+    predicts_ = reversible_ = step.dissipated == 0.0;
+    if (ahead_.known != 0.0 && direction_ * (ahead_.top - top) <= 0.0) ahead_.known = 0.0;
     ++record_.step;
     set_record(state, top);
     strongest_ = std::max(strongest_, -record_.force);
@@ -187,7 +228,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double top, const StepCh
     const double growth = std::clamp(0.8 * std::sqrt(std::sqrt(step.margin)), 0.5, 2.0);
     length_ *= growth;
     // An instability was bracketed with ever smaller steps; beyond it there is no reason for them.
-    if (!step.smooth) length_ = std::max(length_, options_.step / 16.0);
+    if (!step.smooth) length_ = std::max(length_, options_.step / 4.0);
     length_ = std::clamp(length_, smallest_step(), options_.step);
 }
 

@@ -17,16 +17,19 @@
 //   accepted  if nothing is missing;
 //   accepted, and what is missing counted as dissipated, if the work is known to be right: the
 //             force is smooth, or its jump times the step is too small to matter;
-//   halved    otherwise, and tried again from the last point.
+//   halved    otherwise, and tried again from the last point. The state that was found is kept:
+//             it is the next point as soon as the last one has come close enough to it.
 //
 // So an instability ends up between two points so close that its place and its energy are known,
 // while many small instabilities that leave the force smooth are counted without looking for each.
+// As long as a state further on is kept, steps go half of the way to it; the surface has to be
+// followed through the instability itself once, and again only where a step ends beyond it.
 // "Nothing" is drive.tolerance for each site and Å of the step: errors of the energy are then
 // bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
 //
 // Where the last steps were reversible, the next one starts from their linear continuation
-// (continuation.hpp). Whatever would be counted as dissipated after a prediction, or has gained
-// more energy than the work can have brought, is computed again without.
+// (continuation.hpp), which is given up at once where no equilibrium is close to it. What is not
+// accepted after a prediction, or would be counted as dissipated, is computed again without.
 #pragma once
 
 #include "engine/dynamics/drive.hpp"
@@ -91,7 +94,7 @@ public:
     /// stopped.
     template <class Visitor>
     void visit(Visitor& v);
-    std::vector<StateArray> states() { return points_.states(); }
+    std::vector<StateArray> states();
     void resume();
 
 private:
@@ -108,10 +111,20 @@ private:
     struct LegError {
         double gap = 0.0, squares = 0.0; ///< eV, eV^2
     };
+    /// A relaxed state further on. Between the last point and it the block becomes unstable, or
+    /// the force is not smooth enough to tell.
+    struct Ahead {
+        double known = 0.0, top = 0.0;
+        RelaxedState state;
+        template <class Visitor>
+        void visit(Visitor& v);
+    };
     const LegError& error(Leg leg) const {
         return leg == Leg::approach ? approach_error_ : pull_off_error_;
     }
     StepCheck check(const RelaxedState& state, double top) const;
+    bool passes_load(const RelaxedState& state, double aim) const;
+    bool jump_ahead(Leg leg, double aim);
     void accept(const RelaxedState& state, double top, const StepCheck& step, Leg leg);
     Instability describe(const RelaxedState& state, double energy, Leg leg) const;
     void set_record(const RelaxedState& state, double top);
@@ -126,8 +139,12 @@ private:
 
     StepRecord record_;
     bool reversible_ = false; ///< the last step was: good for a prediction
+    bool predicts_ = false;   ///< the next relaxation starts from a prediction
+    bool closing_in_ = false; ///< on the load at which the approach ends
     double length_ = 0.0;     ///< of the next step, Å
-    double direction_ = 0.0;  ///< of the last step
+    Ahead ahead_;
+    StateCopy ahead_layer_;
+    double direction_ = 0.0; ///< of the last step
     ForceTrail trail_;
     bool attracted_ = false;
     double strongest_ = 0.0; ///< attraction so far, eV/Å
@@ -136,6 +153,20 @@ private:
     double energy_at_start_ = 0.0, scale_ = 0.0;
     Dissipation dissipation_;
 };
+
+template <class Visitor>
+void QuasistaticPath::Ahead::visit(Visitor& v) {
+    v("ahead", known);
+    v("ahead.top", top);
+    v("ahead.interface_energy", state.interface_energy);
+    v("ahead.elastic_energy", state.elastic_energy);
+    v("ahead.force", state.force);
+    v("ahead.top_force", state.top_force);
+    v("ahead.mean_height", state.mean_height);
+    v("ahead.in_contact", state.in_contact);
+    v("ahead.pushed", state.pushed);
+    v("ahead.closest", state.closest);
+}
 
 template <class Visitor>
 void QuasistaticPath::visit(Visitor& v) {
@@ -154,7 +185,10 @@ void QuasistaticPath::visit(Visitor& v) {
     v("residual", record_.residual);
     points_.visit(v);
     v("reversible", reversible_);
+    v("predicts", predicts_);
+    v("closing_in", closing_in_);
     v("length", length_);
+    ahead_.visit(v);
     v("direction", direction_);
     trail_.visit(v);
     v("attracted", attracted_);

@@ -30,10 +30,18 @@
 
 namespace asperity {
 
+/// What is known of the state that a relaxation starts from.
+enum class Start {
+    anywhere,
+    near,      ///< close to an equilibrium, which may have just been lost
+    predicted, ///< a guess at an equilibrium: where none is close, there is no point in going on
+};
+
 struct RelaxOptions {
-    double tolerance = 1e-4;     ///< largest residual force on a node, eV/Å
-    double max_move = 0.2;       ///< Å an iteration
-    double site_stiffness = 2.2; ///< of the interface, for each site, eV/Å^2: waves only
+    Start start = Start::anywhere; ///< waves only
+    double tolerance = 1e-4;       ///< largest residual force on a node, eV/Å
+    double max_move = 0.2;         ///< Å an iteration
+    double site_stiffness = 2.2;   ///< of the interface, for each site, eV/Å^2: waves only
     long long max_iterations = 200000;
     /// Called now and then, on all ranks, with the iteration and the residual. True: stop here.
     std::function<bool(long long, double)> report;

@@ -43,7 +43,7 @@ public:
           at_sites_(block.new_field<float>()) {
         feel();
         tune();
-        spreading_ = !(rms_ < close_by);
+        spreading_ = !(rms_ < (options.start == Start::anywhere ? close_by : close_enough));
         way_ = rms_ / preconditioner_.k();
     }
 
@@ -68,10 +68,12 @@ public:
     }
     const InterfaceSums& sums() const { return sums_; }
 
-    /// One step downhill.
-    void step() {
-        if (!spreading_ && newton_step()) return;
+    /// One step downhill. False where the start was a prediction that leads nowhere.
+    bool step() {
+        if (!spreading_ && newton_step()) return true;
+        if (options_.start == Start::predicted) return false;
         move_sites();
+        return true;
     }
 
 private:
@@ -111,27 +113,33 @@ private:
         }
         if (way_ > near || iterations_ < patience) return;
         spreading_ = false;
-        before_ = std::numeric_limits<double>::infinity();
+        expected_ = std::numeric_limits<double>::infinity();
         ball_.stop();
         block_.settle();
     }
-    /// False, and no step, where Newton's method does not help: its last step has not halved the
-    /// residual, the curvature is negative, or a site would move further than max_move.
+    /// False, and no step, where Newton's method does not help: its last step has not taken half
+    /// of what it should have off the residual, the curvature is negative, or a site would move
+    /// too far. Near an equilibrium a step is shortened instead, so that no site moves further
+    /// than max_move.
     bool newton_step() {
         const auto t = phases_.time(Phase::relax);
-        if (!(rms_ < 0.5 * before_)) return false;
-        before_ = rms_;
+        if (!(rms_ < expected_)) return false;
         if (!newton_.direction(interface_, height_, forcing, g_, d_)) return false;
         combine(1.0, d_, 0.0, work_);
         block_.at_sites(work_, at_sites_);
-        if (!(largest(block_.communicator(), at_sites_) <= options_.max_move)) return false;
-        block_.displace(1.0, d_, at_sites_);
+        const double most = largest(block_.communicator(), at_sites_);
+        const double shortest = options_.start == Start::anywhere ? 1.0 : 0.1;
+        const double share = most > options_.max_move ? options_.max_move / most : 1.0;
+        if (!(share >= shortest)) return false;
+        expected_ = (1.0 - 0.5 * share) * rms_;
+        block_.displace(share, d_, at_sites_);
         return true;
     }
 
-    static constexpr double close_by = 3e-3;  ///< eV/Å: of an equilibrium, to try Newton at once
-    static constexpr double near = 0.002;     ///< Å: of its goal, to try Newton
-    static constexpr long long patience = 10; ///< iterations of heavy balls before that
+    static constexpr double close_by = 3e-3;    ///< eV/Å: of an equilibrium, to try Newton at once
+    static constexpr double close_enough = 0.3; ///< eV/Å: the same from near an equilibrium
+    static constexpr double near = 0.002;       ///< Å: of its goal, to try Newton
+    static constexpr long long patience = 10;   ///< iterations of heavy balls before that
     static constexpr double forcing = 0.1;
     static constexpr double least_stiffness = 2e-4; ///< eV/Å^2: where hardly a site is in contact
     /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
@@ -150,10 +158,11 @@ private:
     SiteField<float> at_sites_; ///< Newton's direction, or the residual
     InterfaceSums sums_;
     bool spreading_ = false;
-    long long iterations_ = 0;                                ///< iterations of this stage
-    double way_ = 0.0;                                        ///< the longest to a goal, Å
-    double rms_ = 0.0;                                        ///< mean residual, eV/Å
-    double before_ = std::numeric_limits<double>::infinity(); ///< Newton's last step
+    long long iterations_ = 0; ///< iterations of this stage
+    double way_ = 0.0;         ///< the longest to a goal, Å
+    double rms_ = 0.0;         ///< mean residual, eV/Å
+    /// Newton's last step should have left less than this, eV/Å.
+    double expected_ = std::numeric_limits<double>::infinity();
     bool rough_ = true;
 };
 
@@ -183,7 +192,7 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
             state.converged = state.residual <= options.tolerance;
             if (over || state.interrupted || state.converged) break;
         }
-        descent.step();
+        if (!descent.step()) return state;
         descent.feel();
     }
     const InterfaceSums& sums = descent.sums();

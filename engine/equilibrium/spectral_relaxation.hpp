@@ -18,6 +18,12 @@
 // site further than max_move, or where the last step has not halved the residual, the heavy balls
 // go on.
 //
+// A relaxation that starts near an equilibrium (Start::near, as at a point of a path) begins with
+// Newton's method; steps that would move a site further than max_move, but no further than ten
+// times that, are then shortened to max_move. One that starts from a prediction ends where Newton's
+// method does not help: a surface that has become unstable is then followed from its last
+// equilibrium, not from a guess.
+//
 // Sweeps of the first stage are in mixed precision (where the interface is made for it), and so are
 // Newton's until the forces are near their error; the last ones, and the state that is reported,
 // are in the interface's own.

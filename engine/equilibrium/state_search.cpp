@@ -46,9 +46,10 @@ StateSearch::Outcome StateSearch::advance() {
         return Outcome::interrupted;
     };
     // Whatever looks like an instability after a prediction is looked at again without.
-    RelaxedState state = points_.relax_at(height, smooth_, options_.report);
+    const bool predicted = smooth_ && points_.predicts(height);
+    RelaxedState state = points_.relax_at(height, predicted, options_.report);
     const auto suspect = [&] { return !state.converged || missing(point(state, height)) > 0.0; };
-    if (smooth_ && !state.interrupted && suspect())
+    if (predicted && !state.interrupted && suspect())
         state = points_.relax_at(height, false, options_.report);
     if (state.interrupted) return interrupted();
     if (!state.converged) {
