@@ -39,12 +39,17 @@ if(NOT ASPERITY_ONE_VARIANT AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(ASPERITY_VARIANTS v2 v3 v4)
 endif()
 
+# The layers go into the program and into libasperity.so, which shows its header's names alone.
+set(ASPERITY_IN_A_LIBRARY POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                          VISIBILITY_INLINES_HIDDEN ON)
+
 function(asperity_layer name)
     cmake_parse_arguments(ARG "" "" "SOURCES;VARIANTS;DEPENDS" ${ARGN})
     set(include_dir ${PROJECT_BINARY_DIR}/layers/${name})
     file(MAKE_DIRECTORY ${include_dir})
     file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_dir}/${name} SYMBOLIC)
     add_library(asperity_${name} STATIC ${ARG_SOURCES})
+    set_target_properties(asperity_${name} PROPERTIES ${ASPERITY_IN_A_LIBRARY})
     add_library(asperity::${name} ALIAS asperity_${name})
     target_include_directories(asperity_${name} PUBLIC ${include_dir})
     target_link_libraries(asperity_${name} PUBLIC asperity_flags ${ARG_DEPENDS}
@@ -56,6 +61,7 @@ function(asperity_layer name)
     foreach(variant IN LISTS ASPERITY_VARIANTS)
         if(ARG_VARIANTS)
             add_library(asperity_${name}_${variant} OBJECT ${ARG_VARIANTS})
+            set_target_properties(asperity_${name}_${variant} PROPERTIES ${ASPERITY_IN_A_LIBRARY})
             target_include_directories(asperity_${name}_${variant} PRIVATE ${include_dir})
             target_link_libraries(asperity_${name}_${variant}
                                   PRIVATE asperity_flags asperity_warnings ${ARG_DEPENDS})

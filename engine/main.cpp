@@ -49,6 +49,12 @@ const std::vector<Command> own_commands = {
      },
      "",
      true},
+    {"init",
+     "write a commented scene to start from; never over a file",
+     {takes::new_file},
+     [](const Arguments& given, const Communicator& world) {
+         return init_command(given.out, world);
+     }},
     {"check",
      "look for mistakes in a scene without running it",
      {takes::scene, takes::json},

@@ -67,7 +67,7 @@ bool under_mpirun() {
 }
 
 Progress::Progress(ProgressMode mode, bool quiet, std::FILE* to)
-    : mode_(mode), to_(to), start_(Clock::now()), last_print_(start_) {
+    : mode_(mode), quiet_(quiet), to_(to), start_(Clock::now()), last_print_(start_) {
     const bool terminal = ::isatty(::fileno(to)) != 0 && !under_mpirun();
     if (quiet)
         mode_ = ProgressMode::off;
@@ -77,17 +77,32 @@ Progress::Progress(ProgressMode mode, bool quiet, std::FILE* to)
 
 Progress::~Progress() { finish(); }
 
+void Progress::tell(Listener listener) {
+    if (!quiet_) listener_ = std::move(listener);
+}
+
 bool Progress::due() const {
-    if (mode_ == ProgressMode::off) return false;
+    const bool telling = static_cast<bool>(listener_);
+    if (mode_ == ProgressMode::off && !telling) return false;
     const auto now = Clock::now();
+    return print_due(now) ||
+           (telling && std::chrono::duration<double>(now - last_told_).count() >= bar_seconds);
+}
+
+bool Progress::print_due(Clock::time_point now) const {
+    if (mode_ == ProgressMode::off) return false;
     const double since = std::chrono::duration<double>(now - last_print_).count();
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     return since >= (mode_ == ProgressMode::bar ? bar_seconds : line_seconds(elapsed));
 }
 
 void Progress::update(const State& state) {
-    if (mode_ == ProgressMode::off) return;
     const auto now = Clock::now();
+    if (listener_ && std::chrono::duration<double>(now - last_told_).count() >= bar_seconds) {
+        last_told_ = now;
+        listener_(state);
+    }
+    if (mode_ == ProgressMode::off) return;
     // Rates count from the first update (setting up is no stepping) of this count of steps.
     if (first_steps_ < 0 || state.steps < last_steps_) {
         first_steps_ = state.steps;
@@ -96,7 +111,7 @@ void Progress::update(const State& state) {
         start_ = now;
     }
     last_steps_ = state.steps;
-    if (!due()) return;
+    if (!print_due(now)) return;
     last_print_ = now;
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const double fraction_done =

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,7 +37,11 @@ public:
         double time_fs = 0.0;   ///< simulated so far; 0: no clock in this run
         double fraction = -1.0; ///< done of the whole path, 0..1; negative: unknown
     };
-    /// True when enough time has passed that update() would print: build the phase text only then.
+    /// Gets each state that update() is given, as often as a bar is redrawn. Not on quiet ranks.
+    using Listener = std::function<void(const State&)>;
+    void tell(Listener listener);
+    /// True when enough time has passed that update() would print or tell: build the phase text
+    /// only then.
     bool due() const;
     void update(const State& state);
     /// A sentence of its own ("pull-off begins"), whatever the mode but off. Rates are counted
@@ -50,8 +55,12 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     void put(const std::string& text);
+    bool print_due(Clock::time_point now) const;
 
     ProgressMode mode_;
+    const bool quiet_;
+    Listener listener_;
+    Clock::time_point last_told_;
     std::FILE* to_;
     Clock::time_point start_;
     Clock::time_point last_print_;

@@ -239,7 +239,9 @@ private:
     } variations_;
 };
 
-/// Contents of a file; SceneError if it cannot be read.
+/// The name by which a command line asks for it.
+inline constexpr std::string_view standard_input = "-";
+/// Contents of a file, or of the standard input; SceneError if it cannot be read.
 std::string read_scene_file(const std::string& file);
 
 } // namespace asperity::io

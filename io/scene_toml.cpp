@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // From TOML text and overrides to the keys of a schema. The one unit that includes toml++.
+#include "io/progress.hpp"
 #include "io/scene_reader.hpp"
 
 #include "io/spelling.hpp"
@@ -346,13 +347,16 @@ std::string read_scene_file(const std::string& file) {
             Problem{file, "the scene cannot be read", std::move(why), std::move(fix)});
     };
     std::error_code error;
-    if (!std::filesystem::exists(file, error))
+    const bool piped = file == standard_input;
+    if (piped && under_mpirun())
+        throw cannot("only rank 0 would have it", "write the scene to a file and name that");
+    if (!piped && !std::filesystem::exists(file, error))
         throw cannot(
             "there is no such file",
             "check the path; the scenes that come with Asperity are in its folder scenes/");
     if (std::filesystem::is_directory(file, error))
         throw cannot("it is a directory", "name a .toml file in it");
-    std::ifstream stream(file, std::ios::binary);
+    std::ifstream stream(piped ? "/dev/stdin" : file, std::ios::binary);
     if (!stream) throw cannot(std::strerror(errno), "check its permissions");
     std::string text(largest_scene + 1, '\0'); // not the file's size: a pipe has none
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));

@@ -79,12 +79,19 @@ RunOptions run_options(const Arguments& given) {
 namespace takes {
 
 void scene(CLI::App& command, Arguments& given) {
-    command.add_option("SCENE", given.words, "the scene file (TOML)")->required()->type_name("");
+    command.add_option("SCENE", given.words, "the scene file (TOML); - is the standard input")
+        ->required()
+        ->type_name("");
     command
         .add_option("--set", given.overrides,
                     "override a key of the scene: section.key=value; repeatable")
         ->type_name("key=value")
         ->allow_extra_args(false);
+}
+
+void new_file(CLI::App& command, Arguments& given) {
+    command.add_option("FILE", given.out, "the scene file to be made (default: scene.toml)")
+        ->type_name("");
 }
 
 void resume(CLI::App& command, Arguments& given) {

@@ -65,6 +65,7 @@ struct Command {
 /// The options; where commands mean different things by one, it takes its words of explanation.
 namespace takes {
 void scene(CLI::App& command, Arguments& given); ///< and --set
+void new_file(CLI::App& command, Arguments& given);
 void resume(CLI::App& command, Arguments& given);
 void restart(CLI::App& command, Arguments& given);
 void progress(CLI::App& command, Arguments& given);

@@ -19,9 +19,13 @@
 #include "kernels/variant.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -63,7 +67,60 @@ io::JsonValue check_json(const Scene& scene, int ranks) {
     return all;
 }
 
+/// The scene of `asperity init`: what a beginner changes first, and every other key with its
+/// default behind a "#".
+std::string starting_scene(const std::string& file) {
+    constexpr std::array shown = {
+        "surface.kind",   "surface.sites",  "surface.rms",   "surface.hurst",    "surface.seed",
+        "block.model",    "block.young",    "block.poisson", "interface.r0",     "drive.path",
+        "drive.velocity", "drive.timestep", "theory.beta",   "interface.epsilon"};
+    Scene scene;
+    scene.surface.sites = scene.block.thickness = 128;
+    scene.surface.rms = 1.5;
+    scene.drive.timestep = 20.0;
+    std::string text =
+        fmt::format("# A scene of Asperity to start from.\n"
+                    "#\n"
+                    "#     asperity check {0}     # look for mistakes\n"
+                    "#     asperity plan {0}      # memory and time\n"
+                    "#     asperity run {0}\n"
+                    "#\n"
+                    "# Lines behind a # have the defaults. A quantity is a number in the "
+                    "unit named, or a text with a unit: \"0.3 nm\".\n\n",
+                    file);
+    std::istringstream lines(scene_toml(scene));
+    std::string line, section;
+    while (std::getline(lines, line)) {
+        if (line.starts_with("[")) section = line.substr(1, line.find(']') - 1) + ".";
+        const std::size_t equals = line.find(" = ");
+        const bool key = !line.starts_with("#") && equals != std::string::npos;
+        const bool kept = key && std::find(shown.begin(), shown.end(),
+                                           section + line.substr(0, equals)) != shown.end();
+        text += (key && !kept ? "# " : "") + line + "\n";
+    }
+    return text;
+}
+
 } // namespace
+
+int init_command(const std::string& asked, const Communicator& world) {
+    const std::string file = asked.empty() ? "scene.toml" : asked;
+    world.on_root([&] {
+        std::FILE* made = std::fopen(file.c_str(), "wx"); // never over a file
+        if (!made && errno == EEXIST)
+            throw io::SceneError(io::Problem{file, "is there already",
+                                             "a file is never written over",
+                                             "name another: asperity init NAME.toml"});
+        const std::string text = starting_scene(file);
+        const bool written = made && std::fwrite(text.data(), 1, text.size(), made) == text.size();
+        const int error = errno;
+        if (!made || std::fclose(made) != 0 || !written)
+            throw io::FileError(file, "cannot be written", std::strerror(made ? errno : error),
+                                "name another place");
+        fmt::print("{0}: made. Next: asperity check {0}\n", file);
+    });
+    return io::exit_code::done;
+}
 
 int check_command(const Scene& scene, bool json, const Communicator& world) {
     if (json) {
@@ -166,7 +223,8 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
                                 {"/spectrum/line_q", "1/Å", lines.q},
                                 {"/spectrum/c1d", "Å^3", lines.c1d},
                                 {"/spectrum/line_r", "Å", lines.r},
-                                {"/spectrum/autocorrelation", "Å^2", lines.acf}}});
+                                {"/spectrum/autocorrelation", "Å^2", lines.acf},
+                                {"/spectrum/scale_dependent_slope", "1", lines.slope}}});
 
     io::write_result(place.directory(), surface_result(scene, surface));
 

@@ -13,6 +13,8 @@ namespace asperity {
 
 class Communicator;
 
+/// `asperity init`: a commented scene to start from. Throws io::SceneError where the file is there.
+int init_command(const std::string& file, const Communicator& world);
 /// `asperity check`. Throws io::SceneError with all that is wrong, like those below. json: the
 /// scene as it would be used, its [sweep], notes and limits, as one line.
 int check_command(const Scene& scene, bool json, const Communicator& world);

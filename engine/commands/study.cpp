@@ -29,6 +29,13 @@ fs::path package_folder(const fs::path& program) {
     return {};
 }
 
+/// The python3 of the virtual environment that `pip install` put the program into; empty: none did.
+fs::path python_beside(const fs::path& program) {
+    std::error_code error;
+    const fs::path bin = program.parent_path();
+    return fs::exists(bin.parent_path() / "pyvenv.cfg", error) ? bin / "python3" : fs::path();
+}
+
 /// $ASPERITY_PYTHON, that of an active virtual environment, or the distribution's, whose packages
 /// are the ones that the script `asperity` installs.
 std::string python() {
@@ -64,13 +71,15 @@ std::optional<int> hand_over_to_python(int argc, char** argv) {
         return std::nullopt;
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (const fs::path folder = package_folder(program); !folder.empty()) {
+    const fs::path beside = python_beside(program); // knows the package
+    if (const fs::path folder = package_folder(program); beside.empty() && !folder.empty()) {
         const char* known = std::getenv("PYTHONPATH");
         const std::string path = known && *known ? folder.string() + ":" + known : folder.string();
         ::setenv("PYTHONPATH", path.c_str(), 1);
     }
     ::setenv("ASPERITY_PROGRAM", program.c_str(), 1);
-    const std::string interpreter = python();
+    const std::string interpreter =
+        beside.empty() || std::getenv("ASPERITY_PYTHON") ? python() : beside.string();
     std::vector<std::string> words = {interpreter, "-m", "asperity"};
     words.insert(words.end(), argv + 1, argv + argc);
     std::vector<char*> pointers;

@@ -7,6 +7,7 @@
 #include "engine/scene/scene.hpp"
 #include "io/progress.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -21,11 +22,16 @@ struct RunOptions {
     std::optional<double> wall_limit; ///< s
     io::ProgressMode progress = io::ProgressMode::automatic;
 
+    // Of a program that runs scenes itself (library/asperity.hpp); called on rank 0.
+    bool silent = false;             ///< neither opening nor summary on the standard output
+    io::Progress::Listener listener; ///< told of progress, beside what is printed
+    std::function<bool()> stop; ///< true: a checkpoint is written and the run ends, as by a signal
+
     bool resuming() const { return !resume.empty(); }
 };
 
 /// Runs the scene on all ranks of the communicator. Returns the exit code; errors are thrown
-/// (io::Error) and printed by main. Prints the summary on rank 0.
+/// (io::Error) and printed by main. Prints the summary on rank 0, unless silent.
 int run(const Scene& scene, const RunOptions& options, const Communicator& communicator);
 
 } // namespace asperity

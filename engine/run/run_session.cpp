@@ -53,6 +53,7 @@ RunSession::RunSession(const Scene& of, const RunOptions& options, const Communi
       surface(scene_surface(scene)), grid(make_grid(scene, setup, ranks.size(), ranks.rank())),
       storage_(options, scene.name, ranks), progress(options.progress, !ranks.root()),
       fingerprint_(physics_of(scene)) {
+    progress.tell(options.listener);
     if (scene.writes_field("pull-off")) strongest_.layer = VectorField<double>(grid.tile(0), 1);
     print_notes();
 }
@@ -67,7 +68,7 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
                           const AddToResult& add_to) {
     last_checkpoint_ = seconds();
     try {
-        if (ranks.root())
+        if (ranks.root() && !options_.silent)
             print_unless_closed([&] {
                 print_opening(stdout, scene, setup, surface, grid, omp_get_max_threads(), bytes,
                               storage_.path());
@@ -85,6 +86,7 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
     ranks.on_root([&] {
         const io::Result result = write_result(nullptr, add_to);
         throw_if_directory_gone();
+        if (options_.silent) return;
         print_unless_closed([&] {
             print_summary(stdout, scene, result, findings.states, storage_.path());
             if (!stopped_.empty())
@@ -112,6 +114,7 @@ RunSession::Due RunSession::due() {
             now - last_checkpoint_ >= scene.output.checkpoint)
             decision = save;
         if (options_.wall_limit && now >= *options_.wall_limit) decision = wall;
+        if (options_.stop && options_.stop()) decision = signal;
     }
     if (stop_signals::caught()) decision = signal;
     if (ranks.root() && !storage_.in_place(*recorder_)) decision = gone;

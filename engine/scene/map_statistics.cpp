@@ -81,7 +81,7 @@ LineStatistics line_statistics(const std::vector<double>& h, int n, double lengt
         s.q.push_back(2.0 * std::numbers::pi * k / length);
         s.c1d.push_back(power * length);
     }
-    for (int i = 0; i <= n / 2; ++i) {
+    for (int i = 1; i <= n / 2; ++i) {
         double sum = 0.0;
         for (int k = 1; k <= n / 2; ++k) { // both signs of q; Nyquist's is one wave
             const double waves = 2 * k == n ? 1.0 : 2.0;
@@ -91,6 +91,7 @@ LineStatistics line_statistics(const std::vector<double>& h, int n, double lengt
         }
         s.r.push_back(length * i / n);
         s.acf.push_back(sum / length);
+        s.slope.push_back(std::sqrt(2.0 * s.acf.back()) / s.r.back());
     }
     return s;
 }

@@ -8,6 +8,8 @@
 //     C1D(q) = |h_q|^2 L              h_rms^2 = 1/pi int_0^inf C1D dq,     Å^3, lines along x
 //     C2D(q) = |h_q|^2 L^2            h_rms^2 = 1/(2 pi) int q C2D dq,     Å^4
 //     A(r)   = <(h(x + r) - h(x))^2> / 2                                   Å^2, lines along x
+//     slope(r) = sqrt(2 A(r)) / r        scale-dependent slope (Sanner, Noehring, Thimons, Jacobs,
+//                                        Pastewka, Appl. Surf. Sci. Adv. 7, 100190, 2022)
 //
 // with h(x) = sum_q h_q exp(i q x). Persson's C(q) (surface.hpp) is C2D / (2 pi)^2.
 #pragma once
@@ -31,7 +33,8 @@ MapStatistics map_statistics(const std::vector<double>& h, std::size_t nx, std::
 /// Of lines along x of a periodic map of n x n points, averaged over the lines.
 struct LineStatistics {
     std::vector<double> q, c1d; ///< 1/Å, Å^3; q from 2 pi / L to Nyquist
-    std::vector<double> r, acf; ///< Å, Å^2; r from 0 to L / 2
+    std::vector<double> r, acf; ///< Å, Å^2; r from a pixel to L / 2
+    std::vector<double> slope;  ///< scale-dependent, at r
 };
 LineStatistics line_statistics(const std::vector<double>& h, int n, double length);
 

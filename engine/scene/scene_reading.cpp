@@ -79,7 +79,8 @@ Scene read_scene_text(const std::string& text, const std::string& file,
 }
 
 Scene read_scene(const std::string& file, const std::vector<std::string>& overrides) {
-    return read_scene_text(io::read_scene_file(file), file, overrides);
+    return read_scene_text(io::read_scene_file(file), file == io::standard_input ? "stdin" : file,
+                           overrides);
 }
 
 } // namespace asperity

@@ -7,7 +7,7 @@
 . "$(dirname "$0")/common.sh"
 
 expect 0 --help
-for command in run plan check surface theory sweep report export defaults info; do
+for command in run init plan check surface theory sweep report export defaults info; do
     says "  $command"
     expect 0 "$command" --help
     expect 0 --help
@@ -26,6 +26,31 @@ expect 0 check plain.toml
 expect 0 defaults --markdown
 [ "$out" = "$(cat "$source/docs/scene.md")" ] ||
     fail "docs/scene.md is out of date: ./asperity defaults --markdown > docs/scene.md"
+
+mkdir new && cd new || exit 1
+# A scene to start from: nothing wrong with it, all keys in it, those behind # with their defaults.
+expect 0 init
+expect 0 check scene.toml
+cp scene.toml before.toml
+expect 2 init
+says "scene.toml: is there already"
+cmp -s scene.toml before.toml || fail "init wrote over a file"
+expect 0 init mine.toml
+sed 's/^# \([a-z_0-9]* = \)/\1/' mine.toml >all.toml
+expect 0 check all.toml
+[ "$(grep -c '^[a-z_0-9]* = ' all.toml)" -eq "$(grep -c '^[a-z_0-9]* = ' ../plain.toml)" ] || fail "keys are missing in the scene of init"
+values() { "$asperity" check "$1" --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["scene"])'; }
+[ "$(values mine.toml)" = "$(values all.toml)" ] || fail "a key behind # has not its default"
+expect 4 init nowhere/scene.toml
+
+# The standard input.
+out=$("$asperity" check - <scene.toml) || fail "check -"
+says "stdin: nothing wrong"
+out=$(printf '[surface]\nsites = -1\n' | "$asperity" check - 2>&1)
+[ $? -eq 2 ] || fail "check - of a wrong scene"
+says "stdin:2:"
+out=$(PMI_RANK=0 "$asperity" check - <scene.toml 2>&1) && fail "check - under mpirun"
+cd .. && rm -r new
 
 expect 2
 expect 2 chek

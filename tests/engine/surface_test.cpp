@@ -389,6 +389,11 @@ TEST(MapStatistics, OfOneWave) {
     EXPECT_NEAR(integral, rms * rms, 1e-9);
     for (std::size_t i = 0; i < lines.r.size(); ++i)
         EXPECT_NEAR(lines.acf[i], rms * rms * (1.0 - std::cos(qx * lines.r[i])), 1e-9) << i;
+    ASSERT_EQ(lines.slope.size(), lines.r.size());
+    for (std::size_t i = 0; i < lines.r.size(); ++i) // rms of (h(x + r) - h(x)) / r
+        EXPECT_NEAR(lines.slope[i],
+                    2.0 * rms * std::abs(std::sin(0.5 * qx * lines.r[i])) / lines.r[i], 1e-7)
+            << i;
 }
 
 TEST(MapStatistics, OfAPlaneThatDoesNotRepeat) {

@@ -36,7 +36,7 @@ def files(tmp_path_factory):
     (place / "comma.txt").write_text(rows(";", lambda h: repr(h).replace(".", ",")))
     (place / "grid.asc").write_text(f"ncols {N}\nnrows {N}\ncellsize {PIXEL}\n" + rows(" "))
     (place / "points.xyz").write_text(
-        "".join(f"{x * PIXEL} {y * PIXEL} {HEIGHTS[x, y]!r}\n" for x in range(N) for y in range(N)))
+        "".join(f"{x * PIXEL} {y * PIXEL} {float(HEIGHTS[x, y])!r}\n" for x in range(N) for y in range(N)))
     numpy.save(place / "map.npy", HEIGHTS.T)
     topography.to_gwy(str(place / "map.gwy"))
     topography.to_netcdf(str(place / "map.nc"))
@@ -82,9 +82,17 @@ def test_statistics_are_those_of_surface_topography(files, tmp_path, name):
         n = len(q) - 1
         assert 10 * file["spectrum/line_q"][:n] == pytest.approx(numpy.asarray(q)[1:], rel=1e-6)
         assert file["spectrum/c1d"][:n] / 1e3 == pytest.approx(numpy.asarray(c1d)[1:], rel=1e-6, abs=1e-9)
-        r, acf = periodic.autocorrelation_from_profile(resampling_method=None)
-        n = min(len(r), N // 2)
-        assert file["spectrum/autocorrelation"][:n] / 100 == pytest.approx(numpy.asarray(acf)[:n], rel=1e-6, abs=1e-9)
+        r, acf = (numpy.asarray(a)[1:N // 2 + 1] for a in periodic.autocorrelation_from_profile(resampling_method=None))
+        assert file["spectrum/line_r"][:] / 10 == pytest.approx(r, rel=1e-6)
+        assert file["spectrum/autocorrelation"][:] / 100 == pytest.approx(acf, rel=1e-6)
+        slope = numpy.asarray(periodic.scale_dependent_slope_from_profile(resampling_method=None)[1])[:N // 2]
+        assert file["spectrum/scale_dependent_slope"][:] == pytest.approx(slope, rel=1e-6)
+        # C(q) is C2D / (2 pi)^2, averaged over rings that are one q_L wide.
+        c2d = periodic.power_spectrum_from_area(window=None, return_map=True)[2]
+        k = numpy.fft.fftfreq(N, 1 / N)
+        ring = numpy.rint(numpy.hypot(k[:, None], k)).astype(int)
+        c = [c2d[ring == i].mean() / (2 * numpy.pi) ** 2 for i in range(1, N // 2 + 1)]
+        assert file["spectrum/realised"][:] / 1e4 == pytest.approx(c, rel=1e-6)
     assert json.load(open(tmp_path / "out/result.json"))["surface"]["rms"] == pytest.approx(
         10 * periodic.rms_height_from_area(), rel=1e-6)
 

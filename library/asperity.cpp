@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "library/asperity.hpp"
+
+#include "decomposition/communicator.hpp"
+#include "engine/commit.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/scene.hpp"
+#include "io/build_info.hpp"
+#include "io/error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/json_value.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <utility>
+
+namespace libasperity {
+
+namespace io = asperity::io;
+
+class Scene::Inside {
+public:
+    asperity::Scene scene;
+};
+
+class Result::Inside {
+public:
+    std::string directory;
+    std::string text;
+    io::JsonValue values;
+
+    /// Opened for each call: a result that is kept holds no file.
+    io::Hdf5File file() const {
+        return {io::FilePlace(directory + "/run.h5"), io::Hdf5File::Mode::read};
+    }
+    const io::JsonValue& value(const std::string& name) const {
+        if (const io::JsonValue* found = values.find(name)) return *found;
+        throw io::SceneError(io::Problem{directory + "/result.json",
+                                         fmt::format("has no '{}'", name),
+                                         "the run did not compute it, or the name is misspelt",
+                                         "names are in docs/result.md and in Result::json()"});
+    }
+    const std::string& checked(const io::Hdf5File& from, const std::string& object) const {
+        if (from.exists(object)) return object;
+        throw io::SceneError(io::Problem{from.path(), fmt::format("has no {}", object),
+                                         "the run did not write it, or the name is misspelt",
+                                         "output.fields of the scene chooses the maps"});
+    }
+    Map map(const std::string& object) const {
+        const io::Hdf5File from = file();
+        const auto shape = from.shape(checked(from, object));
+        Map map{shape.at(0), shape.at(1), from.read_text_attribute(object, "unit"),
+                from.read<double>(object)};
+        return map;
+    }
+};
+
+namespace {
+
+const asperity::Communicator* parallel_world = nullptr;
+
+/// Errors of the engine as those of the header.
+template <class Work>
+auto translated(const Work& work) {
+    try {
+        return work();
+    } catch (const io::Error& error) {
+        throw Error(error.code(), error.what());
+    }
+}
+
+/// The root's code and text, on every rank. Collective.
+[[noreturn]] void throw_as_root(const asperity::Communicator& world, int code, std::string text) {
+    double head[] = {static_cast<double>(code), static_cast<double>(text.size())};
+    world.broadcast(std::span<double>(head));
+    text.resize(static_cast<std::size_t>(head[1]));
+    world.broadcast(std::as_writable_bytes(std::span<char>(text)));
+    throw Error(static_cast<int>(head[0]), text);
+}
+
+/// Of several ranks: an error that all meet, or the root for all of them, is thrown on all of them.
+/// Any other ends them all at once, for the others may be waiting for this one
+/// (engine/commands/ending.hpp).
+template <class Work>
+void agreed(const asperity::Communicator& world, const Work& work) {
+    if (world.size() == 1) return translated(work);
+    try {
+        work();
+    } catch (const io::SceneError& error) {
+        throw_as_root(world, error.code(), error.what());
+    } catch (const io::PhysicsError& error) {
+        throw_as_root(world, error.code(), error.what());
+    } catch (const asperity::RootFailure&) {
+        throw_as_root(world, 0, {});
+    } catch (const std::exception& error) {
+        const auto* known = dynamic_cast<const io::Error*>(&error);
+        fmt::print(stderr, "rank {}: {}\n", world.rank(), error.what());
+        world.abort(known ? known->code() : io::exit_code::internal);
+    }
+}
+
+std::string contents(const std::string& path) {
+    std::ifstream file(path);
+    std::stringstream text;
+    text << file.rdbuf();
+    if (!file)
+        throw io::FileError(path, "cannot be read", "there is no such file, or it is empty",
+                            "name the directory of a run");
+    return text.str();
+}
+
+} // namespace
+
+std::string version() { return io::build_info().version; }
+
+Scene Scene::read(const std::string& file, const std::vector<std::string>& overrides) {
+    return translated([&] {
+        return Scene(std::make_shared<Inside>(Inside{asperity::read_scene(file, overrides)}));
+    });
+}
+
+Scene Scene::parse(const std::string& text, const std::vector<std::string>& overrides,
+                   const std::string& name) {
+    return translated([&] {
+        return Scene(
+            std::make_shared<Inside>(Inside{asperity::read_scene_text(text, name, overrides)}));
+    });
+}
+
+std::string Scene::name() const { return inside_->scene.name; }
+std::string Scene::toml() const { return asperity::scene_toml(inside_->scene, false); }
+std::vector<std::string> Scene::notes() const { return asperity::notes(inside_->scene); }
+
+Result Result::load(const std::string& directory) {
+    return translated([&] {
+        const std::string file = directory + "/result.json";
+        std::string text = contents(file);
+        io::JsonValue values = io::JsonValue::parse(text, file);
+        return Result(
+            std::make_shared<Inside>(Inside{directory, std::move(text), std::move(values)}));
+    });
+}
+
+std::string Result::directory() const { return inside_->directory; }
+std::string Result::json() const { return inside_->text; }
+bool Result::finished() const { return stopped().empty(); }
+
+std::string Result::stopped() const {
+    for (const char* why : {"failure.reason", "run.stopped"})
+        if (const io::JsonValue* found = inside_->values.find(why)) return found->text();
+    return {};
+}
+
+bool Result::has(const std::string& name) const {
+    const io::JsonValue* found = inside_->values.find(name);
+    return found && found->is_number();
+}
+
+double Result::number(const std::string& name) const {
+    return translated([&] {
+        const io::JsonValue& value = inside_->value(name);
+        if (!value.is_number())
+            throw io::SceneError(io::Problem{inside_->directory + "/result.json",
+                                             fmt::format("'{}' is no number", name), "",
+                                             "Result::json() holds it"});
+        return value.number();
+    });
+}
+
+std::string Result::unit(const std::string& name) const {
+    return translated([&] { return inside_->value("units." + name).text(); });
+}
+
+std::vector<std::string> Result::series() const {
+    return translated([&] { return inside_->file().members("/series"); });
+}
+
+std::vector<double> Result::series(const std::string& column) const {
+    return translated([&] {
+        const io::Hdf5File from = inside_->file();
+        return from.read<double>(inside_->checked(from, "/series/" + column));
+    });
+}
+
+std::vector<std::string> Result::states() const {
+    return translated([&] {
+        const io::Hdf5File from = inside_->file();
+        return from.exists("/fields") ? from.members("/fields") : std::vector<std::string>();
+    });
+}
+
+std::vector<std::string> Result::maps(const std::string& state) const {
+    return translated([&] {
+        const io::Hdf5File from = inside_->file();
+        const std::string group = "/fields/" + state;
+        std::vector<std::string> found;
+        for (const std::string& name : from.members(inside_->checked(from, group)))
+            if (from.shape(group + "/" + name).size() == 2) found.push_back(name);
+        return found;
+    });
+}
+
+Map Result::map(const std::string& state, const std::string& name) const {
+    return translated([&] { return inside_->map("/fields/" + state + "/" + name); });
+}
+
+Map Result::heights() const {
+    return translated([&] { return inside_->map("/substrate/height"); });
+}
+
+Result run(const Scene& scene, const std::string& directory, const Options& options) {
+    const asperity::Communicator world =
+        parallel_world ? *parallel_world : asperity::Communicator();
+    agreed(world, [&] {
+        if (directory.empty())
+            throw io::SceneError(io::Problem{"libasperity::run", "is given no directory",
+                                             "a run writes its result into one",
+                                             "name one that has no finished result"});
+        io::set_commit(asperity::build_commit);
+        asperity::RunOptions inner;
+        inner.out = directory;
+        inner.restart = options.restart;
+        if (options.resume) inner.resume = "auto";
+        if (options.wall_limit > 0.0) inner.wall_limit = options.wall_limit;
+        inner.silent = true;
+        inner.progress = io::ProgressMode::off;
+        inner.stop = options.stop;
+        if (options.progress)
+            inner.listener = [&](const io::Progress::State& now) {
+                options.progress({now.phase, now.steps, now.time_fs, now.fraction});
+            };
+        asperity::run(scene.inside().scene, inner, world);
+    });
+    return Result::load(directory);
+}
+
+class Parallel::Inside {
+public:
+    Inside(int& argc, char**& argv) : session(argc, argv) {}
+    asperity::ParallelSession session;
+};
+
+Parallel::Parallel(int& argc, char**& argv) : inside_(std::make_unique<Inside>(argc, argv)) {
+    parallel_world = &inside_->session.world();
+}
+Parallel::~Parallel() { parallel_world = nullptr; }
+int Parallel::rank() const { return inside_->session.world().rank(); }
+int Parallel::size() const { return inside_->session.world().size(); }
+
+} // namespace libasperity

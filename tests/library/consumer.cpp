@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+//     consumer SCENE DIRECTORY REFERENCE
+//
+// Uses all of libasperity's header from outside (tests/cli/library.sh compiles it against an
+// installed prefix). REFERENCE: what the program made of the same scene. Exit code 0: all is as it
+// should be.
+#include <asperity.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace {
+
+int failures = 0;
+
+void expect(bool right, const std::string& what) {
+    if (right) return;
+    std::fprintf(stderr, "FAILED: %s\n", what.c_str());
+    ++failures;
+}
+
+/// The error's code and whether its text has the words; 0: nothing was thrown.
+template <class Call>
+int code_of(const Call& call, const std::string& words) {
+    try {
+        call();
+    } catch (const libasperity::Error& error) {
+        expect(std::string(error.what()).find(words) != std::string::npos,
+               std::string("'") + words + "' in: " + error.what());
+        return error.code();
+    }
+    return 0;
+}
+
+void same_result(const libasperity::Result& mine, const libasperity::Result& other) {
+    for (const char* name : {"binding_energy", "delta_gamma", "theory.renormalised.gamma_eff"})
+        expect(mine.number(name) == other.number(name), name);
+    expect(mine.series() == other.series(), "names of the series");
+    for (const std::string& column : mine.series())
+        expect(mine.series(column) == other.series(column), "series " + column);
+    expect(mine.map("zero-load", "gap").values == other.map("zero-load", "gap").values, "gaps");
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    using namespace libasperity;
+    Parallel parallel(argc, argv);
+    if (argc != 4) return 2;
+    const std::string file = argv[1], directory = argv[2];
+    const Result reference = Result::load(argv[3]);
+
+    const Scene scene = Scene::read(file);
+    expect(scene.toml() == Scene::parse(scene.toml(), {}, "again").toml(), "a scene as text");
+    expect(Scene::parse(scene.toml(), {"surface.seed=7"}).toml() != scene.toml(), "an override");
+    expect(code_of([] { Scene::parse("[surface]\nsites = -3\n"); }, "surface.sites") == 2,
+           "a wrong scene is refused");
+    expect(code_of([] { Scene::read("/nowhere.toml"); }, "/nowhere.toml") != 0, "no scene");
+
+    // To the end, with progress.
+    int told = 0;
+    Options options;
+    options.progress = [&](const Progress& now) {
+        ++told;
+        expect(!now.phase.empty() && now.steps >= 0 && now.fraction <= 1.0, "progress");
+    };
+    const Result result = run(scene, directory, options);
+    expect(told > 0 || parallel.rank() != 0, "the listener of progress was called");
+    expect(result.finished() && result.stopped().empty(), "finished");
+    same_result(result, reference);
+    expect(code_of([&] { run(scene, directory); }, directory) == 2, "no result is overwritten");
+    expect(code_of([&] { result.number("nonsense"); }, "nonsense") == 2, "no such number");
+    expect(code_of([&] { result.map("zero-load", "nonsense"); }, "nonsense") == 2, "no such map");
+    expect(result.unit("binding_energy") == "meV/Å^2", "unit " + result.unit("binding_energy"));
+    expect(result.states() == std::vector<std::string>{"zero-load"}, "states");
+    expect(result.maps("zero-load").size() == 7, "maps");
+
+    // The heights are those whose statistics the result states; the map's shape is the surface's.
+    const Map heights = result.heights();
+    expect(heights.ny == heights.nx && heights.values.size() == heights.ny * heights.nx &&
+               heights.unit == "Å",
+           "shape");
+    const double square = std::inner_product(heights.values.begin(), heights.values.end(),
+                                             heights.values.begin(), 0.0);
+    const double rms = std::sqrt(square / static_cast<double>(heights.values.size()));
+    expect(std::abs(rms - result.number("surface.rms")) < 1e-9, "rms height");
+
+    // Stopped at the first question, and resumed: the same bits.
+    Options stop;
+    stop.stop = [asked = 0]() mutable { return ++asked == 2; };
+    const Result part = run(scene, directory + "-stopped", stop);
+    expect(!part.finished() && part.stopped() == "signal", "stopped: " + part.stopped());
+    Options resume;
+    resume.resume = true;
+    const Result whole = run(scene, directory + "-stopped", resume);
+    expect(whole.finished(), "resumed");
+    same_result(whole, reference);
+    return failures != 0;
+}
