@@ -70,7 +70,7 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument("directory", metavar="DIR", help="the result directory")
     export = add("export", "maps and trajectory of a run for OVITO, ParaView, or as PNG")
     export.add_argument("directory", metavar="DIR", help="the result directory")
-    export.add_argument("--to", required=True, metavar="FORMAT", dest="format", help="xyz, lammps, xdmf or png")
+    export.add_argument("--to", required=True, metavar="FORMAT", dest="format", help="xyz, lammps, xdmf, vtk or png")
     return parser
 
 

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""`asperity export DIR --to xyz|lammps|xdmf|png`: what run.h5 holds, for other programs.
+"""`asperity export DIR --to xyz|lammps|xdmf|vtk|png`: what run.h5 holds, for other programs.
 
     xyz, lammps   DIR/export/<state>.xyz (.dump): the atoms of the substrate and of the block's lowest layer, for
                   every state with maps, with what is known of each atom as columns; DIR/export/trajectory.xyz
-                  (.dump): the frames of the trajectory
+                  (.dump): the frames of the trajectory. With lammps, DIR/export/<state>.data to start from
     xdmf          DIR/run.xdmf: opens run.h5 in ParaView
+    vtk           DIR/export/<state>.vti, substrate.vti: the maps as images of VTK, each a file of its own
     png           DIR/export/<map>-<state>.png, .pdf, .svg: gap, pressure and contact from above
 
 These files are the export's own: a second export writes them anew.
@@ -13,6 +14,8 @@ These files are the export's own: a second export writes them anew.
 
 from __future__ import annotations
 
+import base64
+import struct
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import partial
@@ -33,7 +36,7 @@ from .result import Result, State, expect
 TRAJECTORY = "/particles/trajectory"
 SPECIES = np.array(["X", "X", "Au"])
 """Of type 1 (substrate) and 2 (block): labels that every reader of XYZ knows; X stands for no element."""
-FORMATS = ("xyz", "lammps", "xdmf", "png")
+FORMATS = ("xyz", "lammps", "xdmf", "vtk", "png")
 
 
 @dataclass
@@ -91,11 +94,39 @@ def write_dump(file: IO[str], atoms: Atoms) -> None:
     for name, values in atoms.columns.items():
         vector = LAMMPS_NAMES.get(name, tuple(f"{name}[{k + 1}]" for k in range(3)))
         names += " " + (" ".join(vector) if values.ndim == 2 else name)
-    file.write(f"ITEM: TIMESTEP\n{atoms.step}\nITEM: TIME\n{atoms.time:.8g}\nITEM: NUMBER OF ATOMS\n{len(atoms.types)}\n"
+    # The order of `dump_modify time yes`: LAMMPS' reader refuses a time behind the step.
+    file.write(f"ITEM: TIME\n{atoms.time:.8g}\nITEM: TIMESTEP\n{atoms.step}\nITEM: NUMBER OF ATOMS\n{len(atoms.types)}\n"
                f"ITEM: BOX BOUNDS pp pp ff\n0 {atoms.edge:.8g}\n0 {atoms.edge:.8g}\n{low:.8g} {high:.8g}\n"
                f"ITEM: ATOMS {names}\n")
     _rows(file, [("%d", np.arange(1, len(atoms.types) + 1)), ("%d", atoms.types), ("%s", SPECIES[atoms.types]),
                  *(("%.8g", c) for c in atoms.positions.T), *_columns(atoms)])
+
+
+def write_data(file: IO[str], atoms: Atoms, name: str, mass: float) -> None:
+    """A LAMMPS data file, atom_style atomic, units metal."""
+    low, high = atoms.box_z
+    file.write(f"{name} (asperity export)\n\n{len(atoms.types)} atoms\n2 atom types\n\n0 {atoms.edge:.8g} xlo xhi\n"
+               f"0 {atoms.edge:.8g} ylo yhi\n{low:.8g} {high:.8g} zlo zhi\n\nMasses\n\n1 {mass:.8g} # substrate\n"
+               f"2 {mass:.8g} # block\n\nAtoms # atomic\n\n")
+    _rows(file, [("%d", np.arange(1, len(atoms.types) + 1)), ("%d", atoms.types),
+                 *(("%.8g", c) for c in atoms.positions.T)])
+
+
+def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> str:
+    """VTK's XML image of one layer: maps [y, x], or [y, x, 3] for vectors; values as base64, lengths first."""
+    kinds = {"f": "Float64", "u": "UInt8"}
+    n = len(next(iter(maps.values())))
+    text = ('<?xml version="1.0"?>\n<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" '
+            f'header_type="UInt64">\n  <ImageData WholeExtent="0 {n - 1} 0 {n - 1} 0 0" '
+            f'Origin="{origin:.12g} {origin:.12g} 0" Spacing="{spacing:.12g} {spacing:.12g} {spacing:.12g}">\n'
+            f'    <Piece Extent="0 {n - 1} 0 {n - 1} 0 0">\n      <PointData>\n')
+    for name, values in maps.items():
+        kind = kinds["f" if values.dtype.kind == "f" else "u"]
+        data = np.ascontiguousarray(values, "<f8" if kind == "Float64" else "u1").tobytes()
+        packed = base64.b64encode(struct.pack("<Q", len(data)) + data).decode()
+        text += (f'        <DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{values.ndim * 2 - 3}" '
+                 f'format="binary">{packed}</DataArray>\n')
+    return text + "      </PointData>\n    </Piece>\n  </ImageData>\n</VTKFile>\n"
 
 
 class Export:
@@ -178,7 +209,13 @@ class Export:
             written.append(path)
 
         for state in self.run.fields.values():
-            save(file_name(state.name), [self._state_atoms(state)])
+            atoms = self._state_atoms(state)
+            save(file_name(state.name), [atoms])
+            if not xyz:
+                path = self._path(file_name(state.name) + ".data")
+                with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
+                    write_data(file, atoms, state.name, self.run.number("scene.block.atom_mass") or 1.0)
+                written.append(path)
         if self._frames():
             save("trajectory", self._trajectory())
         return written
@@ -192,13 +229,27 @@ class Export:
                     written += figures.save(fig, self._path(f"{name}-{file_name(state.name)}"))
         return written
 
+    def images(self) -> list[Path]:
+        n = len(self.run.substrate.height)
+        texts = {"substrate": image_text(self.run.edge / n, 0.0, {"height (Å)": self.run.substrate.height})}
+        for state in self.run.fields.values():
+            self._sites(state)
+            maps = {_title(name): state[name] for name in state.maps if not name.startswith("u_")}
+            if all(name in state for name in ("u_x", "u_y", "u_z")):
+                maps["displacement (Å)"] = np.dstack([state["u_x"], state["u_y"], state["u_z"]])
+            texts[file_name(state.name)] = image_text(self.spacing, 0.5 * self.spacing, maps)
+        written = []
+        for name, text in texts.items():
+            files.write(self._path(name + ".vti"), text)
+            written.append(self._path(name + ".vti"))
+        return written
+
     def xdmf(self) -> list[Path]:
         """run.xdmf beside run.h5; frames one by one in export/trajectory.h5."""
         n = len(self.run.substrate.height)
         grids = [_grid("substrate", n, self.run.edge / n, 0.0, [("height (Å)", "/substrate/height", False)])]
         for state in self.run.fields.values():
-            maps = [(name if name == "contact" else f"{name} ({'GPa' if name == 'pressure' else 'Å'})",
-                     f"/fields/{state.name}/{name}", name == "contact") for name in state.maps]
+            maps = [(_title(name), f"/fields/{state.name}/{name}", name == "contact") for name in state.maps]
             if maps:
                 grids.append(_grid(state.name, self._sites(state), self.spacing, 0.5 * self.spacing, maps))
         written = []
@@ -217,6 +268,11 @@ class Export:
                 "  <Domain>\n" + "".join(grids) + "  </Domain>\n</Xdmf>\n")
         files.write(self.run.directory / "run.xdmf", text)
         return [*written, self.run.directory / "run.xdmf"]
+
+
+def _title(name: str) -> str:
+    """Of a map, with its unit."""
+    return name if name == "contact" else f"{name} ({'GPa' if name == 'pressure' else 'Å'})"
 
 
 def _grid(name: str, n: int, spacing: float, origin: float, maps: list[tuple[str, str, bool]]) -> str:
@@ -256,7 +312,7 @@ def export_command(directory: str, kind: str) -> int:
                          f"for example: asperity export {directory} --to xyz")
     export = Export(Path(directory))
     written = {"xyz": lambda: export.atoms(True), "lammps": lambda: export.atoms(False), "xdmf": export.xdmf,
-               "png": export.pictures}[kind]()
+               "vtk": export.images, "png": export.pictures}[kind]()
     if not written:
         raise InputOutputError(str(Path(directory) / "run.h5"), "has nothing to export",
                                "it holds neither maps of a state nor a trajectory",

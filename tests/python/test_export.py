@@ -27,8 +27,8 @@ def frames_of_xyz(path):
 
 def frames_of_dump(path):
     found = []
-    for block in path.read_text().split("ITEM: TIMESTEP\n")[1:]:
-        lines = block.splitlines()
+    for block in path.read_text().split("ITEM: TIME\n")[1:]:
+        lines = block.splitlines()[2:]
         names = next(line for line in lines if line.startswith("ITEM: ATOMS")).split()[2:]
         start = next(i for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
         rows = [line.split() for line in lines[start:]]
@@ -95,6 +95,28 @@ def test_xdmf_points_to_what_is_there(path_run):
     assert frames == len(value) and maps == 8
 
 
+def test_the_h5md_has_what_the_specification_demands(path_run):
+    """H5MD 1.1, nongnu.org/h5md: version, author, creator; box; elements with value, step, time and units."""
+    with h5py.File(path_run.directory / "run.h5") as file:
+        assert list(file["h5md"].attrs["version"]) == [1, 1]
+        for group, names in {"author": ["name"], "creator": ["name", "version"]}.items():
+            for name in names:
+                assert len(file["h5md"][group].attrs[name]) > 0
+        box = file["particles/trajectory/box"]
+        assert box.attrs["dimension"] == 3
+        boundary = [b.decode() if isinstance(b, bytes) else b for b in box.attrs["boundary"]]
+        assert boundary == ["periodic", "periodic", "none"]
+        count = len(file["particles/trajectory/position/step"])
+        for name in ("position", "velocity", "box/edges"):
+            element = file["particles/trajectory"][name]
+            assert element["value"].shape[0] == count > 3
+            assert element["step"].shape == (count,) and element["time"].shape == (count,)
+            assert np.all(np.diff(element["step"]) > 0) and np.issubdtype(element["step"].dtype, np.integer)
+            assert element["value"].attrs["unit"] and element["time"].attrs["unit"]
+        edges = file["particles/trajectory/box/edges/value"][0]  # a vector, or the matrix of a cuboid
+        assert edges.shape in ((3,), (3, 3)) and np.all(np.diag(edges) if edges.ndim == 2 else edges)
+
+
 def test_pictures(path_run):
     command("export", path_run.directory, "--to", "png")
     for name in ("gap", "pressure", "contact"):
@@ -118,7 +140,7 @@ def test_a_trajectory_changes_no_numbers_and_survives_a_stop(path_run, tmp_path)
 
 
 def test_what_cannot_be_exported_is_a_message(path_run, tmp_path):
-    assert "formats: xyz, lammps, xdmf, png" in command("export", path_run.directory, "--to", "pdb", expect=2)
+    assert "formats: xyz, lammps, xdmf, vtk, png" in command("export", path_run.directory, "--to", "pdb", expect=2)
     command("export", path_run.directory, expect=2)
     command("export", tmp_path / "gone", "--to", "xyz", expect=4)
     scene = tmp_path / "s.toml"
