@@ -150,6 +150,9 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
         level.nx = from.tile.nx;
         level.ny = from.tile.ny;
         level.cells = from.plan.cells;
+        level.number = from.plan.level;
+        level.x0 = from.tile.x0;
+        level.y0 = from.tile.y0;
         level.u[0] = memory.u[0];
         level.u[1] = memory.u[1];
         level.v = memory.v;
@@ -292,6 +295,11 @@ void DeviceBlock::begin(const Block& block, const StepPlan& plan, double top,
     step_.sites.reference_height = reference_height;
 }
 
+void DeviceBlock::set_noise(const ThermalNoise& noise) {
+    step_.noise = noise;
+    step_.noisy = true;
+}
+
 void DeviceBlock::interpolate() { check(device_.follow(step_), "the launch of hanging planes"); }
 
 void DeviceBlock::forces(const Block& block) {
@@ -320,6 +328,7 @@ DeviceSums DeviceBlock::sums() const {
     result.kick.dissipated = moved.sum[AdvanceSum::dissipated];
     result.kick.dragged = moved.sum[AdvanceSum::dragged];
     result.elastic = moved.sum[AdvanceSum::elastic];
+    result.heat = moved.sum[AdvanceSum::heat];
     return result;
 }
 

@@ -31,7 +31,7 @@ std::string describe_device(const DeviceChoice& choice);
 struct DeviceSums {
     InterfaceSums interface;
     KickSums kick;
-    ExactSum top_force, lowest_z, elastic;
+    ExactSum top_force, lowest_z, elastic, heat;
 };
 
 class DeviceBlock {
@@ -49,6 +49,8 @@ public:
     // One step in time, verb by verb. block: whose constants and ranks these are.
     /// What the step is; top: displacement of the top plane at its start.
     void begin(const Block& block, const StepPlan& plan, double top, double reference_height);
+    /// In a scene with a temperature, after begin().
+    void set_noise(const ThermalNoise& noise);
     void interpolate();
     void forces(const Block& block);
     void advance();

@@ -66,6 +66,7 @@ void Simulation::step_on_device(bool observe) {
     device_->begin(block_,
                    {options_.dt, options_.damping, options_.damping_from, velocity, observe},
                    block_.top(), reference_height_);
+    if (thermostat_) device_->set_noise(thermostat_->noise(options_.dt, step_));
     phases_.during(Phase::interpolate, [&] { device_->interpolate(); });
     phases_.during(Phase::interface, [&] { device_->forces(block_); });
     phases_.during(Phase::advance, [&] { device_->advance(); });
@@ -77,6 +78,7 @@ void Simulation::step_on_device(bool observe) {
         top_force_ = sums.top_force;
         lowest_z_ = sums.lowest_z;
         elastic_ = sums.elastic;
+        heat_ = sums.heat;
     });
     begin_record(observe);
     block_.note_top(block_.top() + options_.dt * velocity);

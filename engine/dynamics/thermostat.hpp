@@ -12,11 +12,13 @@
 //   T / (1 + Gamma dt/2)^2     the record's kinetic energy: velocities at whole steps, without the
 //                              noise of the present step, half of which they would have.
 //
-// xi is drawn from a counter-based generator keyed by seed, step and node: the same bits on any
-// number of ranks and threads. A scene at T = 0 has no thermostat object at all.
+// xi is drawn from a counter-based generator keyed by seed, step and node
+// (kernels/thermal_noise.hpp): the same bits on any number of ranks and threads, and on a device. A
+// scene at T = 0 has no thermostat object at all.
 #pragma once
 
 #include "engine/block/block.hpp"
+#include "kernels/thermal_noise.hpp"
 
 #include <cstdint>
 
@@ -27,6 +29,9 @@ public:
     /// temperature in K, damping in 1/fs.
     Thermostat(double temperature, double damping, std::uint64_t seed)
         : temperature_(temperature), damping_(damping), seed_(seed) {}
+
+    /// That of a step.
+    ThermalNoise noise(double dt, long long step) const;
 
     /// Adds the noise of this step to v(n+1/2) and u(n+1). Returns this rank's share of the energy
     /// given to the nodes, eV.

@@ -143,9 +143,6 @@ std::vector<io::Problem> device_problems(const Scene& scene) {
     if (scene.block.strain == Strain::finite)
         refuse("block.strain = \"finite\"", "the device has the kernels of small strain",
                "take strain = \"linear\", or numerics.device = \"none\"");
-    if (scene.drive.temperature > 0.0)
-        refuse("drive.temperature", "the device has no thermostat",
-               "take temperature = 0, or numerics.device = \"none\"");
     if (scene.surface.lattice_ratio != 1.0)
         refuse(fmt::format("surface.lattice_ratio = {:.6g}", scene.surface.lattice_ratio),
                "the device sums over a substrate of the block's own lattice",

@@ -19,6 +19,7 @@
 #include "kernels/elastic_level.hpp"
 #include "kernels/interface_sweep.hpp"
 #include "kernels/level_transfer.hpp"
+#include "kernels/thermal_noise.hpp"
 
 #include <cstddef>
 #include <string>
@@ -31,7 +32,8 @@ inline constexpr int most_levels = 24;
 /// One level on the device; all views are of device memory.
 struct DeviceLevel {
     int nx = 0, ny = 0, cells = 0;
-    VectorVolume<double> u[2]; ///< displacement at the present step and at the next, in turn
+    int number = 0, x0 = 0, y0 = 0; ///< which level; the tile's first node
+    VectorVolume<double> u[2];      ///< displacement at the present step and at the next, in turn
     VectorVolume<double> v;
     VectorPlane<double> incoming, upper_force;
     Stencil lower{}, inner{}, upper{};
@@ -50,7 +52,8 @@ struct NodeRanges {
 
 /// Sums of one launch over its nodes.
 struct PassSums {
-    ExactSum sum[4];
+    static constexpr int sums = 5;
+    ExactSum sum[sums];
     double count[2] = {0.0, 0.0};
     double least = no_pair;
 };
@@ -60,7 +63,7 @@ struct ForceSum {
     enum { in_contact, repulsive };
 };
 struct AdvanceSum {
-    enum { kinetic, dissipated, dragged, elastic };
+    enum { kinetic, dissipated, dragged, elastic, heat };
 };
 
 /// What every launch is handed, by value.
@@ -75,6 +78,8 @@ struct DeviceStep {
     bool damped = false; ///< some nodes are
     double dt = 0.0;     ///< fs
     double top = 0.0;    ///< of the top plane, Å
+    bool noisy = false;  ///< damped nodes feel thermal noise
+    ThermalNoise noise;
 
     InterfaceSites sites;
     LatticeSubstrate substrate;

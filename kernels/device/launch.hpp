@@ -15,7 +15,7 @@ namespace asperity {
 
 /// Adds the sums of some nodes to those of others.
 ASPERITY_HOST_DEVICE inline void merge(PassSums& into, const PassSums& other) {
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < PassSums::sums; ++k)
         into.sum[k].merge(other.sum[k]);
     for (int k = 0; k < 2; ++k)
         into.count[k] += other.count[k];
@@ -38,7 +38,7 @@ __device__ inline void reduce(PassSums& mine, PassSums* total) {
     __shared__ PassSums of_warp[warps];
     for (int far = 16; far > 0; far /= 2) {
         PassSums other;
-        for (int k = 0; k < 4; ++k)
+        for (int k = 0; k < PassSums::sums; ++k)
             for (int bin = 0; bin < ExactSum::bins; ++bin)
                 other.sum[k].bin[bin] = __shfl_down_sync(~0u, mine.sum[k].bin[bin], far);
         for (int k = 0; k < 2; ++k)
@@ -51,7 +51,7 @@ __device__ inline void reduce(PassSums& mine, PassSums* total) {
     if (threadIdx.x != 0) return;
     for (int w = 1; w < warps; ++w)
         merge(mine, of_warp[w]);
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < PassSums::sums; ++k)
         for (int bin = 0; bin < ExactSum::bins; ++bin)
             if (mine.sum[k].bin[bin] != 0.0)
                 atomicAdd(&total->sum[k].bin[bin], mine.sum[k].bin[bin]);

@@ -206,8 +206,8 @@ ASPERITY_INLINE void write_images(const PlaneView<double>& u, const DeviceLevel&
             u(i, j) = value;
 }
 
-/// Elastic forces, kick and drift.
-template <bool observe>
+/// Elastic forces, kick, drift and noise.
+template <bool observe, bool noisy>
 struct Advance {
     DeviceStep s;
 
@@ -235,10 +235,24 @@ struct Advance {
         const Triple<Number> v = kick.damped ? kicked<true>(kick, level, z, y, x, f, sums)
                                              : kicked<false>(kick, level, z, y, x, f, sums);
         const Number dt(s.dt);
+        Triple<double> moved = {fma(dt, v.x, Number(u.x.origin[at])).r,
+                                fma(dt, v.y, Number(u.y.origin[at])).r,
+                                fma(dt, v.z, Number(u.z.origin[at])).r};
+        if constexpr (noisy)
+            if (kick.damped) {
+                Triple<double> speed = {v.x.r, v.y.r, v.z.r};
+                const auto xi = normals(s.noise, level.number, level.x0 + x, level.y0 + y, z);
+                sums.sum[AdvanceSum::heat].add(
+                    add_noise(s.noise, 2.0 * kick.half_mass, xi, speed, moved));
+                const std::ptrdiff_t of_v = z * level.v.x.plane + y * level.v.x.row + x;
+                level.v.x.origin[of_v] = speed.x;
+                level.v.y.origin[of_v] = speed.y;
+                level.v.z.origin[of_v] = speed.z;
+            }
         const VectorPlane<double> next = level.u[1 - s.now][z];
-        write_images(next.x, level, x, y, level.wraps_x, fma(dt, v.x, Number(u.x.origin[at])).r);
-        write_images(next.y, level, x, y, level.wraps_x, fma(dt, v.y, Number(u.y.origin[at])).r);
-        write_images(next.z, level, x, y, level.wraps_x, fma(dt, v.z, Number(u.z.origin[at])).r);
+        write_images(next.x, level, x, y, level.wraps_x, moved.x);
+        write_images(next.y, level, x, y, level.wraps_x, moved.y);
+        write_images(next.z, level, x, y, level.wraps_x, moved.z);
         if constexpr (observe)
             sums.sum[AdvanceSum::elastic].add(cell_energy<Number>(u, at, level.cell.elasticity).r);
         if (level.counted) merge(all, sums);
@@ -321,9 +335,12 @@ inline const char* restrict_to_shared(const DeviceStep& s, int coarse, Patch nod
 
 inline const char* advance(const DeviceStep& s) {
     const long long nodes = s.moving.first[s.moving.levels];
-    if (s.observe) return launch<true>(Advance<true>{s}, nodes, s.sums + 1);
-    return s.damped ? launch<true>(Advance<false>{s}, nodes, s.sums + 1)
-                    : launch<false>(Advance<false>{s}, nodes, nullptr);
+    if (s.noisy)
+        return s.observe ? launch<true>(Advance<true, true>{s}, nodes, s.sums + 1)
+                         : launch<true>(Advance<false, true>{s}, nodes, s.sums + 1);
+    if (s.observe) return launch<true>(Advance<true, false>{s}, nodes, s.sums + 1);
+    return s.damped ? launch<true>(Advance<false, false>{s}, nodes, s.sums + 1)
+                    : launch<false>(Advance<false, false>{s}, nodes, nullptr);
 }
 
 template <bool packs>

@@ -23,7 +23,7 @@ using Types = testing::Types<PlaneView<double>, VolumeView<const float>, VectorP
                              Stencil, Patch, Kick, LevelKicks, KickSums, ExactSum, LennardJones,
                              InterfaceSites, InterfaceSums, SubstrateMap, ReachBounds,
                              LatticeSubstrate, RowSubstrate, TailCorrection, LevelSeam, DeviceLevel,
-                             DeviceStep, DeviceHalo, NodeRanges, PassSums>;
+                             ThermalNoise, DeviceStep, DeviceHalo, NodeRanges, PassSums>;
 TYPED_TEST_SUITE(GoesToADevice, Types);
 
 TYPED_TEST(GoesToADevice, ByteByByte) {

@@ -38,16 +38,18 @@ struct Case {
     int thickness, layers;
     bool mixed, damped, tail;
     bool on_ranks; ///< with more than one rank, too
+    double temperature = 0.0;
 };
 // Shallow and deep: as in same_bits_test, cut on one level and on all but the last.
 constexpr Case cases[] = {
-    {"shallow", 32, 3, false, true, false, true},  {"shallow", 32, 3, true, false, false, false},
-    {"shallow", 32, 3, false, false, true, false}, {"deep", 62, 2, false, true, false, true},
-    {"deep", 62, 2, true, true, true, false},      {"deep", 62, 2, false, false, false, false},
-    {"lattice", 6, 0, false, true, false, false},  {"lattice", 6, 0, true, false, false, true}};
+    {"shallow", 32, 3, false, true, false, true},    {"shallow", 32, 3, true, false, false, false},
+    {"shallow", 32, 3, false, false, true, false},   {"deep", 62, 2, false, true, false, true},
+    {"deep", 62, 2, true, true, true, false},        {"deep", 62, 2, false, false, false, false},
+    {"lattice", 6, 0, false, true, false, false},    {"lattice", 6, 0, true, false, false, true},
+    {"deep", 62, 2, false, true, false, true, 300.0}};
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.stack << (c.mixed ? ", mixed" : ", double") << (c.damped ? ", damped" : "")
-         << (c.tail ? ", tail" : "");
+         << (c.tail ? ", tail" : "") << (c.temperature > 0.0 ? ", warm" : "");
 }
 
 SimulationOptions options_of(const Case& c, bool on_device) {
@@ -61,6 +63,7 @@ SimulationOptions options_of(const Case& c, bool on_device) {
     if (c.damped) {
         options.damping = 1e-3;
         options.damping_from = 0.3;
+        options.temperature = c.temperature;
     }
     if (on_device) options.device.kind = DeviceChoice::Kind::emulated;
     return options;
@@ -95,7 +98,7 @@ void advance(Simulation& s, int steps, Trace& trace) {
 }
 void conclude(Simulation& s, Trace& trace) {
     const Ledger& l = s.ledger();
-    for (double value : {l.top_work, l.drag_work, l.damped, l.approach, l.pull_off})
+    for (double value : {l.top_work, l.drag_work, l.damped, l.heat, l.approach, l.pull_off})
         trace.records = test::mix(trace.records, value);
     trace.state = test::fingerprint(std::as_const(s).block());
 }
