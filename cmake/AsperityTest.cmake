@@ -9,7 +9,7 @@
 #                [LONG] [TIMEOUT s] [ENVIRONMENT NAME=VALUE ...])
 #   Adds tests/<folder>/<file>.cpp to the folder's program, and the tests of that file to ctest under
 #   <name>; THREADS is 1 unless given. With RANKS it is run once for each number of ranks, as
-#   <name>_ranks<n>. KERNELS repeats it with the kernels of other processor levels, as <name>_<level>.
+#   <name>_ranks<n>. KERNELS repeats it (on one rank) with the kernels of other processor levels, as <name>_<level>.
 #   LONG repeats it with ASPERITY_LONG=1 and the label "long", as <name less _test>_long.
 #
 # asperity_check_suites()
@@ -49,11 +49,12 @@ function(asperity_suite name file)
             set_tests_properties(${name}_ranks${ranks} PROPERTIES LABELS "${ARG_LABELS};mpi"
                 TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${ranks} ENVIRONMENT "${environment}")
         endforeach()
-        return()
+        set(command ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root --bind-to none -n 1 ${command})
+    else()
+        add_test(NAME ${name} COMMAND ${command})
+        set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+                                                ENVIRONMENT "${environment}")
     endif()
-    add_test(NAME ${name} COMMAND ${command})
-    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
-                                            ENVIRONMENT "${environment}")
     foreach(level IN LISTS ARG_KERNELS)
         if(level IN_LIST ASPERITY_VARIANTS)
             add_test(NAME ${name}_${level} COMMAND ${command})

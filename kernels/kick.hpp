@@ -15,6 +15,14 @@ template <class V>
 struct Triple {
     V x, y, z;
 };
+template <class V>
+ASPERITY_INLINE Triple<V> operator+(const Triple<V>& a, const Triple<V>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class V>
+ASPERITY_INLINE Triple<V> operator-(const Triple<V>& a, const Triple<V>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 
 /// Adds a times b; both parts of it are split off without rounding the product first, which takes
 /// an addition and a multiplication less.

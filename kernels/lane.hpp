@@ -89,6 +89,9 @@ ASPERITY_INLINE Lane<T> fms_where_less(Lane<T> x, Lane<T> y, Lane<T> a, Lane<T> 
     return x.r < y.r ? fms(a, b, c) : Lane<T>(T(0));
 }
 
+ASPERITY_INLINE Lane<double> sqrt(Lane<double> a) { return std::sqrt(a.r); }
+ASPERITY_INLINE Lane<double> inverse_sqrt(Lane<double> a) { return 1.0 / std::sqrt(a.r); }
+
 ASPERITY_INLINE Lane<double> first_lanes(Lane<double> a, int) { return a; }
 ASPERITY_INLINE void collect(const BasicExactSum<Lane<double>>& lane, ExactSum& into) {
     for (int k = 0; k < ExactSum::bins; ++k)

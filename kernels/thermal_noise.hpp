@@ -37,7 +37,8 @@ ASPERITY_INLINE double logarithm(double x) {
     // ln m = 2 artanh s = 2 (s + s^3/3 + s^5/5 + ...), |s| < 0.172.
     const double s = (m - 1.0) / (m + 1.0), q = s * s;
     double sum = 0.0;
-    for (int k = 21; k >= 3; k -= 2)
+    ASPERITY_UNROLL(9)
+    for (int k = 19; k >= 3; k -= 2)
         sum = (sum + 1.0 / k) * q;
     return exponent * 0.6931471805599453 + 2.0 * (s + s * sum);
 }
@@ -53,9 +54,10 @@ ASPERITY_INLINE Turn turn(std::uint32_t bits) {
     const double x = (rest + 0.5) * 1.4629180792671596e-9; // 2 pi / 2^32
     const double q = x * x;
     double c = 1.0, s = 1.0;
+    ASPERITY_UNROLL(8)
     for (int k = 16; k >= 2; k -= 2) {
-        c = 1.0 - c * q / ((k - 1) * k);
-        s = 1.0 - s * q / (k * (k + 1));
+        c = 1.0 - c * (q * (1.0 / ((k - 1) * k)));
+        s = 1.0 - s * (q * (1.0 / (k * (k + 1))));
     }
     s *= x;
     const bool odd = quarter & 1u;

@@ -135,6 +135,7 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
 
     std::vector<DeviceLevel> levels;
     const auto& host = block.levels();
+    step_.finite = block.options().finite_strain;
     const auto count = [](NodeRanges& ranges, long long nodes) {
         ranges.first[ranges.levels + 1] = ranges.first[ranges.levels] + nodes;
         ++ranges.levels;

@@ -140,9 +140,6 @@ std::vector<io::Problem> device_problems(const Scene& scene) {
                "a device takes steps in time; equilibria are relaxed by the "
                "processor",
                "take numerics.device = \"none\", or drive.mode = \"dynamic\" with an approach");
-    if (scene.block.strain == Strain::finite)
-        refuse("block.strain = \"finite\"", "the device has the kernels of small strain",
-               "take strain = \"linear\", or numerics.device = \"none\"");
     if (scene.surface.lattice_ratio != 1.0)
         refuse(fmt::format("surface.lattice_ratio = {:.6g}", scene.surface.lattice_ratio),
                "the device sums over a substrate of the block's own lattice",

@@ -78,6 +78,7 @@ struct DeviceStep {
     bool damped = false; ///< some nodes are
     double dt = 0.0;     ///< fs
     double top = 0.0;    ///< of the top plane, Å
+    bool finite = false; ///< strain
     bool noisy = false;  ///< damped nodes feel thermal noise
     ThermalNoise noise;
 

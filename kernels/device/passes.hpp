@@ -10,6 +10,7 @@
 
 #include "kernels/device/launch.hpp"
 #include "kernels/elastic_column.hpp"
+#include "kernels/elastic_finite_cell.hpp"
 #include "kernels/interface_site.hpp"
 #include "kernels/kick.hpp"
 #include "kernels/pair_sum.hpp"
@@ -57,10 +58,10 @@ struct Follow {
     }
 };
 
-/// Force on the node at element `at`.
+/// Force on the node at element `at`, small strain.
 template <Face face>
-ASPERITY_INLINE Triple<Number> node_force(const VectorVolume<const double>& u, std::ptrdiff_t at,
-                                          const Stencil& stencil) {
+ASPERITY_INLINE Triple<Number> small_force(const VectorVolume<const double>& u, std::ptrdiff_t at,
+                                           const Stencil& stencil) {
     const Weights<Number, face> weights(stencil);
     const ColumnParts<Number> west = column_parts<face>(u, at - 1, weights);
     const ColumnParts<Number> here = column_parts<face>(u, at, weights);
@@ -69,7 +70,83 @@ ASPERITY_INLINE Triple<Number> node_force(const VectorVolume<const double>& u, s
             (east.z.west + west.z.east) + here.z.here};
 }
 
-/// Sites of the interface and upper faces. T: precision of the pairs.
+/// What a row of cells gives, at finite strain, to a node that is its corner `row` (Corners): that
+/// of the cell to the east, then that of the cell to the west. at: the node.
+template <int row, bool cells = true>
+ASPERITY_INLINE Triple<Number> finite_part(const VectorVolume<const double>& u, std::ptrdiff_t at,
+                                           const finite::Cell<Number>& cell,
+                                           const finite::Stiffness<Number>& in_plane,
+                                           bool pressed) {
+    constexpr int rows = cells ? 4 : 2;
+    const std::ptrdiff_t east = at - (row & 1) * u.x.row - (row >> 1) * u.x.plane;
+    const auto of = [&](std::ptrdiff_t cell_at) {
+        finite::Corners<Number> corner, f;
+        finite::load<rows>(u, cell_at, corner);
+        if (pressed)
+            finite::forces<cells, true>(corner, cell, in_plane, f);
+        else
+            finite::forces<cells, false>(corner, cell, in_plane, f);
+        return f;
+    };
+    return of(east).west[row] + of(east - 1).east[row];
+}
+
+/// Force on the node at element `at` of plane z, finite strain, in the order of elastic_finite.cpp:
+/// cells below, then above; in each of these, cells at smaller y, then larger y. Plane 0 starts
+/// with the incoming force.
+ASPERITY_INLINE Triple<Number> finite_force(const DeviceLevel& level,
+                                            const VectorVolume<const double>& u, std::ptrdiff_t at,
+                                            int z, const Triple<Number>& incoming) {
+    const finite::Cell<Number> cell(level.cell);
+    const bool pressed = level.cell.elasticity.kappa != 0.0;
+    const auto in_plane = [&](int plane) { // springs in a surface belong to half as many cells
+        const double share = plane == 0 || plane == level.cells ? 0.5 : 1.0;
+        return finite::Stiffness<Number>(share * level.cell.elasticity.k, level.cell.edge);
+    };
+    const auto here = in_plane(z);
+    Triple<Number> f = incoming;
+    if (z > 0) {
+        const auto below = in_plane(z - 1);
+        f = finite_part<3>(u, at, cell, below, pressed) +
+            finite_part<2>(u, at, cell, below, pressed);
+    }
+    if (z < level.cells)
+        return f + finite_part<1>(u, at, cell, here, pressed) +
+               finite_part<0>(u, at, cell, here, pressed);
+    return f + finite_part<1, false>(u, at, cell, here, pressed) +
+           finite_part<0, false>(u, at, cell, here, pressed);
+}
+
+/// The force on node i of the upper faces.
+template <bool finite_strain>
+ASPERITY_INLINE void upper_face(const DeviceStep& s, long long i, PassSums& sums) {
+    const int l = locate(s.faces, i);
+    const DeviceLevel& level = s.levels[l];
+    const int width = level.nx + 2;
+    const int x = static_cast<int>(i % width) - 1, y = static_cast<int>(i / width) - 1;
+    const VectorVolume<const double> u = level.u[s.now];
+    const std::ptrdiff_t at = level.cells * u.x.plane + y * u.x.row + x;
+    Triple<Number> f;
+    if constexpr (finite_strain)
+        f = finite_force(level, u, at, level.cells, {});
+    else
+        f = small_force<Face::upper>(u, at, level.upper);
+    level.upper_force.x(x, y) = f.x.r;
+    level.upper_force.y(x, y) = f.y.r;
+    level.upper_force.z(x, y) = f.z.r;
+    const bool inside = x >= 0 && x < level.nx && y >= 0 && y < level.ny;
+    if (l + 1 == s.faces.levels && level.counted && inside) sums.sum[ForceSum::top_z].add(f.z.r);
+}
+
+/// Upper faces at finite strain, whose text alone fills the registers of a thread.
+struct FiniteFaces {
+    DeviceStep s;
+    ASPERITY_HOST_DEVICE void operator()(long long i, PassSums& sums) const {
+        upper_face<true>(s, i, sums);
+    }
+};
+
+/// Sites of the interface and, at small strain, upper faces. T: precision of the pairs.
 template <class T, bool observe>
 struct Forces {
     DeviceStep s;
@@ -82,7 +159,7 @@ struct Forces {
         if (i < sites)
             site(static_cast<int>(i % nx), static_cast<int>(i / nx), sums);
         else
-            face(i - sites, sums);
+            upper_face<false>(s, i - sites, sums);
     }
 
 private:
@@ -138,22 +215,6 @@ private:
             sums.least = nearest < sums.least ? nearest : sums.least;
         }
     }
-
-    ASPERITY_HOST_DEVICE void face(long long i, PassSums& sums) const {
-        const int l = locate(s.faces, i);
-        const DeviceLevel& level = s.levels[l];
-        const int width = level.nx + 2;
-        const int x = static_cast<int>(i % width) - 1, y = static_cast<int>(i / width) - 1;
-        const VectorVolume<const double> u = level.u[s.now];
-        const auto f =
-            node_force<Face::upper>(u, level.cells * u.x.plane + y * u.x.row + x, level.upper);
-        level.upper_force.x(x, y) = f.x.r;
-        level.upper_force.y(x, y) = f.y.r;
-        level.upper_force.z(x, y) = f.z.r;
-        const bool inside = x >= 0 && x < level.nx && y >= 0 && y < level.ny;
-        if (l + 1 == s.faces.levels && level.counted && inside)
-            sums.sum[ForceSum::top_z].add(f.z.r);
-    }
 };
 
 /// What coarse node (x, y) gets from the upper face of the finer level.
@@ -207,7 +268,7 @@ ASPERITY_INLINE void write_images(const PlaneView<double>& u, const DeviceLevel&
 }
 
 /// Elastic forces, kick, drift and noise.
-template <bool observe, bool noisy>
+template <bool observe, bool noisy, bool finite_strain>
 struct Advance {
     DeviceStep s;
 
@@ -219,17 +280,18 @@ struct Advance {
         const int y = static_cast<int>(row % level.ny), z = static_cast<int>(row / level.ny);
         const VectorVolume<const double> u = level.u[s.now];
         const std::ptrdiff_t at = z * u.x.plane + y * u.x.row + x;
+        Triple<Number> in{};
+        if (z == 0)
+            in = level.in_line ? restricted_force(s.levels[l - 1], x, y)
+                               : Triple<Number>{level.incoming.x(x, y), level.incoming.y(x, y),
+                                                level.incoming.z(x, y)};
         Triple<Number> f;
-        if (z == 0) {
-            f = node_force<Face::lower>(u, at, level.lower);
-            const Triple<Number> in =
-                level.in_line ? restricted_force(s.levels[l - 1], x, y)
-                              : Triple<Number>{level.incoming.x(x, y), level.incoming.y(x, y),
-                                               level.incoming.z(x, y)};
-            f = {f.x + in.x, f.y + in.y, f.z + in.z};
-        } else {
-            f = node_force<Face::inner>(u, at, level.inner);
-        }
+        if constexpr (finite_strain)
+            f = finite_force(level, u, at, z, in);
+        else if (z == 0)
+            f = small_force<Face::lower>(u, at, level.lower) + in;
+        else
+            f = small_force<Face::inner>(u, at, level.inner);
         PassSums sums;
         const Kick& kick = s.kicks[l](z);
         const Triple<Number> v = kick.damped ? kicked<true>(kick, level, z, y, x, f, sums)
@@ -253,7 +315,10 @@ struct Advance {
         write_images(next.x, level, x, y, level.wraps_x, moved.x);
         write_images(next.y, level, x, y, level.wraps_x, moved.y);
         write_images(next.z, level, x, y, level.wraps_x, moved.z);
-        if constexpr (observe)
+        if constexpr (observe && finite_strain)
+            sums.sum[AdvanceSum::elastic].add(
+                finite::energy<Number>(u, at, finite::Cell<Number>(level.cell), level.cell).r);
+        else if constexpr (observe)
             sums.sum[AdvanceSum::elastic].add(cell_energy<Number>(u, at, level.cell.elasticity).r);
         if (level.counted) merge(all, sums);
     }
@@ -317,9 +382,12 @@ template <class T>
 const char* forces_in(const DeviceStep& s) {
     const PairTerms<Scalar, T> pair(s.potential);
     const Offsets<T> offsets(s.sites.spacing, s.substrate.half_offsets);
+    const long long faces = s.faces.first[s.faces.levels];
+    if (s.finite)
+        if (const char* error = launch<true>(FiniteFaces{s}, faces, s.sums)) return error;
     const long long nodes =
         static_cast<long long>(s.sites.displacement.x.nx) * s.sites.displacement.x.ny +
-        s.faces.first[s.faces.levels];
+        (s.finite ? 0 : faces);
     return s.observe ? launch<true>(Forces<T, true>{s, pair, offsets}, nodes, s.sums)
                      : launch<true>(Forces<T, false>{s, pair, offsets}, nodes, s.sums);
 }
@@ -333,14 +401,19 @@ inline const char* restrict_to_shared(const DeviceStep& s, int coarse, Patch nod
                          nullptr);
 }
 
-inline const char* advance(const DeviceStep& s) {
+template <bool finite_strain>
+const char* advance_in(const DeviceStep& s) {
     const long long nodes = s.moving.first[s.moving.levels];
+    PassSums* sums = s.sums + 1;
     if (s.noisy)
-        return s.observe ? launch<true>(Advance<true, true>{s}, nodes, s.sums + 1)
-                         : launch<true>(Advance<false, true>{s}, nodes, s.sums + 1);
-    if (s.observe) return launch<true>(Advance<true, false>{s}, nodes, s.sums + 1);
-    return s.damped ? launch<true>(Advance<false, false>{s}, nodes, s.sums + 1)
-                    : launch<false>(Advance<false, false>{s}, nodes, nullptr);
+        return s.observe ? launch<true>(Advance<true, true, finite_strain>{s}, nodes, sums)
+                         : launch<true>(Advance<false, true, finite_strain>{s}, nodes, sums);
+    if (s.observe) return launch<true>(Advance<true, false, finite_strain>{s}, nodes, sums);
+    return s.damped ? launch<true>(Advance<false, false, finite_strain>{s}, nodes, sums)
+                    : launch<false>(Advance<false, false, finite_strain>{s}, nodes, nullptr);
+}
+inline const char* advance(const DeviceStep& s) {
+    return s.finite ? advance_in<true>(s) : advance_in<false>(s);
 }
 
 template <bool packs>
