@@ -18,6 +18,7 @@ public:
     virtual ~Transport() = default;
     virtual int rank() const { return 0; }
     virtual int size() const { return 1; }
+    virtual int local_rank() const { return 0; }
     virtual void sum(std::span<double>) const {}
     virtual void sum(std::span<std::int64_t>) const {}
     virtual void max(std::span<double>) const {}
@@ -41,9 +42,14 @@ public:
     explicit MpiTransport(MPI_Comm comm) : comm_(comm) {
         MPI_Comm_rank(comm_, &rank_);
         MPI_Comm_size(comm_, &size_);
+        MPI_Comm machine;
+        MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
+        MPI_Comm_rank(machine, &local_rank_);
+        MPI_Comm_free(&machine);
     }
     int rank() const override { return rank_; }
     int size() const override { return size_; }
+    int local_rank() const override { return local_rank_; }
     void sum(std::span<double> v) const override {
         MPI_Allreduce(MPI_IN_PLACE, v.data(), count(v.size()), MPI_DOUBLE, MPI_SUM, comm_);
     }
@@ -95,7 +101,7 @@ public:
 private:
     static int count(std::size_t n) { return static_cast<int>(n); }
     MPI_Comm comm_;
-    int rank_ = 0;
+    int rank_ = 0, local_rank_ = 0;
     int size_ = 1;
 };
 
@@ -114,6 +120,7 @@ Communicator::Communicator(std::shared_ptr<const Transport> transport)
 
 int Communicator::rank() const { return transport_->rank(); }
 int Communicator::size() const { return transport_->size(); }
+int Communicator::local_rank() const { return transport_->local_rank(); }
 void Communicator::sum(std::span<double> values) const { transport_->sum(values); }
 void Communicator::sum(std::span<std::int64_t> values) const { transport_->sum(values); }
 void Communicator::max(std::span<double> values) const { transport_->max(values); }

@@ -40,6 +40,8 @@ public:
 
     int rank() const;
     int size() const;
+    /// Number of this rank among those of its machine.
+    int local_rank() const;
     bool root() const { return rank() == 0; }
 
     /// Element-wise sum over the ranks, in place. The values must be such that their sum is exact

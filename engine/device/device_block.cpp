@@ -27,6 +27,13 @@ const DeviceFunctions& functions_of(const DeviceChoice& choice) {
                         "\"none\"");
 }
 
+/// The device of this rank: those of a machine take devices in turn, from the one asked for.
+DeviceChoice own_device(DeviceChoice choice, const Communicator& ranks) {
+    const int devices = choice.kind == DeviceChoice::Kind::cuda ? cuda_device_count() : 0;
+    if (choice.index < devices) choice.index = (choice.index + ranks.local_rank()) % devices;
+    return choice;
+}
+
 template <class T>
 std::size_t vector_bytes(const Tile& tile, int planes) {
     return 3 * rounded(Field<T>::bytes_for(tile, planes));
@@ -120,9 +127,9 @@ std::size_t DeviceBlock::bytes_for(const BlockOptions& block, const ProcessGrid&
 }
 
 DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const Interface& interface)
-    : choice_(choice), device_(functions_of(choice)),
+    : choice_(own_device(choice, block.communicator())), device_(functions_of(choice)),
       bytes_(bytes_for(block.options(), block.grid(), interface.options())) {
-    check(device_.allocate(choice.index, bytes_, &memory_), "the allocation of its memory");
+    check(device_.allocate(choice_.index, bytes_, &memory_), "the allocation of its memory");
     const auto upload = [&](auto* to, const auto* from, std::size_t count) {
         check(device_.upload(to, from, count * sizeof *from), "a copy to it");
     };

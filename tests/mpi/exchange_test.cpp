@@ -198,3 +198,9 @@ TEST(Communicator, AFailureOfTheRootEndsAllTogether) {
     }
     EXPECT_NO_THROW(world().on_root([] {}));
 }
+
+TEST(Communicator, TheRanksOfAMachineAreNumbered) {
+    // The tests run on one machine, where a rank's number is its number in the world.
+    EXPECT_EQ(world().local_rank(), world().rank());
+    EXPECT_EQ(Communicator().local_rank(), 0);
+}
