@@ -18,7 +18,8 @@ double megapascals(double barrier) { return barrier / units::megapascal; }
 std::string what_is_missed(const StateList& states) {
     return fmt::format(
         "states whose force crosses the load and back within one step ({:.4g} Å of "
-        "the mean height near a crossing), and branches that no instability of the path leads to",
+        "the mean height near a crossing), branches that no instability of the path leads to, and "
+        "states that pressing the solids together does not lead to",
         states.step);
 }
 

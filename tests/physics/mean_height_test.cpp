@@ -11,11 +11,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <random>
 #include <utility>
+#include <vector>
 
 using namespace asperity;
 using test::energy;
@@ -35,6 +38,43 @@ RelaxedState let_go(Case& c) {
     o.tolerance = 1e-6;
     Phases phases;
     return c.block->relax(c.interface, c.interface.start_height(), {}, o, phases);
+}
+
+/// A flat surface with a little of the longest wave along x.
+Surface wave(int sites, double amplitude) {
+    Surface surface = test::flat_surface(sites);
+    for (std::size_t i = 0; i < surface.height.size(); ++i) {
+        const double x = static_cast<double>(i % static_cast<std::size_t>(sites));
+        surface.height[i] = amplitude * std::cos(2.0 * std::numbers::pi * x / sites);
+    }
+    surface.statistics.highest = amplitude;
+    return surface;
+}
+
+/// What the energy of an instability is not known by: the path knows its place to one step.
+double uncertain(const Instability& fall) {
+    return 0.5 * std::abs((fall.force_after - fall.force_before) *
+                          (fall.height_after - fall.height_before));
+}
+
+/// Every instability of a with more than this energy is one of b too.
+void expect_in(const Dissipation& a, const Dissipation& b, double least, double late) {
+    int found = 0;
+    for (const Instability& x : a.jumps) {
+        if (x.energy < least) continue;
+        ++found;
+        const auto same = [&](const Instability& y) {
+            const double place = std::abs(x.height_before - x.height_after) +
+                                 std::abs(y.height_before - y.height_after) + late;
+            return x.leg == y.leg && std::abs(x.height_after - y.height_after) <= place &&
+                   std::abs(x.energy - y.energy) <=
+                       uncertain(x) + uncertain(y) +
+                           late * std::abs(x.force_after - x.force_before);
+        };
+        EXPECT_TRUE(std::any_of(b.jumps.begin(), b.jumps.end(), same))
+            << x.energy << " eV at " << x.height_after << " Å";
+    }
+    EXPECT_GE(found, 1);
 }
 
 /// Without a path: relaxed at a mean displacement, from where the block is.
@@ -240,6 +280,76 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     std::printf("mean height: state %.4f, approach %+.1e, pull-off %+.1e; top: approach %+.3f eV\n",
                 bound, path.approach_work() - bound, path.pull_off_work() + bound,
                 falling.approach_work() - bound);
+}
+
+TEST(MeanHeight, SurfaceFallsWhereItsLongestWaveGetsUnstable) {
+    // Without friction, a flat surface is unstable where the wall's force gets as steep, for a
+    // site, as the longest wave of the surface is stiff. A little of that wave on the substrate
+    // makes a fold of it, which lies further out by the 2/3rd power of the amplitude.
+    constexpr double tolerance = 1e-5;
+    std::vector<double> early;
+    for (double amplitude : {8e-4, 1e-4}) {
+        std::vector<Dissipation> lost;
+        for (double step : {0.25, 0.1}) {
+            Case c(test::paper_block(32, 32, 0), wave(32, amplitude), true);
+            c.block = spectral_at_rest(c.options, Communicator(), true);
+            const OneDimension one{c};
+            const double stiffness =
+                SpectralBlock(c.options, Communicator(), true).stiffness(1, 0).zz;
+            const auto slope = [&](double z) {
+                constexpr double h = 1e-3;
+                return (one.force(z + h) - one.force(z - h)) / (2.0 * h * c.sites());
+            };
+            double inner = 4.2, outer = 9.0;
+            ASSERT_GT(slope(inner), stiffness);
+            for (int i = 0; i < 50; ++i)
+                (slope(0.5 * (inner + outer)) > stiffness ? inner : outer) = 0.5 * (inner + outer);
+
+            QuasistaticPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
+            path.start();
+            StepRecord before = path.now();
+            while (path.dissipation().events == 0) {
+                before = path.now();
+                ASSERT_EQ(path.advance(Leg::approach), QuasistaticPath::Outcome::point);
+            }
+            const Instability& fall = path.dissipation().jumps.front();
+            EXPECT_GT(fall.height_before, inner);
+            if (step == 0.1) early.push_back(fall.height_before - inner);
+            // What was lost is the difference of the two branches, here both at the last point
+            // before: no integral of the force.
+            const RelaxedState back = relax_at(c, before.top, 1e-6);
+            const double difference = energy(before) - back.interface_energy - back.elastic_energy;
+            EXPECT_NEAR(fall.energy, difference, 2.0 * uncertain(fall));
+            EXPECT_LT(uncertain(fall), 0.01 * fall.energy);
+            std::printf("unstable at %.5f Å, fell %.5f Å before that: %.5f ± %.5f eV\n", inner,
+                        fall.height_before - inner, fall.energy, uncertain(fall));
+            lost.push_back(path.dissipation());
+        }
+        expect_in(lost[0], lost[1], 0.0, 1e-4);
+    }
+    EXPECT_NEAR(early[0] / early[1], 4.0, 0.6);
+}
+
+TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
+    // Without friction: with lateral forces a surface may end in another state where it falls.
+    constexpr double tolerance = 2e-4;
+    std::vector<Dissipation> lost;
+    for (double step : {0.25, 0.1}) {
+        Case c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25),
+               true);
+        c.block = spectral_at_rest(c.options, Communicator(), true);
+        QuasistaticPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
+        path.start();
+        follow(path, Leg::approach);
+        lost.push_back(path.dissipation());
+        EXPECT_NEAR(path.approach_work() + path.dissipation().total(), -energy(path.now()),
+                    path.uncertainty(Leg::approach));
+        for (const Instability& fall : path.dissipation().jumps)
+            EXPECT_GT(fall.energy, 0.0);
+    }
+    constexpr double least = 2.0; // eV; the smallest are counted or not, whatever the step
+    expect_in(lost[0], lost[1], least, 5e-3);
+    expect_in(lost[1], lost[0], least, 5e-3);
 }
 
 TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
