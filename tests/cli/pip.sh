@@ -12,6 +12,7 @@ build=$(cd -- "$2" && pwd)
 work=$(mktemp -d "${TMPDIR:-/tmp}/asperity-pip.XXXXXX") || exit 1
 trap 'rm -rf -- "$work"' EXIT
 fail() { echo "FAILED: $*" >&2; exit 1; }
+export TMPDIR=$work # pip builds in there
 unset PYTHONPATH ASPERITY_PROGRAM ASPERITY_PYTHON VIRTUAL_ENV
 export OMP_NUM_THREADS=1 MPLBACKEND=agg
 

@@ -1,0 +1,55 @@
+#!/bin/bash
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+#
+#     docs/regenerate.sh
+#
+# Makes the pages, tables and figures of the docs that take minutes, with the program as it is, and lists the
+# others with the date and the commit of the last change of each. Look at the difference before it is committed.
+# Runs go to results/regenerate, which must not be there. maps.png needs VTK (PyPI), in $ASPERITY_OTHERS (tests/python/others.sh).
+set -eu
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+place=results/regenerate
+[ ! -e $place ] || { echo "$place is there already: remove it first" >&2; exit 2; }
+mkdir -p $place
+gallery=docs/gallery
+made=""
+made() { made="$made $*"; echo "made: $*"; }
+
+./asperity info >$place/info.txt # builds, before a page is opened
+./asperity defaults --markdown >$place/scene.md && mv $place/scene.md docs/scene.md
+./asperity defaults --results >$place/result.md && mv $place/result.md docs/result.md
+made docs/scene.md docs/result.md
+
+for figure in 2 3; do
+    ./asperity sweep scenes/paper/fig$figure.toml --theory-only --out $place/theory-$figure >$place/log.txt
+    cp $place/theory-$figure/sweep.csv $gallery/theory-fig$figure.csv
+    made $gallery/theory-fig$figure.csv
+done
+cp $place/theory-2/gamma.svg $gallery/theory-fig2a.svg
+cp $place/theory-2/area.svg $gallery/theory-fig2b.svg
+cp $place/theory-3/full-contact.svg $gallery/theory-fig3.svg
+made $gallery/theory-fig2a.svg $gallery/theory-fig2b.svg $gallery/theory-fig3.svg
+
+./asperity run scenes/first-contact.toml --progress off --out $place/first-contact | tee $place/first-contact.txt
+python3 $gallery/plot.py $place/first-contact $gallery/first-contact.png
+made $gallery/first-contact.png
+
+./asperity sweep scenes/paper/small/fig6.toml --out $place/fig6 >$place/log.txt
+python3 $gallery/contact_regions.py $place/fig6 $gallery/small-fig6.png
+made $gallery/small-fig6.png
+
+if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then
+    ./asperity run scenes/first-contact.toml --set drive.path=zero-load block.model=spectral surface.sites=96 \
+        --progress off --out $place/maps >$place/log.txt
+    ./asperity export $place/maps --to vtk >$place/log.txt
+    "$ASPERITY_OTHERS/bin/python3" $gallery/maps.py $place/maps/export $gallery/maps.png
+    made $gallery/maps.png
+fi
+
+echo
+echo "Not made here: of older programs unless their numbers still agree. Date, commit, file:"
+for file in $(git ls-files $gallery docs/data | grep -E '\.(svg|png|csv|html)$'); do
+    case " $made " in *" $file "*) ;; *) echo "  $(git log -1 --format='%as %h' -- "$file") $file" ;; esac
+done
+echo "Numbers in the text of the gallery and of first-contact: compare with $place/first-contact.txt"
