@@ -25,7 +25,7 @@ class Journal {
 public:
     struct Mark {
         std::uint64_t bytes = 0;
-        std::uint64_t digest = 0;
+        std::uint32_t digest = 0;
     };
     using Bytes = std::span<const std::byte>;
 

@@ -83,8 +83,9 @@ inline constexpr Quantity result_quantities[] = {
     {"dissipated.uncertainty.approach", "meV/Å^2", per::area, "uncertainty of dissipated.approach"},
     {"dissipated.uncertainty.pull_off", "meV/Å^2", per::area, "uncertainty of dissipated.pull_off"},
     {"dissipated.events", "1", "", "number of instabilities"},
-    {"dissipated.jumps[].leg", "", "",
-     "\"approach\" or \"pull-off\" (the 20 largest instabilities)"},
+    {"dissipated.jumps[]", "", "",
+     "the 20 largest instabilities in the order of the path; an empty list if there were none"},
+    {"dissipated.jumps[].leg", "", "", "\"approach\" or \"pull-off\""},
     {"dissipated.jumps[].energy", "eV", per::block, "energy dissipated"},
     {"dissipated.jumps[].top", "Å", "", "displacement of the top plane"},
     {"dissipated.jumps[].mean_height", "Å", "",
@@ -184,6 +185,10 @@ inline constexpr Quantity result_quantities[] = {
     {"run.compiler", "", "", "compiler"},
     {"run.flags", "", "", "build type and compiler flags"},
     {"run.machine", "", "", "processor and number of processors"},
+    {"digest", "", "",
+     "last member: \"crc32:\" and the CRC-32, in hexadecimal, of all bytes before the comma in "
+     "front "
+     "of it"},
 };
 
 /// In run.h5; "@" leads to an attribute.

@@ -3,9 +3,13 @@
 #include "io/result.hpp"
 
 #include "io/build_info.hpp"
+#include "io/digest.hpp"
 #include "io/json_value.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -70,6 +74,14 @@ void Result::set(Key key, std::size_t element, Value value) {
     put(key, {}, element, std::move(value));
 }
 
+void Result::set_list(Key list) {
+    const std::string_view name = list.quantity->name.substr(0, list.quantity->name.size() - 2);
+    place(*values_, name, {}, 0, false) = Json::array();
+    for (const Quantity& q : result_quantities)
+        if (q.name.starts_with(name) && q.name.substr(name.size()).starts_with("[]."))
+            place((*values_)["units"], q.name, {}, 0, true) = std::string(q.unit);
+}
+
 void Result::set_scene(const JsonValue& scene, const JsonValue& units) {
     (*values_)["scene"] = from(scene);
     (*values_)["units"]["scene"] = from(units);
@@ -88,6 +100,7 @@ Json Result::json() const {
     Json all = Json::object();
     for (const auto& [name, value] : values_->items())
         if (!value.is_null()) all[name] = value;
+    all["units"]["digest"] = ""; // of sealed_json
     return all;
 }
 
@@ -96,8 +109,15 @@ std::string Result::text(int indent) const {
     return json().dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string sealed_json(std::string text) {
+    text.resize(text.rfind("\n}"));
+    Digest digest;
+    digest.update(std::as_bytes(std::span(text)));
+    return text + fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n", digest.value());
+}
+
 void write_result(const Directory& directory, const Result& result) {
-    write_whole({directory, "result.json"}, result.text());
+    write_whole({directory, "result.json"}, sealed_json(result.text()));
 }
 
 } // namespace asperity::io

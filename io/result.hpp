@@ -47,13 +47,15 @@ public:
     void set(Key key, std::string_view member, Value value);
     /// element: in place of the "[]" of the key; elements before it must be there.
     void set(Key key, std::size_t element, Value value);
+    /// An empty list and the units of its elements; list: a key that ends in "[]".
+    void set_list(Key list);
     /// The scene and the units of its keys (Schema::json(), Schema::units()).
     void set_scene(const JsonValue& scene, const JsonValue& units);
 
     /// A number that was set (of a key without "*" and "[]"), or nothing.
     std::optional<double> number(Key key) const;
 
-    /// The file: values in the order of result_quantities, then `scene` and `units`.
+    /// Values in the order of result_quantities, then `scene` and `units`.
     nlohmann::ordered_json json() const;
     /// indent < 0: one line.
     std::string text(int indent = 2) const;
@@ -64,7 +66,11 @@ private:
     std::unique_ptr<nlohmann::ordered_json> values_; ///< with `units` among them
 };
 
-/// Writes result.json, whole or not at all. Throws FileError.
+/// The text of a JSON object with a last member `digest`: of all bytes before the comma in front of
+/// it.
+std::string sealed_json(std::string text);
+
+/// Writes result.json, sealed, whole or not at all. Throws FileError.
 void write_result(const Directory& directory, const Result& result);
 
 } // namespace asperity::io

@@ -13,7 +13,9 @@ namespace asperity {
 namespace {
 
 using Entry = MatrixRow<double>::Entry;
-using enum MatrixRow<double>::Entry;
+// `using enum` of an enumeration in a class template is more than clang 14 understands.
+constexpr Entry xx = Entry::xx, yy = Entry::yy, zz = Entry::zz, xy = Entry::xy, xz = Entry::xz,
+                yz = Entry::yz, entries = Entry::entries;
 
 /// What row n_y of N sees of a table over the quadrant: [entry][ny][nx], or the one number of a
 /// wave.

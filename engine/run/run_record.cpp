@@ -71,6 +71,7 @@ void add_dissipation(const Findings& findings, const Scene& scene, io::Result& r
     uncertainty(findings.pull_off, findings.pull_off_uncertainty,
                 "work_of_adhesion.uncertainty.pull_off", "dissipated.uncertainty.pull_off");
     result.set("dissipated.events", lost.events);
+    result.set_list("dissipated.jumps[]");
     for (std::size_t i = 0; i < lost.jumps.size(); ++i) {
         const Instability& jump = lost.jumps[i];
         const auto both = [](double before, double after) { return std::vector{before, after}; };

@@ -275,7 +275,7 @@ std::vector<StateArray> RunSession::arrays() {
 void RunSession::restore(const RunScalars& from) {
     resumed_at_ = position_in(from);
     RestoreScalars restore{from};
-    for (const char* name : {"rows", "journal.bytes", "journal.digest_high", "journal.digest_low"})
+    for (const char* name : {"rows", "journal.bytes", "journal.digest"})
         restore.next(name);
     restore("strongest.attraction", strongest_.attraction);
     restore("strongest.reference_height", strongest_.reference_height);

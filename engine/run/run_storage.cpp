@@ -41,9 +41,6 @@ io::ResultRequest request(const RunOptions& options, const std::string& name) {
     return request;
 }
 
-/// A 64-bit number as two that doubles hold exactly.
-constexpr double half = 4294967296.0;
-
 double number(const RunScalars& scalars, const std::string& name) {
     // Those of a simulation have a prefix (checkpoint.cpp).
     const auto found = std::find_if(scalars.begin(), scalars.end(), [&](const auto& s) {
@@ -61,9 +58,7 @@ double number(const RunScalars& scalars, const std::string& name) {
 void add_position(const Recorder::Position& position, RunScalars& scalars) {
     scalars.emplace_back("rows", static_cast<double>(position.rows));
     scalars.emplace_back("journal.bytes", static_cast<double>(position.mark.bytes));
-    scalars.emplace_back("journal.digest_high", static_cast<double>(position.mark.digest >> 32));
-    scalars.emplace_back("journal.digest_low",
-                         static_cast<double>(position.mark.digest & 0xffffffffu));
+    scalars.emplace_back("journal.digest", static_cast<double>(position.mark.digest));
 }
 
 Recorder::Position position_in(const RunScalars& scalars) {
@@ -71,8 +66,7 @@ Recorder::Position position_in(const RunScalars& scalars) {
         return static_cast<std::uint64_t>(number(scalars, name));
     };
     return {integer("rows"),
-            {integer("journal.bytes"),
-             (integer("journal.digest_high") << 32) + integer("journal.digest_low")}};
+            {integer("journal.bytes"), static_cast<std::uint32_t>(integer("journal.digest"))}};
 }
 
 RunStorage::RunStorage(const RunOptions& options, const std::string& name,

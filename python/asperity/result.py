@@ -20,6 +20,7 @@ from typing import Any
 import h5py
 import numpy as np
 
+from . import files
 from .errors import InputOutputError
 
 LARGEST_ARRAY = 2**28
@@ -106,11 +107,12 @@ def _deeper_than(value: Any, levels: int) -> bool:
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """A file with a JSON object. Raises InputOutputError for anything else."""
-    def refuse(why: str) -> InputOutputError:
-        return InputOutputError(str(path), "cannot be read", why, "was it damaged, or written by hand?")
+    """A file with a JSON object, as its digest says if it has one. Raises InputOutputError for anything else."""
+    def refuse(why: str, remedy: str = "was it damaged, or written by hand?") -> InputOutputError:
+        return InputOutputError(str(path), "cannot be read", why, remedy)
     try:
-        value = json.loads(path.read_bytes())
+        content = path.read_bytes()
+        value = json.loads(content)
     except OSError as error:
         raise InputOutputError(str(path), "cannot be read", error.strerror or str(error),
                                "check the path and its permissions") from None
@@ -120,7 +122,12 @@ def read_json(path: Path) -> dict[str, Any]:
         raise refuse(f"it is not JSON: {error}") from None
     if _deeper_than(value, DEEPEST_JSON):
         raise refuse("it is nested too deeply")
-    return value if isinstance(value, dict) else {}
+    if not isinstance(value, dict):
+        return {}
+    if "digest" in value and not files.json_is_whole(content):
+        raise refuse("its content is not what its digest was made of: it was damaged or changed",
+                     "take a copy that is whole; of a file changed on purpose, remove the member \"digest\"")
+    return value
 
 
 def expect(directory: Path, *files: str) -> None:
@@ -136,17 +143,28 @@ def expect(directory: Path, *files: str) -> None:
 
 
 class RunFile:
-    """run.h5 of a directory. Every read is checked; what cannot be read raises InputOutputError."""
+    """run.h5 of a directory. Every read is checked; what cannot be read raises InputOutputError.
+
+    The first read compares the file with the digest at its end, if it was written with one.
+    """
 
     def __init__(self, path: Path):
         self.path = path
+
+    @functools.cached_property
+    def _whole(self) -> bool | None:
+        return files.hdf5_is_whole(self.path)
 
     def _read(self, action):
         if not self.path.exists():
             raise InputOutputError(str(self.path), "cannot be read", "there is no such file",
                                    "the theory alone and a run that failed early have none")
         try:
+            if self._whole is False:
+                raise ValueError("its bytes are not those its digest was made of")
             with h5py.File(self.path, "r") as file:
+                if self._whole is None and "asperity_digest" in file.attrs:
+                    raise ValueError("the digest at its end is missing")
                 return action(file)
         except InputOutputError:
             raise

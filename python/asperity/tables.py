@@ -265,7 +265,7 @@ def write_tables(sweep: Sweep) -> list[Path]:
         written.append(place / "sweep-mean.csv")
         files.write(written[-1], mean_csv_of(table))
     write_hdf5(place / "sweep.h5", table)
-    files.write(place / "sweep.json", json.dumps(json_of(sweep), indent=2, ensure_ascii=False) + "\n")
+    files.write(place / "sweep.json", files.sealed_json(json_of(sweep)))
     return [*written, place / "sweep.h5", place / "sweep.json"]
 
 

@@ -89,7 +89,7 @@ void without_unit(const Json& value, const Json& unit, const std::string& path,
             without_unit(member, unit.contains(name) ? unit.at(name) : Json(), path + "/" + name,
                          list);
         }
-    else if (value.is_array() && !value.empty() && value.front().is_object())
+    else if (value.is_array() && (value.empty() ? unit.is_object() : value.front().is_object()))
         for (const Json& element : value)
             without_unit(element, unit, path + "[]", list);
     else if (!unit.is_string() || (value.is_number() && unit == ""))
@@ -190,6 +190,19 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
     const auto edges = run.data(state + "gap_edges", "Å"),
                density = run.data(state + "gap_density", "1/Å");
     EXPECT_NEAR(mean(density) * (edges.back() - edges.front()), 1.0, 1e-12);
+}
+
+TEST(Results, OfAPathWithoutInstabilitiesListNone) {
+    const Written run(
+        "[surface]\nsites = 16\nrms = 0.7\n[block]\nmodel = \"spectral\"\nthickness = 60\n"
+        "[drive]\nmode = \"quasistatic\"\nmax_steps = 2\n");
+    const Json& lost = run.json.at("dissipated");
+    EXPECT_EQ(lost.at("events"), 0);
+    EXPECT_EQ(lost.at("jumps"), Json::array());
+    EXPECT_EQ(run.json.at("units").at("dissipated").at("jumps").at("energy"), "eV");
+    std::vector<std::string> bare;
+    without_unit(run.json, run.json.at("units"), "", bare);
+    EXPECT_EQ(bare, std::vector<std::string>());
 }
 
 TEST(Results, OfAStateAreEnergiesPerArea) {

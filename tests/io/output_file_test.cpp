@@ -23,7 +23,7 @@ namespace {
 
 std::span<const std::byte> bytes(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-std::uint64_t digest_of(const std::string& text) {
+std::uint32_t digest_of(const std::string& text) {
     Digest digest;
     digest.update(bytes(text));
     return digest.value();
@@ -53,7 +53,7 @@ private:
 TEST(Digest, DependsOnEveryBitAndTheLengthAndNotOnTheParts) {
     std::string text(333, '\0');
     std::iota(text.begin(), text.end(), '\1');
-    const std::uint64_t whole = digest_of(text);
+    const std::uint32_t whole = digest_of(text);
     for (std::size_t cut = 0; cut <= text.size(); cut += 7) {
         Digest parts;
         parts.update(bytes(text.substr(0, cut)));
@@ -67,6 +67,7 @@ TEST(Digest, DependsOnEveryBitAndTheLengthAndNotOnTheParts) {
     }
     EXPECT_NE(digest_of(std::string(64, '\0')), digest_of(std::string(65, '\0')));
     EXPECT_NE(digest_of(""), digest_of(std::string(1, '\0')));
+    EXPECT_EQ(digest_of("123456789"), 0xcbf43926u); // the check value of CRC-32/ISO-HDLC
 }
 
 TEST(OutputFile, AppearsWholeOrNotAtAll) {

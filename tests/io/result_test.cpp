@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
+#include "io/digest.hpp"
 #include "io/error.hpp"
 #include "io/json_value.hpp"
 #include "io/result.hpp"
@@ -10,7 +11,9 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <span>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace asperity::io {
@@ -160,7 +163,27 @@ TEST(Result, IsWrittenWhole) {
     const Directory directory = Directory::make(scratch / "a/b");
     write_result(directory, Result());
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1);
-    EXPECT_NO_THROW(JsonValue::parse(contents(directory / "result.json"), ""));
+    const std::string text = contents(directory / "result.json");
+    EXPECT_NO_THROW(JsonValue::parse(text, ""));
+    // Its last member is the digest of what is before it.
+    const std::size_t end = text.find(",\n  \"digest\": \"crc32:");
+    ASSERT_NE(end, std::string::npos);
+    Digest digest;
+    digest.update(std::as_bytes(std::span(text.data(), end)));
+    EXPECT_EQ(text.substr(end),
+              fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n", digest.value()));
+}
+
+TEST(Result, AListWithoutElementsIsThereWithItsUnits) {
+    Result result;
+    result.set_list("dissipated.jumps[]");
+    const Json empty = Json::parse(result.text());
+    EXPECT_EQ(at(empty, "dissipated.jumps"), Json::array());
+    result.set("dissipated.jumps[].energy", 0, 1.5);
+    const Json one = Json::parse(result.text());
+    EXPECT_EQ(at(one, "dissipated.jumps.0.energy"), 1.5);
+    EXPECT_EQ(at(one, "units.dissipated.jumps.energy"), "eV");
+    EXPECT_EQ(at(one, "units"), at(empty, "units"));
 }
 
 } // namespace

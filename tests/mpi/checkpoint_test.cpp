@@ -83,26 +83,26 @@ std::uint64_t uninterrupted() {
     return std::bit_cast<std::uint64_t>(hash[0]);
 }
 
-std::string file(const char* name) {
-    return std::string(name) + "_ranks" + std::to_string(world().size()) + ".h5";
-}
-
-/// Removed again by the root.
+/// A directory for one checkpoint; the root removes it again.
 class Scratch {
 public:
-    explicit Scratch(const char* name) : path(file(name)) { remove(); }
+    explicit Scratch(const char* name)
+        : directory(std::string(name) + "_ranks" + std::to_string(world().size())),
+          path(directory + "/checkpoint.h5") {
+        remove();
+        if (world().root()) std::filesystem::create_directory(directory);
+        world().barrier();
+    }
     ~Scratch() { remove(); }
     Scratch(const Scratch&) = delete;
     Scratch& operator=(const Scratch&) = delete;
-    const std::string path;
+    const std::string directory, path;
 
 private:
     void remove() const {
         world().barrier();
-        if (world().root()) {
-            std::error_code ignored;
-            std::filesystem::remove(path, ignored);
-        }
+        std::error_code ignored;
+        if (world().root()) std::filesystem::remove_all(directory, ignored);
         world().barrier();
     }
 };
@@ -124,7 +124,8 @@ TEST(Checkpoint, WrittenByAllRanksAndTakenUpByOne) {
         EXPECT_EQ(after.steps(), first_leg);
         advance(after, second_leg);
         EXPECT_EQ(trace(after), expected);
-        EXPECT_FALSE(std::filesystem::exists(scratch.path + ".part"));
+        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.directory), {}), 1)
+            << "a temporary file is left";
     }
     // Writing has changed nothing.
     advance(before, second_leg);

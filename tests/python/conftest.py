@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: MIT
 """The package from this source tree, the program of $ASPERITY_PROGRAM, and a few small results."""
 
+import contextlib
 import os
 import subprocess
 import sys
 from pathlib import Path
 
+import h5py
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -27,6 +29,14 @@ def command(*words, expect=0, cwd=None, env=None):
                           env={**os.environ, **(env or {})})
     assert done.returncode == expect, f"exit {done.returncode}: {words}\n{done.stdout}{done.stderr}"
     return done.stdout + done.stderr
+
+
+@contextlib.contextmanager
+def unsealed(path):
+    """A run.h5 to change: without its digest, it is read like that of another program."""
+    with h5py.File(path, "r+") as file:
+        del file.attrs["asperity_digest"]
+        yield file
 
 
 @pytest.fixture(scope="session")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import asperity
-from conftest import SMALL, command
+from conftest import SMALL, command, unsealed
 
 
 def frames_of_xyz(path):
@@ -159,7 +159,7 @@ def test_what_cannot_be_exported_is_a_message(path_run, tmp_path):
 def test_damaged_files_are_a_message(path_run, tmp_path, name, shape, kind):
     copy = tmp_path / "copy"
     shutil.copytree(path_run.directory, copy, ignore=shutil.ignore_patterns("report*", "export"))
-    with h5py.File(copy / "run.h5", "r+") as file:
+    with unsealed(copy / "run.h5") as file:
         del file[name]
         file[name] = np.zeros(shape)
     said = command("export", copy, "--to", kind, expect=4)

@@ -13,7 +13,7 @@ import pytest
 
 import asperity
 from asperity import program, scene
-from conftest import SMALL
+from conftest import SMALL, unsealed
 
 
 def test_a_result_is_what_the_files_hold(path_run):
@@ -123,6 +123,44 @@ def test_damaged_json_is_a_message_or_an_empty_result(tmp_path, text):
     assert found.number("delta_gamma") is None and found.stopped == ""
 
 
+def test_what_is_loaded_is_what_was_written(path_run, tmp_path):
+    """Bits, blocks and lengths of result.json and run.h5: refused, or (in the digest's own name) the same numbers."""
+    def damages(data):
+        for place in map(int, np.linspace(0, len(data) - 1, 150)):
+            yield data[:place] + bytes([data[place] ^ 1 << place % 8]) + data[place + 1:]
+        for place in range(0, len(data), max(512, len(data) // 30)):
+            yield data[:place] + b"0" * len(data[place:place + 512]) + data[place + 512:]
+            yield data[:place]
+
+    def loaded(name, data):
+        (tmp_path / name).write_bytes(data)
+        try:
+            return asperity.load(tmp_path)
+        except asperity.InputOutputError:
+            return None
+
+    whole = {name: (path_run.directory / name).read_bytes() for name in ("result.json", "run.h5")}
+    numbers = path_run.numbers()
+    for data in damages(whole["result.json"]):
+        found = loaded("result.json", data)
+        assert found is None or data == whole["result.json"] or found.numbers() == numbers
+    assert loaded("result.json", whole["result.json"]).numbers() == numbers
+    for data in damages(whole["run.h5"]):
+        found = loaded("run.h5", data)
+        assert data == whole["run.h5"] or (found.notes and not found.series)
+    assert not loaded("run.h5", whole["run.h5"]).notes
+
+
+def test_a_result_changed_on_purpose_is_read_without_its_digest(path_run, tmp_path):
+    changed = dict(json.loads((path_run.directory / "result.json").read_text()), delta_gamma=1.0)
+    (tmp_path / "result.json").write_text(json.dumps(changed))
+    with pytest.raises(asperity.InputOutputError, match='remove the member "digest"'):
+        asperity.load(tmp_path)
+    del changed["digest"]
+    (tmp_path / "result.json").write_text(json.dumps(changed))
+    assert asperity.load(tmp_path).delta_gamma == 1.0
+
+
 def damaged(path_run, tmp_path, change):
     copy = tmp_path / "copy"
     shutil.copytree(path_run.directory, copy, ignore=shutil.ignore_patterns("report*", "export"))
@@ -140,7 +178,7 @@ def test_a_damaged_run_file_is_noted_and_the_rest_is_used(path_run, tmp_path):
 @pytest.mark.parametrize("shape", [(), (3000, 1), (4, 4, 4), (0, 0)])
 def test_an_array_of_another_shape_is_a_message(path_run, tmp_path, shape):
     def change(name):
-        with h5py.File(name, "r+") as file:
+        with unsealed(name) as file:
             for place in ("substrate/height", "fields/zero-load/pressure"):
                 del file[place]
                 file[place] = np.zeros(shape)
@@ -154,7 +192,7 @@ def test_an_array_of_another_shape_is_a_message(path_run, tmp_path, shape):
 
 def test_words_and_groups_in_place_of_numbers_are_a_message(path_run, tmp_path):
     def change(name):
-        with h5py.File(name, "r+") as file:
+        with unsealed(name) as file:
             del file["series/force"], file["substrate/height"]
             file["series/force"] = "words"
             file.create_group("substrate/height")
@@ -164,7 +202,7 @@ def test_words_and_groups_in_place_of_numbers_are_a_message(path_run, tmp_path):
 
 def test_a_huge_array_is_not_read(path_run, tmp_path):
     def change(name):
-        with h5py.File(name, "r+") as file:
+        with unsealed(name) as file:
             del file["substrate/height"]
             file.create_dataset("substrate/height", shape=(100_000, 100_000), chunks=(1000, 1000))
     with pytest.raises(asperity.InputOutputError, match="values"):
