@@ -56,7 +56,8 @@ bool Directory::exists(const std::string& name) const {
 }
 
 Descriptor Directory::open(const std::string& name, int flags) const {
-    return Descriptor(::openat(fd(), name.c_str(), flags | O_CLOEXEC, 0644));
+    // Non-blocking: to open a pipe of that name would wait for somebody at its other end.
+    return Descriptor(::openat(fd(), name.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0644));
 }
 
 void make_directory(const std::string& directory) { Directory::make(directory); }

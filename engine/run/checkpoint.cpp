@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -49,6 +51,16 @@ double RestoreScalars::next(const char* name) {
             "checkpoint", fmt::format("has no number \"{}\" where it is expected", name),
             "it was written by another version of the program", "run the scene from its start");
     return values[at++].second;
+}
+
+double RestoreScalars::next_integer(const char* name, double least, double most) {
+    const double value = next(name);
+    if (!(value >= least && value <= most) || value != std::trunc(value))
+        throw io::FileError(
+            "checkpoint", fmt::format("has the number \"{}\" = {:.17g}", name, value),
+            fmt::format("an integer from {:.17g} to {:.17g} is expected", least, most),
+            "run the scene from its start");
+    return value;
 }
 
 void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
@@ -98,30 +110,44 @@ io::Hdf5File open_checkpoint(const io::FilePlace& place) {
     return file;
 }
 
-RunScalars scalars_of(const std::string& names, const std::vector<double>& values) {
-    RunScalars scalars;
-    std::size_t from = 0;
-    for (double value : values) {
-        const auto to = names.find('\n', from);
-        scalars.emplace_back(names.substr(from, to - from), value);
-        from = to + 1;
+/// The scalars' names, one a line, and values, as many of each.
+struct NamedValues {
+    NamedValues() = default;
+    explicit NamedValues(const io::Hdf5File& file)
+        : names(file.read_text_attribute("/", "scalar_names")) {
+        const auto lines = static_cast<std::uint64_t>(std::count(names.begin(), names.end(), '\n'));
+        if (file.shape("/scalars") != io::Hdf5File::Shape{lines})
+            throw io::FileError(file.path(), "is damaged",
+                                "its numbers are not as many as their names",
+                                "take a copy that is whole");
+        values = file.read<double>("/scalars");
     }
-    return scalars;
-}
+    RunScalars scalars() const {
+        RunScalars scalars;
+        std::size_t from = 0;
+        for (double value : values) {
+            const auto to = names.find('\n', from);
+            scalars.emplace_back(names.substr(from, to - from), value);
+            from = to + 1;
+        }
+        return scalars;
+    }
+
+    std::string names;
+    std::vector<double> values;
+};
 
 } // namespace
 
 RunScalars read_checkpoint_scalars(const io::FilePlace& place) {
-    const io::Hdf5File file = open_checkpoint(place);
-    return scalars_of(file.read_text_attribute("/", "scalar_names"), file.read<double>("/scalars"));
+    return NamedValues(open_checkpoint(place)).scalars();
 }
 
 RunScalars read_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                            const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                            const std::string& fingerprint) {
     std::unique_ptr<io::Hdf5File> file;
-    std::string names;
-    std::vector<double> values;
+    NamedValues named;
     std::int64_t sizes[2] = {0, 0};
     ranks.on_root([&] {
         file = std::make_unique<io::Hdf5File>(open_checkpoint(place));
@@ -130,16 +156,15 @@ RunScalars read_checkpoint(const io::FilePlace& place, const Communicator& ranks
                 {file->path(), "belongs to another scene",
                  "the physics of this scene differs from the one that wrote the checkpoint",
                  "give the scene it was made with, or start without --resume"});
-        names = file->read_text_attribute("/", "scalar_names");
-        values = file->read<double>("/scalars");
-        sizes[0] = static_cast<std::int64_t>(names.size());
-        sizes[1] = static_cast<std::int64_t>(values.size());
+        named = NamedValues(*file);
+        sizes[0] = static_cast<std::int64_t>(named.names.size());
+        sizes[1] = static_cast<std::int64_t>(named.values.size());
     });
     ranks.broadcast(std::as_writable_bytes(std::span(sizes)));
-    names.resize(static_cast<std::size_t>(sizes[0]));
-    values.resize(static_cast<std::size_t>(sizes[1]));
-    ranks.broadcast(std::as_writable_bytes(std::span(names)));
-    ranks.broadcast(std::span<double>(values));
+    named.names.resize(static_cast<std::size_t>(sizes[0]));
+    named.values.resize(static_cast<std::size_t>(sizes[1]));
+    ranks.broadcast(std::as_writable_bytes(std::span(named.names)));
+    ranks.broadcast(std::span<double>(named.values));
     for (const StateArray& array : arrays) {
         const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
         for (int z = 0; z < array.planes; ++z) {
@@ -152,7 +177,7 @@ RunScalars read_checkpoint(const io::FilePlace& place, const Communicator& ranks
             scatter_plane(ranks, grid, array.level, dense, array.field->plane(z));
         }
     }
-    return scalars_of(names, values);
+    return named.scalars();
 }
 
 void write_checkpoint(const io::FilePlace& place, Simulation& simulation, const RunScalars& scalars,

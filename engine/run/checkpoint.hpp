@@ -15,7 +15,11 @@
 #include "engine/equilibrium/state_array.hpp"
 #include "io/directory.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -38,9 +42,30 @@ struct RestoreScalars {
     std::size_t at = 0;
     /// Throws io::FileError where the next number has another name.
     double next(const char* name);
+    /// Throws io::FileError as well where it is no integer between these.
+    double next_integer(const char* name, double least, double most);
+
+    void operator()(const char* name, double& value) { value = next(name); }
+    /// The length of a list, whose elements follow.
+    void operator()(const char* name, std::size_t& count) {
+        count =
+            static_cast<std::size_t>(next_integer(name, 0.0, static_cast<double>(values.size())));
+    }
     template <class T>
+    requires std::is_integral_v<T>
     void operator()(const char* name, T& value) {
-        value = static_cast<T>(next(name));
+        using Limits = std::numeric_limits<T>;
+        constexpr double exact = 9007199254740992.0; // 2^53
+        value = static_cast<T>(next_integer(name,
+                                            std::max(-exact, static_cast<double>(Limits::lowest())),
+                                            std::min(exact, static_cast<double>(Limits::max()))));
+    }
+    template <class T>
+    requires std::is_enum_v<T>
+    void operator()(const char* name, T& value) {
+        std::underlying_type_t<T> number{};
+        (*this)(name, number);
+        value = static_cast<T>(number);
     }
 };
 

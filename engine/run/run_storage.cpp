@@ -62,11 +62,17 @@ void add_position(const Recorder::Position& position, RunScalars& scalars) {
 }
 
 Recorder::Position position_in(const RunScalars& scalars) {
-    const auto integer = [&](const char* name) {
-        return static_cast<std::uint64_t>(number(scalars, name));
+    const auto integer = [&](const char* name, double most) {
+        const double value = number(scalars, name);
+        if (!(value >= 0.0 && value <= most))
+            throw io::FileError("checkpoint", fmt::format("has {} = {}", name, value),
+                                "no record of a run is there", "run the scene from its start");
+        return static_cast<std::uint64_t>(value);
     };
-    return {integer("rows"),
-            {integer("journal.bytes"), static_cast<std::uint32_t>(integer("journal.digest"))}};
+    constexpr double exact = 9007199254740992.0; // 2^53
+    return {integer("rows", exact),
+            {integer("journal.bytes", exact),
+             static_cast<std::uint32_t>(integer("journal.digest", 4294967295.0))}};
 }
 
 RunStorage::RunStorage(const RunOptions& options, const std::string& name,

@@ -18,6 +18,7 @@ byte for byte, and result.json in all but times and counts of its `run` section.
     directory  the result directory moved, removed, emptied during a run
     two        two runs in one directory; a killed run started again; the lock of another host
     memory     a limit on memory
+    ranks      one of two MPI ranks killed, or stopped (SIGSTOP) for a while or for good
 """
 
 import json
@@ -105,6 +106,7 @@ class Bench:
             data = file.read()
         with open(os.path.join(out, "result.json")) as file:
             result = json.load(file)
+        del result["digest"]  # of the whole file, with its times
         run = result.pop("run")
         result["units"].pop("run")  # of the phases that there were
         return data, result, run.get("steps")
@@ -418,12 +420,58 @@ class Bench:
         return f"exit codes {codes}"
 
 
+    def ranks_of(self, child):
+        """The processes of a run that mpirun has started, when it has begun to record."""
+        while child.poll() is None:
+            with open(f"/proc/{child.pid}/task/{child.pid}/children") as file:
+                found = [int(word) for word in file.read().split()]
+            if len(found) == 2 and os.path.exists(os.path.join(child.out, "run.journal")):
+                return found
+            time.sleep(0.001)
+        return []
+
+    def test_ranks(self):
+        if not shutil.which("mpirun"):
+            return "skipped: there is no mpirun"
+        good = total = 0
+        for i in range(20 if self.long else 2):
+            what, out = ("killed", "stopped and continued", "stopped, then mpirun ended")[i % 3], self.out("rank")
+            child = self.start(out, ranks=2)
+            child.out = out
+            ranks = self.ranks_of(child)
+            time.sleep(self.random.uniform(0.0, 0.5) * self.reference("dynamic")[3])
+            total += 1
+            try:
+                os.kill(ranks[1 - i // 3 % 2], signal.SIGKILL if what == "killed" else signal.SIGSTOP)
+            except (IndexError, ProcessLookupError):
+                pass  # it has ended
+            else:
+                if what != "killed":
+                    time.sleep(1.0)  # the other one waits for it
+                    if what == "stopped and continued":
+                        os.kill(ranks[1 - i // 3 % 2], signal.SIGCONT)
+                    else:
+                        child.send_signal(signal.SIGTERM)
+            text = child.communicate(timeout=120)[0]
+            if what == "stopped and continued" and child.returncode != 0:
+                self.fail(f"rank {what}: exit {child.returncode}: {text[-600:]}")
+            for rank in ranks:
+                if os.path.exists(f"/proc/{rank}"):
+                    time.sleep(1.0)
+                    if os.path.exists(f"/proc/{rank}"):
+                        self.fail(f"rank {what}: process {rank} is left")
+                        os.kill(rank, signal.SIGKILL)
+            good += self.resumes(out, what=f"rank {what}", ranks=1 + i % 2)
+        return f"{good} of {total} resumed to the same bits"
+
+
 def main():
     words = sys.argv[1:]
     long = "--long" in words
     program, library, *names = [w for w in words if w != "--long"]
     bench = Bench(program, library, long)
-    tests = ["calls", "kills", "file-size", "full-disk", "damage", "signals", "directory", "two", "memory"]
+    tests = ["calls", "kills", "file-size", "full-disk", "damage", "signals", "directory", "two", "memory",
+             "ranks"]
     try:
         for name in names or tests:
             start = time.monotonic()

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -32,13 +31,6 @@ public:
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
     std::string name() const { return "/proc/self/fd/" + std::to_string(file_); }
-    std::string text() const {
-        std::string text(1 << 16, '\0');
-        const ssize_t size = ::pread(file_, text.data(), text.size(), 0);
-        text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-        return text;
-    }
-    int descriptor() const { return file_; }
 
 private:
     int file_;
@@ -51,24 +43,6 @@ void try_out(const Work& work) {
         work();
     } catch (const io::Error&) {
     }
-}
-
-/// The same in a child process, for files that libhdf5 reads. A report of a sanitizer whose first
-/// frame of a known object is Asperity's own ends the parent: that is a finding.
-inline void try_out_in_child(const std::function<void()>& work) {
-    const MemoryFile report("");
-    const auto child = [&](int) {
-        ::dup2(report.descriptor(), STDERR_FILENO);
-        try_out(work);
-    };
-    const std::string ended = io::in_child_process(20, child, [](int) {});
-    if (ended.empty()) return;
-    const std::string text = report.text();
-    const std::size_t ours = text.find(" in asperity::"), theirs = text.find("libhdf5");
-    const bool hang = ended.starts_with("after");
-    if (hang || ours >= theirs) return;
-    std::fprintf(stderr, "the child ended %s:\n%s\n", ended.c_str(), text.c_str());
-    std::abort();
 }
 
 } // namespace asperity::fuzz
