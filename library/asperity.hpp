@@ -3,17 +3,20 @@
 //
 // libasperity: runs of Asperity from C++.
 //
+// clang-format off
 //     #include <asperity.hpp>
 //     #include <cstdio>
 //
 //     int main() {
 //         libasperity::Options options;
-//         options.progress = [](const libasperity::Progress& now) { std::puts(now.phase.c_str());
-//         }; const auto scene = libasperity::Scene::read("scene.toml", {"surface.sites=64"}); const
-//         auto result = libasperity::run(scene, "results/mine", options); const auto gap =
-//         result.map("zero-load", "gap"); std::printf("%g %s\n", result.number("binding_energy"),
-//         result.unit("binding_energy").c_str());
+//         options.progress = [](const libasperity::Progress& now) { std::puts(now.phase.c_str()); };
+//         const auto scene = libasperity::Scene::read("scene.toml", {"surface.sites=64"});
+//         const auto result = libasperity::run(scene, "results/mine", options);
+//         const auto gap = result.map("zero-load", "gap");
+//         std::printf("%g %s\n", result.number("binding_energy"),
+//                     result.unit("binding_energy").c_str());
 //     }
+// clang-format on
 //
 // Keys of scenes are in docs/scene.md, names and units of results in docs/result.md; they mean the
 // same here as for the program. Every function throws libasperity::Error. A run takes OpenMP's
