@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Lennard-Jones forces between the block's lowest layer and the rigid substrate.
+// Forces between the block's lowest layer and the rigid substrate: Lennard-Jones pairs, or a wall
+// with a law of the gap below each site (wall_law.hpp), which has a sweep of its own.
 //
-// Three sweeps give the same answer:
+// Three sweeps over pairs give the same answer:
 //   reference  every site against every substrate atom in reach by an explicit loop over pairs,
 //              scalar, obvious: the judge of the other two;
 //   lattice    both sides are the same lattice, so the neighbours of a site are known offsets: SIMD
@@ -37,6 +38,7 @@
 #include "kernels/exact_sum.hpp"
 #include "kernels/lennard_jones.hpp"
 #include "kernels/views.hpp"
+#include "kernels/wall_law.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -200,6 +202,37 @@ void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
                 PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
                 InterfaceSums& sums);
 
+/// A wall below the sites: its height below each site of the tile, Å.
+template <class Law>
+struct WallSubstrate {
+    PlaneView<const double> height;
+    Law law;
+};
+
+/// A row of sites over a wall, each of which comes to rest under its own force while the elastic
+/// ones stay as they are (engine/equilibrium/wall_descent.hpp).
+template <class T>
+struct WallRow {
+    const double* below; ///< the wall's height, Å
+    const double* u;     ///< where the sites are, Å
+    const float* step;   ///< how far they went last, Å
+    const T* elastic;    ///< S z, eV/Å, times 1 / norm
+    double* next;        ///< out: where they come to rest, Å
+};
+struct WallRule {
+    double reference_height; ///< Å
+    double spring;           ///< eV/Å^2: of each site to z - (elastic force) / spring
+    double momentum;         ///< z = u + momentum step
+    double norm;
+    double load;  ///< on each site, pressing down, eV/Å
+    double bound; ///< of next - z, Å
+};
+struct WallSums {
+    double furthest = 0.0; ///< |next - z|, Å
+    double turn = 0.0;     ///< sum of (z - next) (next - u), Å^2
+    double height = 0.0;   ///< sum of next, Å
+};
+
 /// The sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile
 /// and overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
 struct InterfaceKernels {
@@ -213,6 +246,27 @@ struct InterfaceKernels {
     };
     Sweeps<LatticeSubstrate> lattice;
     Sweeps<RowSubstrate> rows;
+
+    /// Over a wall, in double; [observe]. nearest_r2: the square of the gap, 0 where it is
+    /// negative.
+    template <class Law>
+    using OverWall = void (*)(const InterfaceSites&, const WallSubstrate<Law>&, int row_begin,
+                              int row_end, InterfaceSums&);
+    template <class Law, class T>
+    using Settle = WallSums (*)(const Law&, const WallRow<T>&, const WallRule&, int sites);
+    template <class Law>
+    struct WallKernels {
+        OverWall<Law> sweep[2];
+        Settle<Law, double> settle_double;
+        Settle<Law, float> settle_single;
+    };
+    struct AllWalls {
+        WallKernels<LennardJonesWall> lennard_jones;
+        WallKernels<ExponentialWall> exponential;
+        const auto& over(const LennardJonesWall&) const { return lennard_jones; }
+        const auto& over(const ExponentialWall&) const { return exponential; }
+    };
+    AllWalls wall;
 };
 
 /// The kernels for the running processor (processor_level()).

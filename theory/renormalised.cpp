@@ -415,7 +415,9 @@ void check(const RoughInterface& rough, const RenormalisedOptions& options) {
     const double d = 0.01 * (flat.separation() - flat.closest()), u0 = flat.closest() + d;
     const double bend = (flat.energy(u0 - d) - 2 * flat.energy(u0) + flat.energy(u0 + d)) / (d * d);
     const double S =
-        rough.stiffness(rough.spectrum.smooth() ? 1 / flat.separation() : rough.spectrum.q1())
+        rough
+            .stiffness(rough.spectrum.smooth() ? 1 / (flat.separation() - flat.closest())
+                                               : rough.spectrum.q1())
             .free_zz;
     if (!(bend > 2 * S))
         throw InvalidInput(message("renormalised theory: at the separation ", flat.closest(),

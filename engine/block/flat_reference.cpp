@@ -22,10 +22,26 @@ int registries(int sites, int substrate_sites) {
     return std::min(sites / std::gcd(sites, substrate_sites), 24);
 }
 
+/// In closed form: the repulsion holds the tension A/rho at g = -A / (rho K).
+FlatReference flat_reference(const ExponentialWall& law, double area) {
+    FlatReference flat;
+    flat.separation = -law.tension() / law.stiffness();
+    flat.work_of_adhesion = -units::milli_per_unit * law.energy(flat.separation) / area;
+    flat.largest_tension = law.tension() / area / units::gigapascal;
+    flat.stiffness = law.stiffness() / area;
+    return flat;
+}
+
 } // namespace
 
 PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
                       int substrate_sites, double gap) {
+    if (options.wall)
+        return std::visit(
+            [&](const auto& law) {
+                return PairSum{{0.0, 0.0, law.force(gap)}, law.energy(gap), gap * gap};
+            },
+            *options.wall);
     const double level = 0.0; // a single atom, repeated
     const double b = spacing * sites / substrate_sites;
     const SubstrateMap map{&level, 1, b};
@@ -52,6 +68,9 @@ FlatReference flat_reference(const InterfaceOptions& options, double spacing, in
     const auto force = [&](double gap) {
         return flat_pair_sum(options, spacing, sites, substrate_sites, gap).force[2];
     };
+    if (options.wall)
+        if (const auto* law = std::get_if<ExponentialWall>(&*options.wall))
+            return flat_reference(*law, spacing * spacing);
     const double r0 = options.potential.r0;
     // The minimum: where the force turns from pushing to pulling, by bisection.
     double low = 0.4 * r0, high = 1.2 * r0;

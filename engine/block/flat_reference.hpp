@@ -20,11 +20,12 @@ struct FlatReference {
 
 /// Energy (eV) and normal force (eV/Å) of one block site at a uniform gap over a flat substrate of
 /// spacing b, averaged over the registries that the two lattices take (one for equal spacings:
-/// hollow sites).
+/// hollow sites); or over a wall.
 PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
                       int substrate_sites, double gap);
 
-/// Flat on flat with this potential, cutoff and lattices. Throws std::invalid_argument if they do
+/// Flat on flat with this potential, cutoff and lattices, or with this wall (all but the stiffness
+/// are zero where it does not attract). Throws std::invalid_argument if they do
 /// not bind.
 FlatReference flat_reference(const InterfaceOptions& options, double spacing, int sites,
                              int substrate_sites);

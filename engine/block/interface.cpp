@@ -43,8 +43,25 @@ void for_atoms_around(const SubstrateMap& map, double x, double y, double reach,
 
 Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                      const InterfaceOptions& options)
-    : options_(options), tile_(tile), spacing_(spacing), margin_(2.0 * spacing),
-      map_height_(substrate.height) {
+    : options_(options), tile_(tile), spacing_(spacing), margin_(2.0 * spacing) {
+    if (static_cast<std::size_t>(substrate.sites) * static_cast<std::size_t>(substrate.sites) !=
+        substrate.height.size())
+        throw std::invalid_argument(
+            fmt::format("interface: a substrate of {} x {} atoms has {} heights", substrate.sites,
+                        substrate.sites, substrate.height.size()));
+    highest_ = *std::max_element(substrate.height.begin(), substrate.height.end());
+    const bool same_lattice = substrate.sites == tile.sites;
+    if (options.wall) {
+        if (!same_lattice)
+            throw std::invalid_argument(fmt::format(
+                "interface: a wall needs a height below each site, and {} x {} sites have {} x {}; "
+                "take surface.lattice_ratio = 1",
+                tile.sites, tile.sites, substrate.sites, substrate.sites));
+        method_ = InterfaceMethod::wall;
+        build_wall(substrate);
+        return;
+    }
+    map_height_ = substrate.height;
     const double cutoff = options.potential.cutoff;
     if (!(cutoff > 0.0) || !(options.potential.r0 > 0.0) || !(options.potential.epsilon >= 0.0))
         throw std::invalid_argument(fmt::format(
@@ -56,15 +73,7 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
             "cutoff "
             "(4 r0 = {} Å keeps 98 % of the work of adhesion) and set interface.tail = true",
             cutoff, max_half_offsets - 4, spacing, 4.0 * options.potential.r0));
-    if (static_cast<std::size_t>(substrate.sites) * static_cast<std::size_t>(substrate.sites) !=
-        substrate.height.size())
-        throw std::invalid_argument(
-            fmt::format("interface: a substrate of {} x {} atoms has {} heights", substrate.sites,
-                        substrate.sites, substrate.height.size()));
     map_ = {map_height_.data(), substrate.sites, tile.sites * spacing / substrate.sites};
-    highest_ = *std::max_element(map_height_.begin(), map_height_.end());
-
-    const bool same_lattice = substrate.sites == tile.sites;
     if (same_lattice) map_.spacing = spacing;
     method_ = options.method;
     if (method_ == InterfaceMethod::automatic)
@@ -94,6 +103,16 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                 mean(x, y) = atoms ? sum / atoms : 0.0;
             }
     }
+}
+
+void Interface::build_wall(const Surface& substrate) {
+    height_ = Field<double>(tile_, 1, 0);
+    const PlaneView<double> below = height_.plane(0);
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x)
+            below(x, y) = substrate.height[static_cast<std::size_t>(tile_.y0 + y) *
+                                               static_cast<std::size_t>(substrate.sites) +
+                                           static_cast<std::size_t>(tile_.x0 + x)];
 }
 
 /// For each block of sites and each ring of lateral distance: the greatest and least height in it.
@@ -247,6 +266,7 @@ Interface::TableSizes Interface::lattice_tables_for(const InterfaceOptions& opti
 
 std::size_t Interface::bytes_for(const InterfaceOptions& options, const Tile& tile, double spacing,
                                  int substrate_sites) {
+    if (options.wall) return Field<double>::bytes_for(tile, 1, 0);
     const TableSizes lattice = lattice_tables_for(options, tile, spacing);
     const auto atoms = static_cast<std::size_t>(substrate_sites);
     std::size_t bytes = atoms * atoms * sizeof(double) + 2 * lattice.reach + lattice.mean_height;
@@ -319,6 +339,14 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe, 
 #pragma omp for schedule(static) nowait
         for (int y = 0; y < tile_.ny; ++y) {
             switch (method_) {
+            case InterfaceMethod::wall:
+                std::visit(
+                    [&](const auto& law) {
+                        interface_kernels().wall.over(law).sweep[observe](
+                            sites, {height_.plane(0), law}, y, y + 1, mine);
+                    },
+                    *options_.wall);
+                break;
             case InterfaceMethod::lattice:
                 lattice(sites, lattice_, potential, y, y + 1, mine);
                 break;
@@ -335,6 +363,37 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe, 
         total.merge(mine);
     }
     return total;
+}
+
+WallSums Interface::settle_row(const WallRow<double>& row, const WallRule& rule, int sites) const {
+    return std::visit(
+        [&](const auto& law) {
+            return interface_kernels().wall.over(law).settle_double(law, row, rule, sites);
+        },
+        *options_.wall);
+}
+WallSums Interface::settle_row(const WallRow<float>& row, const WallRule& rule, int sites) const {
+    return std::visit(
+        [&](const auto& law) {
+            return interface_kernels().wall.over(law).settle_single(law, row, rule, sites);
+        },
+        *options_.wall);
+}
+
+/// Of the substrate below a site, Å: the wall's, or bilinear between the four atoms around it.
+double Interface::height_below(const VectorPlane<const double>& displacement, int x, int y) const {
+    if (options_.wall) return height_.plane(0)(x, y);
+    const double px = ((tile_.x0 + x + 0.5) * spacing_ + displacement.x(x, y)) / map_.spacing;
+    const double py = ((tile_.y0 + y + 0.5) * spacing_ + displacement.y(x, y)) / map_.spacing;
+    const double fx = px - std::floor(px), fy = py - std::floor(py);
+    const auto h = [&](int i, int j) {
+        return map_height_
+            [static_cast<std::size_t>(periodic(static_cast<int>(std::floor(py)) + j, map_.sites)) *
+                 static_cast<std::size_t>(map_.sites) +
+             static_cast<std::size_t>(periodic(static_cast<int>(std::floor(px)) + i, map_.sites))];
+    };
+    return (1.0 - fy) * ((1.0 - fx) * h(0, 0) + fx * h(1, 0)) +
+           fy * ((1.0 - fx) * h(0, 1) + fx * h(1, 1));
 }
 
 InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
@@ -354,37 +413,38 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
     maps.distance.reserve(count);
     maps.gap.reserve(count);
     maps.pressure.reserve(count);
-    const double contact = options_.potential.contact_distance();
+    const double contact =
+        options_.wall
+            ? std::visit([](const auto& law) { return law.contact_gap(); }, *options_.wall)
+            : options_.potential.contact_distance();
     const double to_gpa = 1.0 / (units::gigapascal * spacing_ * spacing_);
     for (int y = 0; y < tile_.ny; ++y)
         for (int x = 0; x < tile_.nx; ++x) {
             const double r2 = sites.nearest_r2(x, y);
-            maps.contact.push_back(r2 < contact * contact);
             maps.distance.push_back(r2 < no_pair ? std::sqrt(r2)
                                                  : std::numeric_limits<double>::infinity());
             maps.pressure.push_back(sites.force.z(x, y) * to_gpa);
-            // Bilinear between the four atoms around the point below the site.
-            const double px =
-                ((tile_.x0 + x + 0.5) * spacing_ + displacement.x(x, y)) / map_.spacing;
-            const double py =
-                ((tile_.y0 + y + 0.5) * spacing_ + displacement.y(x, y)) / map_.spacing;
-            const double fx = px - std::floor(px), fy = py - std::floor(py);
-            const auto h = [&](int i, int j) {
-                return map_height_[static_cast<std::size_t>(
-                                       periodic(static_cast<int>(std::floor(py)) + j, map_.sites)) *
-                                       static_cast<std::size_t>(map_.sites) +
-                                   static_cast<std::size_t>(
-                                       periodic(static_cast<int>(std::floor(px)) + i, map_.sites))];
-            };
-            const double below = (1.0 - fy) * ((1.0 - fx) * h(0, 0) + fx * h(1, 0)) +
-                                 fy * ((1.0 - fx) * h(0, 1) + fx * h(1, 1));
-            maps.gap.push_back(reference_height + displacement.z(x, y) - below);
+            maps.gap.push_back(reference_height + displacement.z(x, y) -
+                               height_below(displacement, x, y));
+            maps.contact.push_back(options_.wall ? maps.gap.back() < contact
+                                                 : r2 < contact * contact);
         }
     return maps;
 }
 
-double Interface::start_height() const {
-    return highest_ + (options_.tail ? 4.0 : 1.0) * options_.potential.cutoff;
+double reach_of(const InterfaceOptions& options) {
+    if (options.wall) {
+        const double reach = std::visit([](const auto& law) { return law.reach(); }, *options.wall);
+        if (std::isfinite(reach)) return reach;
+    }
+    return (options.tail ? 4.0 : 1.0) * options.potential.cutoff;
+}
+
+double Interface::start_height() const { return highest_ + reach_of(options_); }
+
+double Interface::attraction_grows_down_to() const {
+    if (!options_.wall) return start_height();
+    return highest_ + std::visit([](const auto& law) { return law.contact_gap(); }, *options_.wall);
 }
 
 std::size_t Interface::bytes() const {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The interface: one tile of the block's lowest layer over the rigid substrate (model.md section
-// 4).
+// 4), whose atoms it meets, or a wall in their place.
 //
 // Built once per run. It keeps what the sweeps need of the substrate around the tile (heights with
 // a halo as wide as the reach), the table of neighbour offsets, and for each block of sites how
@@ -10,10 +10,13 @@
 // communicated here: the sweep is local to the tile, and its sums are exact (ExactSum), to be
 // merged over ranks in any order.
 //
-// Which sweep runs is decided at construction: lattice if the substrate has the block's lattice,
-// rows otherwise; in double, or mixed. The tables allow for sideways displacements up to two
-// spacings; sites that go beyond are summed by the reference loop (kernels/interface_sweep.hpp), so
-// no pair is ever missed and no table is ever rebuilt.
+// Which sweep runs is decided at construction: wall if there is one; lattice if the substrate has
+// the block's lattice, rows otherwise; in double, or mixed. The tables allow for sideways
+// displacements up to two spacings; sites that go beyond are summed by the reference loop
+// (kernels/interface_sweep.hpp), so no pair is ever missed and no table is ever rebuilt.
+//
+// A wall (InterfaceOptions::wall) acts along z alone. The height below site (x, y) is value (x, y)
+// of the surface, which has the block's lattice; it needs no table but these.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -23,14 +26,16 @@
 #include "kernels/interface_sweep.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace asperity {
 
-enum class InterfaceMethod { automatic, reference, lattice, rows };
+enum class InterfaceMethod { automatic, reference, lattice, rows, wall };
 
 struct InterfaceOptions {
+    std::optional<WallLaw> wall; ///< in place of atoms; a smeared layer is that of `potential`
     LennardJones potential;
     bool tail = false; ///< continuum correction beyond the cutoff
     bool mixed =
@@ -45,6 +50,10 @@ struct ContactCount {
     long long in_contact = 0, pushed = 0; ///< sites
     double closest = 0.0;                 ///< smallest pair distance, Å; infinite out of reach
 };
+/// Distance from which on the substrate does not act on a site, Å: beyond the cutoff; with the
+/// tail, which ends nowhere, 4 cutoffs, where 1/256 of its energy is left.
+double reach_of(const InterfaceOptions& options);
+
 /// From the sums of this rank's tile. Collective.
 ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks);
 
@@ -52,8 +61,10 @@ ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks
 struct InterfaceMaps {
     int nx = 0, ny = 0;
     std::vector<std::uint8_t> contact; ///< 1 where the nearest atom is within contact distance
-    std::vector<double> distance;      ///< to the nearest atom, Å; infinite where none is in reach
-    std::vector<double> gap; ///< height above the substrate below (bilinear between its atoms), Å
+    std::vector<double> distance; ///< to the nearest atom, Å; infinite where none is in reach; over
+                                  ///< a wall the gap, 0 where it is negative
+    std::vector<double> gap; ///< height above the substrate below (a wall, or bilinear between its
+                             ///< atoms), Å
     std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
 };
 
@@ -70,13 +81,22 @@ public:
                         const VectorPlane<double>& force, double reference_height, bool observe,
                         bool in_single = false) const;
 
+    /// Of a wall: its height below each site of the tile, Å, and a row of sites that come to rest
+    /// (kernels/interface_sweep.hpp).
+    PlaneView<const double> wall_height() const { return height_.plane(0); }
+    WallSums settle_row(const WallRow<double>& row, const WallRule& rule, int sites) const;
+    WallSums settle_row(const WallRow<float>& row, const WallRule& rule, int sites) const;
+
     /// Per-site maps of the state; makes a sweep of its own.
     InterfaceMaps maps(const VectorPlane<const double>& displacement,
                        double reference_height) const;
 
     /// The reference height from which nothing is in reach of undisplaced sites: highest atom +
-    /// cutoff. With the tail, which ends nowhere, + 4 cutoffs: 1/256 of its energy is left there.
+    /// reach_of().
     double start_height() const;
+    /// Down to this reference height the attraction of undisplaced sites only grows; the start
+    /// height, where no better bound is known.
+    double attraction_grows_down_to() const;
 
     /// What the lattice sweep reads, for a device that keeps a copy. Views are of this object.
     struct LatticeTables {
@@ -107,6 +127,8 @@ public:
 
 private:
     InterfaceSums sweep_sites(const InterfaceSites& sites, bool observe, bool mixed) const;
+    double height_below(const VectorPlane<const double>& displacement, int x, int y) const;
+    void build_wall(const Surface& substrate);
     void build_reach();
     void build_lattice();
     void build_rows();
@@ -123,7 +145,7 @@ private:
     SubstrateMap map_;
     std::vector<double> reach_highest_, reach_lowest_;
     ReachBounds reach_;
-    Field<double> height_;             ///< in double
+    Field<double> height_;             ///< in double; of a wall, below each site
     Field<std::int32_t> fixed_height_; ///< mixed
     std::vector<std::int32_t> columns_;
     LatticeSubstrate lattice_;

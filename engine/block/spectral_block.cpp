@@ -166,10 +166,13 @@ void SpectralBlock::at_sites(Waves<T>& waves, SiteField<T>& field) const {
 template void SpectralBlock::at_sites(Waves<float>&, SiteField<float>&) const;
 template void SpectralBlock::at_sites(Waves<double>&, SiteField<double>&) const;
 
-void SpectralBlock::to_waves(const SiteField<float>& field, Waves<float>& waves) const {
+template <class T>
+void SpectralBlock::to_waves(const SiteField<T>& field, Waves<T>& waves) const {
     for (int c = 0; c < components_; ++c)
-        single_.forward(field[static_cast<std::size_t>(c)].plane(0), waves, c);
+        transform<T>().forward(field[static_cast<std::size_t>(c)].plane(0), waves, c);
 }
+template void SpectralBlock::to_waves(const SiteField<float>&, Waves<float>&) const;
+template void SpectralBlock::to_waves(const SiteField<double>&, Waves<double>&) const;
 
 template <class T>
 void SpectralBlock::displace(double t, const Waves<T>& d, const SiteField<T>& at_sites) {

@@ -99,7 +99,8 @@ public:
     template <class T>
     void at_sites(Waves<T>& waves, SiteField<T>& field) const;
     /// The waves of a field, times a factor N^2. Collective.
-    void to_waves(const SiteField<float>& field, Waves<float>& waves) const;
+    template <class T>
+    void to_waves(const SiteField<T>& field, Waves<T>& waves) const;
     /// u <- u + t d, given both as waves and at the sites.
     template <class T>
     void displace(double t, const Waves<T>& d, const SiteField<T>& at_sites);

@@ -4,6 +4,7 @@
 
 #include "decomposition/global_sum.hpp"
 #include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/equilibrium/wall_descent.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 
@@ -74,8 +75,9 @@ private:
 
 class WavesAtRest final : public Equilibrium {
 public:
-    WavesAtRest(const BlockOptions& options, const Communicator& ranks, bool frictionless)
-        : block_(options, ranks, frictionless) {}
+    WavesAtRest(const BlockOptions& options, const Communicator& ranks, bool frictionless,
+                bool wall)
+        : block_(options, ranks, frictionless), wall_(wall) {}
     VectorPlane<const double> lowest_layer() const override { return block_.lowest_layer(); }
     VectorPlane<double> interface_force() override { return block_.interface_force(); }
     const Communicator& communicator() const override { return block_.communicator(); }
@@ -98,11 +100,13 @@ public:
         return asperity::relax(block_, interface, reference_height, options, phases);
     }
     std::size_t bytes() const override {
-        return block_.bytes() + spectral_relaxation_bytes(block_);
+        return block_.bytes() +
+               (wall_ ? WallDescent::bytes_for(block_) : spectral_relaxation_bytes(block_));
     }
 
 private:
     SpectralBlock block_;
+    bool wall_; ///< below it
 };
 
 } // namespace
@@ -112,21 +116,23 @@ std::unique_ptr<Equilibrium> at_rest(Block block) {
 }
 
 std::unique_ptr<Equilibrium> spectral_at_rest(const BlockOptions& options,
-                                              const Communicator& ranks, bool frictionless) {
-    return std::make_unique<WavesAtRest>(options, ranks, frictionless);
+                                              const Communicator& ranks, bool frictionless,
+                                              bool wall) {
+    return std::make_unique<WavesAtRest>(options, ranks, frictionless, wall);
 }
 
 std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& setup,
                                               const Communicator& ranks, const ProcessGrid& grid) {
     if (scene.block.model == BlockModel::spectral)
-        return spectral_at_rest(setup.simulation.block, ranks, scene.interface.frictionless);
+        return spectral_at_rest(setup.simulation.block, ranks, scene.interface.frictionless,
+                                scene.interface.kind == InterfaceKind::wall);
     return at_rest(Block(setup.simulation.block, ranks, grid, Motion::at_rest));
 }
 
 double height_of_strongest_attraction(Equilibrium& block, const Interface& interface,
                                       double lowest_atom, const Communicator& ranks) {
     block.set_uniform(0.0);
-    double best_height = interface.start_height(), strongest = 0.0;
+    double best_height = interface.attraction_grows_down_to(), strongest = 0.0;
     constexpr double stride = 0.1;
     for (double height = best_height;; height -= stride) {
         const InterfaceSums sums =

@@ -6,8 +6,8 @@
 //
 // The levels of a lattice or multiscale block relax with momentum over coarse grids
 // (relaxation.hpp), the waves of a spectral one as heavy balls, ended by Newton
-// (spectral_relaxation.hpp). Both end in the state downhill of where they start; the start is the
-// same.
+// (spectral_relaxation.hpp), or over a wall by proximal steps (wall_descent.hpp). All end in the
+// state downhill of where they start; the start is the same.
 #pragma once
 
 #include "engine/block/block.hpp"
@@ -50,9 +50,10 @@ public:
 
 /// A block of levels, taken over.
 std::unique_ptr<Equilibrium> at_rest(Block block);
-/// The spectral block.
+/// The spectral block; wall: one is below it (only bytes() asks).
 std::unique_ptr<Equilibrium> spectral_at_rest(const BlockOptions& options,
-                                              const Communicator& ranks, bool frictionless = false);
+                                              const Communicator& ranks, bool frictionless = false,
+                                              bool wall = false);
 /// The scene's block.
 std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& setup,
                                               const Communicator& ranks, const ProcessGrid& grid);

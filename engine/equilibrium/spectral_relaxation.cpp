@@ -5,6 +5,7 @@
 #include "decomposition/global_sum.hpp"
 #include "engine/equilibrium/heavy_ball.hpp"
 #include "engine/equilibrium/newton.hpp"
+#include "engine/equilibrium/wall_descent.hpp"
 
 #include <algorithm>
 #include <array>
@@ -70,9 +71,11 @@ public:
 
     /// One step downhill. False where the start was a prediction that leads nowhere.
     bool step() {
-        if (!spreading_ && newton_step()) return true;
-        if (options_.start == Start::predicted) return false;
-        move_sites();
+        if (spreading_ || !newton_step()) {
+            if (options_.start == Start::predicted) return false;
+            move_sites();
+        }
+        feel();
         return true;
     }
 
@@ -166,11 +169,9 @@ private:
     bool rough_ = true;
 };
 
-} // namespace
-
-RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
-                   const RelaxOptions& options, Phases& phases) {
-    Descent descent(block, interface, reference_height, options, phases);
+/// The loop of both descents.
+template <class Descent>
+RelaxedState follow(Descent& descent, SpectralBlock& block, const RelaxOptions& options) {
     RelaxedState state;
     // What has not halved in so many iterations will not any more.
     constexpr long long long_enough = 3000;
@@ -193,7 +194,6 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
             if (over || state.interrupted || state.converged) break;
         }
         if (!descent.step()) return state;
-        descent.feel();
     }
     const InterfaceSums& sums = descent.sums();
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
@@ -207,6 +207,18 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     state.pushed = contacts.pushed;
     state.closest = contacts.closest;
     return state;
+}
+
+} // namespace
+
+RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
+                   const RelaxOptions& options, Phases& phases) {
+    if (interface.options().wall) {
+        WallDescent descent(block, interface, reference_height, options, phases);
+        return follow(descent, block, options);
+    }
+    Descent descent(block, interface, reference_height, options, phases);
+    return follow(descent, block, options);
 }
 
 std::size_t spectral_relaxation_bytes(const SpectralBlock& block) {

@@ -38,7 +38,7 @@
 
 namespace asperity {
 
-/// Relaxes the block in place, under its constraint.
+/// Relaxes the block in place, under its constraint; over a wall by wall_descent.hpp.
 /// options.max_move: 0.3 Å, well below the range of the potential, is usual.
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const RelaxOptions& options, Phases& phases);

@@ -220,7 +220,7 @@ private:
         sites_ = static_cast<double>(scene_.surface.sites) * scene_.surface.sites;
         nodes_ = spectral_ ? sites_ : nodes_of(setup.levels);
         coarse_ = nodes_ - sites_ * (spectral_ ? 1 : setup.levels.front().cells);
-        start_ = highest_ + (on(Effect::tail) ? 4.0 : 1.0) * scene_.interface.cutoff;
+        start_ = highest_ + reach_of(setup.simulation.interface);
         plan_.steps = expected_steps(scene_, setup, start_);
         steps_ = static_cast<double>(plan_.steps);
         const double turning =
@@ -304,7 +304,7 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
     }
     table.rule();
     line("the interface itself", "", plan.interface,
-         fmt::format("{:.4g} Å of reach", scene.interface.cutoff));
+         fmt::format("{:.4g} Å of reach", reach_of(setup.simulation.interface)));
     line("making surface and tables", "", plan.making, "before the first step");
     line("altogether", "", {plan.bytes, plan.seconds},
          fmt::format("{} rank{} of {} thread{}", plan.ranks, plan.ranks == 1 ? "" : "s",

@@ -33,7 +33,8 @@ Piece cut_out(const Scene& scene, const Setup& setup, const Surface& surface) {
     Piece piece;
     piece.options = setup.simulation;
     BlockOptions& block = piece.options.block;
-    const int needed = static_cast<int>(std::ceil(2.0 * scene.interface.cutoff / block.spacing));
+    const int needed = static_cast<int>(
+        std::ceil(2.0 * setup.simulation.interface.potential.cutoff / block.spacing));
     int sites = 128;
     while (sites < needed)
         sites *= 2;

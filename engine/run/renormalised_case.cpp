@@ -6,6 +6,7 @@
 #include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "kernels/surface_stiffness.hpp"
+#include "theory/error.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -30,9 +31,28 @@ theory::WaveStiffness wave_stiffness(const CellElasticity& elasticity, double sp
             std::abs(c * m.xz + s * m.yz) / area, 1.0 / inverse(m).zz / area};
 }
 
+template <class Law>
+theory::FlatInterface wall_interface(const Scene& scene, const InterfaceOptions& options,
+                                     const Law& law) {
+    const double area = scene.surface.spacing * scene.surface.spacing;
+    const int sites = scene.surface.sites;
+    const FlatReference flat = flat_reference(options, scene.surface.spacing, sites, sites);
+    if (!(flat.work_of_adhesion > 0.0))
+        throw theory::InvalidInput("the wall does not attract, so there is no adhesion to compute");
+    const double separation = flat.separation;
+    // As far inwards as the repulsion is about twice the largest tension.
+    const double closest = separation - 2.0 * (law.contact_gap() - separation);
+    return theory::FlatInterface::wall([law, area](double u) { return law.energy(u) / area; },
+                                       closest, reach_of(options), law.contact_gap());
+}
+
 } // namespace
 
 theory::FlatInterface flat_interface(const Scene& scene) {
+    const InterfaceOptions options = interface_options(scene);
+    if (options.wall)
+        return std::visit([&](const auto& law) { return wall_interface(scene, options, law); },
+                          *options.wall);
     const auto& i = scene.interface;
     const theory::PairPotential pair{i.epsilon, i.r0, i.cutoff, i.tail};
     const int substrate = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);

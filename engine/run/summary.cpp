@@ -74,11 +74,12 @@ void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const 
     fmt::print(to, "  block       {} layers ({:.1f} Å): {}\n", block.thickness,
                block.thickness * block.spacing, levels_text(scene, setup));
     fmt::print(to,
-               "  interface   flat on flat {:.2f} meV/Å² at {:.2f} Å with the cutoff of {:.2f} Å, "
-               "pairs in "
-               "{} precision\n",
-               setup.flat.work_of_adhesion, setup.flat.separation, scene.interface.cutoff,
-               setup.simulation.interface.mixed ? "single" : "double");
+               "  interface   {}flat on flat {:.2f} meV/Å² at {:.2f} Å with a reach of {:.2f} Å, "
+               "in {} precision\n",
+               setup.simulation.interface.wall ? "a wall, " : "", setup.flat.work_of_adhesion,
+               setup.flat.separation, reach_of(setup.simulation.interface),
+               setup.simulation.interface.mixed && !setup.simulation.interface.wall ? "single"
+                                                                                    : "double");
     if (scene.choice) {
         const char* head = "accuracy";
         for (const std::string& line : accuracy_lines(*scene.choice))
@@ -135,13 +136,16 @@ void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
     fmt::print(to, "\nHow to read it\n");
     if (state)
         fmt::print(to,
-                   "  The state at zero load has a binding energy of {:.2f} meV/Å², {:.1f} % of "
-                   "that of two flat surfaces:\n"
+                   "  The state at zero load has a binding energy of {:.2f} meV/Å²{}:\n"
                    "  {:.2f} of the pairs across the interface, less {:.2f} of elastic energy in "
                    "the block.\n"
                    "  {:.1f} % of the block's surface atoms are in contact.\n",
-                   *state, 100.0 * *state / flat, *of("work_of_adhesion.pairwise"),
-                   *of("zero_load.elastic_energy"), 100.0 * *of("contact_fraction"));
+                   *state,
+                   flat > 0.0 ? fmt::format(", {:.1f} % of that of two flat surfaces",
+                                            100.0 * *state / flat)
+                              : std::string(),
+                   *of("work_of_adhesion.pairwise"), *of("zero_load.elastic_energy"),
+                   100.0 * *of("contact_fraction"));
     if (states) print_states(to, *states);
     if (approach && pull_off && state) {
         const double loop = *pull_off - *approach;

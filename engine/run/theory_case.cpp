@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/theory_case.hpp"
 
-#include "engine/block/flat_reference.hpp"
 #include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
@@ -139,13 +138,10 @@ bool theory_needs_surface(const Scene& scene) {
 TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional<double> flat) {
     TheoryCase out;
     const int substrate = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
-    const auto& potential = scene.interface;
     if (!flat) {
-        InterfaceOptions options;
-        options.potential = {potential.epsilon, potential.r0, potential.cutoff};
-        options.tail = potential.tail;
         try {
-            flat = flat_reference(options, scene.surface.spacing, scene.surface.sites, substrate)
+            flat = flat_reference(interface_options(scene), scene.surface.spacing,
+                                  scene.surface.sites, substrate)
                        .work_of_adhesion;
         } catch (const std::invalid_argument& error) {
             io::Problems problems = scene.problems();

@@ -140,6 +140,8 @@ void check_coverage(const Scene& scene, io::Problems& problems) {
     same("block.young", scene.block.young, known.block.young);
     same("block.poisson", scene.block.poisson, known.block.poisson);
     same("block.atom_mass", scene.block.atom_mass, known.block.atom_mass);
+    if (scene.interface.kind == InterfaceKind::wall)
+        outside("interface.kind", "= \"wall\"", "atoms");
     same("interface.epsilon", scene.interface.epsilon, known.interface.epsilon);
     same("interface.r0", scene.interface.r0, known.interface.r0);
     if (scene.block.strain == Strain::finite)

@@ -91,7 +91,11 @@ io::Schema bind(Scene& scene) {
                           "small strain, or geometrically exact springs");
 
     auto& interface = scene.interface;
-    schema.section("interface", "Lennard-Jones between substrate and lowest layer.");
+    schema.section("interface", "What acts between substrate and lowest layer.");
+    schema.choice<InterfaceKind>(
+        "kind", interface.kind, {{"atoms", InterfaceKind::atoms}, {"wall", InterfaceKind::wall}},
+        "Lennard-Jones pairs, or a wall: a law of the gap below each site, without lateral forces "
+        "(spectral block)");
     schema.number("epsilon", interface.epsilon, "eV", positive(), "depth of the well");
     schema.number("r0", interface.r0, "Å", positive(), "distance of zero energy");
     schema.number("cutoff", interface.cutoff, "Å", positive(),
@@ -99,6 +103,17 @@ io::Schema bind(Scene& scene) {
     schema.boolean("tail", interface.tail, "continuum correction beyond the cutoff");
     schema.boolean("frictionless", interface.frictionless,
                    "spectral block: no lateral tractions, normal displacements only");
+    schema.choice<WallLawKind>(
+        "law", interface.law,
+        {{"exponential", WallLawKind::exponential}, {"lennard-jones", WallLawKind::lennard_jones}},
+        "of a wall: -w exp(-gap/range) over a linear repulsion, or the substrate's atoms smeared "
+        "over their layer (epsilon, r0, cutoff, tail)");
+    schema.number("adhesion", interface.adhesion, "meV/Å^2", at_least(0.0),
+                  "w of the exponential law; 0: no attraction");
+    schema.number("range", interface.range, "Å", positive(), "of the exponential law");
+    schema.number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
+                     "of the exponential law's repulsion; \"auto\": ten times that of the block "
+                     "for its shortest wave, 5 π E* / spacing");
 
     auto& drive = scene.drive;
     schema.section("drive", "What is done to the top plane, and how time passes.");

@@ -26,6 +26,8 @@ enum class MapCrop { none, middle };
 enum class Resample { none, band_limited };
 enum class BlockModel { lattice, multiscale, spectral };
 enum class Strain { linear, finite };
+enum class InterfaceKind { atoms, wall };
+enum class WallLawKind { lennard_jones, exponential };
 enum class DriveMode { dynamic, quasistatic };
 enum class Hold { top, mean_height };
 enum class States { first, all };
@@ -84,11 +86,17 @@ struct Scene {
     } block;
 
     struct Interface {
+        InterfaceKind kind = InterfaceKind::atoms;
         double epsilon = 0.100; ///< eV
         double r0 = 3.28;       ///< Å
         double cutoff = 13.12;  ///< Å
         bool tail = false;
-        bool frictionless = false; ///< spectral block: normal displacements only
+        bool frictionless = false; ///< spectral block: normal displacements only; after reading:
+                                   ///< true over a wall
+        WallLawKind law = WallLawKind::exponential; ///< of a wall
+        double adhesion = 100.0;                    ///< meV/Å^2, exponential
+        double range = 1.0;                         ///< Å, exponential
+        std::optional<double> stiffness;            ///< GPa/Å, exponential; empty: by the block
     } interface;
 
     struct Drive {

@@ -19,8 +19,10 @@ namespace asperity {
 void check_scene(const Scene& scene, io::Problems& problems) {
     const auto& [surface, interface, drive] = std::tie(scene.surface, scene.interface, scene.drive);
 
+    const bool wall = interface.kind == InterfaceKind::wall;
+    const bool pairs = !wall || interface.law == WallLawKind::lennard_jones;
     const double half = scene.edge() / 2.0;
-    if (interface.cutoff > half)
+    if (interface.cutoff > half && !wall)
         // Where the cutoff is the default, the box is what the scene chose.
         problems.add(io::Problem{
             scene.positions.where(scene.positions.is_set("interface.cutoff") ? "interface.cutoff"
@@ -33,7 +35,7 @@ void check_scene(const Scene& scene, io::Problems& problems) {
             fmt::format("take a cutoff of {:.6g} Å at most, or surface.sites = {:.0f} at least",
                         half, std::ceil(2.0 * interface.cutoff / surface.spacing))});
     const double minimum = std::pow(2.0, 1.0 / 6.0) * interface.r0;
-    if (interface.cutoff <= minimum)
+    if (interface.cutoff <= minimum && pairs)
         problems.add(
             "interface.cutoff", fmt::format("= {:.6g} Å leaves no attraction", interface.cutoff),
             fmt::format("the minimum of the potential is at 2^(1/6) r0 = {:.6g} Å", minimum),
@@ -58,7 +60,21 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                         scene.edge() * std::numbers::sqrt2 / 2.0),
             "give a larger radius or fewer sites");
 
-    if (interface.frictionless && scene.block.model != BlockModel::spectral)
+    if (wall && scene.block.model != BlockModel::spectral)
+        problems.add(
+            "interface.kind", "= \"wall\" with a block that is not spectral",
+            "a wall takes no lateral tractions, and only the spectral block can leave "
+            "lateral displacements out",
+            "take block.model = \"spectral\" and a path without time, or kind = \"atoms\"");
+    else if (wall && !interface.frictionless)
+        problems.add("interface.frictionless", "= false with a wall",
+                     "a law of the gap has no lateral forces", "leave it out");
+    if (wall && surface.lattice_ratio != 1.0)
+        problems.add("surface.lattice_ratio",
+                     fmt::format("= {:.6g} with a wall", surface.lattice_ratio),
+                     "a wall has a height below each site, and no lattice of its own",
+                     "take lattice_ratio = 1, or interface.kind = \"atoms\"");
+    if (interface.frictionless && !wall && scene.block.model != BlockModel::spectral)
         problems.add("interface.frictionless", "= true with a block that is not spectral",
                      "only the spectral block can leave lateral displacements out: its stiffness "
                      "for normal forces alone is known wave by wave",
@@ -207,6 +223,15 @@ std::vector<std::string> notes(const Scene& scene) {
     if (!scene.has(PathPart::zero_load))
         idle("drive.states", "drive.path does not start at \"zero-load\"");
     if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
+    const bool wall = scene.interface.kind == InterfaceKind::wall;
+    const bool exponential = wall && scene.interface.law == WallLawKind::exponential;
+    if (!wall) idle("interface.law", "interface.kind is not \"wall\"");
+    for (const char* key : {"interface.adhesion", "interface.range", "interface.stiffness"})
+        if (!exponential) idle(key, "there is no wall with the exponential law");
+    for (const char* key :
+         {"interface.epsilon", "interface.r0", "interface.cutoff", "interface.tail"})
+        if (exponential) idle(key, "the wall has the exponential law");
+    if (wall) idle("numerics.precision", "a wall is worked out in double precision");
     if (surface.kind != SurfaceKind::file) idle("surface.file", "surface.kind is not \"file\"");
     if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");
     if (surface.kind != SurfaceKind::self_affine)

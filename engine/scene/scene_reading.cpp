@@ -56,6 +56,9 @@ Scene read_scene_text(const std::string& text, const std::string& file,
     bind(scene).read(text, file, overrides, scene.positions, wrong);
     scene.surface.rms_given = scene.positions.is_set("surface.rms");
     if (!scene.positions.is_set("block.thickness")) scene.block.thickness = scene.surface.sites;
+    if (scene.interface.kind == InterfaceKind::wall &&
+        !scene.positions.is_set("interface.frictionless"))
+        scene.interface.frictionless = true;
 
     if (wrong.empty()) {
         io::Problems uncovered = scene.problems();

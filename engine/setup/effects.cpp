@@ -83,6 +83,8 @@ constexpr std::array<Rule, effect_count> rules = {{
      }},
     {Effect::lateral, "lateral displacements",
      [](const Scene& s) {
+         if (s.interface.kind == InterfaceKind::wall)
+             return Switch{false, "interface.kind = \"wall\""};
          return s.interface.frictionless ? Switch{false, "interface.frictionless = true"}
                                          : Switch{true, "three components a node"};
      }},
@@ -95,11 +97,15 @@ constexpr std::array<Rule, effect_count> rules = {{
      }},
     {Effect::coarse_levels, "coarse levels", coarse_levels},
     {Effect::skipping, "skipping of far sites",
-     [](const Scene&) {
+     [](const Scene& s) {
+         if (s.interface.kind == InterfaceKind::wall)
+             return Switch{false, "interface.kind = \"wall\": one gap a site"};
          return Switch{true, "always: what is beyond interface.cutoff adds exact zeros"};
      }},
     {Effect::tail, "long-range tail",
      [](const Scene& s) {
+         if (s.interface.kind == InterfaceKind::wall)
+             return Switch{false, "interface.kind = \"wall\": a part of its law"};
          return Switch{s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail)};
      }},
     {Effect::curvature, "curvature",

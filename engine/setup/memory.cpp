@@ -99,6 +99,8 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
         need.relaxation =
             static_cast<double>(tile.nx) * tile.ny *
             (8.0 * (parts + (parts == 1.0 ? 3.0 : 6.0)) + 4.0 * (11.0 * parts + 1.0 + entries));
+        if (scene.interface.kind == InterfaceKind::wall)
+            need.relaxation = 36.0 * tile.nx * tile.ny; // WallDescent::bytes_for
         return need;
     }
     const Block::Memory memory = Block::memory_for(setup.simulation.block, grid);

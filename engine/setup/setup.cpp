@@ -86,6 +86,28 @@ DeviceChoice device_of(const Scene& scene) {
 
 } // namespace
 
+InterfaceOptions interface_options(const Scene& scene) {
+    const Scene::Interface& i = scene.interface;
+    const double a = scene.surface.spacing, site = a * a;
+    InterfaceOptions options;
+    options.potential = {i.epsilon, i.r0, i.cutoff};
+    options.tail = i.tail;
+    options.mixed = scene.numerics.precision == Precision::mixed;
+    options.single_too = scene.block.model == BlockModel::spectral && !options.mixed;
+    if (i.kind == InterfaceKind::atoms) return options;
+    if (i.law == WallLawKind::lennard_jones) {
+        options.wall = LennardJonesWall(options.potential, 1.0 / site, i.tail);
+        return options;
+    }
+    // E* q/2 of the shortest wave along an axis, q = pi / a.
+    const double modulus = scene.block.young / (1.0 - scene.block.poisson * scene.block.poisson);
+    const double shortest_wave = 0.5 * std::numbers::pi * modulus / a;
+    options.wall =
+        ExponentialWall(i.adhesion * site / units::milli_per_unit, i.range,
+                        i.stiffness.value_or(10.0 * shortest_wave) * units::gigapascal * site);
+    return options;
+}
+
 Setup make_setup(const Scene& scene, int ranks) {
     Setup setup;
     setup.effects = Effects(scene);
@@ -106,10 +128,7 @@ Setup make_setup(const Scene& scene, int ranks) {
     setup.levels = plan_levels(block);
 
     InterfaceOptions& interface = setup.simulation.interface;
-    interface.potential = {scene.interface.epsilon, scene.interface.r0, scene.interface.cutoff};
-    interface.tail = on(Effect::tail);
-    interface.mixed = scene.numerics.precision == Precision::mixed;
-    interface.single_too = scene.block.model == BlockModel::spectral && !interface.mixed;
+    interface = interface_options(scene);
     const int substrate = substrate_sites(block.sites, scene.surface.lattice_ratio);
     try {
         setup.flat = flat_reference(interface, block.spacing, block.sites, substrate);

@@ -21,6 +21,9 @@ namespace asperity {
 /// io::FileError (file).
 Surface scene_surface(const Scene& scene);
 
+/// The scene's interface: its pairs, or its wall.
+InterfaceOptions interface_options(const Scene& scene);
+
 /// What the numbers of the scene mean for the engine, before anything is allocated.
 struct Setup {
     Effects effects; ///< that the scene calls for; what follows is built from it

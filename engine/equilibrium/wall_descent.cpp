@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/wall_descent.hpp"
+
+#include "decomposition/global_sum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+/// Elastic forces of single precision let sites rest this much off, Å.
+constexpr double rounding = 2e-5;
+
+double stiffest_wave(const SpectralBlock& block) {
+    double stiffest = 0.0;
+    for (int ny = 0; ny < block.slab().columns(); ++ny)
+        for (int nx = 0; nx < block.slab().columns(); ++nx)
+            stiffest = std::max(stiffest, block.stiffness(nx, ny).zz);
+    return stiffest;
+}
+
+} // namespace
+
+WallDescent::WallDescent(SpectralBlock& block, const Interface& interface, double reference_height,
+                         const RelaxOptions& options, Phases& phases)
+    : block_(block), interface_(interface), height_(reference_height), options_(options),
+      phases_(phases), waves_(block.new_waves<double>()), single_waves_(block.new_waves<float>()),
+      field_(block.new_field<double>()), single_field_(block.new_field<float>()),
+      next_(block.tile(), 1, 0), step_(block.tile(), 1, 0) {
+    const double softest =
+        std::visit([](const auto& law) { return law.softest(); }, *interface.options().wall);
+    spring_ = std::max(stiffest_wave(block), -1.25 * softest);
+    estimate_ = spring_ * options.max_move;
+    mean_ = block.mean_height();
+}
+
+bool WallDescent::step() {
+    if (options_.start == Start::predicted) return false;
+    const auto t = phases_.time(Phase::advance);
+    double turn = 0.0;
+    single_ = single_ && estimate_ > rounding * spring_;
+    if (single_) {
+        elastic_forces(single_waves_, single_field_);
+        turn = settle_sites(single_field_);
+    } else {
+        elastic_forces(waves_, field_);
+        turn = settle_sites(field_);
+    }
+    accept();
+    if (turn > 0.0) sequence_ = 1.0;
+    const double following = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * sequence_ * sequence_));
+    momentum_ = (sequence_ - 1.0) / following;
+    sequence_ = following;
+    return true;
+}
+
+double WallDescent::conclude() {
+    block_.settle();
+    {
+        const auto t = phases_.time(Phase::interface);
+        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, true);
+    }
+    const auto t = phases_.time(Phase::sums);
+    block_.gradient(waves_);
+    block_.at_sites(waves_, field_);
+    const PlaneView<const double> g = std::as_const(field_[0]).plane(0);
+    double largest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : largest)
+    for (int y = 0; y < g.ny; ++y)
+        for (int x = 0; x < g.nx; ++x)
+            largest = std::max(largest, std::abs(g(x, y)));
+    block_.communicator().max(std::span(&largest, 1));
+    // What the steps do not show: forces of single precision, or sites that still snap.
+    single_ = false;
+    doubt_ *= largest > options_.tolerance ? 0.5 : 1.0;
+    return largest;
+}
+
+/// N^2 S (z - mean) at the sites; the field holds z - mean meanwhile.
+template <class T>
+void WallDescent::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
+    const PlaneView<double> u = block_.moving_layer(0);
+    const PlaneView<T> z = field[0].plane(0);
+    const PlaneView<const float> step = std::as_const(step_).plane(0);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < u.ny; ++y)
+        for (int x = 0; x < u.nx; ++x)
+            z(x, y) = static_cast<T>(u(x, y) - mean_ + momentum_ * static_cast<double>(step(x, y)));
+    block_.to_waves(field, waves);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < waves.rows(); ++y)
+        block_.stiffen_row(y, waves, 0.0, waves);
+    block_.at_sites(waves, field);
+}
+
+/// Fills next_. Returns by how much the step turns against the gradient.
+template <class T>
+double WallDescent::settle_sites(const SiteField<T>& elastic) {
+    const Constraint& constraint = block_.constraint();
+    const double n = block_.options().sites, sites = n * n;
+    const PlaneView<double> u = block_.moving_layer(0);
+    WallRule rule{.reference_height = height_,
+                  .spring = spring_,
+                  .momentum = momentum_,
+                  .norm = 1.0 / sites,
+                  .load = constraint.load() / sites,
+                  .bound = options_.max_move};
+    if (constraint.is_top()) rule.load = block_.stiffness(0, 0).zz * (mean_ - constraint.value);
+    double turn = 0.0, mean = 0.0;
+    const auto settle = [&](double load) {
+        rule.load = load;
+        RowSums sums(block_.slab(), 2);
+        double furthest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : furthest)
+        for (int y = 0; y < u.ny; ++y) {
+            const WallRow<T> row{interface_.wall_height().line(y), u.line(y),
+                                 std::as_const(step_).plane(0).line(y), elastic[0].plane(0).line(y),
+                                 next_.plane(0).line(y)};
+            const WallSums s = interface_.settle_row(row, rule, u.nx);
+            furthest = std::max(furthest, s.furthest);
+            sums.row(y)[0] = s.turn;
+            sums.row(y)[1] = s.height;
+        }
+        block_.communicator().max(std::span(&furthest, 1));
+        estimate_ = spring_ * furthest;
+        const std::vector<double> total = sums.total();
+        turn = total[0];
+        mean = total[1] / (sites * sites); // RowSums multiplies by the sites
+        return mean - constraint.value;
+    };
+    if (!constraint.is_mean_height()) {
+        settle(rule.load);
+        mean_ = mean;
+        return turn;
+    }
+    // The uniform force that keeps the mean height, by the secant from the last one.
+    double before = uniform_force_, excess = settle(before);
+    double force = before + spring_ * excess;
+    for (int i = 0; i < 20 && std::abs(excess) > 1e-13; ++i) {
+        const double now = settle(force), slope = (now - excess) / (force - before);
+        before = std::exchange(force, slope == 0.0 ? force : force - now / slope);
+        excess = now;
+    }
+    uniform_force_ = before;
+    mean_ = mean;
+    return turn;
+}
+
+/// u <- next.
+void WallDescent::accept() {
+    const PlaneView<double> u = block_.moving_layer(0);
+    const PlaneView<const double> next = std::as_const(next_).plane(0);
+    const PlaneView<float> step = step_.plane(0);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < u.ny; ++y)
+        for (int x = 0; x < u.nx; ++x) {
+            step(x, y) = static_cast<float>(next(x, y) - u(x, y));
+            u(x, y) = next(x, y);
+        }
+}
+
+std::size_t WallDescent::bytes_for(const SpectralBlock& block) {
+    const std::size_t sites = block.tile().nx * static_cast<std::size_t>(block.tile().ny);
+    // Waves, elastic forces in both precisions; next in double, the step in single.
+    return sites * (2 * sizeof(double) + 2 * sizeof(float) + sizeof(double) + sizeof(float));
+}
+
+} // namespace asperity

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The sweep over a wall, and sites that come to rest over it: a register of sites at a time;
+// compiled once for each x86-64 level (variant.hpp).
+#include "kernels/interface_block.hpp"
+#include "kernels/pack_step.hpp"
+
+namespace asperity::ASPERITY_VARIANT {
+
+namespace {
+
+template <class Law, bool observe>
+void wall_sweep(const InterfaceSites& sites, const WallSubstrate<Law>& wall, int row_begin,
+                int row_end, InterfaceSums& sums) {
+    const int nx = sites.displacement.x.nx;
+    const Law law = wall.law;
+    const Real reference(sites.reference_height);
+    Totals totals;
+    for (int y = row_begin; y < row_end; ++y) {
+        const double *u = sites.displacement.z.line(y), *below = wall.height.line(y);
+        for (int x = 0; x < nx; x += interface_block) {
+            const int count = nx - x < interface_block ? nx - x : interface_block;
+            SiteTerms terms;
+            for (int lane = 0; lane < count; lane += Real::width) {
+                const int here = count - lane;
+                const Real gap = reference + Real::load_first(u + x + lane, here) -
+                                 Real::load_first(below + x + lane, here);
+                Real(0.0).store(terms.x + lane);
+                Real(0.0).store(terms.y + lane);
+                law.force(gap).store(terms.z + lane);
+                if constexpr (observe) {
+                    law.energy(gap).store(terms.energy + lane);
+                    gap.store(terms.nearest + lane);
+                }
+            }
+            if constexpr (observe)
+                for (int i = 0; i < count; ++i) {
+                    const double gap = terms.nearest[i], open = gap > 0.0 ? gap : 0.0;
+                    totals.in_contact += gap < law.contact_gap();
+                    terms.nearest[i] = open * open;
+                }
+            totals.take<observe>(sites, 0.0, terms, x, y, count);
+            totals.in_reach += count;
+        }
+    }
+    totals.give(sums);
+}
+
+template <class Law, class T>
+WallSums settle_row(const Law& given, const WallRow<T>& row, const WallRule& rule, int sites) {
+    const Law law = given;
+    const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
+    const Real compliance(1.0 / rule.spring), bound(rule.bound), load(rule.load), norm(rule.norm);
+    Real furthest(0.0), turn(0.0), height(0.0);
+    for (int x = 0; x < sites; x += interface_block) {
+        const int count = sites - x < interface_block ? sites - x : interface_block;
+        alignas(64) double elastic[interface_block], step[interface_block];
+        for (int i = 0; i < interface_block; ++i) {
+            elastic[i] = i < count ? static_cast<double>(row.elastic[x + i]) : 0.0;
+            step[i] = i < count ? static_cast<double>(row.step[x + i]) : 0.0;
+        }
+        for (int lane = 0; lane < count; lane += Real::width) {
+            const int here = count - lane;
+            const Real u = Real::load_first(row.u + x + lane, here);
+            const Real base = reference - Real::load_first(row.below + x + lane, here);
+            const Real z = u + momentum * Real::load(step + lane);
+            const Real force = norm * Real::load(elastic + lane) + load;
+            const Real gap = law.settle(u + base, z + base - compliance * force, spring);
+            const Real way = max(-bound, min(bound, gap - base - z)), next = z + way;
+            next.store_first(row.next + x + lane, here);
+            furthest = max(furthest, first_lanes(max(way, -way), here));
+            turn = turn - first_lanes(way * (next - u), here);
+            height = height + first_lanes(next, here);
+        }
+    }
+    return {-lowest(Real(0.0) - furthest), total(turn), total(height)};
+}
+
+template <class Law>
+InterfaceKernels::WallKernels<Law> kernels_over() {
+    return {{wall_sweep<Law, false>, wall_sweep<Law, true>},
+            settle_row<Law, double>,
+            settle_row<Law, float>};
+}
+
+} // namespace
+
+InterfaceKernels::AllWalls walls() {
+    return {kernels_over<LennardJonesWall>(), kernels_over<ExponentialWall>()};
+}
+
+} // namespace asperity::ASPERITY_VARIANT

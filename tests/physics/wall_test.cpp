@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A wall in place of atoms: its laws, the states over it, and problems with closed forms.
+#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/setup/setup.hpp"
+#include "engine/units.hpp"
+#include "io/error.hpp"
+#include "support/cases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+using namespace asperity;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double a = 2.6;
+const LennardJones pair{0.1, 3.28, 13.12};
+
+std::vector<WallLaw> laws() {
+    return {LennardJonesWall(pair, 1.0 / (a * a), false),
+            LennardJonesWall(pair, 1.0 / (a * a), true), ExponentialWall(0.7, 1.3, 24.0),
+            ExponentialWall(0.0, 1.0, 24.0)};
+}
+
+InterfaceOptions over(const WallLaw& law) {
+    InterfaceOptions o = test::paper_interface();
+    o.wall = law;
+    return o;
+}
+
+Surface wave(int sites, double spacing, double amplitude) {
+    Surface s = test::flat_surface(sites);
+    s.length = sites * spacing;
+    for (int y = 0; y < sites; ++y)
+        for (int x = 0; x < sites; ++x)
+            s.height[static_cast<std::size_t>(y * sites + x)] =
+                amplitude * std::cos(2.0 * pi * x / sites);
+    return s;
+}
+Surface rough(int sites, double rms) {
+    SurfaceOptions o;
+    o.sites = sites;
+    o.length = sites * a;
+    o.rms = rms;
+    return make_surface(o);
+}
+
+/// The relaxed state of a frictionless block over a wall, from the strongest attraction.
+struct AtWall {
+    Surface surface;
+    Interface interface;
+    std::unique_ptr<Equilibrium> block;
+    double height;
+    RelaxOptions options;
+
+    AtWall(const Surface& s, double spacing, const WallLaw& law)
+        : surface(s), interface(s, Tile{0, 0, s.sites, s.sites, s.sites}, spacing, over(law)) {
+        BlockOptions o = test::paper_block(s.sites, s.sites, 0);
+        o.spacing = spacing;
+        block = spectral_at_rest(o, Communicator(), true, true);
+        height = height_of_strongest_attraction(
+            *block, interface, *std::min_element(s.height.begin(), s.height.end()), Communicator());
+        options.tolerance = 1e-6;
+    }
+    RelaxedState relax(const Constraint& constraint) {
+        Phases phases;
+        RelaxedState state = block->relax(interface, height, constraint, options, phases);
+        EXPECT_TRUE(state.converged) << state.residual << " after " << state.iterations;
+        return state;
+    }
+    double sites() const { return surface.sites * static_cast<double>(surface.sites); }
+};
+
+double modulus() { return test::paper_block(8, 8, 0).contact_modulus(); }
+
+} // namespace
+
+TEST(WallLaw, ForceIsTheSlopeOfItsEnergy) {
+    for (const WallLaw& any : laws())
+        std::visit(
+            [](const auto& law) {
+                const double h = 1e-5;
+                for (double g = -0.4; g < 15.0; g += 0.0371) {
+                    if (std::abs(g) < 2 * h || std::abs(g - 13.12) < 2 * h) continue;
+                    const double slope = (law.energy(g - h) - law.energy(g + h)) / (2 * h);
+                    EXPECT_NEAR(law.force(g), slope, 1e-7 * (1.0 + std::abs(slope))) << g;
+                    EXPECT_GE((law.force(g - h) - law.force(g + h)) / (2 * h),
+                              law.softest() - 1e-5);
+                }
+                if (std::isfinite(law.reach())) {
+                    EXPECT_EQ(law.force(law.reach() + 1.0), 0.0);
+                }
+                EXPECT_TRUE(std::isnan(law.force(std::nan(""))));
+            },
+            any);
+}
+
+/// The smeared layer is what many atoms with as little energy each make.
+TEST(WallLaw, SmearedLayerIsTheLimitOfManyAtoms) {
+    const double level = 0.0, fine = 0.1, share = fine * fine / (a * a);
+    const LennardJonesWall law(pair, 1.0 / (a * a), false);
+    for (double g : {2.5, 3.28, 4.0, 7.0, 12.0}) {
+        const PairSum sum = pair_sum({&level, 1, fine}, pair, 0.5 * fine, 0.5 * fine, g);
+        EXPECT_NEAR(law.energy(g), share * sum.energy, 2e-4 * std::abs(law.energy(g))) << g;
+        EXPECT_NEAR(law.force(g), share * sum.force[2], 2e-3 * std::abs(law.force(g)) + 1e-5) << g;
+    }
+}
+
+TEST(WallLaw, SiteComesToRestUnderItsSpring) {
+    for (const WallLaw& any : laws())
+        std::visit(
+            [](const auto& law) {
+                const double spring = 4.0 - 2.0 * law.softest();
+                for (double goal = -1.0; goal < 9.0; goal += 0.217) {
+                    double g = std::max(goal, 2.0);
+                    for (int i = 0; i < 20; ++i)
+                        g = law.settle(g, goal, spring);
+                    if (law.reach() > 12.0 && g < 1.7) continue; // the floor of the smeared layer
+                    EXPECT_NEAR(spring * (goal - g) + law.force(g), 0.0, 1e-9) << goal << " " << g;
+                }
+            },
+            any);
+}
+
+/// Two flat solids: closed forms.
+TEST(Wall, FlatOnFlat) {
+    const auto flat = [](const WallLaw& law) { return flat_reference(over(law), a, 64, 64); };
+    // 6/5 π ε r0² / a⁴ at g = r0, without a cutoff.
+    const FlatReference smeared = flat(laws()[1]);
+    EXPECT_NEAR(smeared.work_of_adhesion, 1e3 * 1.2 * pi * 0.1 * 3.28 * 3.28 / std::pow(a, 4),
+                1e-6);
+    EXPECT_NEAR(smeared.separation, 3.28, 1e-9);
+    const ExponentialWall law(0.7, 1.3, 24.0);
+    const FlatReference found = flat(law);
+    const double tension = 0.7 / 1.3, area = a * a;
+    EXPECT_NEAR(found.separation, -tension / 24.0, 1e-12);
+    EXPECT_NEAR(found.work_of_adhesion, 1e3 * (0.7 + 0.5 * tension * tension / 24.0) / area, 1e-9);
+    EXPECT_NEAR(found.largest_tension, tension / area / units::gigapascal, 1e-9);
+    // A block over a flat wall ends there.
+    AtWall state(test::flat_surface(16), a, law);
+    const RelaxedState s = state.relax(Constraint::load(0.0));
+    EXPECT_NEAR(-1e3 * (s.interface_energy + s.elastic_energy) / (256 * area),
+                found.work_of_adhesion, 1e-6);
+    EXPECT_EQ(s.in_contact, 256);
+}
+
+/// A state is one of equilibrium, whatever is held to get there; energies change by the work done.
+TEST(Wall, OneStateUnderThreeConstraints) {
+    for (const WallLaw& law : laws()) {
+        AtWall at(rough(32, 1.0), a, law);
+        const double load = 0.01 * at.sites() * a * a; // 1.6 GPa
+        const RelaxedState pressed = at.relax(Constraint::load(load));
+        EXPECT_NEAR(pressed.force, load, 1e-4 * load);
+        const double top = at.block->top();
+        const RelaxedState clamped = at.relax(Constraint::top(top));
+        EXPECT_NEAR(clamped.top_force, load, 1e-3 * load);
+        const RelaxedState held = at.relax(Constraint::mean_height(pressed.mean_height));
+        EXPECT_NEAR(held.top_force, load, 1e-3 * load);
+        EXPECT_NEAR(held.mean_height, pressed.mean_height, 1e-9);
+        EXPECT_NEAR(held.interface_energy, pressed.interface_energy, 1e-4 * at.sites() * 1e-2);
+        EXPECT_EQ(held.in_contact, pressed.in_contact);
+        // Force is the slope of the energy along the held height.
+        const double d = 1e-3;
+        const auto energy = [&](double z) {
+            const RelaxedState s = at.relax(Constraint::mean_height(z));
+            return s.interface_energy + s.elastic_energy;
+        };
+        const double z = pressed.mean_height;
+        EXPECT_NEAR((energy(z - d) - energy(z + d)) / (2 * d), held.top_force, 2e-3 * load);
+    }
+}
+
+/// Westergaard, J. Appl. Mech. 6, A49 (1939): f = (2/π) asin √(p/p*), to a row of sites at each
+/// edge of the contact.
+TEST(Wall, WaveWithoutAdhesion) {
+    const int n = 128;
+    const double h = 2.0, peak = pi * modulus() * h / (n * a);
+    for (double p : {0.05, 0.3, 0.6, 0.9}) {
+        AtWall at(wave(n, a, h), a, ExponentialWall(0.0, 1.0, 24.0));
+        const RelaxedState s = at.relax(Constraint::load(p * peak * at.sites() * a * a));
+        EXPECT_NEAR(static_cast<double>(s.in_contact) / at.sites(),
+                    2.0 / pi * std::asin(std::sqrt(p)), 2.0 / n)
+            << p;
+    }
+}
+
+/// Johnson, Int. J. Solids Struct. 32, 423 (1995), at zero load and α = 0.5: f = 0.5, γ = 0.3408 w.
+/// What the range of the attraction adds falls with it, and extrapolates to nothing.
+TEST(Wall, AdhesiveWaveAsTheRangeFalls) {
+    const double box = 166.4, w = 0.1;
+    const double h = std::sqrt(2.0 * w * box / (pi * pi * modulus())) / 0.5;
+    std::vector<double> excess;
+    for (int n : {32, 64, 128}) {
+        const double spacing = box / n, range = 64.0 / n, site = spacing * spacing;
+        const ExponentialWall law(w * site, range, 5.0 * pi * modulus() / spacing * site);
+        AtWall at(wave(n, spacing, h), spacing, law);
+        const RelaxedState s = at.relax(Constraint::load(0.0));
+        const double flat = flat_reference(over(law), spacing, n, n).work_of_adhesion;
+        excess.push_back(-1e3 * (s.interface_energy + s.elastic_energy) / (box * box) / flat -
+                         0.3408);
+    }
+    const double first = excess[0] - excess[1], second = excess[1] - excess[2];
+    EXPECT_GT(second, 0.0);
+    EXPECT_GT(first, 1.7 * second);
+    EXPECT_NEAR(excess[2] - second * second / (first - second), 0.0, 0.01);
+}
+
+TEST(Wall, IsRefusedWhereItCannotBe) {
+    const auto wrong = [](const std::vector<std::string>& keys) {
+        std::vector<std::string> all = {"interface.kind=wall"};
+        all.insert(all.end(), keys.begin(), keys.end());
+        EXPECT_THROW(read_scene_text("[surface]\nsites = 32\n", "wall.toml", all), io::SceneError);
+    };
+    wrong({});
+    wrong({"block.model=spectral", "drive.path=zero-load", "interface.frictionless=false"});
+    wrong({"block.model=spectral", "drive.path=zero-load", "surface.lattice_ratio=2"});
+    const Scene scene =
+        read_scene_text("[surface]\nsites = 32\n", "wall.toml",
+                        {"interface.kind=wall", "block.model=spectral", "drive.path=zero-load"});
+    EXPECT_TRUE(scene.interface.frictionless);
+}
