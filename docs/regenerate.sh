@@ -13,6 +13,7 @@ place=results/regenerate
 [ ! -e $place ] || { echo "$place is there already: remove it first" >&2; exit 2; }
 mkdir -p $place
 gallery=docs/gallery
+python=${ASPERITY_PYTHON:-/usr/bin/python3} # whose packages the script asperity installs
 made=""
 made() { made="$made $*"; echo "made: $*"; }
 
@@ -32,11 +33,11 @@ cp $place/theory-3/full-contact.svg $gallery/theory-fig3.svg
 made $gallery/theory-fig2a.svg $gallery/theory-fig2b.svg $gallery/theory-fig3.svg
 
 ./asperity run scenes/first-contact.toml --progress off --out $place/first-contact | tee $place/first-contact.txt
-python3 $gallery/plot.py $place/first-contact $gallery/first-contact.png
+"$python" $gallery/plot.py $place/first-contact $gallery/first-contact.png
 made $gallery/first-contact.png
 
 ./asperity sweep scenes/paper/small/fig6.toml --out $place/fig6 >$place/log.txt
-python3 $gallery/contact_regions.py $place/fig6 $gallery/small-fig6.png
+"$python" $gallery/contact_regions.py $place/fig6 $gallery/small-fig6.png
 made $gallery/small-fig6.png
 
 if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then

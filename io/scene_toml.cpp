@@ -351,9 +351,8 @@ std::string read_scene_file(const std::string& file) {
     if (piped && under_mpirun())
         throw cannot("only rank 0 would have it", "write the scene to a file and name that");
     if (!piped && !std::filesystem::exists(file, error))
-        throw cannot(
-            "there is no such file",
-            "check the path; the scenes that come with Asperity are in its folder scenes/");
+        throw cannot("there is no such file",
+                     "check the path; `asperity init` writes a scene to start from");
     if (std::filesystem::is_directory(file, error))
         throw cannot("it is a directory", "name a .toml file in it");
     std::ifstream stream(piped ? "/dev/stdin" : file, std::ios::binary);

@@ -166,7 +166,7 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
     app.failure_message(CLI::FailureMessage::simple);
     app.footer("Exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard, 4 files, "
                "75 stopped "
-               "early.\nStart here: asperity run scenes/first-contact.toml");
+               "early.\nStart here: asperity init, then asperity run scene.toml");
 
     Arguments given;
     std::vector<std::string> names;

@@ -139,8 +139,12 @@ def main(words: list[str]) -> int:
             print(f"{n} problem{'' if n == 1 else 's'}; nothing was written", file=sys.stderr)
         return error.code
     except ImportError as error:
-        print(f"asperity {words[0]}: a Python package is missing\n    why: {error}\n    fix: apt-get install "
-              "python3-numpy python3-h5py python3-matplotlib python3-jinja2", file=sys.stderr)
+        names = ("numpy", "h5py", "matplotlib", "jinja2")
+        own = sys.prefix != sys.base_prefix  # a virtual environment does not see Debian's packages
+        fix = (f"{sys.executable} -m pip install {' '.join(names)}" if own
+               else "apt-get install " + " ".join("python3-" + name for name in names))
+        print(f"asperity {words[0]}: a Python package is missing\n    why: {sys.executable}: {error}\n    fix: {fix}",
+              file=sys.stderr)
         return 1
 
 
