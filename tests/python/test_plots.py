@@ -109,3 +109,15 @@ def test_files_hold_the_curves(path_run, tmp_path):
     assert text.startswith('"mean separation (Å)","approach: mean stress F/A_0 (GPa)"')
     fig = files.make(lambda ax: run_plots.map_of(path_run, path_run.fields["zero-load"], "gap", ax))
     assert np.genfromtxt(io.StringIO(files.csv(fig)), delimiter=",").shape == (32, 32)
+
+
+def test_points_carry_their_uncertainty():
+    from asperity.plots.sweep import SIMULATED, _bar
+
+    approach = SIMULATED["gamma"][2][0]
+    point = {"result": {"work_of_adhesion.approach": 50.0, "work_of_adhesion.approach_ratio": 0.5,
+                        "work_of_adhesion.uncertainty.approach": 3.0}}
+    assert approach.error(point) == pytest.approx(0.03)
+    assert _bar(approach, [point], float("nan")) == pytest.approx(0.03)
+    assert _bar(approach, [point, point], 0.04) == pytest.approx(0.05)
+    assert _bar(approach, [{"result": {"work_of_adhesion.approach_ratio": 0.5}}], 0.04) == pytest.approx(0.04)

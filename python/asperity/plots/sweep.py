@@ -50,6 +50,8 @@ class Trace:
     unit: float = 1.0
     unless: str = ""
     """not drawn where it equals this column"""
+    uncertainty: str = ""
+    """column of what its energy (the column without _ratio) may be wrong by"""
 
     def value(self, point: dict[str, Any]) -> float:
         if self.column.startswith("theory."):
@@ -60,6 +62,12 @@ class Trace:
         if self.unless and result.get(self.column) == result.get(self.unless):
             return np.nan
         return number(result.get(self.column)) / self.unit
+
+    def error(self, point: dict[str, Any]) -> float:
+        """The uncertainty of value(), NaN where the result has none."""
+        result = point.get("result", {})
+        energy = number(result.get(self.column.removesuffix("_ratio")))
+        return number(result.get(self.uncertainty)) * abs(self.value(point) / energy) if energy else np.nan
 
 
 THEORY = Trace("theory", "theory.gamma_eff_ratio", GREY, "-")
@@ -72,9 +80,12 @@ Spec = tuple[str, list[Trace], list[Trace]]
 
 SIMULATED: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED], [
-        Trace("approach", "work_of_adhesion.approach_ratio", BLUE, "", "o", flat=True),
-        Trace("pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False, flat=True),
-        Trace("state at zero load", "binding_energy_ratio", GREEN, "", "^", flat=True),
+        Trace("approach", "work_of_adhesion.approach_ratio", BLUE, "", "o", flat=True,
+              uncertainty="work_of_adhesion.uncertainty.approach"),
+        Trace("pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False, flat=True,
+              uncertainty="work_of_adhesion.uncertainty.pull_off"),
+        Trace("state at zero load", "binding_energy_ratio", GREEN, "", "^", flat=True,
+              uncertainty="binding_energy_uncertainty"),
         Trace("deepest state", "states.deepest.binding_energy_ratio", GREEN, "", "^", False, flat=True,
               unless="states.first.binding_energy_ratio"),
         Trace("curved, in", "jkr.in_ratio", SKY, "", "D"),
@@ -112,6 +123,12 @@ def _curves(sweep: Sweep, points: list[dict[str, Any]], x: str) -> dict[str, lis
     return {words: sorted(groups, key=lambda g: g[0]) for words, groups in found.items()}
 
 
+def _bar(trace: Trace, points: list[dict[str, Any]], deviation: float) -> float:
+    """The spread over the seeds and the mean uncertainty of one, as independent errors."""
+    parts = [deviation, spread_of([trace.error(p) for p in points]).mean]
+    return float(np.sqrt(np.nansum(np.square(parts)))) if np.isfinite(parts).any() else np.nan
+
+
 def _trace(ax: Axes, curves: dict, trace: Trace, prefix: str, first: bool, colour: str) -> bool:
     several = len(curves) > 1
     any_drawn = False
@@ -122,7 +139,7 @@ def _trace(ax: Axes, curves: dict, trace: Trace, prefix: str, first: bool, colou
         label = (words if first else "") if several else prefix + trace.label
         curve(ax, [x for x, _ in groups], [s.mean for s in spreads], label, line=trace.line, marker=trace.marker,
               filled=trace.filled, colour=COLOURS[i] if several else colour, behind=not trace.marker,
-              spread=[s.deviation for s in spreads] if trace.marker else None)
+              spread=[_bar(trace, points, s.deviation) for (_, points), s in zip(groups, spreads)] if trace.marker else None)
         drawn(ax).curves[-1].label = prefix + trace.label + (f", {words}" if several else "")
         any_drawn = True
     if several and any_drawn:  # what the dashes and markers mean
