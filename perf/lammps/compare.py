@@ -3,25 +3,34 @@
 # SPDX-License-Identifier: MIT
 """The same slab in LAMMPS and in this engine: do they agree, and how fast is each?
 
-    perf/lammps/compare.py SLAB [--check] [--sites 64] [--layers 64] [--steps 20]
-                    [--rounds 3]
+    perf/lammps/compare.py SLAB [--check] [--wheel DIR] [--table FILE]
+                    [--sites 64] [--layers 64] [--steps 20] [--pieces 10] [--rounds 3]
+                    [--skin 2] [--newton on] [--only REGEX]
 
 SLAB is the program perf/lammps/slab of a build. --check compares 20 steps of a small slab and
-times nothing. Exit code 77 where LAMMPS (Debian package lammps) is missing, 1 where they disagree.
+times nothing. --only times those whose cores and name ("1 core, PyPI, omp") match. --wheel takes
+the LAMMPS of PyPI as well, from a directory that wheel.sh made. --table writes every piece that
+was timed, as text. Exit code 77 where LAMMPS (Debian package lammps) is
+missing, 1 where they disagree.
 """
 import argparse
+import glob
 import os
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
 
 TOLERANCE = 1e-9  # relative, of energies and of the largest force
+INPUTS = os.path.dirname(os.path.abspath(__file__))  # in.slab, in.path, in.time
 
 
-def run(command, directory, threads=1):
+def run(command, directory, threads=1, library=None):
     environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_PROC_BIND="false")
+    if library:
+        environment["LD_LIBRARY_PATH"] = library
     done = subprocess.run(command, cwd=directory, env=environment, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode:
@@ -33,6 +42,16 @@ def ranks(count, command):
     if count == 1:
         return command
     return ["mpirun", "--allow-run-as-root", "--bind-to", "none", "-n", str(count)] + command
+
+
+def write_inputs(slab, sites, layers, steps, directory):
+    run([slab, "write", str(sites), str(layers), str(steps), directory], directory)
+    for name in ("in.slab", "in.path", "in.time"):
+        shutil.copy(os.path.join(INPUTS, name), directory)
+
+
+def variables(**values):
+    return [word for name, value in values.items() for word in ("-var", name, str(value))]
 
 
 def our_path(name):
@@ -68,8 +87,9 @@ def their_path(dump, log):
 def agree(slab, lammps, sites, layers, steps):
     """Both programs over the same steps; True if no difference exceeds TOLERANCE."""
     with tempfile.TemporaryDirectory() as directory:
-        run([slab, "write", str(sites), str(layers), str(steps), directory], directory)
-        log = run([lammps, "-in", "in.path", "-log", "none"], directory)
+        write_inputs(slab, sites, layers, steps, directory)
+        log = run([lammps, "-in", "in.path", "-log", "none"] +
+                  variables(newton="on", skin=2, steps=steps), directory)
         ours = our_path(os.path.join(directory, "path.ours"))
         theirs = their_path(os.path.join(directory, "path.dump"), log)
     if len(ours) != steps + 1 or len(theirs) != steps + 1:
@@ -98,42 +118,132 @@ def agree(slab, lammps, sites, layers, steps):
     return all(value <= TOLERANCE for value in worst.values())
 
 
-def speeds(slab, lammps, sites, layers, steps, rounds):
-    """Nanoseconds for each mobile atom and step, the least of interleaved rounds."""
-    mobile = sites * sites * layers
-    best = {}
+def lammps_pieces(log, mobile):
+    """(wall, processor) ns a mobile atom and step, of each piece but the first; list builds."""
+    loops = re.findall(r"Loop time of (\S+) on \d+ procs for (\d+) steps", log)
+    uses = re.findall(r"(\S+)% CPU use with (\d+) MPI tasks", log)
+    pieces = []
+    for (seconds, steps), (percent, tasks) in list(zip(loops, uses, strict=True))[1:]:
+        wall = 1e9 * float(seconds) / (int(steps) * mobile)
+        pieces.append((wall, wall * float(percent) / 100.0 * int(tasks)))
+    return pieces, int(re.findall(r"Neighbor list builds = (\d+)", log)[-1])
 
-    def note(name, cores, value):
-        best[name, cores] = min(value, best.get((name, cores), 1e300))
 
+def title(cores, name):
+    return f"{cores} core{'s' if cores > 1 else ''}, {name}"
+
+
+def contestants(slab, lammps, options):
+    """(cores, name, function of a directory that returns pieces and list builds or None)."""
+    mobile = options.sites * options.sites * options.layers
+    given = variables(newton=options.newton, skin=options.skin, steps=options.steps,
+                      pieces=options.pieces)
+    timed = ["-in", "in.time", "-log", "none"] + given
+
+    def theirs(command, threads=1, library=None):
+        return lambda directory: lammps_pieces(run(command, directory, threads, library), mobile)
+
+    def ours(strain, count, threads):
+        command = ranks(count, [slab, "time", str(options.sites), str(options.layers),
+                                str(options.steps), str(options.pieces), strain])
+        return lambda directory: ([tuple(float(w) for w in line.split()) for line in
+                                   run(command, directory, threads).splitlines()], None)
+
+    for cores in (1, 2):
+        for suffix in ("", "opt"):
+            extra = ["-sf", suffix] if suffix else []
+            yield (cores, f"Debian, lj/cut{'/' if suffix else ''}{suffix}",
+                   theirs(ranks(cores, [lammps] + timed + extra)))
+        if options.wheel:
+            place = os.path.abspath(options.wheel)
+            program = [os.path.realpath(path) for path in
+                       glob.glob(f"{place}/lib/python*/site-packages/lammps/lmp")]
+            mpi = [f"{place}/bin/mpiexec", "-n", str(cores)] if cores > 1 else []
+            for name, extra in (("lj/cut/opt", ["-sf", "opt"]),
+                                ("omp", ["-sf", "omp", "-pk", "omp", "1"])):
+                yield (cores, f"PyPI, {name}",
+                       theirs(mpi + program + timed + extra, 1, f"{place}/lib"))
+            if cores > 1:
+                yield (cores, "PyPI, omp, threads",
+                       theirs(program + timed + ["-sf", "omp", "-pk", "omp", str(cores)], cores,
+                              f"{place}/lib"))
+        for strain in ("finite", "linear"):
+            yield cores, f"Asperity, {strain} strain, threads", ours(strain, 1, cores)
+            if cores > 1:
+                yield cores, f"Asperity, {strain} strain, ranks", ours(strain, cores, 1)
+
+
+def speeds(slab, lammps, options):
+    """Pieces (round, wall, processor) and list builds, by (cores, name); contestants take turns."""
+    pieces, builds = {}, {}
     with tempfile.TemporaryDirectory() as directory:
-        run([slab, "write", str(sites), str(layers), str(steps), directory], directory)
-        os.remove(os.path.join(directory, "path.ours"))
-        for _ in range(rounds):
-            for cores in (1, 2):
-                for name, suffix in (("LAMMPS lj/cut", []), ("LAMMPS lj/cut/opt", ["-sf", "opt"])):
-                    log = run(ranks(cores, [lammps, "-in", "in.time", "-log", "none"] + suffix),
-                              directory)
-                    loop = re.findall(r"Loop time of (\S+) on \d+ procs for (\d+) steps", log)[-1]
-                    note(name, cores, 1e9 * float(loop[0]) / (int(loop[1]) * mobile))
-                for strain in ("linear", "finite"):
-                    timed = [slab, "time", str(sites), str(layers), str(10 * steps), strain]
-                    note(f"Asperity {strain}, threads", cores,
-                         float(run(timed, directory, cores)))
-                    if cores > 1:
-                        note(f"Asperity {strain}, ranks", cores,
-                             float(run(ranks(cores, timed), directory)))
-    return best
+        write_inputs(slab, options.sites, options.layers, 0, directory)
+        for turn in range(options.rounds):
+            for cores, name, measure in contestants(slab, lammps, options):
+                if not re.search(options.only, title(cores, name)):
+                    continue
+                measured, lists = measure(directory)
+                pieces.setdefault((cores, name), []).extend(
+                    (turn, wall, used) for wall, used in measured)
+                builds[cores, name] = lists
+                if options.table:
+                    write_table(options, pieces, builds)
+    return pieces, builds
+
+
+def write_table(options, pieces, builds):
+    with open(options.table, "w") as table:
+        print(f"# {options.sites} x {options.sites} x {options.layers} atoms; pieces of "
+              f"{options.steps} steps; ns for each mobile atom and step\n"
+              "# cores; program; list builds; round; wall; processor, all cores together",
+              file=table)
+        for (cores, name), rows in pieces.items():
+            for turn, wall, used in rows:
+                print(f"{cores}; {name}; {builds[cores, name]}; {turn}; {wall:.2f}; {used:.2f}",
+                      file=table)
+
+
+def report(pieces, builds, options):
+    print(f"\n{options.sites} x {options.sites} x {options.layers} atoms, ns for each mobile atom "
+          f"and step: least and median of {options.rounds * options.pieces} pieces of "
+          f"{options.steps} steps,\nin {options.rounds} rounds; ratios are of medians; processor "
+          "time is that of all cores together")
+    print(f"  {'':<36}{'wall':>8}{'median':>8}{'processor':>11}{'median':>8}  list builds")
+    typical = {}
+    for (cores, name), rows in pieces.items():
+        walls, used = [row[1] for row in rows], [row[2] for row in rows]
+        typical[cores, name] = (statistics.median(walls), statistics.median(used))
+        lists = "" if builds[cores, name] is None else builds[cores, name]
+        print(f"  {title(cores, name):<36}{min(walls):>8.1f}"
+              f"{statistics.median(walls):>8.1f}{min(used):>11.1f}"
+              f"{statistics.median(used):>8.1f}  {lists:>5}")
+    for strain, what in (("finite", "the same computation"), ("linear", "the model's default")):
+        for cores in sorted({cores for cores, _ in typical}):
+            ratios = []
+            for k in (0, 1):
+                of = {name: value[k] for (count, name), value in typical.items() if count == cores}
+                theirs = min(value for name, value in of.items() if "Asperity" not in name)
+                ours = min(value for name, value in of.items() if strain in name)
+                ratios.append(theirs / ours)
+            print(f"  {title(cores, strain + ' strain')} ({what}): the fastest "
+                  f"LAMMPS takes {ratios[0]:.1f} times as long, {ratios[1]:.1f} times the "
+                  "processor time")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("slab")
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--wheel", metavar="DIR")
+    parser.add_argument("--table", metavar="FILE")
     parser.add_argument("--sites", type=int, default=64)
     parser.add_argument("--layers", type=int, default=64)
     parser.add_argument("--steps", type=int, default=20)
+    parser.add_argument("--pieces", type=int, default=10)
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--skin", type=float, default=2.0)
+    parser.add_argument("--only", default="", metavar="REGEX")
+    parser.add_argument("--newton", choices=("on", "off"), default="on")
     options = parser.parse_args()
     lammps = shutil.which("lmp")
     if not lammps:
@@ -145,17 +255,7 @@ def main():
         return 1
     if options.check:
         return 0
-    best = speeds(slab, lammps, options.sites, options.layers, options.steps, options.rounds)
-    print(f"\n{options.sites} x {options.sites} x {options.layers} atoms, nanoseconds for each "
-          f"mobile atom and step, the least of {options.rounds} rounds")
-    print(f"  {'':<28}{'one core':>10}{'two cores':>11}")
-    for name in sorted({name for name, _ in best}):
-        one = f"{best[name, 1]:.1f}" if (name, 1) in best else ""
-        print(f"  {name:<28}{one:>10}{best[name, 2]:>11.1f}")
-    peer = min(value for (name, cores), value in best.items() if "LAMMPS" in name and cores == 2)
-    for strain in ("linear", "finite"):
-        ours = min(value for (name, cores), value in best.items() if strain in name and cores == 2)
-        print(f"  {strain} strain on two cores: {peer / ours:.1f} times LAMMPS")
+    report(*speeds(slab, lammps, options), options)
     return 0
 
 

@@ -3,10 +3,12 @@
 //
 // One slab for two programs: this engine's lattice block at finite strain, and LAMMPS.
 //
-//     slab write N LAYERS STEPS DIRECTORY      data and inputs for LAMMPS, and our own path, step
-//     by
-//                                              step: energies, positions, forces
-//     slab time N LAYERS STEPS linear|finite   nanoseconds for each mobile atom and step
+//     slab write N LAYERS STEPS DIRECTORY
+//         data and settings for the inputs in.slab, in.path and in.time of LAMMPS; and, unless
+//         STEPS is 0, our own path, step by step: energies, positions, forces
+//     slab time N LAYERS STEPS PIECES linear|finite
+//         a line for each of PIECES times STEPS steps: nanoseconds of wall time and of processor
+//         time, summed over ranks and threads, for each mobile atom and step
 //
 // At a Poisson number of 1/4 the block is a plain bond crystal. Its atoms begin off their places
 // (up to 0.05 Å, by a formula) above a rough rigid substrate in reach; the top plane comes down.
@@ -18,10 +20,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -144,8 +149,7 @@ void each_spring(const Lattice& l, const Use& use) {
             }
 }
 
-void write_lammps(Slab& slab, const std::string& directory, int steps,
-                  const VectorField<double>& force) {
+void write_lammps(Slab& slab, const std::string& directory, const VectorField<double>& force) {
     const SimulationOptions& o = slab.options();
     const Block::Level& level = slab.simulation().block().levels().front();
     const double a = o.block.spacing, edge = o.block.sites * a, k = o.block.elasticity(0).k;
@@ -200,34 +204,12 @@ void write_lammps(Slab& slab, const std::string& directory, int steps,
         data("{} {} {} {}\n", ++bond, type, from, to);
     });
 
-    // Pairs but those of the interface are excluded, and lists are made anew only when they must.
     const LennardJones& lj = o.interface.potential;
-    const auto write_input = [&](const char* name, bool dump) {
-        TextFile in(directory + "/" + name);
-        in("units lj\natom_style bond\nboundary p p f\nnewton on\n");
-        in("special_bonds lj/coul 1 1 1\nbond_style harmonic\npair_style lj/cut {:.17g}\n",
-           lj.cutoff);
-        in("comm_modify cutoff {:.17g}\nread_data slab.data\n", lj.cutoff + 2.0);
-        in("pair_coeff * * 0 1 0.1\npair_coeff 1 2 {:.17g} {:.17g}\npair_modify shift yes\n",
-           lj.epsilon, lj.r0);
-        in("neighbor 1.0 bin\nneigh_modify delay 0 every 1 check yes\n");
-        for (const char* pair : {"1 1", "1 3", "1 4", "2 2", "2 3", "2 4", "3 3", "3 4", "4 4"})
-            in("neigh_modify exclude type {}\n", pair);
-        in("group mobile type 2 3\ngroup top type 4\nfix 1 mobile nve\n");
-        in("fix 2 top move linear 0 0 {:.17g}\ntimestep {:.17g}\n", velocity, o.dt);
-        if (dump) {
-            in("compute k mobile ke\nthermo 1\nthermo_style custom step evdwl ebond c_k\n");
-            in("thermo_modify norm no format float %.17g\n");
-            in("dump 1 mobile custom 1 path.dump id xu yu zu fx fy fz\n");
-            in("dump_modify 1 sort id format float %.17g\n");
-            in("run {}\n", steps);
-        } else {
-            in("thermo {}\nthermo_modify norm no\nrun {}\nrun {}\n", steps, std::max(1, steps / 5),
-               steps);
-        }
-    };
-    write_input("in.path", true);
-    write_input("in.time", false);
+    TextFile settings(directory + "/slab.settings");
+    settings("variable cutoff equal {:.17g}\nvariable epsilon equal {:.17g}\n", lj.cutoff,
+             lj.epsilon);
+    settings("variable r0 equal {:.17g}\nvariable velocity equal {:.17g}\n", lj.r0, velocity);
+    settings("variable dt equal {:.17g}\n", o.dt);
 }
 
 /// Forces at the present positions, on all moving planes.
@@ -245,7 +227,8 @@ int write(int sites, int layers, int steps, const std::string& directory) {
     std::vector<VectorField<double>> force;
     force.emplace_back(level.tile, layers);
     evaluate(s, force);
-    write_lammps(slab, directory, steps, force.front());
+    write_lammps(slab, directory, force.front());
+    if (steps == 0) return 0;
 
     const double a = slab.options().block.spacing;
     TextFile path(directory + "/path.ours");
@@ -269,16 +252,28 @@ int write(int sites, int layers, int steps, const std::string& directory) {
     return 0;
 }
 
-int time(int sites, int layers, int steps, bool finite, const Communicator& ranks) {
+/// Of this process, all threads together, ns.
+std::int64_t processor_time() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return now.tv_sec * std::int64_t{1000000000} + now.tv_nsec;
+}
+
+int time(int sites, int layers, int steps, int pieces, bool finite, const Communicator& ranks) {
     Slab slab(sites, layers, finite, ranks);
-    for (int step = 0; step < std::max(1, steps / 5); ++step)
-        slab.simulation().step(false);
-    const auto start = std::chrono::steady_clock::now();
-    for (int step = 0; step < steps; ++step)
-        slab.simulation().step(false);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    if (ranks.root())
-        fmt::print("{:.6g}\n", 1e9 * taken.count() / (1.0 * sites * sites * layers * steps));
+    const double updates = 1.0 * sites * sites * layers * steps;
+    for (int piece = -1; piece < pieces; ++piece) { // the first one warms up
+        const auto start = std::chrono::steady_clock::now();
+        const std::int64_t used = processor_time();
+        for (int step = 0; step < steps; ++step)
+            slab.simulation().step(false);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        std::array<std::int64_t, 1> processors = {processor_time() - used};
+        ranks.sum(processors);
+        if (ranks.root() && piece >= 0)
+            fmt::print("{:.6g} {:.6g}\n", 1e9 * taken.count() / updates,
+                       static_cast<double>(processors[0]) / updates);
+    }
     return 0;
 }
 
@@ -286,13 +281,13 @@ int time(int sites, int layers, int steps, bool finite, const Communicator& rank
 
 int main(int argc, char** argv) {
     ParallelSession session(argc, argv);
-    const std::string verb = argc == 6 ? argv[1] : "";
-    if (verb != "write" && verb != "time") {
-        fmt::print(stderr, "usage: slab write N LAYERS STEPS DIRECTORY\n"
-                           "       slab time N LAYERS STEPS linear|finite\n");
-        return 2;
-    }
-    const int sites = std::atoi(argv[2]), layers = std::atoi(argv[3]), steps = std::atoi(argv[4]);
-    if (verb == "write") return write(sites, layers, steps, argv[5]);
-    return time(sites, layers, steps, std::string(argv[5]) == "finite", session.world());
+    const std::string verb = argc > 1 ? argv[1] : "";
+    const auto number = [&](int i) { return std::atoi(argv[i]); };
+    if (verb == "write" && argc == 6) return write(number(2), number(3), number(4), argv[5]);
+    if (verb == "time" && argc == 7)
+        return time(number(2), number(3), number(4), number(5), std::string(argv[6]) == "finite",
+                    session.world());
+    fmt::print(stderr, "usage: slab write N LAYERS STEPS DIRECTORY\n"
+                       "       slab time N LAYERS STEPS PIECES linear|finite\n");
+    return 2;
 }
