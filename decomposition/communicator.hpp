@@ -3,7 +3,7 @@
 //
 // The ranks of a run behind one value type.
 //
-// A run started by mpirun talks MPI; a run started alone uses the serial transport and never
+// A run started by mpirun uses MPI; a run started alone uses the serial transport and never
 // initialises MPI at all. Every raw MPI call of the project is in communicator.cpp. All member
 // functions but rank(), size() and abort() are collective: every rank calls them in the same order.
 #pragma once
@@ -65,7 +65,7 @@ public:
     [[noreturn]] void abort(int exit_code) const;
 
     /// Runs work on the root. If it throws there, every rank throws: the root what it caught, the
-    /// others RootFailure, so that all leave together and the root alone tells why.
+    /// others RootFailure, so that all end together and the root alone reports the reason.
     void on_root(const std::function<void()>& work) const;
 
     class Transport;

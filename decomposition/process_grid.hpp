@@ -23,7 +23,7 @@ public:
     /// which level l has sites / 2^l nodes across. Throws std::invalid_argument if there are more
     /// ranks than tiles of at least two nodes.
     ProcessGrid(int ranks, int rank, int sites, int levels);
-    /// One level cut into slabs of whole rows, as equal as FFTW-MPI wants them: all have the same
+    /// One level cut into slabs of whole rows, as FFTW-MPI requires: all have the same
     /// number of rows but the last, which has the rest. Throws std::invalid_argument if that is
     /// none.
     static ProcessGrid slabs(int ranks, int rank, int sites);

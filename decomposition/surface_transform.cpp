@@ -125,7 +125,7 @@ SurfaceTransform<T>::SurfaceTransform(const Slab& slab, std::ptrdiff_t row)
 #if ASPERITY_FFTW_THREADS
     if (threaded) F::threads(omp_get_max_threads());
 #endif
-    // A plan depends on strides and alignment only; one made on these arrays serves all.
+    // A plan depends on strides and alignment only; one made on these arrays is valid for all.
     Waves<T> waves(slab, 1);
     auto* const complex = reinterpret_cast<typename F::Complex*>(waves.component(0));
     plans_->slabs = slab.ranks.size() > 1;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The program: a table of commands, each with what it says of itself, what it takes and what it
-// does. The main loop of a simulation is DynamicRun::integrate() in engine/run/dynamic_run.cpp.
+// The program: a table of commands, each with its description, its options and its function.
+// The main loop of a simulation is DynamicRun::integrate() in engine/run/dynamic_run.cpp.
 // Every rank of mpirun runs this; how they end together is in engine/commands/ending.hpp.
 #include "engine/commands/command_line.hpp"
 #include "engine/commands/ending.hpp"
@@ -89,7 +89,7 @@ const std::vector<Command> own_commands = {
      "every key of a scene with its default, as TOML",
      {takes::markdown, takes::plain, takes::json, takes::results},
      [](const Arguments& given, const Communicator& world) {
-         return given.json ? schema_command(world)
+         return given.json ? schema_command(given.results, world)
                            : defaults_command(given.markdown, given.plain, given.results, world);
      }},
     {"info",
@@ -105,8 +105,8 @@ std::vector<Command> all_commands() {
     return all;
 }
 
-/// Threads of this rank, where nobody chose them: the processors it may use, shared with the ranks
-/// beside it unless the launcher has bound each to processors of its own.
+/// Threads of this rank, where OMP_NUM_THREADS is not set: the processors it may use, shared with
+/// the ranks beside it unless the launcher has bound each to processors of its own.
 void choose_threads() {
     if (std::getenv("OMP_NUM_THREADS")) return;
     const char* beside = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");

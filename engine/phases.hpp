@@ -16,7 +16,7 @@ enum class Phase {
     advance,     ///< elastic forces, kick and drift, level by level
     thermostat,  ///< noise of a scene with a temperature
     exchange,    ///< halos
-    sums,        ///< global sums of a step, and its books
+    sums,        ///< global sums of a step,; work and dissipation integrated
     observe,     ///< mean height; energies and contact of observed steps
     relax,       ///< relaxation of the zero-load state
     checkpoint,

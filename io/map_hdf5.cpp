@@ -7,7 +7,7 @@
 #include "io/child_process.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
-#include "io/json_value.hpp"
+#include "io/json.hpp"
 #include "io/map_formats.hpp"
 
 #include <cmath>
@@ -86,20 +86,20 @@ void check_dataset(const Hdf5File& file, const std::string& dataset, const std::
                    "cut a piece out of it before");
 }
 
-JsonValue header_of(const RawMap& map) {
-    JsonValue header;
-    header["rows"] = static_cast<std::int64_t>(map.rows);
-    header["columns"] = static_cast<std::int64_t>(map.columns);
+Json header_of(const RawMap& map) {
+    Json header;
+    header["rows"] = map.rows;
+    header["columns"] = map.columns;
     header["source"] = map.source;
     header["origin"] = map.origin;
-    header.put("width", map.width);
-    header.put("height", map.height);
-    header.put("unit", map.file_unit);
+    if (map.width) header["width"] = *map.width;
+    if (map.height) header["height"] = *map.height;
+    if (map.file_unit) header["unit"] = *map.file_unit;
     return header;
 }
 
-JsonValue header_of(const Problem& problem) {
-    JsonValue header;
+Json header_of(const Problem& problem) {
+    Json header;
     header["where"] = problem.where;
     header["what"] = problem.what;
     header["why"] = problem.why;
@@ -107,8 +107,8 @@ JsonValue header_of(const Problem& problem) {
     return header;
 }
 
-bool send(int pipe, const JsonValue& header) {
-    const std::string text = header.dump(-1);
+bool send(int pipe, const Json& header) {
+    const std::string text = json_text(header);
     const std::uint64_t size = text.size();
     return write_all(pipe, &size, sizeof size) && write_all(pipe, text.data(), text.size());
 }
@@ -173,21 +173,20 @@ RawMap read_map_hdf5(const std::string& file, const std::string& dataset) {
         if (!read_all(pipe, &size, sizeof size) || size > largest_header) return;
         std::string text(size, '\0');
         if (!read_all(pipe, text.data(), text.size())) return;
-        const JsonValue header = JsonValue::parse(text, file);
-        if (const JsonValue* what = header.find("what")) {
-            refused = {header.find("where")->text(), what->text(), header.find("why")->text(),
-                       header.find("fix")->text()};
+        const Json header = parse_json(text, file);
+        if (header.contains("what")) {
+            refused = {header["where"], header["what"], header["why"], header["fix"]};
             return;
         }
         map.format = "HDF5";
-        map.source = header.find("source")->text();
-        map.origin = header.find("origin")->text();
-        map.rows = static_cast<std::size_t>(header.find("rows")->integer());
-        map.columns = static_cast<std::size_t>(header.find("columns")->integer());
-        if (const JsonValue* unit = header.find("unit")) map.file_unit = unit->text();
-        if (const JsonValue* width = header.find("width")) {
-            map.width = width->number();
-            map.height = header.find("height")->number();
+        map.source = header["source"].get<std::string>();
+        map.origin = header["origin"].get<std::string>();
+        map.rows = header["rows"];
+        map.columns = header["columns"];
+        if (header.contains("unit")) map.file_unit = header["unit"].get<std::string>();
+        if (header.contains("width")) {
+            map.width = header["width"].get<double>();
+            map.height = header["height"].get<double>();
             map.size_in_unit = !map.file_unit;
         }
         map.heights.resize(map.rows * map.columns);

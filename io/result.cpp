@@ -4,7 +4,7 @@
 
 #include "io/build_info.hpp"
 #include "io/digest.hpp"
-#include "io/json_value.hpp"
+#include "io/json.hpp"
 
 #include <fmt/format.h>
 
@@ -12,13 +12,9 @@
 #include <span>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 namespace asperity::io {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Where a name leads in a tree, made on the way. "*" stands for member and "[]" for element; the
 /// tree of units has one entry for all elements.
@@ -36,9 +32,6 @@ Json& place(Json& root, std::string_view name, const std::string& member, std::s
     }
     return *at;
 }
-
-/// A tree put together elsewhere.
-Json from(const JsonValue& value) { return Json::parse(value.dump(-1)); }
 
 } // namespace
 
@@ -82,9 +75,9 @@ void Result::set_list(Key list) {
             place((*values_)["units"], q.name, {}, 0, true) = std::string(q.unit);
 }
 
-void Result::set_scene(const JsonValue& scene, const JsonValue& units) {
-    (*values_)["scene"] = from(scene);
-    (*values_)["units"]["scene"] = from(units);
+void Result::set_scene(Json scene, Json units) {
+    (*values_)["scene"] = std::move(scene);
+    (*values_)["units"]["scene"] = std::move(units);
 }
 
 std::optional<double> Result::number(Key key) const {
@@ -104,10 +97,7 @@ Json Result::json() const {
     return all;
 }
 
-std::string Result::text(int indent) const {
-    // A path on Linux may be any bytes; what is no UTF-8 is replaced rather than refused.
-    return json().dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string Result::text(int indent) const { return json_text(json(), indent) + "\n"; }
 
 std::string sealed_json(std::string text) {
     text.resize(text.rfind("\n}"));

@@ -23,8 +23,6 @@
 
 namespace asperity::io {
 
-class JsonValue;
-
 class Result {
 public:
     using Value = std::variant<bool, long long, double, std::string, std::vector<double>,
@@ -50,7 +48,7 @@ public:
     /// An empty list and the units of its elements; list: a key that ends in "[]".
     void set_list(Key list);
     /// The scene and the units of its keys (Schema::json(), Schema::units()).
-    void set_scene(const JsonValue& scene, const JsonValue& units);
+    void set_scene(nlohmann::ordered_json scene, nlohmann::ordered_json units);
 
     /// A number that was set (of a key without "*" and "[]"), or nothing.
     std::optional<double> number(Key key) const;

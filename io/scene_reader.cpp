@@ -4,6 +4,7 @@
 // Binding of keys to fields: what a value must be to be stored, and what is said if it is not.
 #include "io/scene_reader.hpp"
 
+#include "io/json.hpp"
 #include "io/spelling.hpp"
 #include "io/units.hpp"
 
@@ -111,6 +112,40 @@ Range within_int(Range range) {
     return range;
 }
 
+/// A key that is written back as the field is.
+template <class T>
+Key make_key(std::string name, Schema::Kind kind, std::string doc, const T& field) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = kind;
+    key.doc = std::move(doc);
+    key.load = [&field] { return Json(field); };
+    return key;
+}
+
+/// The same with a word that stands for an empty field; read(value, number) reads any other value.
+template <class T, class Read>
+Key make_key_or(std::string name, Schema::Kind kind, std::string doc, std::optional<T>& field,
+                const std::string& word, const Read& read) {
+    Key key;
+    key.name = std::move(name);
+    key.kind = kind;
+    key.doc = std::move(doc);
+    key.word = word;
+    key.store = [&field, word, read](const Value& value) -> Problem {
+        if (value.text && *value.text == word) {
+            field.reset();
+            return {};
+        }
+        T number = 0;
+        Problem problem = read(value, number);
+        if (problem.what.empty()) field = number;
+        return with_word(std::move(problem), word);
+    };
+    key.load = [&field, word] { return field ? Json(*field) : Json(word); };
+    return key;
+}
+
 /// A member of a list: one of the choices, or a choice ending in ':' with a positive number behind
 /// it.
 bool fits(const std::string& member, const std::vector<std::string>& choices) {
@@ -174,16 +209,12 @@ Schema& Schema::section(std::string name, std::string doc) {
 }
 
 Key& Schema::boolean(std::string name, bool& field, std::string doc) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = Kind::boolean;
-    key.doc = std::move(doc);
+    Key key = make_key(std::move(name), Kind::boolean, std::move(doc), field);
     key.store = [&field](const Value& value) -> Problem {
         if (!value.boolean) return wrong_type("true or false", value, "true (no quotes)");
         field = *value.boolean;
         return {};
     };
-    key.load = [&field] { return JsonValue(field); };
     return add(std::move(key));
 }
 
@@ -194,97 +225,58 @@ Schema& Schema::variations(std::string name, std::string doc, std::string exampl
 }
 
 Key& Schema::integer(std::string name, int& field, Range range, std::string doc) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = Kind::integer;
+    Key key = make_key(std::move(name), Kind::integer, std::move(doc), field);
     key.range = range;
-    key.doc = std::move(doc);
     key.store = [&field, range](const Value& value) {
         long long number = field;
         Problem problem = read_integer(value, within_int(range), number);
         field = static_cast<int>(number);
         return problem;
     };
-    key.load = [&field] { return JsonValue(field); };
     return add(std::move(key));
 }
 
 Key& Schema::integer(std::string name, long long& field, Range range, std::string doc) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = Kind::integer;
+    Key key = make_key(std::move(name), Kind::integer, std::move(doc), field);
     key.range = range;
-    key.doc = std::move(doc);
     key.store = [&field, range](const Value& value) { return read_integer(value, range, field); };
-    key.load = [&field] { return JsonValue(field); };
     return add(std::move(key));
 }
 
 Key& Schema::number(std::string name, double& field, std::string unit, Range range,
                     std::string doc) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = Kind::number;
+    Key key = make_key(std::move(name), Kind::number, std::move(doc), field);
     key.unit = unit;
     key.range = range;
-    key.doc = std::move(doc);
     key.store = [&field, unit, range](const Value& value) {
         return read_number(value, unit, range, field);
     };
-    key.load = [&field] { return JsonValue(field); };
     return add(std::move(key));
 }
 
 Key& Schema::number_or(std::string name, std::optional<double>& field, std::string word,
                        std::string unit, Range range, std::string doc) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = Kind::number;
+    Key key = make_key_or(std::move(name), Kind::number, std::move(doc), field, word,
+                          [unit, range](const Value& value, double& number) {
+                              return read_number(value, unit, range, number);
+                          });
     key.unit = unit;
     key.range = range;
-    key.word = word;
-    key.doc = std::move(doc);
-    key.store = [&field, word, unit, range](const Value& value) -> Problem {
-        if (value.text && *value.text == word) {
-            field.reset();
-            return {};
-        }
-        double number = 0.0;
-        Problem problem = read_number(value, unit, range, number);
-        if (problem.what.empty()) field = number;
-        return with_word(std::move(problem), word);
-    };
-    key.load = [&field, word] { return field ? JsonValue(*field) : JsonValue(word); };
     return add(std::move(key));
 }
 
 Key& Schema::integer_or(std::string name, std::optional<long long>& field, std::string word,
                         Range range, std::string doc) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = Kind::integer;
+    Key key = make_key_or(std::move(name), Kind::integer, std::move(doc), field, word,
+                          [range](const Value& value, long long& number) {
+                              return read_integer(value, range, number);
+                          });
     key.range = range;
-    key.word = word;
-    key.doc = std::move(doc);
-    key.store = [&field, word, range](const Value& value) -> Problem {
-        if (value.text && *value.text == word) {
-            field.reset();
-            return {};
-        }
-        long long number = 0;
-        Problem problem = read_integer(value, range, number);
-        if (problem.what.empty()) field = number;
-        return with_word(std::move(problem), word);
-    };
-    key.load = [&field, word] { return field ? JsonValue(*field) : JsonValue(word); };
     return add(std::move(key));
 }
 
 Key& Schema::text(std::string name, std::string& field, std::string doc) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = Kind::text;
-    key.doc = std::move(doc);
+    Key key = make_key(std::move(name), Kind::text, std::move(doc), field);
     key.store = [&field](const Value& value) -> Problem {
         if (!value.text) return wrong_type("a string", value, "\"heights.h5\" (in quotes)");
         if (value.text->empty())
@@ -292,7 +284,6 @@ Key& Schema::text(std::string name, std::string& field, std::string doc) {
         field = *value.text;
         return {};
     };
-    key.load = [&field] { return JsonValue(field); };
     return add(std::move(key));
 }
 
@@ -312,7 +303,7 @@ Key& Schema::choice_of(std::string name, std::vector<std::string> words,
         set(static_cast<std::size_t>(at - words.begin()));
         return {};
     };
-    key.load = [words, get] { return JsonValue(words.at(get())); };
+    key.load = [words, get] { return Json(words.at(get())); };
     return add(std::move(key));
 }
 
@@ -346,12 +337,7 @@ Key& Schema::list_with(std::string name, std::vector<std::string> choices,
         set(*value.list);
         return {};
     };
-    key.load = [get] {
-        JsonValue array = JsonValue::array();
-        for (const std::string& member : get())
-            array.push_back(member);
-        return array;
-    };
+    key.load = [get] { return Json(get()); };
     return add(std::move(key));
 }
 

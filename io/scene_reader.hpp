@@ -14,7 +14,8 @@
 #pragma once
 
 #include "io/error.hpp"
-#include "io/json_value.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <functional>
 #include <initializer_list>
@@ -127,7 +128,7 @@ public:
         std::string doc;                  ///< one line, for people
         std::string default_toml;         ///< default, as it would stand in a scene
         std::function<Problem(const Value&)> store; ///< what is empty: stored; else what is wrong
-        std::function<JsonValue()> load;
+        std::function<nlohmann::ordered_json()> load;
         std::function<bool()>
             omitted; ///< set: true when writing the key back would change the meaning
 
@@ -216,9 +217,9 @@ public:
 
     /// The fields as a scene; with docs, each key has its line of explanation.
     std::string toml(bool with_docs) const;
-    JsonValue json() const;
+    nlohmann::ordered_json json() const;
     /// The unit of each value of json(): "1" for a pure number, "" for what is no number.
-    JsonValue units() const;
+    nlohmann::ordered_json units() const;
     /// The reference page.
     std::string markdown() const;
 

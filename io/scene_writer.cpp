@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The schema's other direction: fields back to TOML, to JSON, and to the reference page.
+#include "io/json.hpp"
 #include "io/scene_reader.hpp"
 
 #include <cmath>
@@ -25,17 +26,17 @@ std::string quoted(const std::string& text) {
 }
 
 /// As it stands in a scene. Numbers have all digits, and a point, so that they stay numbers.
-std::string toml_value(const JsonValue& value) {
-    if (value.is_bool()) return value.boolean() ? "true" : "false";
-    if (value.is_integer()) return fmt::format("{}", value.integer());
+std::string toml_value(const Json& value) {
+    if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+    if (value.is_number_integer()) return fmt::format("{}", value.get<long long>());
     if (value.is_number()) {
-        std::string text = fmt::format("{}", value.number());
+        std::string text = fmt::format("{}", value.get<double>());
         if (text.find_first_of(".einf") == std::string::npos) text += ".0";
         return text;
     }
-    if (value.is_text()) return quoted(value.text());
+    if (value.is_string()) return quoted(value.get<std::string>());
     std::string text;
-    for (const JsonValue& item : value.items())
+    for (const Json& item : value)
         text += (text.empty() ? "" : ", ") + toml_value(item);
     return "[" + text + "]";
 }
@@ -102,15 +103,15 @@ std::string Schema::toml(bool with_docs) const {
     return text;
 }
 
-JsonValue Schema::json() const {
-    JsonValue root = JsonValue::object();
+Json Schema::json() const {
+    Json root = Json::object();
     for (const Key& key : keys_)
         if (!key.omitted || !key.omitted()) root[key.section][key.name] = key.load();
     return root;
 }
 
-JsonValue Schema::units() const {
-    JsonValue root = JsonValue::object();
+Json Schema::units() const {
+    Json root = Json::object();
     for (const Key& key : keys_) {
         if (key.omitted && key.omitted()) continue;
         const bool number = key.kind == Kind::number || key.kind == Kind::integer;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The springs and signs of one cubic cell, shared by the energy kernels and the scalar cells.
+// The springs and signs of one cubic cell.
 #pragma once
 
 #include "kernels/annotations.hpp"

@@ -46,12 +46,12 @@ void force_patch(VectorVolume<const double> u, int z, const Stencil& s, Patch pa
                         });
 }
 
-/// Where the work goes on: plane z, from row y. What it needs is fetched from memory meanwhile.
+/// What is worked on next: plane z, from row y. Its data are prefetched meanwhile.
 struct Following {
     int z, y;
 };
 
-/// Calls what a place will need into the second cache, a line of each array at a time.
+/// Prefetches the data of a place into the second-level cache, a line of each array at a time.
 class Fetch {
 public:
     ASPERITY_INLINE Fetch(const VectorVolume<const double>& u, const VectorVolume<double>& v,

@@ -100,10 +100,4 @@ struct Patch {
     int x0, x1, y0, y1;
 };
 
-/// The slow obvious twin: energy and forces cell by cell, spring by spring, straight from the
-/// definition. Adds forces into out (all planes); returns the energy of all cells of the tile whose
-/// lower corner is owned. Forces on nodes at the edge are complete only if the halo of out is
-/// folded back.
-double elastic_reference(VectorVolume<const double> u, CellElasticity, VectorVolume<double> out);
-
 } // namespace asperity

@@ -28,10 +28,3 @@
 #pragma once
 
 #include "kernels/elastic_level.hpp"
-
-namespace asperity {
-
-/// The slow obvious twin, as elastic_reference() of elastic_cell.hpp.
-double finite_reference(VectorVolume<const double> u, const LevelCell&, VectorVolume<double> out);
-
-} // namespace asperity

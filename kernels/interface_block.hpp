@@ -53,7 +53,7 @@ struct SiteTerms {
 /// Hands a finished block of sites over: forces to memory, sums to the totals.
 struct Totals {
     BasicExactSum<Real> force_z, energy;
-    std::int64_t in_contact = 0, pushed = 0, in_reach = 0;
+    std::int64_t in_contact = 0, repulsive = 0, in_reach = 0;
     double closest_r2 = no_pair;
 
     template <bool observe>
@@ -78,7 +78,7 @@ struct Totals {
                     nearest.store_first(sites.nearest_r2.line(y) + x + lane, here);
                 for (int i = 0; i < here; ++i) {
                     in_contact += nearest[i] < contact_r2;
-                    pushed += z[i] > 0.0;
+                    repulsive += z[i] > 0.0;
                     closest_r2 = nearest[i] < closest_r2 ? nearest[i] : closest_r2;
                 }
             }
@@ -101,7 +101,7 @@ struct Totals {
                 sums.energy.bin[k] += energy.bin[k][i];
             }
         sums.in_contact += in_contact;
-        sums.pushed += pushed;
+        sums.repulsive += repulsive;
         sums.in_reach += in_reach;
         sums.closest_r2 = closest_r2 < sums.closest_r2 ? closest_r2 : sums.closest_r2;
     }

@@ -70,9 +70,9 @@ void lattice_sweep(const InterfaceSites& sites, const LatticeSubstrate& atoms,
 
 } // namespace
 
-InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps() {
-    return {{lattice_sweep<double, false>, lattice_sweep<double, true>},
-            {lattice_sweep<float, false>, lattice_sweep<float, true>}};
-}
+extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;
+const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps = {
+    {lattice_sweep<double, false>, lattice_sweep<double, true>},
+    {lattice_sweep<float, false>, lattice_sweep<float, true>}};
 
 } // namespace asperity::ASPERITY_VARIANT

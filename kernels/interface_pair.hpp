@@ -9,8 +9,8 @@
 //
 //     V = epsilon t^3 (t^3 - 2) - V0(r_c),    -V'/r = (12 epsilon / r_m^2) (t^7 - t^4).
 //
-// One division serves two pairs (1/a = b / (ab)): the divider works beside the multiplications, as
-// far as the processor can look ahead; so the sweeps begin the next pairs before they finish these.
+// One division serves two pairs (1/a = b / (ab)). Divisions run in parallel with multiplications if
+// these are independent; so the sweeps begin the next pairs before they finish these.
 // Without the energy a pair takes one fused multiplication for r^2, one and a half for t, four for
 // the force, one for its z component: seven and a half, and what the lateral components take. Pairs
 // in float count lengths in fixed_quantum, in double in Å.
@@ -67,7 +67,7 @@ struct PairTerms {
         tb = a * both;
     }
 
-    /// In Å^2. Atoms beyond the cutoff that were looked at all the same are no neighbours.
+    /// In Å^2. Visited atoms beyond the cutoff are no neighbours.
     ASPERITY_INLINE double nearest(T r2) const {
         return r2 < r2_cut[0] ? r2 * (length_unit<T> * length_unit<T>) : no_pair;
     }

@@ -7,7 +7,7 @@
 // row. Atoms are counted beyond the box and folded back for their height alone, so periodic images
 // need no thought and the cutoff may exceed the box. Cost: 4 r_c^2 / b^2 distances per site.
 //
-// The tail correction lives here too: it is one formula per site, no sum over pairs.
+// The tail correction is here too: it is one formula per site, no sum over pairs.
 #include "kernels/pair_sum.hpp"
 
 namespace asperity {
@@ -35,7 +35,7 @@ void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
             sums.force_z.add(site.force[2]);
             sums.energy.add(site.energy);
             sums.in_contact += site.nearest_r2 < contact * contact;
-            sums.pushed += site.force[2] > 0.0;
+            sums.repulsive += site.force[2] > 0.0;
             sums.in_reach += 1;
             if (site.nearest_r2 < sums.closest_r2) sums.closest_r2 = site.nearest_r2;
         }
@@ -52,7 +52,7 @@ void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
             double& force_z = sites.force.z(x, y);
             if (observe) {
                 sums.energy.add(tail.energy(gap));
-                sums.pushed += (force_z + force > 0.0) - (force_z > 0.0);
+                sums.repulsive += (force_z + force > 0.0) - (force_z > 0.0);
             }
             force_z += force;
             sums.force_z.add(force);

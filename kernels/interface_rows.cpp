@@ -190,9 +190,9 @@ void row_sweep(const InterfaceSites& sites, const RowSubstrate& atoms, const Len
 
 } // namespace
 
-InterfaceKernels::Sweeps<RowSubstrate> row_sweeps() {
-    return {{row_sweep<double, false>, row_sweep<double, true>},
-            {row_sweep<float, false>, row_sweep<float, true>}};
-}
+extern const InterfaceKernels::Sweeps<RowSubstrate> row_sweeps;
+const InterfaceKernels::Sweeps<RowSubstrate> row_sweeps = {
+    {row_sweep<double, false>, row_sweep<double, true>},
+    {row_sweep<float, false>, row_sweep<float, true>}};
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -6,7 +6,7 @@
 //
 // Three sweeps over pairs give the same answer:
 //   reference  every site against every substrate atom in reach by an explicit loop over pairs,
-//              scalar, obvious: the judge of the other two;
+//              scalar: what the other two are tested against;
 //   lattice    both sides are the same lattice, so the neighbours of a site are known offsets: SIMD
 //              over sites, sums in registers over the offsets in a fixed order;
 //   rows       a substrate with a spacing of its own (incommensurate): site by site, SIMD over the
@@ -20,12 +20,12 @@
 // Block site (x, y) of the tile stands at ((x0+x+1/2) a + ux, (y0+y+1/2) a + uy, z_ref + uz).
 // Units: Å, eV, eV/Å.
 //
-// What is out of reach costs nothing. For each block of sixteen sites along x the owner tabulates
+// Sites out of reach are skipped. For each block of sixteen sites along x the owner tabulates
 // how high the substrate gets in rings of lateral distance around it. From the lowest site of the
 // block follows a gap, from the gap the lateral distance beyond which no pair can interact, and
 // only offsets (atoms) nearer than that are visited. What is left out would have added exact zeros.
-// In the same way, from how low the substrate gets, follow the offsets that need no look at the
-// cutoff.
+// In the same way, from how low the substrate gets, follow the offsets that need no comparison with
+// the cutoff.
 //
 // Reproducibility: a site's force is summed in an order that the site alone decides (offset number,
 // or atoms counted from the one below it), never the tile, block or lane it is in; so its bits are
@@ -73,7 +73,7 @@ struct InterfaceSums {
     ExactSum force_z;            ///< total normal force of the substrate on the sites, eV/Å
     ExactSum energy;             ///< U_LJ, eV (only if asked for)
     std::int64_t in_contact = 0; ///< sites closer than contact_distance to some atom (if asked for)
-    std::int64_t pushed = 0;     ///< sites whose net normal force is repulsive (if asked for)
+    std::int64_t repulsive = 0;  ///< sites whose net normal force is repulsive (if asked for)
     std::int64_t in_reach = 0;   ///< sites of the blocks of sites that were not skipped
     double closest_r2 = no_pair; ///< smallest squared pair distance met (if asked for), Å^2
 
@@ -81,7 +81,7 @@ struct InterfaceSums {
         force_z.merge(other.force_z);
         energy.merge(other.energy);
         in_contact += other.in_contact;
-        pushed += other.pushed;
+        repulsive += other.repulsive;
         in_reach += other.in_reach;
         closest_r2 = other.closest_r2 < closest_r2 ? other.closest_r2 : closest_r2;
     }
@@ -104,7 +104,7 @@ struct ReachBounds {
     double offset_margin = 0.0; ///< largest sideways displacement the tables allow for, Å
 };
 
-/// The substrate's heights as the sweeps read them; a view that no sweep asks for is empty.
+/// The substrate's heights as the sweeps read them; a view that no sweep reads is empty.
 struct SubstrateHeights {
     PlaneView<const double> height;      ///< over the datum, Å
     PlaneView<const std::int32_t> fixed; ///< over the datum, in units of fixed_quantum
@@ -197,7 +197,7 @@ struct TailCorrection {
 };
 
 /// Adds the tail to forces and sums that a sweep has left; mean_height is the local mean plane
-/// below each site. If observed, energies are added and the sites pushed are counted anew.
+/// below each site. If observed, energies are added and the repulsive sites are counted anew.
 void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
                 PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
                 InterfaceSums& sums);

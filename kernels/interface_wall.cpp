@@ -78,7 +78,7 @@ WallSums settle_row(const Law& given, const WallRow<T>& row, const WallRule& rul
 }
 
 template <class Law>
-InterfaceKernels::WallKernels<Law> kernels_over() {
+constexpr InterfaceKernels::WallKernels<Law> kernels_over() {
     return {{wall_sweep<Law, false>, wall_sweep<Law, true>},
             settle_row<Law, double>,
             settle_row<Law, float>};
@@ -86,8 +86,8 @@ InterfaceKernels::WallKernels<Law> kernels_over() {
 
 } // namespace
 
-InterfaceKernels::AllWalls walls() {
-    return {kernels_over<LennardJonesWall>(), kernels_over<ExponentialWall>()};
-}
+extern const InterfaceKernels::AllWalls walls;
+const InterfaceKernels::AllWalls walls = {kernels_over<LennardJonesWall>(),
+                                          kernels_over<ExponentialWall>()};
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -182,22 +182,21 @@ float ball(const BallRow& row, const BallRule& rule, int components, int n) {
 
 } // namespace
 
-RowKernels surface_rows() {
-    return {dot<double, double>,
-            dot<double, float>,
-            dot<float, float>,
-            combine<double, double>,
-            combine<double, float>,
-            combine<float, double>,
-            combine<float, float>,
-            multiply<double, double, double>,
-            multiply<double, float, float>,
-            multiply<float, double, double>,
-            multiply<float, double, float>,
-            multiply<float, float, float>,
-            longest,
-            tie,
-            ball};
-}
+extern const RowKernels row_kernels;
+const RowKernels row_kernels = {dot<double, double>,
+                                dot<double, float>,
+                                dot<float, float>,
+                                combine<double, double>,
+                                combine<double, float>,
+                                combine<float, double>,
+                                combine<float, float>,
+                                multiply<double, double, double>,
+                                multiply<double, float, float>,
+                                multiply<float, double, double>,
+                                multiply<float, double, float>,
+                                multiply<float, float, float>,
+                                longest,
+                                tie,
+                                ball};
 
 } // namespace asperity::ASPERITY_VARIANT

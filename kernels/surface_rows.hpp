@@ -11,11 +11,11 @@
 
 namespace asperity {
 
-/// What one row of waves sees of a table of 3 x 3 matrices, each acting on (u_x, u_y, i u_z).
+/// The part of a table of 3 x 3 matrices for one row of waves, each acting on (u_x, u_y, i u_z).
 template <class T>
 struct MatrixRow {
     enum Entry { xx, yy, zz, xy, xz, yz, entries };
-    const T* at[entries]; ///< [wave]; of one component only zz is looked at
+    const T* at[entries]; ///< [wave]; of one component only zz is read
     T sign;               ///< of q_y: on xy and yz
 };
 
@@ -74,7 +74,7 @@ inline double row_dot(const float* a, const float* b, int sites) {
     return row_kernels().dot_float(a, b, sites);
 }
 
-/// to <- a from + keep to, n numbers; what is not kept is not looked at.
+/// to <- a from + keep to, n numbers; with keep = 0, to is not read.
 inline void combine_row(double a, const double* from, double keep, double* to, int n) {
     row_kernels().combine_double(a, from, keep, to, n);
 }

@@ -12,7 +12,7 @@
 //
 // Why six real numbers are enough. The stencil (elastic_cell.hpp) is even in x and y within the
 // plane components and within z, and odd where it couples z with x or y: its filters are cosines,
-// sin sin, or i sin. With w = i u_z in place of u_z the i's are gone: for the pair (x, w)
+// sin sin, or i sin. With w = i u_z in place of u_z there are no i's: for the pair (x, w)
 //
 //     F_x = A (i u_z(z+1) - i u_z(z-1)) = A (w(z+1) - w(z-1)),     F_w = i F_z = -A (x(z+1) -
 //     x(z-1)),

@@ -31,7 +31,7 @@ template <class V>
 ASPERITY_INLINE V restricted(V before, V here, V behind) {
     return V(0.5) * (before + behind) + here;
 }
-/// What the coarse node on fine node `at` gets of the nine around it.
+/// Force on the coarse node at fine node `at` from the nine around it.
 ASPERITY_INLINE double restricted_node(const double* at, std::ptrdiff_t row) {
     const auto along_x = [](const double* p) { return restricted(p[-1], p[0], p[1]); };
     return restricted(along_x(at + row), along_x(at), along_x(at - row));

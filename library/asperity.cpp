@@ -9,7 +9,7 @@
 #include "io/build_info.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
-#include "io/json_value.hpp"
+#include "io/json.hpp"
 
 #include <fmt/format.h>
 
@@ -32,14 +32,14 @@ class Result::Inside {
 public:
     std::string directory;
     std::string text;
-    io::JsonValue values;
+    io::Json values;
 
     /// Opened for each call: a result that is kept holds no file.
     io::Hdf5File file() const {
         return {io::FilePlace(directory + "/run.h5"), io::Hdf5File::Mode::read};
     }
-    const io::JsonValue& value(const std::string& name) const {
-        if (const io::JsonValue* found = values.find(name)) return *found;
+    const io::Json& value(const std::string& name) const {
+        if (const io::Json* found = io::find(values, name)) return *found;
         throw io::SceneError(io::Problem{directory + "/result.json",
                                          fmt::format("has no '{}'", name),
                                          "the run did not compute it, or the name is misspelt",
@@ -140,7 +140,7 @@ Result Result::load(const std::string& directory) {
     return translated([&] {
         const std::string file = directory + "/result.json";
         std::string text = contents(file);
-        io::JsonValue values = io::JsonValue::parse(text, file);
+        io::Json values = io::parse_json(text, file);
         return Result(
             std::make_shared<Inside>(Inside{directory, std::move(text), std::move(values)}));
     });
@@ -152,28 +152,29 @@ bool Result::finished() const { return stopped().empty(); }
 
 std::string Result::stopped() const {
     for (const char* why : {"failure.reason", "run.stopped"})
-        if (const io::JsonValue* found = inside_->values.find(why)) return found->text();
+        if (const io::Json* found = io::find(inside_->values, why))
+            return found->get<std::string>();
     return {};
 }
 
 bool Result::has(const std::string& name) const {
-    const io::JsonValue* found = inside_->values.find(name);
+    const io::Json* found = io::find(inside_->values, name);
     return found && found->is_number();
 }
 
 double Result::number(const std::string& name) const {
     return translated([&] {
-        const io::JsonValue& value = inside_->value(name);
+        const io::Json& value = inside_->value(name);
         if (!value.is_number())
             throw io::SceneError(io::Problem{inside_->directory + "/result.json",
                                              fmt::format("'{}' is no number", name), "",
                                              "Result::json() holds it"});
-        return value.number();
+        return value.get<double>();
     });
 }
 
 std::string Result::unit(const std::string& name) const {
-    return translated([&] { return inside_->value("units." + name).text(); });
+    return translated([&] { return inside_->value("units." + name).get<std::string>(); });
 }
 
 std::vector<std::string> Result::series() const {

@@ -120,10 +120,10 @@ void block_step(benchmark::State& state) {
     options.sites = options.thickness = n;
     options.young = 0.48;
     options.atom_mass = 2.04e4;
-    const auto levels = plan_levels(options);
+    const auto levels = level_shapes(options);
     Block block(options, Communicator(), ProcessGrid(1, 0, n, static_cast<int>(levels.size())));
     block.set_uniform(0.0, 1e-4);
-    StepPlan plan;
+    StepParameters plan;
     plan.dt = 10.0;
     plan.damping = state.range(2) != 0 ? 5e-5 : 0.0;
     KickSums sums;
@@ -133,7 +133,7 @@ void block_step(benchmark::State& state) {
         block.exchange();
     }
     double nodes = 0.0;
-    for (const LevelPlan& level : levels)
+    for (const LevelShape& level : levels)
         nodes += static_cast<double>(level.sites) * level.sites * level.cells;
     count(state, nodes, threads);
     state.counters["MB"] = 1e-6 * static_cast<double>(block.bytes());

@@ -86,7 +86,7 @@ nlohmann::json measure(const Communicator& ranks, bool contact, double seconds,
 
     double nodes = 0.0;
     for (const auto& level : simulation.block().levels())
-        nodes += static_cast<double>(level.tile.nx) * level.tile.ny * level.plan.cells;
+        nodes += static_cast<double>(level.tile.nx) * level.tile.ny * level.shape.cells;
     nlohmann::json by_phase;
     for (std::size_t i = 0; i < phases.size(); ++i)
         if (phases[i] > 0.0) by_phase[phase_names[i]] = phases[i];

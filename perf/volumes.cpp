@@ -31,7 +31,7 @@ nlohmann::json volumes(int sites, int thickness, int ranks) {
     BlockOptions options;
     options.sites = sites;
     options.thickness = thickness;
-    const auto levels = plan_levels(options);
+    const auto levels = level_shapes(options);
     const ProcessGrid grid(ranks, 0, sites, static_cast<int>(levels.size()));
     int fullest = 0; // tiles are larger towards the end of an uneven cut
     for (int r = 1; r < ranks; ++r) {
@@ -39,7 +39,7 @@ nlohmann::json volumes(int sites, int thickness, int ranks) {
         if (static_cast<double>(a.nx) * a.ny > static_cast<double>(b.nx) * b.ny) fullest = r;
     }
     double nodes = 0.0, held = 0.0, hanging = 0.0, x = 0.0, y = 0.0, wrapped = 0.0, gathered = 0.0;
-    for (const LevelPlan& plan : levels) {
+    for (const LevelShape& plan : levels) {
         const Tile tile = grid.tile(plan.level, fullest);
         const bool tiled = grid.tiled(plan.level), last = plan.level + 1 == std::ssize(levels);
         const double plane = static_cast<double>(tile.nx) * tile.ny;

@@ -71,16 +71,16 @@ double BlockOptions::highest_frequency(double site_stiffness) const {
     return std::sqrt((highest + site_stiffness) / atom_mass);
 }
 
-std::vector<LevelPlan> plan_levels(const BlockOptions& options) {
-    std::vector<LevelPlan> plan;
+std::vector<LevelShape> level_shapes(const BlockOptions& options) {
+    std::vector<LevelShape> shapes;
     int rest = options.thickness, sites = options.sites;
     for (int level = 0;; ++level) {
         const int least = options.layers_per_level;
         // One cell more where the rest would not divide by two.
         const int cells = least + ((rest - least) & 1);
         const bool coarsen = options.multiscale && sites % 2 == 0 && (rest - cells) / 2 >= least;
-        plan.push_back({level, sites, coarsen ? cells : rest});
-        if (!coarsen) return plan;
+        shapes.push_back({level, sites, coarsen ? cells : rest});
+        if (!coarsen) return shapes;
         rest = (rest - cells) / 2;
         sites /= 2;
     }
@@ -91,37 +91,36 @@ std::size_t Block::Level::bytes() const {
 }
 
 double Block::Level::mass(int z) const {
-    if (z > 0 || plan.level == 0) return node_mass; // the lowest layer's atoms are full atoms
+    if (z > 0 || shape.level == 0) return node_mass; // the lowest layer's atoms are full atoms
     // Half a coarse cell above, and from below the hanging plane's half cells: 4 (m/8)/2 = m/4.
     return 0.75 * node_mass;
 }
 
 ElasticLevel Block::Level::view(double a) {
-    return {plan.cells, u.view(), v.view(), incoming.plane(0), upper_force.plane(0), lower,
-            inner,      upper,    cell(a)};
+    return {shape.cells, u.view(), v.view(), incoming.plane(0), upper_force.plane(0), lower,
+            inner,       upper,    cell(a)};
 }
 
 Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid,
              Motion motion)
     : options_(options), communicator_(communicator), grid_(grid), halo_(communicator, grid) {
-    const auto plans = plan_levels(options);
     double depth = 0.0;
-    for (const LevelPlan& plan : plans) {
+    for (const LevelShape& shape : level_shapes(options)) {
         Level level;
-        level.plan = plan;
-        level.tile = grid.tile(plan.level);
-        level.tiled = grid.tiled(plan.level);
-        level.node_mass = options.atom_mass * std::pow(8.0, plan.level);
+        level.shape = shape;
+        level.tile = grid.tile(shape.level);
+        level.tiled = grid.tiled(shape.level);
+        level.node_mass = options.atom_mass * std::pow(8.0, shape.level);
         level.depth = depth;
-        level.elasticity = options.elasticity(plan.level);
+        level.elasticity = options.elasticity(shape.level);
         level.lower = make_stencil(level.elasticity, Face::lower);
         level.inner = make_stencil(level.elasticity, Face::inner);
         level.upper = make_stencil(level.elasticity, Face::upper);
-        level.u = VectorField<double>(level.tile, plan.cells + 1);
+        level.u = VectorField<double>(level.tile, shape.cells + 1);
         level.incoming = VectorField<double>(level.tile, 1);
         level.upper_force = VectorField<double>(level.tile, 1);
-        if (motion == Motion::in_time) level.v = VectorField<double>(level.tile, plan.cells);
-        depth += plan.cells * static_cast<double>(1 << plan.level);
+        if (motion == Motion::in_time) level.v = VectorField<double>(level.tile, shape.cells);
+        depth += shape.cells * static_cast<double>(1 << shape.level);
         levels_.push_back(std::move(level));
     }
 }
@@ -140,12 +139,12 @@ void Block::set_uniform(double z, double w) {
     for (Level& level : levels_) {
         const VectorVolume<double> u = level.u.view(), v = level.v.view();
         const int h = halo_width;
-        for (int k = 0; k <= level.plan.cells; ++k)
+        for (int k = 0; k <= level.shape.cells; ++k)
             for (int y = -h; y < level.tile.ny + h; ++y)
                 for (int x = -h; x < level.tile.nx + h; ++x) {
                     u.x(x, y, k) = u.y(x, y, k) = 0.0;
                     u.z(x, y, k) = z;
-                    if (!level.v.empty() && k < level.plan.cells && x >= 0 && x < level.tile.nx &&
+                    if (!level.v.empty() && k < level.shape.cells && x >= 0 && x < level.tile.nx &&
                         y >= 0 && y < level.tile.ny) {
                         v.x(x, y, k) = v.y(x, y, k) = 0.0;
                         v.z(x, y, k) = w;
@@ -158,7 +157,7 @@ void Block::set_uniform(double z, double w) {
 void Block::set_top(double z) {
     top_ = z;
     Level& last = levels_.back();
-    const PlaneView<double> plane = last.u.z.plane(last.plan.cells);
+    const PlaneView<double> plane = last.u.z.plane(last.shape.cells);
     for (int y = -halo_width; y < plane.ny + halo_width; ++y)
         std::fill(plane.line(y) - halo_width, plane.line(y) + plane.nx + halo_width, z);
 }
@@ -172,7 +171,7 @@ LevelSeam Block::seam(std::size_t fine) const {
 void Block::interpolate() {
 #pragma omp parallel
     for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
-        const auto fine = levels_[l].u.plane(levels_[l].plan.cells);
+        const auto fine = levels_[l].u.plane(levels_[l].shape.cells);
         const auto coarse = std::as_const(levels_[l + 1].u).plane(0);
 #pragma omp for schedule(static) nowait
         for (int y = -halo_width; y < fine.x.ny + halo_width; ++y) {
@@ -190,7 +189,7 @@ void Block::exchange() {
     for (Level& level : levels_) {
         const auto u = level.u.view();
         for (const auto& component : {u.x, u.y, u.z})
-            fields.push_back({component, level.plan.cells, level.tiled});
+            fields.push_back({component, level.shape.cells, level.tiled});
     }
     halo_.exchange(fields);
 }
@@ -255,15 +254,15 @@ std::size_t Block::motion_bytes() const {
 
 Block::Memory Block::memory_for(const BlockOptions& options, const ProcessGrid& grid) {
     Memory memory;
-    for (const LevelPlan& plan : plan_levels(options)) {
+    for (const LevelShape& shape : level_shapes(options)) {
         const auto planes = [&](int n) {
-            return VectorField<double>::bytes_for(grid.tile(plan.level), n);
+            return VectorField<double>::bytes_for(grid.tile(shape.level), n);
         };
-        const std::size_t motion = planes(plan.cells);
+        const std::size_t motion = planes(shape.cells);
         memory.motion += motion;
-        const std::size_t level = motion + planes(plan.cells + 1) + 2 * planes(1);
+        const std::size_t level = motion + planes(shape.cells + 1) + 2 * planes(1);
         memory.bytes += level;
-        if (plan.level > 0) memory.coarse += level;
+        if (shape.level > 0) memory.coarse += level;
     }
     return memory;
 }

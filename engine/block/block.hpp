@@ -55,23 +55,23 @@ struct BlockOptions {
     double highest_frequency(double site_stiffness) const;
 };
 
-struct LevelPlan {
+struct LevelShape {
     int level = 0;
     int sites = 0; ///< nodes across the box
     int cells = 0; ///< layers
 };
 /// Levels that fill the thickness exactly, each at least layers_per_level cells thick, coarsening
 /// twofold while the box and the remaining thickness allow it.
-std::vector<LevelPlan> plan_levels(const BlockOptions& options);
+std::vector<LevelShape> level_shapes(const BlockOptions& options);
 
-/// What the integrator is told (drive.hpp); the block turns it into coefficients for each plane.
-struct StepPlan {
+/// Parameters of a step (drive.hpp), from which the block makes coefficients for each plane.
+struct StepParameters {
     double dt = 0.0;              ///< fs
     double damping = 0.0;         ///< Gamma, 1/fs
     double damping_from = 0.0;    ///< fraction of the thickness above which damping acts
     double medium_velocity = 0.0; ///< of the top plane, Å/fs
     bool observe = false;         ///< sum the kinetic energy
-    bool operator==(const StepPlan&) const = default;
+    bool operator==(const StepParameters&) const = default;
 };
 
 /// What a block is for: a path in time needs velocities; a state at rest has none.
@@ -83,7 +83,7 @@ public:
     static constexpr int band = 8;
 
     struct Level {
-        LevelPlan plan;
+        LevelShape shape;
         Tile tile;
         bool tiled = false;
         double node_mass = 0.0; ///< of a node inside, eV fs^2/Å^2
@@ -95,12 +95,12 @@ public:
         VectorField<double> upper_force; ///< on the prescribed plane; one plane
 
         std::size_t bytes() const;
-        double edge(double a) const { return a * (1 << plan.level); }
+        double edge(double a) const { return a * (1 << shape.level); }
         /// Mass of a node of plane z, eV fs^2/Å^2.
         double mass(int z) const;
         /// Nodes of this tile that move.
-        long long nodes() const { return static_cast<long long>(tile.nx) * tile.ny * plan.cells; }
-        /// The first plane at this share of the block's thickness or above it; plan.cells if none
+        long long nodes() const { return static_cast<long long>(tile.nx) * tile.ny * shape.cells; }
+        /// The first plane at this share of the block's thickness or above it; shape.cells if none
         /// is. Decides which nodes are damped, and which feel noise.
         int first_plane_from(double share_of_thickness, int thickness) const;
         /// For the kernels; a: the spacing of atoms, Å.
@@ -117,9 +117,15 @@ public:
     const BlockOptions& options() const { return options_; }
     const ProcessGrid& grid() const { return grid_; }
     const Communicator& communicator() const { return communicator_; }
-    std::vector<Level>& levels() { return levels_; }
     const std::vector<Level>& levels() const { return levels_; }
-    Level& fields(std::size_t level) { return levels_[level]; }
+    /// Of a level of this block, to be written to.
+    struct Fields {
+        VectorField<double>&u, &v, &incoming;
+    };
+    Fields fields(const Level& level) {
+        Level& own = levels_[static_cast<std::size_t>(level.shape.level)];
+        return {own.u, own.v, own.incoming};
+    }
 
     VectorPlane<const double> lowest_layer() const { return levels_.front().u.view()[0]; }
     VectorPlane<double> interface_force() { return levels_.front().incoming.plane(0); }
@@ -136,12 +142,12 @@ public:
         return options_.finite_strain ? CellStrain::finite : CellStrain::small;
     }
     /// What a step does with the force on each plane of a level.
-    LevelKicks kicks(const Level& level, const StepPlan& plan) const;
+    LevelKicks kicks(const Level& level, const StepParameters& step) const;
 
     /// Only where there are hanging planes: nothing to do for a block of one level.
     bool hangs() const { return levels_.size() > 1; }
     void interpolate();
-    void advance(const StepPlan& plan, KickSums& sums);
+    void advance(const StepParameters& step, KickSums& sums);
     void exchange();
     /// In place of advance: forces on all moving planes (incoming ones included) into out[level].
     void forces(std::vector<VectorField<double>>& out);

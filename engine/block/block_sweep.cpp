@@ -30,30 +30,30 @@ std::pair<int, int> rows_of_thread(int ny) {
 
 int Block::Level::first_plane_from(double share_of_thickness, int thickness) const {
     int z = 0;
-    while (z < plan.cells &&
-           depth + z * static_cast<double>(1 << plan.level) < share_of_thickness * thickness)
+    while (z < shape.cells &&
+           depth + z * static_cast<double>(1 << shape.level) < share_of_thickness * thickness)
         ++z;
     return z;
 }
 
-LevelKicks Block::kicks(const Level& level, const StepPlan& plan) const {
+LevelKicks Block::kicks(const Level& level, const StepParameters& step) const {
     const auto make = [&](int z, bool damped) {
         const double m = level.mass(z);
-        const double g = damped ? 0.5 * plan.damping * plan.dt : 0.0;
+        const double g = damped ? 0.5 * step.damping * step.dt : 0.0;
         Kick kick;
         kick.keep = (1.0 - g) / (1.0 + g);
-        kick.kick = plan.dt / m / (1.0 + g);
-        kick.drag_z = 2.0 * g * plan.medium_velocity / (1.0 + g);
+        kick.kick = step.dt / m / (1.0 + g);
+        kick.drag_z = 2.0 * g * step.medium_velocity / (1.0 + g);
         kick.half_mass = 0.5 * m;
-        kick.medium_z = plan.medium_velocity;
+        kick.medium_z = step.medium_velocity;
         kick.damped = damped;
-        kick.observed = plan.observe;
-        kick.drag = m * plan.damping * plan.dt;
+        kick.observed = step.observe;
+        kick.drag = m * step.damping * step.dt;
         return kick;
     };
-    const int from = plan.damping > 0.0
-                         ? level.first_plane_from(plan.damping_from, options_.thickness)
-                         : level.plan.cells;
+    const int from = step.damping > 0.0
+                         ? level.first_plane_from(step.damping_from, options_.thickness)
+                         : level.shape.cells;
     return {make(0, from == 0), make(1, false), make(1, true), from};
 }
 
@@ -61,7 +61,7 @@ LevelKicks Block::kicks(const Level& level, const StepPlan& plan) const {
 /// above. Each thread advances its share of the rows band by band; a row drifts as soon as no force
 /// needs its old place, and the outermost rows of a share, which the neighbouring threads need,
 /// when all forces of the level are done.
-void Block::advance(const StepPlan& plan, KickSums& sums) {
+void Block::advance(const StepParameters& step, KickSums& sums) {
     const ElasticKernels& kernels = elastic_kernels(strain());
     if (options_.finite_strain)
         while (scratch_.size() < static_cast<std::size_t>(omp_get_max_threads()))
@@ -69,7 +69,7 @@ void Block::advance(const StepPlan& plan, KickSums& sums) {
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         Level& level = levels_[l];
         const ElasticLevel view = level.view(options_.spacing);
-        const LevelKicks kick = kicks(level, plan);
+        const LevelKicks kick = kicks(level, step);
         const int ny = level.tile.ny;
         KickSums of_level;
 #pragma omp parallel if (level.nodes() > worth_threads)
@@ -80,11 +80,11 @@ void Block::advance(const StepPlan& plan, KickSums& sums) {
                 scratch = scratch_[static_cast<std::size_t>(omp_get_thread_num())].view();
             KickSums mine;
             for (int y = first; y < last; y += band)
-                kernels.advance(view, kick, plan.dt, {y, std::min(last, y + band), first, last},
+                kernels.advance(view, kick, step.dt, {y, std::min(last, y + band), first, last},
                                 scratch, mine);
 #pragma omp barrier
-            kernels.drift(view, plan.dt, first, std::min(first + 1, last));
-            kernels.drift(view, plan.dt, std::max(last - 1, first + 1), last);
+            kernels.drift(view, step.dt, first, std::min(first + 1, last));
+            kernels.drift(view, step.dt, std::max(last - 1, first + 1), last);
             restrict_forces(l);
 #pragma omp critical(asperity_block_sums)
             of_level.merge(mine);
@@ -118,7 +118,7 @@ void Block::restrict_forces(std::size_t fine) {
     Level& coarse = levels_[fine + 1];
     // A fine level held whole feeds the whole coarse one on every rank alike.
     const Tile nodes =
-        levels_[fine].tiled ? grid_.footprint(coarse.plan.level, grid_.rank()) : coarse.tile;
+        levels_[fine].tiled ? grid_.footprint(coarse.shape.level, grid_.rank()) : coarse.tile;
     const auto force = std::as_const(levels_[fine].upper_force).plane(0);
     const auto incoming = coarse.incoming.plane(0);
     const int x0 = nodes.x0 - coarse.tile.x0, y0 = nodes.y0 - coarse.tile.y0;
@@ -138,7 +138,7 @@ void Block::share_restricted_forces(std::size_t fine) {
     if (!levels_[fine].tiled || coarse.tiled) return;
     const auto in = levels_[fine + 1].incoming.plane(0);
     const std::array planes = {in.x, in.y, in.z};
-    gather_footprints(communicator_, grid_, coarse.plan.level, planes);
+    gather_footprints(communicator_, grid_, coarse.shape.level, planes);
 }
 
 /// A band as wide as the widest level's.
@@ -151,7 +151,7 @@ Tile Block::scratch_tile(const ProcessGrid& grid, int levels) {
 
 std::size_t Block::finite_bytes_for(const BlockOptions& options, const ProcessGrid& grid,
                                     int threads) {
-    const int levels = static_cast<int>(plan_levels(options).size());
+    const int levels = static_cast<int>(level_shapes(options).size());
     return options.finite_strain ? static_cast<std::size_t>(threads) *
                                        VectorField<double>::bytes_for(scratch_tile(grid, levels), 2)
                                  : 0;

@@ -455,7 +455,7 @@ std::size_t Interface::bytes() const {
 }
 
 ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks) {
-    std::array<std::int64_t, 2> counts = {sums.in_contact, sums.pushed};
+    std::array<std::int64_t, 2> counts = {sums.in_contact, sums.repulsive};
     ranks.sum(counts);
     std::array<double, 1> nearest = {-sums.closest_r2};
     ranks.max(nearest);

@@ -39,7 +39,7 @@ struct InterfaceOptions {
     LennardJones potential;
     bool tail = false; ///< continuum correction beyond the cutoff
     bool mixed =
-        false; ///< pairs in single precision, sums in double; the reference knows only double
+        false; ///< pairs in single precision, sums in double; the reference is in double only
     bool single_too = false; ///< a double sweep may now and then be asked for in mixed precision
     InterfaceMethod method = InterfaceMethod::automatic;
     bool skip = true; ///< false: visit all offsets or atoms everywhere (same bits; for tests)
@@ -47,8 +47,8 @@ struct InterfaceOptions {
 
 /// Contacts over all tiles.
 struct ContactCount {
-    long long in_contact = 0, pushed = 0; ///< sites
-    double closest = 0.0;                 ///< smallest pair distance, Å; infinite out of reach
+    long long in_contact = 0, repulsive = 0; ///< sites
+    double closest = 0.0;                    ///< smallest pair distance, Å; infinite out of reach
 };
 /// Distance from which on the substrate does not act on a site, Å: beyond the cutoff; with the
 /// tail, which ends nowhere, 4 cutoffs, where 1/256 of its energy is left.

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// How stiff the interface holds each site: -dF/du, six numbers a site, or -dF_z/du_z alone.
+// Stiffness of the interface at each site: -dF/du, six numbers a site, or -dF_z/du_z alone.
 //
 // The substrate is rigid, so the force on a site depends on its own position alone, and the
 // interface's whole Hessian is this map of 3 x 3 matrices. Three sweeps, all sites displaced by a
 // little along x, y and z, give it by differences; the normal component alone takes one. The
-// displacement is a compromise: the force's own curvature asks for a small one, its steps at the
+// displacement is a compromise: the force's own curvature requires a small one, its steps at the
 // cutoff (4.5e-5 eV/Å a pair at 4 r0) for a large one.
 #pragma once
 

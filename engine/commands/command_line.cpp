@@ -119,8 +119,10 @@ void markdown(CLI::App& command, Arguments& given) {
 }
 
 void results(CLI::App& command, Arguments& given) {
-    command.add_flag("--results", given.results,
-                     "every name of result.json and run.h5: the reference page docs/result.md");
+    command.add_flag(
+        "--results", given.results,
+        "every name of result.json and run.h5: the reference page docs/result.md; with "
+        "--json those of result.json");
 }
 
 void plain(CLI::App& command, Arguments& given) {

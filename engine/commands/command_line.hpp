@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The command line: a list of commands, each with the options that it takes, and what a call says.
+// The command line: a list of commands, each with the options that it takes, and the arguments of a
+// call.
 //
 //     const std::vector<Command> commands = {
 //         {"theory", "the analytic theory of a scene", {takes::scene,
@@ -59,7 +60,7 @@ struct Command {
     std::vector<Option> options;
     std::function<int(const Arguments&, const Communicator&)> act; ///< returns the exit code
     std::string footer = {};                                       ///< below its options
-    bool looks_at_signals = false; ///< it ends by itself when told to stop (stop_signals.hpp)
+    bool looks_at_signals = false; ///< ends by itself after a signal (stop_signals.hpp)
 };
 
 /// The options; where commands mean different things by one, it takes its words of explanation.

@@ -48,8 +48,8 @@ int agreed(int code, const Communicator& world) {
     return static_cast<int>(greatest);
 }
 
-/// An error inside a run of several ranks. Those that are not rank 0 give it time to speak first;
-/// if it does not, the error is theirs alone.
+/// An error inside a run of several ranks. The others give rank 0 time to report first;
+/// if it does not, the error is not one of rank 0.
 [[noreturn]] void end_together(const std::exception& error, const Communicator& world) {
     const int code = report(error, world);
     if (!world.root()) {
@@ -67,7 +67,7 @@ int ended_in_order(const Communicator& world, const std::function<int()>& work) 
         return work();
     } catch (const io::SceneError& error) { // on every rank, or on the root for all of them
         return agreed(report(error, world), world);
-    } catch (const io::PhysicsError& error) { // guards judge global numbers: on every rank
+    } catch (const io::PhysicsError& error) { // guards compare global numbers: on every rank
         return agreed(report(error, world), world);
     } catch (const RootFailure&) { // the root has the reason and the code
         return agreed(io::exit_code::done, world);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// How the program ends, whatever happens.
+// The end of the program, with and without an error.
 //
-// Under mpirun every rank runs the same command; rank 0 alone speaks. A scene that is wrong is met
+// Under mpirun every rank runs the same command; rank 0 alone prints. An error in a scene is met
 // by all ranks alike, or by rank 0 for all of them: they agree on the code and end in order. Any
 // other error ends them all at once (abort), because the others may be waiting for this one.
 #pragma once

@@ -11,6 +11,7 @@
 #include "io/build_info.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
+#include "io/json.hpp"
 #include "io/map_file.hpp"
 #include "io/result.hpp"
 #include "io/result_directory.hpp"
@@ -37,29 +38,24 @@ namespace asperity {
 
 namespace {
 
-/// For programs: a sweep asks before it varies the scene, so that what a run of the scene itself
-/// would refuse is listed, not thrown.
-io::JsonValue check_json(const Scene& scene, int ranks) {
-    using io::JsonValue;
-    JsonValue all = JsonValue::object();
+/// For programs: a sweep calls it before it varies the scene, so that what a run of the scene
+/// itself would refuse is listed, not thrown.
+io::Json check_json(const Scene& scene, int ranks) {
+    io::Json all;
     all["name"] = scene.name;
     all["scene"] = scene_json(scene);
-    all["sweep"] = JsonValue::array();
+    all["sweep"] = io::Json::array();
     for (const io::Variation& variation : scene.sweep) {
-        JsonValue one = JsonValue::object();
-        one["key"] = variation.key;
-        one["values"] = variation.values;
-        one["where"] = variation.where;
-        all["sweep"].push_back(std::move(one));
+        all["sweep"].push_back(
+            {{"key", variation.key}, {"values", variation.values}, {"where", variation.where}});
     }
     all["theory_needs_surface"] = theory_needs_surface(scene);
-    all["notes"] = JsonValue::array();
-    all["problems"] = JsonValue::array();
+    all["notes"] = io::Json::array();
+    all["problems"] = io::Json::array();
     try {
         const Setup setup = examine(scene, ranks);
         all["longest_timestep"] = setup.longest_timestep;
-        for (const std::string& note : setup.notes)
-            all["notes"].push_back(note);
+        all["notes"] = setup.notes;
     } catch (const io::SceneError& error) {
         for (const io::Problem& problem : error.problems())
             all["problems"].push_back(io::format(problem));
@@ -124,8 +120,8 @@ int init_command(const std::string& asked, const Communicator& world) {
 
 int check_command(const Scene& scene, bool json, const Communicator& world) {
     if (json) {
-        const io::JsonValue all = check_json(scene, world.size());
-        if (world.root()) fmt::print("{}\n", all.dump(-1));
+        const io::Json all = check_json(scene, world.size());
+        if (world.root()) fmt::print("{}\n", io::json_text(all));
         return io::exit_code::done;
     }
     const Setup setup = examine(scene, world.size());
@@ -157,7 +153,7 @@ namespace {
 void print_map_file(const Scene& scene) {
     const io::MapFile map = io::read_map_file(scene.surface.map, scene.surface.file_unit);
     std::optional<double> width = map.width, height = map.height;
-    if (scene.surface.file_size) { // the scene knows better
+    if (scene.surface.file_size) { // the scene's value takes precedence
         const double pixel =
             *scene.surface.file_size / static_cast<double>(std::min(map.columns, map.rows));
         width = pixel * static_cast<double>(map.columns);
@@ -262,40 +258,49 @@ int defaults_command(bool markdown, bool plain, bool results, const Communicator
     return io::exit_code::done;
 }
 
-int schema_command(const Communicator& world) {
-    if (!world.root()) return io::exit_code::done;
+namespace {
+
+const char* name_of(io::Schema::Kind kind) {
     using Kind = io::Schema::Kind;
-    const auto name_of = [](Kind kind) {
-        switch (kind) {
-        case Kind::boolean:
-            return "boolean";
-        case Kind::integer:
-            return "integer";
-        case Kind::number:
-            return "number";
-        case Kind::choice:
-            return "choice";
-        case Kind::list:
-            return "list";
-        case Kind::text:
-            break;
-        }
-        return "text";
-    };
-    Scene defaults;
-    io::JsonValue all = io::JsonValue::object();
-    const io::Schema schema = bind(defaults);
-    for (const io::Schema::Key& key : schema.keys()) {
-        io::JsonValue& one = all[key.path()];
-        one["kind"] = name_of(key.kind);
-        one["unit"] = key.unit;
-        one["default"] = key.load();
-        one["doc"] = key.doc;
-        if (!key.word.empty()) one["word"] = key.word;
-        for (const std::string& choice : key.choices)
-            one["choices"].push_back(choice);
+    switch (kind) {
+    case Kind::boolean:
+        return "boolean";
+    case Kind::integer:
+        return "integer";
+    case Kind::number:
+        return "number";
+    case Kind::choice:
+        return "choice";
+    case Kind::list:
+        return "list";
+    case Kind::text:
+        break;
     }
-    fmt::print("{}\n", all.dump(-1));
+    return "text";
+}
+
+} // namespace
+
+int schema_command(bool results, const Communicator& world) {
+    if (!world.root()) return io::exit_code::done;
+    io::Json all;
+    if (results) {
+        for (const io::Quantity& q : io::result_quantities)
+            all[std::string(q.name)] = {{"unit", q.unit}, {"meaning", q.meaning}};
+    } else {
+        Scene defaults;
+        const io::Schema schema = bind(defaults);
+        for (const io::Schema::Key& key : schema.keys()) {
+            io::Json& one = all[key.path()];
+            one["kind"] = name_of(key.kind);
+            one["unit"] = key.unit;
+            one["default"] = key.load();
+            one["doc"] = key.doc;
+            if (!key.word.empty()) one["word"] = key.word;
+            if (!key.choices.empty()) one["choices"] = key.choices;
+        }
+    }
+    fmt::print("{}\n", io::json_text(all));
     return io::exit_code::done;
 }
 

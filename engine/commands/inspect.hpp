@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The commands that simulate nothing: what a scene says, what it would cost, what its surface is,
-// what keys there are, what this program is. Each returns the exit code; rank 0 alone prints.
+// The commands that simulate nothing: check, plan, surface, defaults, info.
+// Each has a function. Each returns the exit code; rank 0 alone prints.
 #pragma once
 
 #include "engine/scene/scene.hpp"
@@ -24,8 +24,9 @@ int plan_command(const Scene& scene, int ranks, const Communicator& world);
 int surface_command(const Scene& scene, const std::string& out, const Communicator& world);
 /// `asperity defaults`: as TOML, with or without explanations, or as the page docs/scene.md.
 int defaults_command(bool markdown, bool plain, bool results, const Communicator& world);
-/// `asperity defaults --json`: of every key its kind, unit, default, choices and meaning.
-int schema_command(const Communicator& world);
+/// `asperity defaults --json`: of every key its kind, unit, default, choices and meaning; results:
+/// instead of every value of result.json its unit and meaning.
+int schema_command(bool results, const Communicator& world);
 /// `asperity info`
 int info_command(const Communicator& world);
 

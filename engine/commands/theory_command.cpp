@@ -61,7 +61,7 @@ void write_profile(const std::string& path, const TheoryCase& what, const Theory
     file.close();
 }
 
-/// What only `asperity theory` asks: where adhesion ends.
+/// Computed by `asperity theory` only: where adhesion ends.
 struct Beyond {
     std::optional<theory::CriticalRoughness> critical;
     std::string note; ///< why something is not there

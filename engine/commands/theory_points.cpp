@@ -7,6 +7,7 @@
 #include "engine/scene/scene.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
+#include "io/json.hpp"
 #include "io/result.hpp"
 
 #include <fmt/format.h>
@@ -20,16 +21,16 @@ namespace asperity {
 
 namespace {
 
-using io::JsonValue;
+using io::Json;
 
 /// Of several scenes in turn: a surface is generated anew only where more than its rms changes.
 class SurfaceCache {
 public:
     const Surface* of(const Scene& scene) {
         if (!theory_needs_surface(scene)) return nullptr;
-        JsonValue keys = *scene_json(scene).find("surface");
+        Json keys = scene_json(scene)["surface"];
         if (scene.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
-        if (const std::string text = keys.dump(-1); !surface_ || text != keys_) {
+        if (const std::string text = io::json_text(keys); !surface_ || text != keys_) {
             surface_ = scene_surface(scene);
             keys_ = text;
         }
@@ -46,48 +47,44 @@ std::vector<std::string> overrides_of(const std::string& line, const std::string
         return io::SceneError(io::Problem{where, "is no list of overrides", why,
                                           "write one JSON array a line: [\"surface.rms=1\"]"});
     };
-    JsonValue list;
+    Json list;
     try {
-        list = JsonValue::parse(line, where);
+        list = io::parse_json(line, where);
     } catch (const io::Error& error) {
         throw refuse(error.problems().front().why);
     }
     if (!list.is_array()) throw refuse("it is not an array");
     std::vector<std::string> overrides;
-    for (const JsonValue& item : list.items()) {
-        if (!item.is_text()) throw refuse("an item is not a string");
-        overrides.push_back(item.text());
+    for (const Json& item : list) {
+        if (!item.is_string()) throw refuse("an item is not a string");
+        overrides.push_back(item.get<std::string>());
     }
     return overrides;
 }
 
-JsonValue point_json(const Scene& scene, SurfaceCache& surfaces) {
+Json point_json(const Scene& scene, SurfaceCache& surfaces) {
     const TheoryCase what = theory_case(scene, surfaces.of(scene));
     const TheoryNumbers numbers = solve_theory(what);
     io::Result values = scene_result(scene);
     values.set("delta_gamma", what.flat);
     record_theory(what, numbers, values);
-    const JsonValue result = JsonValue::parse(values.text(), "");
-    JsonValue point = JsonValue::object();
+    const Json result = values.json();
+    Json point = Json::object();
     for (const char* key : {"name", "scene", "delta_gamma", "theory"})
-        if (const JsonValue* value = result.find(key)) point[key] = *value;
+        if (result.contains(key)) point[key] = result[key];
     point["theory"]["gamma_eff_ratio"] = numbers.state.gamma_ratio;
     point["theory"]["gamma_eff_ratio_error"] = numbers.state.gamma_ratio_error;
-    point["notes"] = JsonValue::array();
-    for (const std::string& note : what.notes)
-        point["notes"].push_back(note);
+    point["notes"] = what.notes;
     return point;
 }
 
-JsonValue problems_json(const std::vector<io::Problem>& problems) {
-    JsonValue point = JsonValue::object();
+Json problems_json(const std::vector<io::Problem>& problems) {
+    Json point = Json::object();
     for (const io::Problem& problem : problems) {
-        JsonValue one = JsonValue::object();
-        one["where"] = problem.where;
-        one["what"] = problem.what;
-        one["why"] = problem.why;
-        one["fix"] = problem.fix;
-        point["problems"].push_back(std::move(one));
+        point["problems"].push_back({{"where", problem.where},
+                                     {"what", problem.what},
+                                     {"why", problem.why},
+                                     {"fix", problem.fix}});
     }
     return point;
 }
@@ -111,7 +108,7 @@ int theory_points_command(const TheoryPoints& what) {
         std::vector<std::string> overrides = what.overrides;
         for (std::string& one : overrides_of(line, fmt::format("{}:{}", what.points, number)))
             overrides.push_back(std::move(one));
-        JsonValue point;
+        Json point;
         try {
             const Scene scene = read_scene_text(text, what.scene, overrides);
             if (what.runnable) examine(scene, 1);
@@ -119,7 +116,7 @@ int theory_points_command(const TheoryPoints& what) {
         } catch (const io::SceneError& error) {
             point = problems_json(error.problems());
         }
-        fmt::print("{}\n", point.dump(-1));
+        fmt::print("{}\n", io::json_text(point));
     }
     return io::exit_code::done;
 }

@@ -47,19 +47,19 @@ NodeRanges strip_of(const Block& block, bool along_x) {
     for (const Block::Level& level : block.levels()) {
         const long long across = along_x ? level.tile.ny : level.tile.nx + 2 * halo_width;
         const long long here =
-            level.tiled && traded ? 3ll * halo_width * across * level.plan.cells : 0;
+            level.tiled && traded ? 3ll * halo_width * across * level.shape.cells : 0;
         strip.first[strip.levels + 1] = strip.first[strip.levels] + here;
         ++strip.levels;
     }
     return strip;
 }
-std::size_t longest_strip(const ProcessGrid& grid, const std::vector<LevelPlan>& plans) {
+std::size_t longest_strip(const ProcessGrid& grid, const std::vector<LevelShape>& shapes) {
     long long x = 0, y = 0;
-    for (const LevelPlan& plan : plans) {
-        const Tile tile = grid.tile(plan.level);
-        if (!grid.tiled(plan.level)) continue;
-        if (grid.px() > 1) x += 3ll * halo_width * tile.ny * plan.cells;
-        if (grid.py() > 1) y += 3ll * halo_width * (tile.nx + 2 * halo_width) * plan.cells;
+    for (const LevelShape& shape : shapes) {
+        const Tile tile = grid.tile(shape.level);
+        if (!grid.tiled(shape.level)) continue;
+        if (grid.px() > 1) x += 3ll * halo_width * tile.ny * shape.cells;
+        if (grid.py() > 1) y += 3ll * halo_width * (tile.nx + 2 * halo_width) * shape.cells;
     }
     return static_cast<std::size_t>(std::max(x, y));
 }
@@ -108,16 +108,16 @@ VectorVolume<T> DeviceBlock::place(const VectorField<T>& shape) {
 
 std::size_t DeviceBlock::bytes_for(const BlockOptions& block, const ProcessGrid& grid,
                                    const InterfaceOptions& interface) {
-    const auto plans = plan_levels(block);
+    const auto shapes = level_shapes(block);
     std::size_t bytes = 0;
-    for (const LevelPlan& plan : plans) {
-        const Tile tile = grid.tile(plan.level);
-        bytes += 2 * vector_bytes<double>(tile, plan.cells + 1) +
-                 vector_bytes<double>(tile, plan.cells) + 2 * vector_bytes<double>(tile, 1);
+    for (const LevelShape& shape : shapes) {
+        const Tile tile = grid.tile(shape.level);
+        bytes += 2 * vector_bytes<double>(tile, shape.cells + 1) +
+                 vector_bytes<double>(tile, shape.cells) + 2 * vector_bytes<double>(tile, 1);
     }
-    bytes += rounded(plans.size() * sizeof(DeviceLevel)) +
-             rounded(plans.size() * sizeof(LevelKicks)) + rounded(2 * sizeof(PassSums));
-    bytes += 2 * rounded(longest_strip(grid, plans) * sizeof(double));
+    bytes += rounded(shapes.size() * sizeof(DeviceLevel)) +
+             rounded(shapes.size() * sizeof(LevelKicks)) + rounded(2 * sizeof(PassSums));
+    bytes += 2 * rounded(longest_strip(grid, shapes) * sizeof(double));
     const Interface::TableSizes sizes =
         Interface::lattice_tables_for(interface, grid.tile(0), block.spacing);
     for (std::size_t size :
@@ -157,8 +157,8 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
         DeviceLevel level;
         level.nx = from.tile.nx;
         level.ny = from.tile.ny;
-        level.cells = from.plan.cells;
-        level.number = from.plan.level;
+        level.cells = from.shape.cells;
+        level.number = from.shape.level;
         level.x0 = from.tile.x0;
         level.y0 = from.tile.y0;
         level.u[0] = memory.u[0];
@@ -235,7 +235,7 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
 
     halo_x_ = {true, strip_of(block, true), nullptr, nullptr, 0};
     halo_y_ = {false, strip_of(block, false), nullptr, nullptr, 0};
-    const std::size_t strip = longest_strip(block.grid(), plan_levels(block.options()));
+    const std::size_t strip = longest_strip(block.grid(), level_shapes(block.options()));
     halo_x_.before = halo_y_.before = place<double>(strip);
     halo_x_.after = halo_y_.after = place<double>(strip);
 }
@@ -247,11 +247,11 @@ DeviceBlock::~DeviceBlock() {
 namespace {
 
 /// Calls visit(device's view, host's field) for displacements and velocities of a level.
-template <class Memory, class Level, class Visit>
-void each_component(const Memory& memory, const VectorVolume<double>& u, Level& level,
+template <class Memory, class Fields, class Visit>
+void each_component(const Memory& memory, const VectorVolume<double>& u, const Fields& host,
                     const Visit& visit) {
-    visit(u.x, level.u.x), visit(u.y, level.u.y), visit(u.z, level.u.z);
-    visit(memory.v.x, level.v.x), visit(memory.v.y, level.v.y), visit(memory.v.z, level.v.z);
+    visit(u.x, host.u.x), visit(u.y, host.u.y), visit(u.z, host.u.z);
+    visit(memory.v.x, host.v.x), visit(memory.v.y, host.v.y), visit(memory.v.z, host.v.z);
 }
 /// Where the storage of a field of this shape begins on the device.
 template <class T>
@@ -275,28 +275,28 @@ void DeviceBlock::upload(const Block& block) {
 void DeviceBlock::download(Block& block) const {
     for (std::size_t l = 0; l < levels_.size(); ++l)
         each_component(
-            levels_[l], levels_[l].u[step_.now], block.fields(l),
+            levels_[l], levels_[l].u[step_.now], block.fields(block.levels()[l]),
             [&](const VolumeView<double>& from, Field<double>& to) {
                 check(device_.download(to.storage().data(), begin_of(from, to), to.bytes()),
                       "a copy from it");
             });
 }
 
-void DeviceBlock::begin(const Block& block, const StepPlan& plan, double top,
+void DeviceBlock::begin(const Block& block, const StepParameters& step, double top,
                         double reference_height) {
-    if (!kicks_known_ || !(plan == kicked_with_)) {
+    if (!kicks_known_ || !(step == kicked_with_)) {
         std::vector<LevelKicks> kicks;
         step_.damped = false;
         for (const Block::Level& level : block.levels()) {
-            kicks.push_back(block.kicks(level, plan));
-            step_.damped |= kicks.back().damped_from < level.plan.cells;
+            kicks.push_back(block.kicks(level, step));
+            step_.damped |= kicks.back().damped_from < level.shape.cells;
         }
         check(device_.upload(kicks_, kicks.data(), kicks.size() * sizeof kicks[0]), "a copy to it");
-        kicked_with_ = plan;
+        kicked_with_ = step;
         kicks_known_ = true;
     }
-    step_.observe = plan.observe;
-    step_.dt = plan.dt;
+    step_.observe = step.observe;
+    step_.dt = step.dt;
     step_.top = top;
     const VectorVolume<double>& u = levels_[0].u[step_.now];
     step_.sites.displacement = u[0];
@@ -328,7 +328,7 @@ DeviceSums DeviceBlock::sums() const {
     result.interface.force_z = forces.sum[ForceSum::interface_z];
     result.interface.energy = forces.sum[ForceSum::interface_energy];
     result.interface.in_contact = static_cast<std::int64_t>(forces.count[ForceSum::in_contact]);
-    result.interface.pushed = static_cast<std::int64_t>(forces.count[ForceSum::repulsive]);
+    result.interface.repulsive = static_cast<std::int64_t>(forces.count[ForceSum::repulsive]);
     result.interface.closest_r2 = forces.least;
     result.lowest_z = forces.sum[ForceSum::lowest_z];
     result.top_force = forces.sum[ForceSum::top_z];
@@ -344,7 +344,7 @@ DeviceSums DeviceBlock::sums() const {
 void DeviceBlock::share_restricted_forces(const Block& block) {
     const Block::Level& coarse = block.levels()[static_cast<std::size_t>(shared_level_)];
     const ProcessGrid& grid = block.grid();
-    const Tile nodes = grid.footprint(coarse.plan.level, grid.rank());
+    const Tile nodes = grid.footprint(coarse.shape.level, grid.rank());
     check(device_.restrict_to_shared(
               step_, shared_level_, {nodes.x0, nodes.x0 + nodes.nx, nodes.y0, nodes.y0 + nodes.ny}),
           "the launch of a restriction");
@@ -360,7 +360,7 @@ void DeviceBlock::share_restricted_forces(const Block& block) {
     });
     const auto in = shared_.plane(0);
     const std::array planes = {in.x, in.y, in.z};
-    gather_footprints(block.communicator(), grid, coarse.plan.level, planes);
+    gather_footprints(block.communicator(), grid, coarse.shape.level, planes);
     each([&](double* to, Field<double>& from) {
         check(device_.upload(to, from.storage().data(), from.bytes()), "a copy to it");
     });

@@ -48,7 +48,7 @@ public:
 
     // One step in time, verb by verb. block: whose constants and ranks these are.
     /// What the step is; top: displacement of the top plane at its start.
-    void begin(const Block& block, const StepPlan& plan, double top, double reference_height);
+    void begin(const Block& block, const StepParameters& step, double top, double reference_height);
     /// In a scene with a temperature, after begin().
     void set_noise(const ThermalNoise& noise);
     void interpolate();
@@ -91,7 +91,7 @@ private:
     std::vector<double> to_before_, to_after_, from_before_, from_after_;
     int shared_level_ = -1; ///< whose incoming forces are put together over the ranks
     VectorField<double> shared_;
-    StepPlan kicked_with_;
+    StepParameters kicked_with_;
     bool kicks_known_ = false;
     std::size_t halo_bytes_ = 0;
 };

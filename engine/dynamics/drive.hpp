@@ -3,11 +3,11 @@
 //
 // What moves the rigid top plane (docs/model.md).
 //
-// It comes down at constant velocity until the total normal force on the lowest layer has gone
-// through attraction and back to the load asked for (zero), then turns round and goes up until the
-// force is gone. The turn is a smooth ramp: a sudden change of velocity by dv would send a plane
-// stress wave rho c dv (0.6 GPa for 2 x 5 m/s) through the block, which the interface would feel as
-// a load.
+// It moves down at constant velocity until the total normal force on the lowest layer has been
+// attractive and has returned to the prescribed load (zero), then reverses and moves up until the
+// force vanishes. The reversal is a smooth ramp: a sudden change of velocity by dv would send a
+// plane stress wave rho c dv (0.6 GPa for 2 x 5 m/s) through the block, which acts on the interface
+// as a load.
 #pragma once
 
 #include <string_view>
@@ -26,8 +26,8 @@ struct DriveOptions {
 };
 
 /// Whether a pull-off has come to its end: the top plane is back where the approach started or
-/// beyond (top, Å), where a relaxed block would be out of reach, and the force is gone beside the
-/// strongest attraction met (eV/Å). The force alone does not tell: it passes through zero on the
+/// beyond (top, Å), where a relaxed block would be out of reach, and the force is small beside the
+/// strongest attraction met (eV/Å). The force alone is not enough: it passes through zero on the
 /// way out of compression.
 bool out_of_reach(double top, double force, double strongest);
 
@@ -40,7 +40,7 @@ public:
     /// Velocity of the top plane along z at time t, Å/fs.
     double velocity(double t) const;
 
-    /// Told of the force on the lowest layer at time t (eV/Å, positive: pushed up). True at the
+    /// Told of the force on the lowest layer at time t (eV/Å, positive upwards). True at the
     /// step at which a leg ends. gone: out_of_reach() at this step.
     bool observe(double t, double force, bool gone);
 

@@ -169,7 +169,7 @@ void Simulation::update_energy_balance() {
     record_.elastic_energy = elastic;
     record_.kinetic_energy = kinetic;
     record_.in_contact = contacts.in_contact;
-    record_.pushed = contacts.pushed;
+    record_.repulsive = contacts.repulsive;
     record_.closest = contacts.closest;
     if (!energy_at_start_) {
         energy_at_start_ = lj + elastic + kinetic;

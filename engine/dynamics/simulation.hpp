@@ -46,9 +46,9 @@ struct StepRecord {
     // Only where the step was observed:
     bool observed = false;
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
-    long long in_contact = 0, pushed = 0; ///< sites
-    double closest = 0.0;                 ///< smallest pair distance, Å
-    double work = 0.0, damped = 0.0;      ///< since the start, at that step
+    long long in_contact = 0, repulsive = 0; ///< sites
+    double closest = 0.0;                    ///< smallest pair distance, Å
+    double work = 0.0, damped = 0.0;         ///< since the start, at that step
     double residual = 0.0; ///< of the energy balance, over the largest term met so far
 };
 

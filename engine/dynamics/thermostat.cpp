@@ -20,16 +20,17 @@ ExactSum Thermostat::kick(Block& block, double dt, double damping_from, long lon
 #pragma omp parallel
     {
         ExactSum mine;
-        for (auto& level : block.levels()) {
-            const auto v = level.v.view(), u = level.u.view();
+        for (const Block::Level& level : block.levels()) {
+            const Block::Fields fields = block.fields(level);
+            const auto v = fields.v.view(), u = fields.u.view();
             const bool counted = block.counts(level);
             const int from = level.first_plane_from(damping_from, thickness);
 #pragma omp for schedule(static)
-            for (int row = from * level.tile.ny; row < level.plan.cells * level.tile.ny; ++row) {
+            for (int row = from * level.tile.ny; row < level.shape.cells * level.tile.ny; ++row) {
                 const int z = row / level.tile.ny, y = row % level.tile.ny;
                 for (int x = 0; x < level.tile.nx; ++x) {
                     const auto xi =
-                        normals(noise, level.plan.level, level.tile.x0 + x, level.tile.y0 + y, z);
+                        normals(noise, level.shape.level, level.tile.x0 + x, level.tile.y0 + y, z);
                     Triple<double> speed = {v.x(x, y, z), v.y(x, y, z), v.z(x, y, z)};
                     Triple<double> place = {u.x(x, y, z), u.y(x, y, z), u.z(x, y, z)};
                     const double given = add_noise(noise, level.mass(z), xi, speed, place);

@@ -45,7 +45,7 @@ CoarseGrids::CoarseGrids(const Block& block)
             std::vector<double> depth = fine.depth;
             if (has_level(g - 1)) {
                 const Block::Level& own = block.levels()[g - 1];
-                for (int z = 0; z < own.plan.cells; ++z)
+                for (int z = 0; z < own.shape.cells; ++z)
                     depth.push_back(own.depth + std::ldexp(z, level - 1));
             }
             for (std::size_t i = 0; i < depth.size(); i += 2)
@@ -73,7 +73,7 @@ double CoarseGrids::wave_stiffness(std::size_t g) const {
 }
 
 int CoarseGrids::planes(std::size_t g) const {
-    return thinned(g) + (has_level(g) ? block_.levels()[g].plan.cells : 0);
+    return thinned(g) + (has_level(g) ? block_.levels()[g].shape.cells : 0);
 }
 
 VectorPlane<double> CoarseGrids::plane(std::size_t g, int i,

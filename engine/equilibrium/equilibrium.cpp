@@ -42,8 +42,8 @@ public:
     }
     std::vector<StateArray> state() override {
         std::vector<StateArray> list;
-        for (Block::Level& level : block_.levels())
-            add_arrays(level.plan.level, level.u, level.plan.cells, list);
+        for (const Block::Level& level : block_.levels())
+            add_arrays(level.shape.level, block_.fields(level).u, level.shape.cells, list);
         return list;
     }
     void settle(const Constraint& constraint) override {
@@ -61,9 +61,9 @@ public:
 private:
     /// All that moves, the free top plane apart, by this much along z.
     void shift(double by) {
-        for (Block::Level& level : block_.levels())
-            for (int cell = 0; cell < level.plan.cells; ++cell) {
-                const PlaneView<double> z = level.u.z.plane(cell);
+        for (const Block::Level& level : block_.levels())
+            for (int cell = 0; cell < level.shape.cells; ++cell) {
+                const PlaneView<double> z = block_.fields(level).u.z.plane(cell);
                 for (int y = 0; y < z.ny; ++y)
                     for (int x = 0; x < z.nx; ++x)
                         z(x, y) += by;
@@ -174,7 +174,7 @@ std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
     z.pairwise = -units::milli_per_unit * s.interface_energy / area;
     z.elastic = units::milli_per_unit * s.elastic_energy / area;
     z.contact_fraction = static_cast<double>(s.in_contact) / sites;
-    z.pushed_fraction = static_cast<double>(s.pushed) / sites;
+    z.repulsive_fraction = static_cast<double>(s.repulsive) / sites;
     z.mean_height = reference_height + s.mean_height;
     z.residual = s.residual;
     z.iterations = static_cast<double>(s.iterations);

@@ -19,7 +19,7 @@ struct ZeroLoad {
     double pairwise = 0.0;       ///< -U_LJ / A0: the atom-by-atom work, meV/Å^2
     double elastic = 0.0;        ///< U_el / A0, meV/Å^2
     double contact_fraction = 0.0;
-    double pushed_fraction = 0.0;
+    double repulsive_fraction = 0.0;
     double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
     double residual = 0.0;    ///< largest force left, eV/Å
     double iterations = 0.0;
@@ -32,7 +32,7 @@ struct ZeroLoad {
         v("pairwise", pairwise);
         v("elastic", elastic);
         v("contact_fraction", contact_fraction);
-        v("pushed_fraction", pushed_fraction);
+        v("pushed_fraction", repulsive_fraction);
         v("mean_height", mean_height);
         v("residual", residual);
         v("iterations", iterations);

@@ -241,7 +241,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double top) {
     record_.interface_energy = state.interface_energy;
     record_.elastic_energy = state.elastic_energy;
     record_.in_contact = state.in_contact;
-    record_.pushed = state.pushed;
+    record_.repulsive = state.repulsive;
     record_.closest = state.closest;
     const double change = state.interface_energy + state.elastic_energy - energy_at_start_;
     scale_ = std::max(

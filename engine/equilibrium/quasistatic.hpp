@@ -164,7 +164,7 @@ void QuasistaticPath::Ahead::visit(Visitor& v) {
     v("ahead.top_force", state.top_force);
     v("ahead.mean_height", state.mean_height);
     v("ahead.in_contact", state.in_contact);
-    v("ahead.pushed", state.pushed);
+    v("ahead.pushed", state.repulsive);
     v("ahead.closest", state.closest);
 }
 
@@ -178,7 +178,7 @@ void QuasistaticPath::visit(Visitor& v) {
     v("interface_energy", record_.interface_energy);
     v("elastic_energy", record_.elastic_energy);
     v("in_contact", record_.in_contact);
-    v("pushed", record_.pushed);
+    v("pushed", record_.repulsive);
     v("closest", record_.closest);
     v("work", record_.work);
     v("dissipated", record_.damped);

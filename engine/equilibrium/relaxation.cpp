@@ -35,11 +35,11 @@ public:
         : block_(block), interface_(interface), height_(reference_height), constraint_(constraint),
           options_(options), phases_(phases), grids_(block) {
         std::size_t planes = 0;
-        for (Block::Level& level : block.levels()) {
+        for (const Block::Level& level : block.levels()) {
             first_plane_.push_back(planes);
-            planes += static_cast<std::size_t>(level.plan.cells);
-            nodes_.emplace_back(level.tile, level.plan.cells);
-            level.v = VectorField<double>(level.tile, level.plan.cells);
+            planes += static_cast<std::size_t>(level.shape.cells);
+            nodes_.emplace_back(level.tile, level.shape.cells);
+            moves_.emplace_back(level.tile, level.shape.cells);
         }
         last_force_ = VectorField<double>(block.levels().front().tile, 1);
         const BlockOptions& o = block.options();
@@ -65,7 +65,7 @@ public:
             if (constraint_.is_mean_height()) remove_mean_force();
         }
         const auto t = phases_.time(Phase::sums);
-        const auto moved = std::as_const(block_.levels().front().v).plane(0);
+        const auto moved = std::as_const(moves_.front()).plane(0);
         follow_stiffness([&](int x, int y) {
             return std::array{moved.x(x, y), moved.y(x, y), moved.z(x, y)};
         });
@@ -96,8 +96,7 @@ public:
 #pragma omp parallel
             each_row([&](std::size_t l, int z, int y, int nx) {
                 const Means& m = mean[first_plane_[l] + static_cast<std::size_t>(z)];
-                const auto step = rows(nodes_[l].plane(z), y),
-                           v = rows(block_.levels()[l].v.plane(z), y);
+                const auto step = rows(nodes_[l].plane(z), y), v = rows(moves_[l].plane(z), y);
                 for (std::size_t c = 0; c < 3; ++c)
                     for (int x = 0; x < nx; ++x)
                         v[c][x] = momentum_ * v[c][x] + step[c][x] + m[c];
@@ -158,8 +157,7 @@ private:
     }
     /// Forces on the lowest layer times its last moves.
     ExactSum power_sum() const {
-        const auto f = nodes_.front().view()[0],
-                   v = std::as_const(block_.levels().front().v).view()[0];
+        const auto f = nodes_.front().view()[0], v = std::as_const(moves_.front()).view()[0];
         ExactSum sum;
         for (int y = 0; y < f.x.ny; ++y)
             for (int x = 0; x < f.x.nx; ++x)
@@ -190,7 +188,7 @@ private:
                 if (block_.counts(level))
                     elastic_kernels().sum(component, 0, level.tile.ny, sums.back());
             }
-            spring.push_back(std::ldexp(1.0, -level.plan.level));
+            spring.push_back(std::ldexp(1.0, -level.shape.level));
         });
         const std::vector<double> forces = global_sums(block_.communicator(), sums);
         const std::size_t n = spring.size();
@@ -236,11 +234,11 @@ private:
     /// strain it; all are shortened so that none gets longer than it may.
     void displace_at_mean_height() {
         const auto t = phases_.time(Phase::advance);
-        const double drift = mean(block_.levels().front().v.plane(0).z);
+        const double drift = mean(moves_.front().plane(0).z);
         const double scale = options_.max_move / (options_.max_move + std::abs(drift));
 #pragma omp parallel
         each_row([&](std::size_t l, int z, int y, int nx) {
-            const auto v = rows(block_.levels()[l].v.plane(z), y);
+            const auto v = rows(moves_[l].plane(z), y);
             for (int x = 0; x < nx; ++x) {
                 v[0][x] *= scale;
                 v[1][x] *= scale;
@@ -262,8 +260,8 @@ private:
         }
     }
     void displace(std::size_t l, int z, int y, int nx) {
-        const auto v = rows(block_.levels()[l].v.plane(z), y),
-                   u = rows(block_.levels()[l].u.plane(z), y);
+        const auto v = rows(moves_[l].plane(z), y),
+                   u = rows(block_.fields(block_.levels()[l]).u.plane(z), y);
         for (std::size_t c = 0; c < 3; ++c)
             for (int x = 0; x < nx; ++x)
                 u[c][x] += v[c][x];
@@ -272,7 +270,7 @@ private:
     template <class Work>
     void each_plane(const Work& work) const {
         for (std::size_t l = 0; l < nodes_.size(); ++l)
-            for (int z = 0; z < block_.levels()[l].plan.cells; ++z)
+            for (int z = 0; z < block_.levels()[l].shape.cells; ++z)
                 work(l, z);
     }
     /// Calls work(level, plane, row, nx) for every row of moving nodes; inside a parallel region.
@@ -293,9 +291,9 @@ private:
     const RelaxOptions& options_;
     Phases& phases_;
     CoarseGrids grids_;
-    std::vector<VectorField<double>>
-        nodes_;                      ///< forces, then steps; v of the levels: the last moves
-    VectorField<double> last_force_; ///< of the interface
+    std::vector<VectorField<double>> nodes_; ///< forces, then steps
+    std::vector<VectorField<double>> moves_; ///< the last ones
+    VectorField<double> last_force_;         ///< of the interface
     InterfaceSums sums_;
     double sites_ = 0.0;
     std::vector<std::size_t> first_plane_; ///< of each level, all counted from below
@@ -341,7 +339,7 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
         values[3] / (static_cast<double>(block.options().sites) * block.options().sites);
     const ContactCount contacts = count_contacts(sums, block.communicator());
     state.in_contact = contacts.in_contact;
-    state.pushed = contacts.pushed;
+    state.repulsive = contacts.repulsive;
     state.closest = contacts.closest;
     return state;
 }

@@ -60,7 +60,7 @@ struct RelaxedState {
     double top_force = 0.0;
     double mean_height = 0.0; ///< of the lowest layer above the reference height, Å
     long long in_contact = 0; ///< sites
-    long long pushed = 0;     ///< sites
+    long long repulsive = 0;  ///< sites
     double closest = 0.0;     ///< smallest pair distance, Å; infinite out of reach
 };
 

@@ -204,7 +204,7 @@ RelaxedState follow(Descent& descent, SpectralBlock& block, const RelaxOptions& 
     state.mean_height = block.mean_height();
     const ContactCount contacts = count_contacts(sums, block.communicator());
     state.in_contact = contacts.in_contact;
-    state.pushed = contacts.pushed;
+    state.repulsive = contacts.repulsive;
     state.closest = contacts.closest;
     return state;
 }

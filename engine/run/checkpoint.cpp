@@ -23,17 +23,19 @@ constexpr int format_version = 2;
 /// Displacements and half-step velocities of each level.
 std::vector<StateArray> fields_of(Simulation& simulation) {
     std::vector<StateArray> list;
-    for (auto& level : simulation.block().levels()) {
-        const int n = level.plan.level, planes = level.plan.cells;
+    Block& block = simulation.block();
+    for (const Block::Level& level : block.levels()) {
+        const int n = level.shape.level, planes = level.shape.cells;
+        const Block::Fields fields = block.fields(level);
         const auto add = [&](const char* what, Field<double>& field) {
             list.push_back({fmt::format("/level{}/{}", n, what), n, &field, planes});
         };
-        add("u_x", level.u.x);
-        add("u_y", level.u.y);
-        add("u_z", level.u.z);
-        add("v_x", level.v.x);
-        add("v_y", level.v.y);
-        add("v_z", level.v.z);
+        add("u_x", fields.u.x);
+        add("u_y", fields.u.y);
+        add("u_z", fields.u.z);
+        add("v_x", fields.v.x);
+        add("v_y", fields.v.y);
+        add("v_z", fields.v.z);
     }
     return list;
 }

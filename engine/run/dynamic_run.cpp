@@ -165,8 +165,7 @@ private:
             snapshot_.restore(simulation_);
             const char* file = "last-good.h5";
             write_checkpoint(run_.file(file), simulation_, snapshot_scalars_, run_.fingerprint());
-            kept = fmt::format("the last good state, step {}, is in {} for a look",
-                               snapshot_.step(), file);
+            kept = fmt::format("the last good state, step {}, is in {}", snapshot_.step(), file);
         }
         const double limit = run_.setup.longest_timestep;
         throw io::PhysicsError(

@@ -329,9 +329,9 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
     fmt::print(to, "memory      {}, the most held at once on all ranks; {} available here ({})\n",
                memory_text(plan.bytes), memory_text(there.bytes), there.because);
     if (plan.bytes > there.bytes)
-        fmt::print(to,
-                   "            IT DOES NOT FIT into this machine: `asperity run` will refuse "
-                   "here. Fewer sites, coarser or fewer\n            layers, or more machines\n");
+        fmt::print(
+            to, "            This does not fit into this machine: `asperity run` will refuse "
+                "it here. Fewer sites, coarser or fewer\n            layers, or more machines\n");
     if (const DeviceChoice& device = plan.setup.simulation.device;
         device.kind != DeviceChoice::Kind::none)
         fmt::print(to, "device      {}, {} of its memory on each rank; rates are the processor's\n",

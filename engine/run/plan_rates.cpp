@@ -54,7 +54,7 @@ Piece cut_out(const Scene& scene, const Setup& setup, const Surface& surface) {
 }
 
 ProcessGrid one_rank(const BlockOptions& block) {
-    return ProcessGrid(1, 0, block.sites, static_cast<int>(plan_levels(block).size()));
+    return ProcessGrid(1, 0, block.sites, static_cast<int>(level_shapes(block).size()));
 }
 
 /// Repeats work for about this long; the shortest time.
@@ -101,7 +101,7 @@ void measure_steps(const Piece& piece, Rates& rates) {
     rates.making = since(begin) / sites;
     const auto spent = [&](Phase p) { return simulation.phases()[p].seconds; };
     simulation.step(false);
-    const double nodes = nodes_of(plan_levels(piece.options.block));
+    const double nodes = nodes_of(level_shapes(piece.options.block));
     // The shortest of some steps, phase by phase.
     const std::array phases = {Phase::advance,  Phase::thermostat, Phase::interpolate,
                                Phase::exchange, Phase::sums,       Phase::observe};
@@ -145,8 +145,8 @@ void measure_strain(const Piece& piece, Rates& rates) {
         std::vector<VectorField<double>> out;
         double nodes = 0.0;
         for (const Block::Level& level : block.levels()) {
-            out.emplace_back(level.tile, level.plan.cells);
-            nodes += static_cast<double>(level.tile.nx) * level.tile.ny * level.plan.cells;
+            out.emplace_back(level.tile, level.shape.cells);
+            nodes += static_cast<double>(level.tile.nx) * level.tile.ny * level.shape.cells;
         }
         return shortest(0.04, [&] { block.forces(out); }) / nodes;
     };
@@ -177,9 +177,9 @@ void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& pie
 
 } // namespace
 
-double nodes_of(const std::vector<LevelPlan>& levels) {
+double nodes_of(const std::vector<LevelShape>& levels) {
     double nodes = 0.0;
-    for (const LevelPlan& l : levels)
+    for (const LevelShape& l : levels)
         nodes += static_cast<double>(l.sites) * l.sites * l.cells;
     return nodes;
 }
@@ -211,7 +211,7 @@ Rates measure_rates(const Scene& scene, const Setup& setup, const Surface& surfa
     if (on(Effect::inertia)) measure_steps(piece, rates);
     if (on(Effect::relaxation))
         measure_relaxation(scene, setup, piece, interface,
-                           spectral ? piece_sites : nodes_of(plan_levels(piece.options.block)),
+                           spectral ? piece_sites : nodes_of(level_shapes(piece.options.block)),
                            rates);
     rates.origin = fmt::format("rates measured now in {:.1f} s on a piece of {} x {} sites with {} "
                                "thread{}, kernels for {}",

@@ -34,6 +34,6 @@ struct Rates {
 Rates measure_rates(const Scene& scene, const Setup& setup, const Surface& surface);
 
 /// Of all levels together.
-double nodes_of(const std::vector<LevelPlan>& levels);
+double nodes_of(const std::vector<LevelShape>& levels);
 
 } // namespace asperity

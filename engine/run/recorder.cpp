@@ -50,7 +50,7 @@ const RecordColumn record_columns[] = {
     {"contact_fraction", In::both,
      [](const Row& w) { return static_cast<double>(w.r.in_contact) / w.sites; }},
     {"pushed_fraction", In::both,
-     [](const Row& w) { return static_cast<double>(w.r.pushed) / w.sites; }},
+     [](const Row& w) { return static_cast<double>(w.r.repulsive) / w.sites; }},
     {"closest", In::both, [](const Row& w) { return w.r.closest; }},
 };
 

@@ -10,6 +10,8 @@
 #include "kernels/variant.hpp"
 #include "theory/jkr.hpp"
 
+#include "io/json.hpp"
+
 #include <omp.h>
 
 #include <string>
@@ -33,7 +35,7 @@ void add_zero_load(const ZeroLoad& z, io::Result& result) {
     result.set("binding_energy_uncertainty", z.uncertainty);
     result.set("work_of_adhesion.pairwise", z.pairwise);
     result.set("contact_fraction", z.contact_fraction);
-    result.set("pushed_fraction", z.pushed_fraction);
+    result.set("pushed_fraction", z.repulsive_fraction);
     result.set("zero_load.elastic_energy", z.elastic);
     result.set("zero_load.mean_height", z.mean_height);
     result.set("zero_load.residual_force", z.residual);

@@ -8,6 +8,7 @@
 #include "engine/run/stop_signals.hpp"
 #include "engine/run/summary.hpp"
 #include "io/described.hpp"
+#include "io/json.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -38,12 +39,12 @@ void print_unless_closed(const Print& print) {
 
 /// What may not change between a checkpoint and its resumption.
 std::string physics_of(const Scene& scene) {
-    const io::JsonValue all = scene_json(scene);
-    io::JsonValue part = io::JsonValue::object();
+    const io::Json all = scene_json(scene);
+    io::Json part = io::Json::object();
     for (const char* section : {"surface", "block", "interface", "drive"})
-        if (const auto* value = all.find(section)) part[section] = *value;
+        if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
-    return part.dump(-1);
+    return io::json_text(part);
 }
 
 } // namespace

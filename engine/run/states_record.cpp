@@ -31,7 +31,7 @@ void add_states(const StateList& states, io::Result& result) {
         const ZeroLoad& z = state.numbers;
         put("states.*.binding_energy", "states.all[].binding_energy", z.binding_energy);
         put("states.*.contact_fraction", "states.all[].contact_fraction", z.contact_fraction);
-        put("states.*.pushed_fraction", "states.all[].pushed_fraction", z.pushed_fraction);
+        put("states.*.pushed_fraction", "states.all[].pushed_fraction", z.repulsive_fraction);
         put("states.*.mean_height", "states.all[].mean_height", z.mean_height);
         put("states.*.elastic_energy", "states.all[].elastic_energy", z.elastic);
         put("states.*.barrier", "states.all[].barrier",

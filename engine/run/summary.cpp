@@ -24,7 +24,7 @@ std::string levels_text(const Scene& scene, const Setup& setup) {
     if (levels.size() == 1)
         return fmt::format("one lattice of {} layers{}", levels.front().cells, strain);
     long long nodes = 0;
-    for (const LevelPlan& l : levels)
+    for (const LevelShape& l : levels)
         nodes += static_cast<long long>(l.sites) * l.sites * l.cells;
     const auto& block = setup.simulation.block;
     const double all = static_cast<double>(block.sites) * block.sites * block.thickness;

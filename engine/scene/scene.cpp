@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/scene.hpp"
 
+#include "io/json.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <string_view>
@@ -253,12 +255,12 @@ std::string scene_toml(const Scene& scene, bool with_docs) {
     return bind(copy).toml(with_docs);
 }
 
-io::JsonValue scene_json(const Scene& scene) {
+io::Json scene_json(const Scene& scene) {
     Scene copy = scene;
     return bind(copy).json();
 }
 
-io::JsonValue scene_units(const Scene& scene) {
+io::Json scene_units(const Scene& scene) {
     Scene copy = scene;
     return bind(copy).units();
 }

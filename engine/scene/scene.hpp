@@ -185,9 +185,9 @@ void not_yet(const Scene& scene, io::Problems& problems);
 std::vector<std::string> notes(const Scene& scene);
 
 std::string scene_toml(const Scene& scene, bool with_docs = true);
-io::JsonValue scene_json(const Scene& scene);
+nlohmann::ordered_json scene_json(const Scene& scene);
 /// The unit of each value there.
-io::JsonValue scene_units(const Scene& scene);
+nlohmann::ordered_json scene_units(const Scene& scene);
 /// docs/scene.md
 std::string scene_markdown();
 

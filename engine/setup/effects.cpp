@@ -44,7 +44,7 @@ Switch coarse_levels(const Scene& s) {
     block.sites = s.surface.sites;
     block.thickness = s.block.thickness;
     block.layers_per_level = s.block.layers_per_level;
-    if (plan_levels(block).size() == 1)
+    if (level_shapes(block).size() == 1)
         return {false, fmt::format("{} layers make one level", block.thickness)};
     return {true,
             fmt::format("block.model = \"multiscale\", {} layers a level", block.layers_per_level)};
@@ -115,6 +115,11 @@ constexpr std::array<Rule, effect_count> rules = {{
                     : Switch{false, "surface.radius = \"none\""};
      }},
     {Effect::relaxation, "relaxation", relaxation},
+    {Effect::states, "all states",
+     [](const Scene& s) {
+         const bool all = s.drive.states == States::all && s.has(PathPart::zero_load);
+         return Switch{all, fmt::format("drive.states = \"{}\"", all ? "all" : "first")};
+     }},
     {Effect::observation, "energies and contact", observation},
     {Effect::maps, "maps", maps},
     {Effect::trajectory, "trajectory",
@@ -132,6 +137,16 @@ constexpr std::array<Rule, effect_count> rules = {{
     {Effect::theory, "theory",
      [](const Scene&) {
          return Switch{true, "always: one solution for each result"};
+     }},
+    {Effect::device, "device",
+     [](const Scene& s) {
+         const int asked = s.numerics.device;
+         if (asked == no_device) return Switch{false, "numerics.device = \"none\""};
+         if (asked == any_device)
+             return Switch{true, "numerics.device = \"auto\": if there is one that can"};
+         return Switch{true, asked == emulated_device_asked
+                                 ? "numerics.device = \"emulated\""
+                                 : fmt::format("numerics.device = {}", asked)};
      }},
 }};
 

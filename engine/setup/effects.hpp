@@ -30,11 +30,13 @@ enum class Effect {
     tail,          ///< continuum correction beyond the cutoff
     curvature,     ///< a spherical cap under the roughness
     relaxation,    ///< states of equilibrium
+    states,        ///< all of them at zero load, not the first alone
     observation,   ///< energies, contacts and the energy balance: a row of the series
     maps,          ///< of the states that the scene asks for
     trajectory,    ///< frames of the lowest layer
     checkpoints,   ///< states from which a run can be resumed
     theory,        ///< Persson's theory for the same scene
+    device,        ///< steps in time on a device in place of the processor
     count
 };
 inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::count);

@@ -77,7 +77,6 @@ namespace {
 /// "auto": a CUDA device if there is one and it can do what the scene asks for.
 DeviceChoice device_of(const Scene& scene) {
     const int asked = scene.numerics.device;
-    if (asked == no_device) return {};
     if (asked == emulated_device_asked) return {DeviceChoice::Kind::emulated, 0};
     if (asked == any_device && (cuda_device_count() == 0 || !device_problems(scene).empty()))
         return {};
@@ -125,7 +124,7 @@ Setup make_setup(const Scene& scene, int ranks) {
     block.layers_per_level = scene.block.layers_per_level;
     block.multiscale = on(Effect::coarse_levels);
     block.finite_strain = on(Effect::finite_strain);
-    setup.levels = plan_levels(block);
+    setup.levels = level_shapes(block);
 
     InterfaceOptions& interface = setup.simulation.interface;
     interface = interface_options(scene);
@@ -136,7 +135,7 @@ Setup make_setup(const Scene& scene, int ranks) {
         problems.add("interface.epsilon", std::string(": ") + e.what());
     }
 
-    setup.simulation.device = device_of(scene);
+    if (on(Effect::device)) setup.simulation.device = device_of(scene);
 
     auto& drive = setup.simulation.drive;
     const double crossing = block.thickness * block.spacing / block.sound_speed();

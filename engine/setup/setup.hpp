@@ -30,7 +30,7 @@ struct Setup {
     SimulationOptions simulation;
     FlatReference flat;            ///< flat on flat, same cutoff and lattices
     double longest_timestep = 0.0; ///< stability limit 2/omega_max at the bottom of the well, fs
-    std::vector<LevelPlan> levels;
+    std::vector<LevelShape> levels;
     std::vector<std::string> notes; ///< worth knowing, not wrong
 };
 /// Throws io::SceneError with all that is wrong, for this number of ranks.

@@ -74,8 +74,9 @@ public:
           grid_(ranks.size(), ranks.rank(), sites, 1),
           simulation_(options_, surface_, ranks, grid_) {
         simulation_.start(start_height);
-        auto& level = simulation_.block().levels().front();
-        const auto u = level.u.view();
+        Block& block = simulation_.block();
+        const Block::Level& level = block.levels().front();
+        const auto u = block.fields(level).u.view();
         for (int z = 0; z < layers; ++z)
             for (int y = 0; y < level.tile.ny; ++y)
                 for (int x = 0; x < level.tile.nx; ++x) {
@@ -84,7 +85,7 @@ public:
                     u.y(x, y, z) = 0.05 * bumpy(j, z, i);
                     u.z(x, y, z) = 0.05 * bumpy(z, i, j);
                 }
-        simulation_.block().exchange();
+        block.exchange();
     }
     Simulation& simulation() { return simulation_; }
     const SimulationOptions& options() const { return options_; }

@@ -22,11 +22,11 @@ double largest_eigenvalue(const BlockOptions& options, double k) {
     CoarseGrids grids(block);
     std::vector<VectorField<double>> nodes;
     for (const auto& level : block.levels())
-        nodes.emplace_back(level.tile, level.plan.cells);
+        nodes.emplace_back(level.tile, level.shape.cells);
     const auto each = [&](const auto& work) {
         for (std::size_t l = 0; l < nodes.size(); ++l) {
-            const auto u = block.levels()[l].u.view(), v = nodes[l].view();
-            for (int z = 0; z < block.levels()[l].plan.cells; ++z)
+            const auto u = block.fields(block.levels()[l]).u.view(), v = nodes[l].view();
+            for (int z = 0; z < block.levels()[l].shape.cells; ++z)
                 for (int y = 0; y < u.x.ny; ++y)
                     for (int x = 0; x < u.x.nx; ++x) {
                         work(u.x(x, y, z), v.x(x, y, z));
@@ -76,8 +76,6 @@ TEST(CoarseGrids, StepsAreNoLongerThanMomentumStands) {
         for (double k : {0.0, 2.0, 20.0}) {
             const double largest =
                 largest_eigenvalue(test::paper_block(s.sites, s.thickness, s.layers), k);
-            std::printf("%d sites, %d layers, %d a level, k = %g: %.3f\n", s.sites, s.thickness,
-                        s.layers, k, largest);
             // Stable below 2 (1 + momentum) = 3.6, of which the means of planes take one.
             EXPECT_LT(largest, 2.6);
             EXPECT_GT(largest, 1.0);

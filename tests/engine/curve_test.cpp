@@ -8,6 +8,7 @@
 #include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/json.hpp"
 #include "theory/half_space.hpp"
 
 #include <algorithm>
@@ -39,13 +40,15 @@ TEST(Paths, TellWhatTheyLose) {
     result.set("work_of_adhesion.pull_off", 8.0);
     result.set("binding_energy", 6.0);
     add_cycle(path, scene, result);
-    const io::JsonValue json = io::JsonValue::parse(result.text(), "");
-    EXPECT_NEAR(json.find("hysteresis.loop")->number(), 3.0 * 100 * 100 / 1000, 1e-12);
-    EXPECT_NEAR(json.find("hysteresis.approach")->number(), 10.0, 1e-12);
-    EXPECT_NEAR(json.find("hysteresis.pull_off")->number(), 20.0, 1e-12);
-    EXPECT_NEAR(json.find("contact_radius.pull_off")->number(), std::sqrt(0.04 * 1e4 / M_PI), 1e-9);
+    const io::Json json = result.json();
+    EXPECT_NEAR(io::find(json, "hysteresis.loop")->get<double>(), 3.0 * 100 * 100 / 1000, 1e-12);
+    EXPECT_NEAR(io::find(json, "hysteresis.approach")->get<double>(), 10.0, 1e-12);
+    EXPECT_NEAR(io::find(json, "hysteresis.pull_off")->get<double>(), 20.0, 1e-12);
+    EXPECT_NEAR(io::find(json, "contact_radius.pull_off")->get<double>(),
+                std::sqrt(0.04 * 1e4 / M_PI), 1e-9);
     // The single spike of 90 counts for an eighth of it in the mean.
-    EXPECT_NEAR(json.find("jkr.out_averaged")->number(), 1e3 * 50.0 / (1.5 * M_PI * 1000), 1e-9);
+    EXPECT_NEAR(io::find(json, "jkr.out_averaged")->get<double>(), 1e3 * 50.0 / (1.5 * M_PI * 1000),
+                1e-9);
 }
 
 /// The value of `key` for a path of rows every 0.1 ps whose force is -1 eV/Å from row `from` for

@@ -87,9 +87,9 @@ std::size_t relaxing_bytes(const std::vector<std::string>& overrides) {
 TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
     const Effects effects(scene_with({"drive.damping=0", "block.model=lattice", "block.thickness=4",
                                       "output.fields=[]", "output.checkpoint=0"}));
-    for (Effect off :
-         {Effect::damping, Effect::temperature, Effect::finite_strain, Effect::coarse_levels,
-          Effect::tail, Effect::curvature, Effect::maps, Effect::trajectory, Effect::checkpoints})
+    for (Effect off : {Effect::damping, Effect::temperature, Effect::finite_strain,
+                       Effect::coarse_levels, Effect::tail, Effect::curvature, Effect::maps,
+                       Effect::trajectory, Effect::checkpoints, Effect::states, Effect::device})
         EXPECT_FALSE(effects.on(off)) << name(off);
     for (Effect on :
          {Effect::inertia, Effect::lateral, Effect::skipping, Effect::observation, Effect::theory})
@@ -107,7 +107,8 @@ TEST(Effects, EachHasAKeyThatSwitchesIt) {
         {Effect::maps, "output.fields=[\"pull-off\"]"},
         {Effect::maps, "output.fields=[\"every:5\"]"},
         {Effect::trajectory, "output.trajectory=10"},
-        {Effect::checkpoints, "output.checkpoint=1"}};
+        {Effect::checkpoints, "output.checkpoint=1"},
+        {Effect::device, "numerics.device=emulated"}};
     const std::vector<std::string> plain = {"drive.damping=1e-6", "block.model=lattice",
                                             "output.fields=[]", "output.checkpoint=0"};
     for (const auto& [effect, key] : switched_on) {
@@ -128,6 +129,8 @@ TEST(Effects, EachHasAKeyThatSwitchesIt) {
     EXPECT_FALSE(Effects(scene_with({"drive.path=zero-load", "block.model=spectral",
                                      "interface.frictionless=true"}))
                      .on(Effect::lateral));
+    EXPECT_TRUE(
+        Effects(scene_with({"drive.path=zero-load", "drive.states=all"})).on(Effect::states));
 }
 
 TEST(Effects, OffInAStepIsNoCallAndNoByte) {
@@ -168,7 +171,8 @@ TEST(Effects, DampingActsOnTheLayersItIsGivenAlone) {
     damped.emplace_back("drive.damping_from=0.5");
     Simulation plain = started(scene_with(lattice)), other = started(scene_with(damped));
     for (Simulation* s : {&plain, &other}) {
-        auto& v = s->block().levels().front().v; // faster than the medium
+        Block& block = s->block();
+        auto& v = block.fields(block.levels().front()).v; // faster than the medium
         for (int z = 0; z < 8; ++z)
             v.plane(z).z(3, 5) = 1e-3;
         s->step(false);

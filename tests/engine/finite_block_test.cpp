@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -84,24 +83,25 @@ TEST_P(FiniteBlock, PatchTest) {
     Block block(options, Communicator(), test::serial_grid(options));
     std::vector<VectorField<double>> force;
     for (const auto& level : block.levels())
-        force.emplace_back(level.tile, level.plan.cells);
+        force.emplace_back(level.tile, level.shape.cells);
     const double a = options.spacing;
     const Matrix stretch = {{{1.05, 0.02, 0.1}, {0.0, 0.97, -0.05}, {0.03, 0.0, 0.9}}};
     const Matrix turn = test::rotation({1.0, 2.0, -0.5}, 25.0);
     for (const Matrix& F : {stretch, turn, test::product(turn, stretch)}) {
         double largest = 0.0; // k u
-        for (auto& level : block.levels()) {
-            const int scale = 1 << level.plan.level;
+        for (const auto& level : block.levels()) {
+            const auto to = block.fields(level).u.view();
+            const int scale = 1 << level.shape.level;
             const bool last = &level == &block.levels().back();
-            for (int z = 0; z < level.plan.cells + (last ? 1 : 0); ++z)
+            for (int z = 0; z < level.shape.cells + (last ? 1 : 0); ++z)
                 for (int y = -halo_width; y < level.tile.ny + halo_width; ++y)
                     for (int x = -halo_width; x < level.tile.nx + halo_width; ++x) {
                         const std::array<double, 3> at = {a * scale * x, a * scale * y,
                                                           a * (level.depth + scale * z)};
                         const auto moved = test::apply(F, at);
-                        level.u.x.view()(x, y, z) = moved[0] - at[0];
-                        level.u.y.view()(x, y, z) = moved[1] - at[1];
-                        level.u.z.view()(x, y, z) = moved[2] - at[2];
+                        to.x(x, y, z) = moved[0] - at[0];
+                        to.y(x, y, z) = moved[1] - at[1];
+                        to.z(x, y, z) = moved[2] - at[2];
                         for (std::size_t i = 0; i < 3; ++i)
                             largest = std::max(largest, 6.0 * scale * std::abs(moved[i]));
                     }
@@ -113,7 +113,7 @@ TEST_P(FiniteBlock, PatchTest) {
         for (std::size_t i = 0; i < 3; ++i)
             pull[i] = a * a * traction(options, F, i);
         for (std::size_t l = 0; l < force.size(); ++l)
-            for (int z = 0; z < block.levels()[l].plan.cells; ++z)
+            for (int z = 0; z < block.levels()[l].shape.cells; ++z)
                 for (int y = 0; y < block.levels()[l].tile.ny; ++y)
                     for (int x = 0; x < block.levels()[l].tile.nx; ++x) {
                         const double on = l == 0 && z == 0 ? 1.0 : 0.0;
@@ -209,8 +209,6 @@ TEST(FiniteMotion, EnergyErrorFallsAsTheSquareOfTheStep) {
         return most - least;
     };
     const double coarse = ripple(8.0), middle = ripple(4.0), fine = ripple(2.0);
-    std::printf("energy ripple at 8, 4, 2 fs: %.4e %.4e %.4e eV, ratios %.3f %.3f\n", coarse,
-                middle, fine, coarse / middle, middle / fine);
     EXPECT_NEAR(coarse / middle, 4.0, 0.15);
     EXPECT_NEAR(middle / fine, 4.0, 0.05);
 }
@@ -253,7 +251,6 @@ TEST(FiniteRelaxation, ReleasesTheWorkOfTheLoad) {
     const auto linear = relaxed(false, 0.0);
     const double energy = free.state.interface_energy + free.state.elastic_energy;
     const double other = linear.state.interface_energy + linear.state.elastic_energy;
-    std::printf("finite %.6f, linear %.6f eV\n", energy, other);
     EXPECT_GT(std::abs(energy - other), 1e-5 * std::abs(other));
     EXPECT_LT(std::abs(energy - other), 0.05 * std::abs(other));
 }
@@ -264,7 +261,7 @@ TEST(FiniteQuasistatic, WorkIsEnergyPlusLossOnLevels) {
     Interface interface(test::reference_surface("c1_N16_T16_rms0.5"), grid.tile(0), options.spacing,
                         test::paper_interface());
     const auto block = at_rest(Block(options, Communicator(), grid, Motion::at_rest));
-    ASSERT_GT(plan_levels(options).size(), 1u);
+    ASSERT_GT(level_shapes(options).size(), 1u);
     PathOptions p;
     p.tolerance = 1e-4;
     p.reference_height = interface.start_height();
@@ -284,9 +281,6 @@ TEST(FiniteQuasistatic, WorkIsEnergyPlusLossOnLevels) {
     const double state = -(path.now().interface_energy + path.now().elastic_energy);
     const double out = follow(Leg::pull_off);
     const Dissipation& lost = path.dissipation();
-    std::printf("state %.4f eV, lost %.4f in, %.4f out; approach %+.1e, pull-off %+.1e\n", state,
-                lost.approach, lost.pull_off, path.approach_work() + lost.approach - state,
-                path.pull_off_work() + lost.pull_off + state);
     EXPECT_GT(state, 1.0);
     EXPECT_NEAR(path.approach_work() + lost.approach, state, in);
     EXPECT_NEAR(-path.pull_off_work() - lost.pull_off, state, out);

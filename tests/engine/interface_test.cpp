@@ -101,7 +101,7 @@ void expect_close(const Outcome& judge, const Outcome& other, const std::string&
     }
     EXPECT_LT(worst, 1e-12) << what;
     EXPECT_EQ(judge.sums.in_contact, other.sums.in_contact) << what;
-    EXPECT_EQ(judge.sums.pushed, other.sums.pushed) << what;
+    EXPECT_EQ(judge.sums.repulsive, other.sums.repulsive) << what;
     if (judge.sums.closest_r2 < no_pair) {
         EXPECT_NEAR(judge.sums.closest_r2, other.sums.closest_r2,
                     1e-12 * (1.0 + judge.sums.closest_r2))
@@ -119,7 +119,7 @@ bool same_bits(const Outcome& p, const Outcome& q) {
             return false;
     return p.sums.force_z.value() == q.sums.force_z.value() &&
            p.sums.energy.value() == q.sums.energy.value() &&
-           p.sums.in_contact == q.sums.in_contact && p.sums.pushed == q.sums.pushed &&
+           p.sums.in_contact == q.sums.in_contact && p.sums.repulsive == q.sums.repulsive &&
            p.sums.closest_r2 == q.sums.closest_r2;
 }
 
@@ -172,7 +172,7 @@ TEST(InterfaceSweep, ForceOnlyGivesTheBitsOfTheObservedSweep) {
         EXPECT_EQ(quick.sums.energy.value(), 0.0);
         quick.sums.energy = full.sums.energy;
         quick.sums.in_contact = full.sums.in_contact;
-        quick.sums.pushed = full.sums.pushed;
+        quick.sums.repulsive = full.sums.repulsive;
         quick.sums.closest_r2 = full.sums.closest_r2;
         EXPECT_TRUE(same_bits(quick, full)) << m;
     }
@@ -399,11 +399,11 @@ TEST(InterfaceTail, RepulsiveSitesAreCountedWithTheTail) {
     std::int64_t fewer = 0;
     for (const double z : {2.9, 3.0, 3.1, 3.2, 3.3, 3.4}) {
         options.tail = false;
-        const std::int64_t without = sweep(surface, state, options, z, true).sums.pushed;
+        const std::int64_t without = sweep(surface, state, options, z, true).sums.repulsive;
         options.tail = true;
         const Outcome with = sweep(surface, state, options, z, true);
-        EXPECT_EQ(with.sums.pushed, repulsive(with)) << z;
-        fewer += without - with.sums.pushed;
+        EXPECT_EQ(with.sums.repulsive, repulsive(with)) << z;
+        fewer += without - with.sums.repulsive;
     }
     EXPECT_GT(fewer, 0) << "no site at which the tail decides";
 }

@@ -200,7 +200,7 @@ TEST(Simulation, MomentumIsWhatTheForcesGave) {
     const auto momentum = [&] {
         double sum = 0.0;
         for (const auto& level : simulation.block().levels())
-            for (int z = 0; z < level.plan.cells; ++z)
+            for (int z = 0; z < level.shape.cells; ++z)
                 for (int y = 0; y < level.tile.ny; ++y)
                     for (int x = 0; x < level.tile.nx; ++x)
                         sum += level.mass(z) * level.v.view().z(x, y, z);

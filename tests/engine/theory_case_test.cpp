@@ -7,6 +7,7 @@
 
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
+#include "io/json.hpp"
 #include "theory/error.hpp"
 
 #include <gtest/gtest.h>
@@ -122,7 +123,7 @@ TEST(TheoryOfAScene, RenormalisedIsLeftOutWhereTheSceneSaysSo) {
     s.theory.renormalised = false;
     io::Result result;
     add_theory(s, scene_surface(s), 98.0, result);
-    EXPECT_EQ(io::JsonValue::parse(result.text(), "").find("theory.renormalised"), nullptr);
+    EXPECT_EQ(io::find(result.json(), "theory.renormalised"), nullptr);
     s.theory.renormalised = true;
     s.interface.frictionless = true;
     const TheoryCase without = theory_case(s);
@@ -130,10 +131,10 @@ TEST(TheoryOfAScene, RenormalisedIsLeftOutWhereTheSceneSaysSo) {
     EXPECT_LT(solve_theory(without).renormalised->numbers->gamma_eff,
               solve_theory(theory_case(s)).renormalised->numbers->gamma_eff);
     add_theory(s, scene_surface(s), 98.0, result);
-    const io::JsonValue json = io::JsonValue::parse(result.text(), "");
+    const io::Json json = result.json();
     for (const char* key : {"gamma_eff", "gamma_eff_ratio", "contact_fraction", "separation",
                             "tension", "gamma_eff_error", "contact_fraction_error"})
-        EXPECT_NE(json.find(std::string("theory.renormalised.") + key), nullptr) << key;
+        EXPECT_NE(io::find(json, std::string("theory.renormalised.") + key), nullptr) << key;
 }
 
 TEST(TheoryOfAScene, RealisedSpectrumHasTheRmsAndTheFullContactEnergyOfTheMap) {
@@ -186,9 +187,10 @@ TEST(TheoryOfAScene, NeverMakesARunFail) {
     io::Result bad;
     add_theory(s, surface, 98.0, bad);
     EXPECT_FALSE(bad.number("theory.gamma_eff").has_value());
-    const io::JsonValue json = io::JsonValue::parse(bad.text(), "");
-    ASSERT_NE(json.find("theory.note"), nullptr);
-    EXPECT_NE(json.find("theory.note")->text().find("surface.cutoff"), std::string::npos);
+    const io::Json json = bad.json();
+    ASSERT_NE(io::find(json, "theory.note"), nullptr);
+    EXPECT_NE(io::find(json, "theory.note")->get<std::string>().find("surface.cutoff"),
+              std::string::npos);
 }
 
 } // namespace

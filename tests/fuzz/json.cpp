@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "io/json_value.hpp"
+#include "io/json.hpp"
 #include "target.hpp"
 
 #include <cstdlib>
@@ -10,9 +10,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace asperity;
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     fuzz::try_out([&] {
-        const io::JsonValue value = io::JsonValue::parse(text, "fuzz.json");
-        const std::string written = value.dump(-1);
-        if (io::JsonValue::parse(written, "fuzz.json").dump(-1) != written) std::abort();
+        const io::Json value = io::parse_json(text, "fuzz.json");
+        const std::string written = io::json_text(value);
+        if (io::json_text(io::parse_json(written, "fuzz.json")) != written) std::abort();
     });
     return 0;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The reader on a scene of its own: a teapot. Every kind of mistake with its exact position.
+#include "io/json.hpp"
 #include "io/scene_reader.hpp"
 #include "io/spelling.hpp"
 
@@ -297,10 +298,10 @@ TEST(SceneReader, WrittenBackItReadsTheSame) {
         EXPECT_EQ(r.pot.coats, pot.coats);
         EXPECT_EQ(r.pot.marks, pot.marks);
     }
-    const JsonValue json = bind(pot).json();
-    EXPECT_EQ(json.find("body.maker")->text(), pot.maker);
-    EXPECT_EQ(json.find("surface.crack")->number(), 1e-7);
-    EXPECT_EQ(json.find("surface.marks")->items().size(), 2u);
+    const Json json = bind(pot).json();
+    EXPECT_EQ(json["body"]["maker"], pot.maker);
+    EXPECT_EQ(json["surface"]["crack"], 1e-7);
+    EXPECT_EQ(json["surface"]["marks"].size(), 2u);
 }
 
 TEST(SceneReader, Nearest) {

@@ -4,6 +4,7 @@
 // The SIMD stencil against the definition of the cell energy, spring by spring.
 #include "decomposition/field.hpp"
 #include "kernels/elastic_level.hpp"
+#include "support/elastic_reference.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,7 @@ struct Stack {
     /// Forces of the reference, its halo folded back onto the owners. Returns the energy.
     double reference(VectorField<double>& out) const {
         out = VectorField<double>(tile, cells + 1);
-        const double energy = elastic_reference(u.view(), elasticity, out.view());
+        const double energy = test::elastic_reference(u.view(), elasticity, out.view());
         for (auto* f : {&out.x, &out.y, &out.z}) {
             const auto v = f->view();
             for (int z = 0; z <= cells; ++z)

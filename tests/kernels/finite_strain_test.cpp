@@ -4,7 +4,8 @@
 // The cell at finite strain: against its definition cell by cell, and by the laws that single it
 // out: invariance under rotation, closed forms of uniform deformations, small strain as its limit.
 #include "decomposition/field.hpp"
-#include "kernels/elastic_finite.hpp"
+#include "kernels/elastic_level.hpp"
+#include "support/elastic_reference.hpp"
 #include "support/rotation.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +93,7 @@ struct Stack {
     /// Forces of the definition, their halo folded back onto the owners, and the energy.
     double reference(VectorField<double>& out) const {
         out = VectorField<double>(tile, cells + 1);
-        const double energy = finite_reference(u.view(), cell, out.view());
+        const double energy = test::finite_reference(u.view(), cell, out.view());
         for (auto* f : {&out.x, &out.y, &out.z}) {
             const auto v = f->view();
             for (int z = 0; z <= cells; ++z)

@@ -104,7 +104,7 @@ void advance(Simulation& s, int steps, Trace& trace) {
         if (!now.observed) continue;
         for (double value : {now.interface_energy, now.elastic_energy, now.kinetic_energy,
                              now.closest, static_cast<double>(now.in_contact),
-                             static_cast<double>(now.pushed), s.energy_residual()})
+                             static_cast<double>(now.repulsive), s.energy_residual()})
             trace.records = test::mix(trace.records, value);
         trace.in_contact = std::max(trace.in_contact, now.in_contact);
     }
@@ -195,7 +195,9 @@ TEST(Device, WhatTheHostWritesReachesTheDevice) {
         Trace& trace = traces[on_device];
         s.start(height);
         advance(s, 15, trace);
-        s.block().levels()[0].v.view().x(1, 2, 0) = 1e-3; // all ranks, each in its own tile
+        Block& block = s.block();
+        block.fields(block.levels()[0]).v.view().x(1, 2, 0) =
+            1e-3; // all ranks, each in its own tile
         advance(s, 15, trace);
         conclude(s, trace);
     }

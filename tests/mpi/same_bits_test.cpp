@@ -80,7 +80,7 @@ Trace run(const Stack& stack, const Communicator& ranks) {
         if (!now.observed) continue;
         for (double value : {now.interface_energy, now.elastic_energy, now.kinetic_energy,
                              now.closest, static_cast<double>(now.in_contact),
-                             static_cast<double>(now.pushed), s.energy_residual()})
+                             static_cast<double>(now.repulsive), s.energy_residual()})
             trace.numbers.push_back(value);
         trace.in_contact = std::max(trace.in_contact, now.in_contact);
     }
@@ -102,7 +102,7 @@ Trace relaxation(const Stack& stack, const Communicator& ranks) {
                      r.state.residual,
                      r.state.force,
                      static_cast<double>(r.state.iterations),
-                     static_cast<double>(r.state.pushed)};
+                     static_cast<double>(r.state.repulsive)};
     trace.in_contact = r.state.in_contact;
     return trace;
 }
@@ -194,17 +194,18 @@ TEST_P(SameBits, OfTheForcesOnEveryNodeOfARandomState) {
     for (Block* block : {&mine, &alone}) {
         auto& out = forces[block == &alone];
         block->set_uniform(0.1, 0.0);
-        for (auto& level : block->levels()) {
-            out.emplace_back(level.tile, level.plan.cells);
+        for (const auto& level : block->levels()) {
+            out.emplace_back(level.tile, level.shape.cells);
             const Tile& t = level.tile;
-            for (int z = 0; z < level.plan.cells; ++z)
+            const auto u = block->fields(level).u.view();
+            for (int z = 0; z < level.shape.cells; ++z)
                 for (int y = 0; y < t.ny; ++y)
                     for (int x = 0; x < t.nx; ++x) {
-                        const double phase =
-                            1.3 * (t.x0 + x) + 71.7 * (t.y0 + y) + 0.7 * z + 5.0 * level.plan.level;
-                        level.u.x.view()(x, y, z) = std::sin(phase);
-                        level.u.y.view()(x, y, z) = std::sin(phase * 1.7);
-                        level.u.z.view()(x, y, z) = std::sin(phase * 2.3);
+                        const double phase = 1.3 * (t.x0 + x) + 71.7 * (t.y0 + y) + 0.7 * z +
+                                             5.0 * level.shape.level;
+                        u.x(x, y, z) = std::sin(phase);
+                        u.y(x, y, z) = std::sin(phase * 1.7);
+                        u.z(x, y, z) = std::sin(phase * 2.3);
                     }
         }
         block->exchange();
@@ -214,7 +215,7 @@ TEST_P(SameBits, OfTheForcesOnEveryNodeOfARandomState) {
     for (std::size_t l = 0; l < mine.levels().size(); ++l) {
         const Tile t = mine.levels()[l].tile;
         const auto f = forces[0][l].view(), g = forces[1][l].view();
-        for (int z = 0; z < mine.levels()[l].plan.cells; ++z) {
+        for (int z = 0; z < mine.levels()[l].shape.cells; ++z) {
             int wrong = 0, last = -1;
             for (int y = 0; y < t.ny; ++y)
                 for (int x = 0; x < t.nx; ++x)
@@ -231,7 +232,7 @@ TEST_P(SameBits, OfTheForcesOnEveryNodeOfARandomState) {
 INSTANTIATE_TEST_SUITE_P(Stacks, SameBits, testing::ValuesIn(stacks));
 
 TEST(SameBits, TheStacksAreCutAsIntended) {
-    const auto levels = [](const Stack& s) { return plan_levels(options_of(s).block).size(); };
+    const auto levels = [](const Stack& s) { return level_shapes(options_of(s).block).size(); };
     ASSERT_EQ(levels(stacks[0]), 3u);
     ASSERT_EQ(levels(stacks[1]), 5u);
     if (world().size() == 3) {

@@ -122,7 +122,7 @@ TEST(SpectralBlock, RelaxesLikeOneRank) {
                             alone.relaxed.interface_energy + alone.relaxed.elastic_energy,
                             1e-9 * size);
                 EXPECT_EQ(shared.relaxed.in_contact, alone.relaxed.in_contact);
-                EXPECT_EQ(shared.relaxed.pushed, alone.relaxed.pushed);
+                EXPECT_EQ(shared.relaxed.repulsive, alone.relaxed.repulsive);
                 EXPECT_NEAR(shared.top, alone.top, 1e-6);
                 EXPECT_NEAR(shared.relaxed.force, alone.relaxed.force,
                             1e-7 * map.sites * map.sites);

@@ -7,6 +7,7 @@
 #include "engine/scene/accuracy.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/error.hpp"
+#include "io/json.hpp"
 #include "support/scratch.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@
 namespace asperity {
 namespace {
 
-io::JsonValue result_of(const std::string& text, const std::vector<std::string>& overrides) {
+io::Json result_of(const std::string& text, const std::vector<std::string>& overrides) {
     const io::Scratch scratch;
     const Scene scene = read_scene_text(text, "held-out.toml", overrides);
     RunOptions options;
@@ -29,27 +30,27 @@ io::JsonValue result_of(const std::string& text, const std::vector<std::string>&
     EXPECT_EQ(run(scene, options, Communicator()), io::exit_code::done);
     std::ifstream stream(options.out + "/result.json");
     const std::string json{std::istreambuf_iterator<char>(stream), {}};
-    return io::JsonValue::parse(json, "result.json");
+    return io::parse_json(json, "result.json");
 }
 
 /// Node-steps of the path in time, or nodes times iterations without.
 double work_of(const std::string& text, const std::vector<std::string>& overrides,
-               const io::JsonValue& result) {
+               const io::Json& result) {
     const Scene scene = read_scene_text(text, "held-out.toml", overrides);
     const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
     double nodes = 0.0;
-    for (const LevelPlan& level : make_setup(scene, 1).levels)
+    for (const LevelShape& level : make_setup(scene, 1).levels)
         nodes += static_cast<double>(level.sites) * level.sites * level.cells;
     if (scene.block.model == BlockModel::spectral) nodes = sites;
     const char* count = scene.without_time() ? "run.iterations" : "run.steps";
-    return nodes * result.find(count)->number();
+    return nodes * io::find(result, count)->get<double>();
 }
 
 /// What a setting can be asked for: the relaxed state, or all of its path too.
 enum class Question { state, path };
 
 /// The largest relative difference of the numbers that both have, energies over flat on flat.
-double largest_error(const io::JsonValue& fast, const io::JsonValue& best, Question question) {
+double largest_error(const io::Json& fast, const io::Json& best, Question question) {
     std::vector<const char*> keys = {"binding_energy", "contact_fraction"};
     if (question == Question::path)
         keys.insert(keys.end(),
@@ -57,8 +58,9 @@ double largest_error(const io::JsonValue& fast, const io::JsonValue& best, Quest
     double largest = 0.0;
     for (const std::string key : keys) {
         const bool energy = key.starts_with("binding") || key.starts_with("work");
-        const auto number = [&](const io::JsonValue& result) {
-            return result.find(key)->number() / (energy ? result.find("delta_gamma")->number() : 1);
+        const auto number = [&](const io::Json& result) {
+            return io::find(result, key)->get<double>() /
+                   (energy ? io::find(result, "delta_gamma")->get<double>() : 1);
         };
         largest = std::max(largest, std::abs(number(fast) / number(best) - 1.0));
     }
@@ -69,12 +71,12 @@ double largest_error(const io::JsonValue& fast, const io::JsonValue& best, Quest
 void expect_accuracy(const std::string& text, const std::vector<std::string>& reference,
                      const std::string& target, Question question) {
     const std::vector<std::string> chosen = {"numerics.accuracy=" + target};
-    const io::JsonValue fast = result_of(text, chosen), plain = result_of(text, {}),
-                        best = result_of(text, reference);
+    const io::Json fast = result_of(text, chosen), plain = result_of(text, {}),
+                   best = result_of(text, reference);
     const double error = largest_error(fast, best, question);
-    EXPECT_LE(error, fast.find("accuracy.target")->number()) << text;
-    EXPECT_LE(fast.find("accuracy.expected_error")->number(),
-              fast.find("accuracy.target")->number());
+    EXPECT_LE(error, io::find(fast, "accuracy.target")->get<double>()) << text;
+    EXPECT_LE(io::find(fast, "accuracy.expected_error")->get<double>(),
+              io::find(fast, "accuracy.target")->get<double>());
     const double saved = work_of(text, {}, plain) / work_of(text, chosen, fast);
     EXPECT_GE(saved, 3.0) << text;
     ::testing::Test::RecordProperty("error", std::to_string(error));

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -110,7 +109,6 @@ TEST(MeanHeight, StaysWhereItIsHeldWhileItRelaxes) {
         Phases phases;
         c.block->relax(c.interface, c.interface.start_height(), Constraint::mean_height(z), o,
                        phases);
-        std::printf("%d looks, drift %.1e\n", looks, drift);
         EXPECT_GE(looks, 2);
         EXPECT_LT(drift, 1e-5); // directions are in single precision
     }
@@ -152,11 +150,6 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
                 }
             EXPECT_GT(unstable, m.thickness > 40 ? 10 : 0)
                 << "points where a block on its spring cannot stand";
-            std::printf("%d layers, tolerance %.0e: %zu points, %d of them unstable on a spring, "
-                        "approach off by %+.1e, pull-off by %+.1e meV/A^2\n",
-                        m.thickness, tolerance, in.size() + out.size(), unstable,
-                        1e3 * (path.approach_work() - state) / (6.76 * c.sites()),
-                        1e3 * (path.pull_off_work() + state) / (6.76 * c.sites()));
         }
 }
 
@@ -277,9 +270,6 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
                 same.interface_energy + same.elastic_energy, 1e-6 * bound);
     EXPECT_NEAR(state.mean_height, same.mean_height, 1e-4);
     EXPECT_EQ(state.in_contact, same.in_contact);
-    std::printf("mean height: state %.4f, approach %+.1e, pull-off %+.1e; top: approach %+.3f eV\n",
-                bound, path.approach_work() - bound, path.pull_off_work() + bound,
-                falling.approach_work() - bound);
 }
 
 TEST(MeanHeight, SurfaceFallsWhereItsLongestWaveGetsUnstable) {
@@ -321,8 +311,6 @@ TEST(MeanHeight, SurfaceFallsWhereItsLongestWaveGetsUnstable) {
             const double difference = energy(before) - back.interface_energy - back.elastic_energy;
             EXPECT_NEAR(fall.energy, difference, 2.0 * uncertain(fall));
             EXPECT_LT(uncertain(fall), 0.01 * fall.energy);
-            std::printf("unstable at %.5f Å, fell %.5f Å before that: %.5f ± %.5f eV\n", inner,
-                        fall.height_before - inner, fall.energy, uncertain(fall));
             lost.push_back(path.dissipation());
         }
         expect_in(lost[0], lost[1], 0.0, 1e-4);
@@ -373,11 +361,6 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
         const auto out = follow(path, Leg::pull_off);
         const Dissipation& lost = path.dissipation();
         const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
-        std::printf("lost %.3f eV in, %.3f out, %lld events, %zu points; approach %+.1e, pull-off "
-                    "%+.1e, of %.3f eV\n",
-                    lost.approach, lost.pull_off, lost.events, in.size() + out.size(),
-                    path.approach_work() + lost.approach - state,
-                    path.pull_off_work() + state + lost.pull_off, state);
         EXPECT_GE(lost.total(), m.least * state);
         const double allowed = 0.2 * tolerance * c.sites();
         EXPECT_NEAR(path.approach_work() + lost.approach, state, allowed * way);

@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -61,10 +60,6 @@ TEST(Quasistatic, StiffBlockIsReversible) {
             for (const StepRecord& r : *leg)
                 EXPECT_NEAR(r.force, one.force(r.mean_height),
                             1e-9 * c.sites() + one.jump(r.mean_height));
-        std::printf("tolerance %.0e: %zu points, approach off by %.1e, pull-off by %.1e meV/A^2\n",
-                    tolerance, in.size() + out.size(),
-                    1e3 * (path.approach_work() - state) / (6.76 * c.sites()),
-                    1e3 * (path.pull_off_work() + state) / (6.76 * c.sites()));
     }
 }
 
@@ -98,8 +93,6 @@ TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
         const double landing_out = one.other(highest, outer, 14.0);
         const double lost_in = one.total(outer, lowest) - one.total(landing_in, lowest);
         const double lost_out = one.total(inner, highest) - one.total(landing_out, highest);
-        std::printf("snap-in %.5f eV (%+.1e), snap-off %.5f eV (%+.1e)\n", falls[0].energy,
-                    falls[0].energy - lost_in, falls[1].energy, falls[1].energy - lost_out);
         // What the work may be wrong by, and a force of a quarter of the tolerance that holds the
         // block up a little beyond the turning point, along the fall.
         const auto allowed = [&](double from, double to) {
@@ -162,11 +155,6 @@ TEST(Quasistatic, RoughWorkIsEnergyPlusLoss) {
         const auto out = follow(path, Leg::pull_off);
         const Dissipation& lost = path.dissipation();
         const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
-        std::printf("lost %.3f eV in, %.3f out, %lld events, %zu points; approach %+.1e, pull-off "
-                    "%+.1e, of %.3f eV\n",
-                    lost.approach, lost.pull_off, lost.events, in.size() + out.size(),
-                    path.approach_work() + lost.approach - state,
-                    path.pull_off_work() + state + lost.pull_off, state);
         ASSERT_GT(lost.approach, 1.0);
         ASSERT_GT(lost.pull_off, 1.0);
         EXPECT_NEAR(path.approach_work() + lost.approach, state,
@@ -275,7 +263,27 @@ TEST(Quasistatic, SlowMotionApproachesThePath) {
         return largest / c.sites();
     };
     const double fast = off(4e-4), slow = off(1e-4);
-    std::printf("force off by %.2e eV/A a site at 40 m/s, %.2e at 10 m/s\n", fast, slow);
     EXPECT_LT(slow, 0.4 * fast);
     EXPECT_LT(slow, 5e-3);
+}
+
+TEST(Dissipation, KeepsTheStrongestInstabilitiesInTheOrderOfThePath) {
+    Dissipation lost;
+    double sum = 0.0;
+    for (int i = 0; i < 30; ++i) {
+        Instability jump;
+        jump.energy = (7 * i) % 30 + 1.0; // 1 to 30, each once
+        jump.leg = i < 15 ? 0.0 : 1.0;
+        jump.top = -i;
+        lost.add(jump);
+        sum += jump.energy;
+    }
+    EXPECT_EQ(lost.total(), sum);
+    EXPECT_EQ(lost.events, 30);
+    ASSERT_EQ(lost.jumps.size(), 20u);
+    for (std::size_t i = 0; i < lost.jumps.size(); ++i) {
+        EXPECT_GT(lost.jumps[i].energy, 10.0);
+    }
+    for (std::size_t i = 1; i < lost.jumps.size(); ++i)
+        EXPECT_LT(lost.jumps[i].top, lost.jumps[i - 1].top);
 }

@@ -16,7 +16,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 using namespace asperity;
@@ -90,7 +89,6 @@ TEST(SurfaceStiffness, TheMultiscaleBlockOverTheLattice) {
         const double q = 2.0 * pi / (o.sites * o.spacing);
         const double ratio = block_ratio(o, row.worst, 0) / lattice_ratio(o, row.worst * q, 0.0);
         EXPECT_NEAR(ratio, row.ratio, 1e-8) << row.layers << " layers a level";
-        std::printf("layers_per_level %d: %.7f\n", row.layers, ratio);
     }
 }
 

@@ -237,7 +237,7 @@ TEST(Gradient, BlockAndInterfaceHaveOneEnergy) {
                         if (lift)
                             along =
                                 k.tabulate([](const Block::Level& level, int c, int z, int, int) {
-                                    return level.plan.level == 0 && z == 0 && c == 2 ? 1.0 : 0.0;
+                                    return level.shape.level == 0 && z == 0 && c == 2 ? 1.0 : 0.0;
                                 });
                         const double norm = std::sqrt(test::dot(along, along));
                         for (double& x : along)
@@ -317,7 +317,7 @@ TEST(Momentum, ChangesByTheForcesAlone) {
                 const auto momentum = [&] {
                     std::array<double, 3> sum{};
                     for (const auto& level : s.block().levels())
-                        for (int z = 0; z < level.plan.cells; ++z)
+                        for (int z = 0; z < level.shape.cells; ++z)
                             for (int y = 0; y < level.tile.ny; ++y)
                                 for (int x = 0; x < level.tile.nx; ++x) {
                                     const auto v = level.v.view();
@@ -329,8 +329,8 @@ TEST(Momentum, ChangesByTheForcesAlone) {
                 };
                 double mass = 0.0;
                 for (const auto& level : s.block().levels())
-                    for (int z = 0; z < level.plan.cells; ++z)
-                        mass += level.mass(z) * level.plan.sites * level.plan.sites;
+                    for (int z = 0; z < level.shape.cells; ++z)
+                        mass += level.mass(z) * level.shape.sites * level.shape.sites;
                 for (int n = 0; n < 150; ++n)
                     s.step(false);
                 const auto before = momentum();

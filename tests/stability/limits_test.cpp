@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 using namespace asperity;
 
@@ -40,8 +39,6 @@ TEST(Overlap, RelaxationComesOutOfTheWall) {
             const double edge = options.sites * options.spacing;
             const double binding =
                 -1e3 * (state.interface_energy + state.elastic_energy) / (edge * edge);
-            std::printf("overlap %s from %.2f A: %lld iterations, %.6f (outside %.6f)\n", map,
-                        height, state.iterations, binding, outside);
             return binding;
         };
         for (double above : {1.0, 0.5, 0.1})
@@ -79,9 +76,6 @@ TEST(Poisson, EnergyIsPositiveAndTheLimitHolds) {
             }
             EXPECT_GT(least, 0.0) << poisson;
             EXPECT_LE(std::sqrt(w2), options.highest_frequency(0.0) * (1.0 + 1e-12)) << poisson;
-            if (layers == 0)
-                std::printf("Poisson %.4f: step limit %.3g fs\n", poisson,
-                            2.0 / options.highest_frequency(0.0));
         }
     }
 }
@@ -95,9 +89,6 @@ TEST(Poisson, LatticeAndSpectralBlockAgree) {
         const auto lattice = test::relax_from_attraction(options, potential, surface, 1e-5);
         const auto spectral = test::relax_spectral(options, potential, surface, 1e-5);
         ASSERT_TRUE(lattice.state.converged && spectral.state.converged) << poisson;
-        std::printf("Poisson %.4f: lattice %.8f (%lld iterations), spectral %.8f (%lld)\n", poisson,
-                    lattice.binding_energy, lattice.state.iterations, spectral.binding_energy,
-                    spectral.state.iterations);
         EXPECT_NEAR(lattice.binding_energy, spectral.binding_energy,
                     1e-6 * spectral.binding_energy);
     }
@@ -123,7 +114,7 @@ TEST(Thickness, FourThousandLayers) {
         const BlockOptions options = test::paper_block(sites, 4096, 2);
         test::ElasticOperator k(options);
         const test::Vector u = k.tabulate([&](const Block::Level& level, int c, int z, int, int) {
-            const double depth = level.depth + z * static_cast<double>(1 << level.plan.level);
+            const double depth = level.depth + z * static_cast<double>(1 << level.shape.level);
             return c == 2 ? 1.0 - depth / options.thickness : 0.0;
         });
         k.set(u);
@@ -141,7 +132,6 @@ TEST(Thickness, FourThousandLayers) {
             .binding_energy;
     };
     const double first = binding(2048) - binding(1024), second = binding(4096) - binding(2048);
-    std::printf("binding gained from 1024 to 2048 layers %.3e, to 4096 %.3e\n", first, second);
     EXPECT_GT(first, 0.0);
     EXPECT_NEAR(first / second, 2.0, 0.05);
 }
@@ -166,7 +156,7 @@ TEST(Sites, AnyNumber) {
         ASSERT_TRUE(lattice.state.converged && spectral.state.converged && levels.state.converged);
         EXPECT_NEAR(lattice.binding_energy, spectral.binding_energy, 1e-7 * spectral.binding_energy)
             << sites;
-        EXPECT_EQ(plan_levels(test::paper_block(sites, 7, 2)).size(), sites % 2 ? 1u : 2u);
+        EXPECT_EQ(level_shapes(test::paper_block(sites, 7, 2)).size(), sites % 2 ? 1u : 2u);
         EXPECT_NEAR(levels.binding_energy, lattice.binding_energy,
                     (sites % 2 ? 1e-9 : 0.05) * lattice.binding_energy)
             << sites;
@@ -192,8 +182,6 @@ TEST(Load, FromNothingToHuge) {
         const RelaxedState state =
             relax(block, interface, 4.0, Constraint::load(load), how, phases);
         ASSERT_TRUE(state.converged) << gpa;
-        std::printf("load %.0f GPa: %lld iterations, height %.3f A\n", gpa, state.iterations,
-                    4.0 + state.mean_height);
         EXPECT_NEAR(state.force, load, 1e-6 * 64) << gpa;
         EXPECT_LT(state.mean_height, height_before) << "pressed further";
         height_before = state.mean_height;
@@ -232,9 +220,6 @@ TEST(Bifurcation, TheRelaxationEndsOnOneBranch) {
         (gap(s) > 4.0 ? above : below) = middle;
     }
     const double out = gap(state_at(above)), in = gap(state_at(below));
-    std::printf(
-        "snap-in at a top of %.9f A: gap %.4f before, %.4f after, at most %lld iterations\n", above,
-        out, in, most);
     EXPECT_GT(out, 4.2);
     EXPECT_LT(in, 3.6);
     EXPECT_LT(above - below, 1e-10);
@@ -276,7 +261,6 @@ TEST(Theory, AtTheEndsOfItsKeys) {
                             ++refusals;
                         }
                     }
-    std::printf("theory: %d answers, %d refusals\n", answers, refusals);
     EXPECT_GT(answers, 100);
 }
 

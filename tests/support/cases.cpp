@@ -63,7 +63,7 @@ Surface reference_surface(const std::string& name, double factor) {
 
 ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicator) {
     return ProcessGrid(communicator.size(), communicator.rank(), options.sites,
-                       static_cast<int>(plan_levels(options).size()));
+                       static_cast<int>(level_shapes(options).size()));
 }
 
 double height_of_strongest_attraction(Block& block, const Interface& interface,
@@ -151,9 +151,9 @@ std::uint64_t fingerprint(const Block& block) {
     for (const Block::Level& level : block.levels())
         for (const VectorField<double>* field : {&level.u, &level.v})
             for (const Field<double>* component : {&field->x, &field->y, &field->z})
-                for (int z = 0; z < level.plan.cells; ++z)
+                for (int z = 0; z < level.shape.cells; ++z)
                     for (double value :
-                         gather_plane(ranks, block.grid(), level.plan.level, component->plane(z)))
+                         gather_plane(ranks, block.grid(), level.shape.level, component->plane(z)))
                         hash = mix(hash, value);
     std::array<std::int64_t, 1> roots = {ranks.root() ? std::bit_cast<std::int64_t>(hash) : 0};
     ranks.sum(roots);

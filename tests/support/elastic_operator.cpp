@@ -30,7 +30,7 @@ void ElasticOperator::each(const Visit& visit) const {
     for (std::size_t l = 0; l < block_.levels().size(); ++l) {
         const auto& level = block_.levels()[l];
         for (int c = 0; c < 3; ++c)
-            for (int z = 0; z < level.plan.cells; ++z)
+            for (int z = 0; z < level.shape.cells; ++z)
                 for (int y = 0; y < level.tile.ny; ++y)
                     for (int x = 0; x < level.tile.nx; ++x)
                         visit(i++, l, c, z, y, x);
@@ -39,10 +39,10 @@ void ElasticOperator::each(const Visit& visit) const {
 
 ElasticOperator::ElasticOperator(const BlockOptions& options)
     : block_(options, Communicator(),
-             ProcessGrid(1, 0, options.sites, static_cast<int>(plan_levels(options).size()))) {
+             ProcessGrid(1, 0, options.sites, static_cast<int>(level_shapes(options).size()))) {
     for (const auto& level : block_.levels()) {
-        force_.emplace_back(level.tile, level.plan.cells);
-        size_ += 3 * static_cast<std::size_t>(level.plan.cells) *
+        force_.emplace_back(level.tile, level.shape.cells);
+        size_ += 3 * static_cast<std::size_t>(level.shape.cells) *
                  static_cast<std::size_t>(level.tile.nx) * static_cast<std::size_t>(level.tile.ny);
     }
     block_.set_uniform(0.0, 0.0);
@@ -50,7 +50,7 @@ ElasticOperator::ElasticOperator(const BlockOptions& options)
 
 void ElasticOperator::set(const Vector& u, double top) {
     each([&](std::size_t i, std::size_t l, int c, int z, int y, int x) {
-        auto& field = block_.levels()[l].u;
+        auto& field = block_.fields(block_.levels()[l]).u;
         (c == 0 ? field.x : c == 1 ? field.y : field.z).view()(x, y, z) = u[i];
     });
     block_.set_top(top);
@@ -101,19 +101,19 @@ Vector ElasticOperator::tabulate(
 StaticResponse press(ElasticOperator& k, const std::function<double(int, int)>& w,
                      double tolerance) {
     const auto held = [](const Block::Level& level, int c, int z) {
-        return level.plan.level == 0 && c == 2 && z == 0;
+        return level.shape.level == 0 && c == 2 && z == 0;
     };
     // 1/2^l on free nodes (stiffness grows like 2^l), 0 on held ones: preconditioner and projector
     // at once.
     const Vector free = k.tabulate([&](const Block::Level& level, int c, int z, int, int) {
-        return held(level, c, z) ? 0.0 : 1.0 / (1 << level.plan.level);
+        return held(level, c, z) ? 0.0 : 1.0 / (1 << level.shape.level);
     });
     // A first guess that fades linearly: halves the iterations.
     const double thickness = k.block().options().thickness;
     const double a = k.block().options().spacing;
     Vector u = k.tabulate([&](const Block::Level& level, int c, int z, int y, int x) {
         if (c != 2) return 0.0;
-        const int scale = 1 << level.plan.level;
+        const int scale = 1 << level.shape.level;
         const double depth = level.depth + static_cast<double>(z * scale);
         if (held(level, c, z)) return w(x, y);
         return w(x * scale, y * scale) * (1.0 - depth / thickness);

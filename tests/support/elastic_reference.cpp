@@ -1,24 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-//
-// Energy and forces of one cubic cell, straight from the definition (docs/model.md): scalar
-// functions for host and device. The reference loops call them on the host; on an accelerator a
-// thread a cell can.
-//
-// u[p][i] is component i of the displacement of corner p (bit 0 of p is x, bit 1 y, bit 2 z), Å;
-// f[p][i] the force on it, eV/Å, overwritten; what is returned is the cell's energy, eV.
-#pragma once
+#include "support/elastic_reference.hpp"
 
 #include "kernels/cell_geometry.hpp"
-#include "kernels/elastic_finite.hpp"
 
 #include <cmath>
 
-namespace asperity {
+namespace asperity::test {
+
+namespace {
+
+// Energy and forces of one cubic cell, straight from the definition (docs/model.md). u[p][i] is
+// component i of the displacement of corner p (bit 0 of p is x, bit 1 y, bit 2 z), Å; f[p][i] the
+// force on it, eV/Å, overwritten; what is returned is the cell's energy, eV.
 
 /// Small strain: springs feel e.du, the dilatation term the trace of the mean gradient.
-ASPERITY_HOST_DEVICE inline double linear_cell(const double (&u)[8][3], const CellElasticity& c,
-                                               double (&f)[8][3]) {
+double linear_cell(const double (&u)[8][3], const CellElasticity& c, double (&f)[8][3]) {
     double energy = 0.0, dilatation = 0.0; // 4 s theta
     for (int p = 0; p < 8; ++p)
         for (int i = 0; i < 3; ++i)
@@ -47,8 +44,7 @@ ASPERITY_HOST_DEVICE inline double linear_cell(const double (&u)[8][3], const Ce
 }
 
 /// Finite strain: springs feel their true length, the dilatation term det F - 1.
-ASPERITY_HOST_DEVICE inline double finite_cell(const double (&u)[8][3], const LevelCell& c,
-                                               double (&f)[8][3]) {
+double finite_cell(const double (&u)[8][3], const LevelCell& c, double (&f)[8][3]) {
     double F[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     for (int p = 0; p < 8; ++p)
         for (int i = 0; i < 3; ++i)
@@ -93,4 +89,42 @@ ASPERITY_HOST_DEVICE inline double finite_cell(const double (&u)[8][3], const Le
     return energy;
 }
 
-} // namespace asperity
+/// cell(u, f) of every cell whose lower corner is owned: forces added into out, energies returned.
+template <class Cell>
+double each_cell(const VectorVolume<const double>& u, const VectorVolume<double>& out,
+                 const Cell& cell) {
+    double energy = 0.0;
+    for (int z = 0; z + 1 < u.x.nz; ++z)
+        for (int y = 0; y < u.x.ny; ++y)
+            for (int x = 0; x < u.x.nx; ++x) {
+                double at[8][3], f[8][3];
+                const auto node = [&](const auto& volume, int p) -> auto& {
+                    return volume(x + (p & 1), y + (p >> 1 & 1), z + (p >> 2 & 1));
+                };
+                for (int p = 0; p < 8; ++p) {
+                    at[p][0] = node(u.x, p);
+                    at[p][1] = node(u.y, p);
+                    at[p][2] = node(u.z, p);
+                }
+                energy += cell(at, f);
+                for (int p = 0; p < 8; ++p) {
+                    node(out.x, p) += f[p][0];
+                    node(out.y, p) += f[p][1];
+                    node(out.z, p) += f[p][2];
+                }
+            }
+    return energy;
+}
+
+} // namespace
+
+double elastic_reference(VectorVolume<const double> u, CellElasticity e, VectorVolume<double> out) {
+    return each_cell(u, out, [&](const auto& at, auto& f) { return linear_cell(at, e, f); });
+}
+
+double finite_reference(VectorVolume<const double> u, const LevelCell& c,
+                        VectorVolume<double> out) {
+    return each_cell(u, out, [&](const auto& at, auto& f) { return finite_cell(at, c, f); });
+}
+
+} // namespace asperity::test

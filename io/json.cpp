@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/json.hpp"
+
+#include "io/error.hpp"
+
+#include <fmt/format.h>
+
+namespace asperity::io {
+
+namespace {
+
+/// Of arrays and objects in one another. Results are six deep; copying and freeing are recursive.
+constexpr int deepest = 64;
+
+} // namespace
+
+std::string json_text(const Json& value, int indent) {
+    // A path on Linux may be any bytes; what is no UTF-8 is replaced rather than refused.
+    return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json parse_json(std::string_view text, const std::string& file) {
+    const auto limit = [&](int depth, Json::parse_event_t, Json&) {
+        if (depth > deepest)
+            throw FileError(file, "this is no result",
+                            fmt::format("its values are nested more than {} deep", deepest),
+                            "run the scene again");
+        return true;
+    };
+    try {
+        return Json::parse(text, limit);
+    } catch (const Json::exception& error) {
+        throw FileError(file, "this is no JSON that can be read", error.what(),
+                        "if the file was cut short, run the scene again");
+    }
+}
+
+const Json* find(const Json& object, std::string_view path) {
+    const Json* at = &object;
+    for (;;) {
+        const std::size_t dot = path.find('.');
+        const auto member = at->find(std::string(path.substr(0, dot)));
+        if (member == at->end()) return nullptr;
+        at = &*member;
+        if (dot == std::string_view::npos) return at;
+        path.remove_prefix(dot + 1);
+    }
+}
+
+} // namespace asperity::io

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The tables of kernels, one of each for every processor level (variant.hpp), and which of them the
+// running processor takes.
+#include "kernels/elastic_level.hpp"
+#include "kernels/interface_sweep.hpp"
+#include "kernels/level_transfer.hpp"
+#include "kernels/surface_rows.hpp"
+#include "kernels/variant.hpp"
+
+#define ASPERITY_TABLES(variant)                                                                   \
+    namespace variant {                                                                            \
+    extern const ElasticKernels small_strain_kernels, finite_strain_kernels;                       \
+    extern const TransferKernels transfer_kernels;                                                 \
+    extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;                        \
+    extern const InterfaceKernels::Sweeps<RowSubstrate> row_sweeps;                                \
+    extern const InterfaceKernels::AllWalls walls;                                                 \
+    extern const RowKernels row_kernels;                                                           \
+    }
+
+namespace asperity {
+
+#if ASPERITY_HAS_X86_VARIANTS
+ASPERITY_TABLES(v2)
+ASPERITY_TABLES(v3)
+ASPERITY_TABLES(v4)
+#define ASPERITY_TABLE(name) of_processor(v2::name, v3::name, v4::name)
+#else
+ASPERITY_TABLES(portable)
+#define ASPERITY_TABLE(name) portable::name
+#endif
+
+namespace {
+
+template <class Table>
+[[maybe_unused]] const Table& of_processor(const Table& v2, const Table& v3, const Table& v4) {
+    switch (processor_level()) {
+    case ProcessorLevel::v4:
+        return v4;
+    case ProcessorLevel::v3:
+        return v3;
+    default:
+        return v2;
+    }
+}
+
+} // namespace
+
+const ElasticKernels& elastic_kernels(CellStrain strain) {
+    return strain == CellStrain::finite ? ASPERITY_TABLE(finite_strain_kernels)
+                                        : ASPERITY_TABLE(small_strain_kernels);
+}
+const TransferKernels& transfer_kernels() { return ASPERITY_TABLE(transfer_kernels); }
+const InterfaceKernels& interface_kernels() {
+    static const InterfaceKernels kernels = {ASPERITY_TABLE(lattice_sweeps),
+                                             ASPERITY_TABLE(row_sweeps), ASPERITY_TABLE(walls)};
+    return kernels;
+}
+const RowKernels& row_kernels() { return ASPERITY_TABLE(row_kernels); }
+
+} // namespace asperity
