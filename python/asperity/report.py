@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from . import scene, words
+from . import program, scene, words
 from .page import Page, Row, file_name, minus
 from .plots import run as plots
 from .plots.files import KINDS
@@ -32,35 +32,6 @@ MAPS = (("gap", "Gap", "Height of each site above the substrate below it."),
 STATE_COLUMNS = (("binding_energy", "binding energy, meV/Å²"), ("contact_fraction", "contact"),
                  ("pushed_fraction", "repulsive"), ("mean_height", "mean height, Å"),
                  ("elastic_energy", "elastic energy, meV/Å²"), ("barrier", "barrier to the next, MPa"))
-GAMMA, EV = "meV/Å²", "eV"
-LABELS = {
-    "delta_gamma": ("flat on flat, Δγ", GAMMA), "binding_energy": ("binding energy at zero load", GAMMA),
-    "work_of_adhesion.approach": ("work of adhesion, approach", GAMMA),
-    "work_of_adhesion.pull_off": ("work of adhesion, pull-off", GAMMA),
-    "work_of_adhesion.pairwise": ("atom-by-atom work", GAMMA), "contact_fraction": ("contact fraction", ""),
-    "pushed_fraction": ("repulsive fraction", ""), "pull_off_force": ("largest attraction on the way out", "eV/Å"),
-    "hysteresis.loop": ("energy lost in the cycle", EV), "hysteresis.approach": ("of it on the way in", EV),
-    "hysteresis.pull_off": ("of it on the way out", EV), "jkr.in": ("JKR energy, way in", GAMMA),
-    "jkr.in_averaged": ("JKR energy, way in, averaged over 2 ps", GAMMA), "jkr.out": ("JKR energy, way out", GAMMA),
-    "jkr.out_averaged": ("JKR energy, way out, averaged over 2 ps", GAMMA),
-    "sphere.jkr_images": ("smooth sphere: JKR with images", GAMMA),
-    "sphere.maugis_images": ("smooth sphere: Maugis-Dugdale with images", GAMMA),
-    "sphere.maugis_parameter": ("smooth sphere: Maugis parameter λ", ""),
-    "contact_radius.zero_load": ("contact radius at zero load", "Å"),
-    "contact_radius.pull_off": ("contact radius at the pull-off force", "Å"),
-    "theory.gamma_eff": ("theory: γ_{eff}", GAMMA),
-    "theory.gamma_full_contact": ("theory: γ assuming full contact", GAMMA),
-    "theory.contact_fraction": ("theory: contact fraction", ""), "theory.critical_rms": ("theory: critical rms", "Å"),
-    "theory.renormalised.gamma_eff": ("renormalised theory: γ_{eff}", GAMMA),
-    "theory.renormalised.contact_fraction": ("renormalised theory: contact fraction", ""),
-    "theory.renormalised.separation": ("renormalised theory: mean separation", "Å"),
-    "surface.rms": ("surface: rms height", "Å"), "surface.rms_slope": ("surface: rms slope", ""),
-    "surface.min": ("surface: lowest", "Å"), "surface.max": ("surface: highest", "Å"),
-    "energy.residual": ("energy balance: residual", "relative"), "energy.work": ("work done", EV),
-    "energy.kinetic": ("kinetic energy at the end", EV), "energy.elastic": ("elastic energy at the end", EV),
-    "energy.interface": ("interface energy at the end", EV), "energy.damped": ("energy damped", EV)}
-"""Names of numbers and, for results that do not tell, their units. Others stand under their own names."""
-
 
 def _top(page: Page, run: Result) -> None:
     if run.failure_text:
@@ -76,7 +47,7 @@ def _top(page: Page, run: Result) -> None:
         return
     # A result without a path or a state came from the theory alone.
     if run.series or run.fields or run.number("run.steps") is not None:
-        page.add("lists", [("Simulated", words.simulated(run)), ("Not simulated", words.not_simulated(run))])
+        page.add("lists", [("Simulated", words.effects(run, True)), ("Not simulated", words.effects(run, False))])
     else:
         page.add("lists", [("Computed", ["the theory alone: nothing was simulated"])])
 
@@ -143,18 +114,18 @@ def _energies(page: Page, run: Result) -> None:
 
 
 def _numbers(page: Page, run: Result) -> None:
-    """Every number of the result, those with a name first."""
-    numbers = {k: v for k, v in run.numbers().items()
-               if k.split(".")[0] not in ("scene", "run", "failure", "units") and run.number(k) is not None}
-    flat = numbers.get("delta_gamma", 0.0)
-    rows = []
-    for key in [k for k in LABELS if k in numbers] + [k for k in numbers if k not in LABELS]:
-        name, unit = LABELS.get(key, (key, ""))
-        unit = shown(run.unit(key)) or unit
+    """Every number of the result, in the order of the file."""
+    flat, rows = run.number("delta_gamma") or 0.0, []
+    for key, value in run.numbers().items():
+        if key.split(".")[0] in ("scene", "run", "failure", "units") or run.number(key) is None:
+            continue
+        known = program.quantity(key)
+        unit, meaning = shown(run.unit(key) or known["unit"]), known["meaning"]
         # Of a sphere, the nominal area says nothing, and so does an energy over it.
         nominal = key.split(".")[0] in ("binding_energy", "work_of_adhesion", "states", "zero_load")
-        over = unit == GAMMA and flat > 0 and not (run.curved and nominal)
-        rows.append(Row([name, minus(f"{numbers[key]:.6g}"), unit, minus(f"{numbers[key] / flat:.4f}") if over else ""]))
+        over = unit == "meV/Å²" and flat > 0 and not (run.curved and nominal)
+        rows.append(Row([f"{key}: {meaning}" if meaning else key, minus(f"{value:.6g}"), "" if unit == "1" else unit,
+                         minus(f"{value / flat:.4f}") if over else ""]))
     page.section("numbers", "All numbers")
     page.add("table", {"heads": ["", "value", "unit", "over Δγ"], "rows": rows} if rows else None)
 

@@ -12,7 +12,6 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -25,14 +24,12 @@ from .grid import Axis, axes_of, is_seed, points_of, shown
 from .pool import DONE, FAILED, STOPPED, Job, Outcome, Pool, PoolOptions, look_at
 from .result import Result, Values, read_json
 from .scene import SceneLike, assignments, scene_file
-from .tables import Table, print_table, write_tables
+from .tables import RENAMED, Table, print_table, write_tables
 
 OVER_FLAT = ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off", "work_of_adhesion.pairwise",
              "jkr.in", "jkr.out", "jkr.in_averaged", "jkr.out_averaged", "sphere.maugis_images",
              "states.first.binding_energy", "states.deepest.binding_energy")
 """Energies of a result that also have a column of their ratio to the flat reference."""
-RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
-"""Where the path in result.json is that of a key of the scene."""
 
 
 @dataclass
@@ -309,21 +306,25 @@ def _jobs(plans: list[_Plan], sweeps: list[Sweep]) -> list[Job]:
     return jobs
 
 
-def simulate(options: SweepOptions, say: Callable[[str], None]) -> tuple[list[Sweep], list[Job], list[Outcome], bool]:
-    """Runs what is missing and keeps the tables up to date. The bool: all points were run."""
+@dataclass
+class _Done:
+    """What became of the points. complete: all of them were run."""
+
+    place: Path
+    sweeps: list[Sweep]
+    jobs: list[Job] = field(default_factory=list)
+    outcomes: list[Outcome] = field(default_factory=list)
+    complete: bool = True
+
+
+def carry_out(options: SweepOptions, say: Callable[[str], None]) -> _Done:
+    """Runs what is missing and keeps the tables up to date; the theory alone needs no runs."""
     start = time.monotonic()
-    plans, sweeps, place, _ = _prepare(options)
-    for note in (plan.note for plan in plans):
+    plans, sweeps, place, moved = _prepare(options)
+    for note in [*(plan.note for plan in plans), moved]:
         if note:
             say(f"note: {note}")
-    jobs = _jobs(plans, sweeps)
-    for plan, sweep in zip(plans, sweeps):
-        sweep.theory = _theory_curves(plan, sweep.points)
-    outcomes = [look_at(job) for job in jobs]
-    there, failed = (sum(o.status == s for o in outcomes) for s in (DONE, FAILED))
-    say(f"{len(jobs)} points in {place}" + (f"; {there} are there already" if there else "")
-        + (f"; {failed} failed before, and are left alone" if failed else ""))
-
+    done = _Done(place, sweeps)
     written = 0.0
 
     def tables(_: int = -1) -> None:
@@ -333,14 +334,23 @@ def simulate(options: SweepOptions, say: Callable[[str], None]) -> tuple[list[Sw
         written = time.monotonic()
         first = 0
         for sweep in sweeps:
-            _fill_in(sweep, outcomes[first:first + len(sweep.points)])
-            first += len(sweep.points)
+            if sweep.simulated:
+                _fill_in(sweep, done.outcomes[first:first + len(sweep.points)])
+                first += len(sweep.points)
             sweep.run["wall_seconds"] = time.monotonic() - start
             write_tables(sweep)
 
-    complete = Pool(jobs, outcomes, options.pool).run(tables)
+    if not options.theory_only:
+        done.jobs = _jobs(plans, sweeps)
+        for plan, sweep in zip(plans, sweeps):
+            sweep.theory = _theory_curves(plan, sweep.points)
+        done.outcomes = [look_at(job) for job in done.jobs]
+        there, failed = (sum(o.status == s for o in done.outcomes) for s in (DONE, FAILED))
+        say(f"{len(done.jobs)} points in {place}" + (f"; {there} are there already" if there else "")
+            + (f"; {failed} failed before, and are left alone" if failed else ""))
+        done.complete = Pool(done.jobs, done.outcomes, options.pool).run(tables)
     tables()
-    return sweeps, jobs, outcomes, complete
+    return done
 
 
 def sweep_command(options: SweepOptions) -> int:
@@ -355,12 +365,9 @@ def sweep_command(options: SweepOptions) -> int:
     def say(text: str) -> None:
         print(text, flush=True)
 
-    if options.theory_only:
-        return _theory_only(options, say)
-    sweeps, jobs, outcomes, complete = simulate(options, say)
-    place = Path(options.out or f"results/{'+'.join(s.name for s in sweeps)}-sweep")
-    plots, note = write_plots(place, sweeps)
-    for sweep in sweeps:
+    done = carry_out(options, say)
+    plots, note = write_plots(done.place, done.sweeps)
+    for sweep in done.sweeps:
         say("")
         print_table(sweep)
         for said in sweep.notes:
@@ -368,41 +375,19 @@ def sweep_command(options: SweepOptions) -> int:
     if note:
         say(f"note: {note}")
     code = 0
-    for job, outcome in zip(jobs, outcomes):
+    for job, outcome in zip(done.jobs, done.outcomes):
         if outcome.status == FAILED:
             say(f"failed: {job.name} (exit {outcome.exit_code}): {outcome.reason}")
             code = code or outcome.exit_code
-    say(f"{sum(o.status == DONE for o in outcomes)} of {len(jobs)} points are done, in {place}")
+    if options.theory_only:
+        say(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
+    else:
+        say(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
     say("tables: sweep.csv, sweep.json, sweep.h5; plots:" + "".join(f" {p.name}" for p in plots))
-    if not complete:
+    if not done.complete:
         say("Stopped early: the same command goes on from here.")
         return STOPPED
     return code
-
-
-def _theory_only(options: SweepOptions, say: Callable[[str], None]) -> int:
-    from .plots.sweep import write_plots
-
-    start = time.monotonic()
-    plans, sweeps, place, moved = _prepare(options)
-    for note in [plan.note for plan in plans] + [moved]:
-        if note:
-            say(f"note: {note}")
-    written: list[Path] = []
-    for sweep in sweeps:
-        sweep.run["wall_seconds"] = seconds = time.monotonic() - start
-        written += write_tables(sweep)
-    plots, note = write_plots(place, sweeps)
-    for sweep in sweeps:
-        print_table(sweep)
-        for said in sweep.notes:
-            say(f"note: {said}")
-    if note:
-        say(f"note: {note}")
-    say(f"{sum(len(s.points) for s in sweeps)} points in {seconds:.2f} s; written:")
-    for path in written + plots:
-        say(f"  {path}")
-    return 0
 
 
 def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | os.PathLike | None = None,
@@ -420,9 +405,4 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
     with scene_file(scene) as file:
         options = SweepOptions([file], assignments(given), str(out or ""), theory_only,
                                PoolOptions(jobs=jobs, progress="off"))
-        if theory_only:
-            with contextlib.redirect_stdout(sys.stderr):
-                plans, found, _, _ = _prepare(options)
-            write_tables(found[0])
-            return found[0]
-        return simulate(options, lambda text: None)[0][0]
+        return carry_out(options, lambda text: None).sweeps[0]

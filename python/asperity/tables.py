@@ -23,7 +23,9 @@ from .result import Values
 if TYPE_CHECKING:
     from .sweeps import Sweep
 
-ENERGY = "meV/Å^2"
+RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
+"""Columns of a result whose path in result.json is that of a key of the scene."""
+RENAMED_BACK = {column: path for path, column in RENAMED.items()}
 FIRST = ("delta_gamma", "binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off",
          "work_of_adhesion.pairwise", "contact_fraction", "pushed_fraction", "pull_off_force", "jkr.in", "jkr.out",
          "jkr.in_averaged", "jkr.out_averaged", "sphere.maugis_images", "contact_radius.zero_load",
@@ -32,30 +34,15 @@ FIRST = ("delta_gamma", "binding_energy", "work_of_adhesion.approach", "work_of_
 """Columns of results that come first; whatever else result.json holds follows."""
 THEORY_FIRST = ("delta_gamma", "gamma_eff", "gamma_eff_ratio", "contact_fraction", "gamma_full_contact",
                 "gamma_full_contact_ratio", "theta", "gamma_eff_ratio_error", "contact_fraction_error")
-UNITS = {"pull_off_force": "eV/Å", "realised_rms": "Å", "run.wall_seconds": "s", "h_rms": "Å", "separation": "Å",
-         "jkr_pull_off_force": "eV/Å", "tension": "GPa"}
 
 
 def unit_of(column: str) -> str:
-    """The unit of a column, by what it is named after."""
+    """The unit of a column, a key of the scene or a value of a result."""
     schema = program.schema()
     if column in schema:
         return schema[column]["unit"]
-    name = column.removeprefix("theory.").removeprefix("renormalised.")
-    if name in UNITS:
-        return UNITS[name]
-    if name.endswith(("_ratio", "_ratio_error")):
-        return ""
-    if name.startswith("contact_radius.") or name.endswith("mean_height"):
-        return "Å"
-    if name.endswith(".barrier"):
-        return "MPa"
-    name = name.removeprefix("states.first.").removeprefix("states.deepest.").removeprefix("zero_load.")
-    if name.startswith(("hysteresis.", "energy.")):
-        return "" if name == "energy.residual" else "eV"
-    energies = ("delta_gamma", "gamma_", "binding_energy", "work_of_adhesion.", "jkr.", "sphere.jkr",
-                "sphere.maugis_images", "elastic_energy", "dissipated.")
-    return ENERGY if name.startswith(energies) else ""
+    path = RENAMED_BACK.get(column, column)
+    return program.quantity(path)["unit"] or program.quantity("theory." + path)["unit"]
 
 
 def theory_numbers(point: Mapping[str, Any]) -> dict[str, float]:
@@ -256,17 +243,14 @@ def write_hdf5(path: Path, table: Table) -> None:
                     "" if name.endswith(".count") else unit_of(name.removesuffix(".deviation"))
 
 
-def write_tables(sweep: Sweep) -> list[Path]:
-    """The tables as they are at this moment; their paths. sweep.json is written last."""
+def write_tables(sweep: Sweep) -> None:
+    """The tables as they are at this moment. sweep.json is written last."""
     place, table = files.directory(sweep.directory), sweep.table
-    written = [place / "sweep.csv"]
-    files.write(written[0], csv_of(table))
+    files.write(place / "sweep.csv", csv_of(table))
     if sweep.simulated and any(is_seed(key) for key in sweep.axes):
-        written.append(place / "sweep-mean.csv")
-        files.write(written[-1], mean_csv_of(table))
+        files.write(place / "sweep-mean.csv", mean_csv_of(table))
     write_hdf5(place / "sweep.h5", table)
     files.write(place / "sweep.json", files.sealed_json(json_of(sweep)))
-    return [*written, place / "sweep.h5", place / "sweep.json"]
 
 
 # The table as text: what stands in a terminal and in a report.

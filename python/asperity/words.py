@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What a report says of a run in words: key numbers, findings, what was simulated and what was not."""
+"""What a report says of a run in words: key numbers, findings, effects, provenance."""
 
 from __future__ import annotations
 
@@ -187,71 +187,16 @@ def findings(run: Result) -> list[str]:
     return [t for t in text if t]
 
 
-def _has(run: Result, part: str) -> bool:
-    path = run.key("drive.path")
-    return isinstance(path, list) and part in path
+ALWAYS_LEFT_OUT = ("deformation of the substrate: it is rigid", "plastic flow: the block is elastic throughout",
+                   "edges: the box is periodic sideways")
 
 
-def simulated(run: Result) -> list[str]:
-    """What was simulated, by the scene."""
-    key = run.key
-    model = {"lattice": "a full lattice",
-             "multiscale": f"a lattice that coarsens with depth ({general(key('block.layers_per_level'))} layers a level)"
-             }.get(key("block.model"), "the lattice’s static response, wave by wave")
-    spacing, layers = run.number("scene.surface.spacing") or 0.0, run.number("scene.block.thickness") or 0.0
-    found = [f"the elastic block: {model}, {0.1 * layers * spacing:.1f} nm thick, E = {general(key('block.young'))} GPa, "
-             f"ν = {general(key('block.poisson'), 3)}"]
-    if key("interface.kind", "atoms") == "atoms":
-        found.append(f"every pair of atoms across the interface within {general(key('interface.cutoff'))} Å: Lennard-Jones, "
-                     f"ε = {general(key('interface.epsilon'))} eV, r_{{0}} = {general(key('interface.r0'))} Å"
-                     + (", with the continuum tail beyond" if key("interface.tail") is True else ""))
-    else:
-        found.append(f"a wall in place of the substrate’s atoms, law “{key('interface.law')}”")
-    quasistatic = key("drive.mode") == "quasistatic"
-    if _has(run, "zero-load"):
-        found.append("the relaxed state under zero load, straight from the undeformed block")
-    elif quasistatic:
-        along = "top plane’s path" if key("drive.hold") == "top" else "lowest layer’s mean height"
-        found.append(f"force balance at every {general(key('drive.step'), 3)} Å of the {along}")
-    else:
-        found.append(f"motion in time: the top plane driven at {general(key('drive.velocity'))} m/s, steps of "
-                     f"{general(key('drive.timestep'))} fs")
-    if _dynamic(run):
-        if run.number("scene.drive.damping"):
-            found.append(f"damping, {general(key('drive.damping'), 3)} per ps relative to the top plane")
-        if run.number("scene.drive.temperature"):
-            found.append(f"thermal motion at {general(key('drive.temperature'))} K")
-    if run.radius:
-        found.append(f"curvature: R = {run.radius:.4g} Å")
-    if run.number("scene.surface.lattice_ratio") not in (None, 1.0):
-        found.append(f"lattices that do not fit: spacings in the ratio {general(key('surface.lattice_ratio'))}")
-    if key("block.strain") == "finite":
-        found.append("finite strain")
-    if run.number("scene.drive.load"):
-        found.append(f"an external load of {general(key('drive.load'))} MPa")
-    return found
-
-
-def _dynamic(run: Result) -> bool:
-    return run.key("drive.mode") == "dynamic" and not _has(run, "zero-load")
-
-
-def not_simulated(run: Result) -> list[str]:
-    """What was left out, by the scene."""
-    key = run.key
-    found = [] if _dynamic(run) else ["time: no inertia, no vibrations, no rate"]
-    if not _dynamic(run) or not run.number("scene.drive.temperature"):
-        found.append("thermal motion: T = 0")
-    if key("surface.kind") != "flat":
-        found.append("deformation of the substrate, which is rigid")
-    found.append("plastic flow: the block is elastic throughout")
-    if key("block.strain") == "linear":
-        found.append("large strain: the block’s elasticity is linear")
-    if key("interface.tail") is False:
-        found.append(f"attraction beyond the cutoff of {general(key('interface.cutoff'))} Å")
-    if not run.radius:
-        found.append("curvature of the bodies")
-    return [*found, "edges: the box is periodic sideways"]
+def effects(run: Result, on: bool) -> list[str]:
+    """What was simulated or, on = False, what was not, each with the key of the scene that decides it."""
+    found = run.find("run.effects")
+    text = [f"{name}: {one.get('why', '')}" for name, one in (found if isinstance(found, dict) else {}).items()
+            if isinstance(one, dict) and one.get("on") is on]
+    return text if on else [*text, *ALWAYS_LEFT_OUT]
 
 
 def provenance(result: Values) -> list[list[str]]:

@@ -160,7 +160,7 @@ def test_hostile_results_give_a_page_or_a_message(tmp_path, result):
 
 def test_theory_and_states(state_run, tmp_path):
     found = page(state_run.directory)
-    assert "Gap" in found.text and "no inertia" in found.text
+    assert "Gap" in found.text and "inertia: no time passes" in found.text
     scene = tmp_path / "s.toml"
     scene.write_text("[surface]\nsites = 32\nrms = 0.5\n")
     command("theory", scene, "--out", tmp_path / "theory")

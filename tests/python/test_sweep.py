@@ -129,8 +129,8 @@ def test_tables_average_over_seeds(tmp_path):
 def test_csv_hdf5_and_json_hold_the_same(tmp_path):
     sweep = nine_points()
     sweep.directory = tmp_path / "out"
-    written = tables.write_tables(sweep)
-    assert [p.name for p in written] == ["sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json"]
+    tables.write_tables(sweep)
+    assert {p.name for p in sweep.directory.iterdir()} == {"sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json"}
     rows = numbers(sweep.directory)
     assert list(rows[0])[:5] == ["surface.rms", "surface.seed", "delta_gamma", "binding_energy", "binding_energy_ratio"]
     assert rows[7]["surface.rms"] == "3.5" and rows[8]["status"] == "waiting" and rows[8]["binding_energy"] == ""
@@ -307,7 +307,7 @@ def test_a_launcher_gives_ranks(place):
 def test_the_theory_alone(place):
     # Seeds mean nothing to the theory of a target spectrum.
     said = command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2:0.6:0.2", "--out", "theory")
-    assert "3 points in" in said and "theory/gamma.svg" in said
+    assert "3 points in" in said and "gamma.svg" in said
     rows = numbers("theory")
     assert [r["status"] for r in rows] == ["adhesive"] * 3
     assert list(rows[0])[:3] == ["surface.rms", "delta_gamma", "gamma_eff"]
