@@ -42,7 +42,7 @@ def tables(results, baseline, phases):
     out = []
     rows = [[name, _number(value), "GB/s" if "stream" in name else "GFLOP/s a core"]
             for name, value in results["limits"].items()]
-    out.append(_table("What can this machine do at best?",
+    out.append(_table("Limits of this machine",
                       "A loop of fused multiply-adds in registers, and a stream triad a = b + s c from memory.",
                       ["loop", "rate", ""], rows))
     units = ("GB/s", "of stream", "GFLOP/s", "of fused")
@@ -57,7 +57,7 @@ def tables(results, baseline, phases):
     rows = [[s["label"], _number(1e3 * s["seconds"]), _number(1.0 / s["seconds"])] +
             [_percent(s["phases"].get(p, 0.0) / s["seconds"]) for p in phases] +
             against(1e9 * s["seconds"], s["key"]) for s in results["steps"]]
-    out.append(_table("How fast is a step of a scene, and where does it go?",
+    out.append(_table("Steps of a scene, by phase",
                       f"Multiscale block, one rank of {threads} threads; in contact every site has all of its pairs.",
                       ["scene", "ms/step", "steps/s", *phases, *compare], rows))
     if "scaling" in results:
@@ -73,21 +73,21 @@ def _scaling_tables(scaling, limits, phases):
             [_number(1e3 * e["phases"].get(p, 0.0)) for p in phases] + \
             [_percent(e["communication"]), f"{e['efficiency']:.2f}"]
     header = ["sites", "place", "ranks x threads", "ms/step", *phases, "exchange and sums", "efficiency"]
-    out.append(_table("What do two cores gain on the same block?",
+    out.append(_table("Two cores on the same block",
                       f"Phases in ms a step, of rank 0; waiting for the other rank is part of exchange and sums. Stream: {stream}.",
                       header, [cells(e) for e in scaling["strong"]]))
-    out.append(_table("And on a block twice as large?",
+    out.append(_table("Two cores on a block twice as large",
                       f"{scaling['weak'][0]['layers']} layers; efficiency by node.",
                       header, [cells(e) for e in scaling["weak"]]))
     m = scaling["messages"]
-    out.append(_table("What does a message between two ranks cost?",
+    out.append(_table("Messages between two ranks",
                       f"Within this machine. Swap: two messages each way at once, as halos go. The step's reduction: "
                       f"{_number(1e6 * m['sum'])} µs.",
                       ["bytes", "one way, µs", "GB/s", "swap, µs"],
                       [[str(p["bytes"]), _number(1e6 * p["seconds"]), _number(1e-9 * p["bytes"] / p["seconds"]),
                         _number(1e6 * s["seconds"])] for p, s in zip(m["ping"], m["swap"])]))
-    out.append(_table("Does the model tell the truth about two ranks?",
-                      "In contact. The model knows one core and the messages, no run on two.",
+    out.append(_table("The model compared with two ranks",
+                      "In contact. The model uses measurements on one core and of the messages, and no run on two ranks.",
                       ["sites", "ms/step", "model", "model / measured", "communication, ms", "model", "halo, kB a step", "model"],
                       [[str(c["sites"]), _number(1e3 * c["measured"]), _number(1e3 * c["predicted"]),
                         f"{c['predicted'] / c['measured']:.2f}", _number(1e3 * c["measured_communication"]),
@@ -100,7 +100,7 @@ def _scaling_tables(scaling, limits, phases):
              f"{by[n, r, 'network']['efficiency']:.2f}", _percent(by[n, r, "network"]["communication"]),
              _percent(by[n, r, "measured"]["held"])]
             for n, r, kind in by if kind == "measured"]
-    out.append(_table("What does the model expect of larger machines?",
+    out.append(_table("Larger machines, predicted",
                       "In contact, as many layers as sites, ranks of one thread. First with messages as measured here, then over a "
                       f"network of {1e6 * network['latency']:g} µs and {1e-9 * network['bandwidth']:g} GB/s a rank (assumed, "
                       "not measured). Held by all: share of a rank's nodes that every rank computes alike.",
@@ -115,7 +115,7 @@ def baseline_words(baseline):
         return "There is no baseline for this processor; --save-baseline makes one."
     if "ns" not in baseline:
         return "These numbers are the baseline of this processor."
-    return f"Baseline of {baseline['date']}: " + machine.words(baseline["load"])
+    return f"Baseline of {baseline['date']}, commit {baseline.get('commit', 'unknown')}: " + machine.words(baseline["load"])
 
 
 def terminal(table):
@@ -219,7 +219,7 @@ def predicted_plot(larger, network):
     body += [_text(left, bottom + 58, "solid: messages as measured within this machine"),
              _text(left, bottom + 74, f"dashed: an assumed network of {1e6 * network['latency']:g} µs and "
                    f"{1e-9 * network['bandwidth']:g} GB/s a rank")]
-    return _svg(left + width + 90, bottom + 88, "What the model expects of larger machines", body)
+    return _svg(left + width + 90, bottom + 88, "Larger machines, predicted", body)
 
 
 # --- the page --------------------------------------------------------------------------------------------------
@@ -235,7 +235,7 @@ def write(results, baseline, phases, folder):
         with open(os.path.join(plots, name + ".svg"), "w") as file:
             file.write(svg)
     all_tables = tables(results, baseline, phases)
-    first = next(i for i, t in enumerate(all_tables) if t["title"].startswith("What do two cores"))
+    first = next(i for i, t in enumerate(all_tables) if t["title"].startswith("Two cores"))
     c = scaling["coefficients"]
     costs = "\n".join(["| nodes of a rank | " + " | ".join(map(str, c["nodes"])) + " |", "|---|" + "---:|" * len(c["nodes"])] +
                       [f"| ns a {name} | " + " | ".join(map(_number, c["ns"][key])) + " |" for key, name in
@@ -244,13 +244,16 @@ def write(results, baseline, phases, folder):
 
 Written by `./asperity bench --page`; do not edit.
 
-Measured on {results['date']}, {m['processor']} (family {m['family']}, model {m['model']}), {m['cores']} cores, kernels {m['kernels']}.
+Measured on {results['date']} with the program of commit {results.get('commit', 'unknown')}:
+{m['processor']} (family {m['family']}, model {m['model']}), {m['cores']} cores, kernels {m['kernels']}.
 {machine.words(results['load'])} {baseline_words(baseline)}
 
-How to read it: every time is the least of repeats that take turns; every share is of a limit measured in the same run. *Of fused* is the
-share of a loop of fused multiply-adds, *of stream* that of a stream triad on as many threads; a kernel is near the machine when one of the
-two is near 100 % (in cache the stream of memory is no limit). *Against baseline* is a speed relative to
-`perf/baselines/` for the same processor, marked where it is more than 10 % off. Numbers taken on a busy machine say little.
+Every time is the shortest of repeats that alternate with each other; every share is of a limit measured
+in the same run. *Of fused* is the share of a loop of fused multiply-adds, *of stream* that of a stream
+triad on as many threads. A kernel is close to the limit of the machine if one of the two is close to
+100 % (in cache the stream of memory is no limit). *Against baseline* is a speed relative to
+`perf/baselines/` for the same processor, marked where it differs by more than 10 %. Times taken while
+other programs run are not reliable.
 
     ./asperity bench                           # the kernels and the steps, a minute
     ./asperity bench --scaling                 # and the scaling study
@@ -280,14 +283,16 @@ A step of the most loaded rank takes
     + log2(ranks) x t_sum                                                   the reduction
     + log2(ranks) x latency + bytes gathered x t_gathered                   where coarse levels are held by all
 
-with volumes counted by the decomposition itself (`perf/volumes.cpp`: halos two nodes wide, all levels in one message a neighbour) and times
-measured here: those of work and copies on one core, interpolated by the number of nodes of a rank; a reduction {_number(c['us a reduction'])} µs, a short
-message {_number(c['us a short message'])} µs, a long one {_number(c['GB/s of a long message'])} GB/s.
+with volumes counted by the decomposition itself (`perf/volumes.cpp`: halos two nodes wide, all levels in
+one message to each neighbour) and times measured here: those of work and copies on one core,
+interpolated by the number of nodes of a rank; a reduction {_number(c['us a reduction'])} µs, a short message
+{_number(c['us a short message'])} µs, a long one {_number(c['GB/s of a long message'])} GB/s.
 
 {costs}
 
-A node costs less where a rank's block fits into its cache, so efficiencies above 1 can occur. Left out: waiting for ranks that are late, memory
-shared by more cores than here, and anything a network does besides latency and bandwidth.
+A node costs less where a rank's block fits into its cache, so efficiencies above 1 can occur. Not
+included: waiting for late ranks, memory shared by more cores than here, and effects of a network other
+than latency and bandwidth.
 
 ![larger machines](gallery/perf/larger.svg)
 

@@ -90,12 +90,12 @@ def kernels(folder, quick):
                 name = f"{sweep}/mixed:{mixed}/observed:{observed}"
                 label = f"{sweep}, {'mixed' if mixed else 'double'}, {'with energies' if observed else 'forces'}"
                 rows.append(row(name, label, pairs[name]))
-    groups = [{"question": "How fast is a pair of atoms across the interface?", "item": "pair",
+    groups = [{"question": "Pairs of atoms across the interface", "item": "pair",
                "note": "128 x 128 sites in contact, one core; with energies: those are not counted as GFLOP.",
                "rows": rows}]
     names = {"out_of_reach": "out of reach of the substrate", "partial_contact/skip:0": "partial contact, all atoms",
              "partial_contact/skip:1": "partial contact, far ones skipped"}
-    groups.append({"question": "What does a site cost that has few pairs or none?", "item": "site",
+    groups.append({"question": "Sites with few pairs or none", "item": "site",
                    "note": "128 x 128 sites, one core, double; partial contact: rms 9 Å, the highest atom 4 Å deep.",
                    "rows": [row(k, label, pairs[k]) for k, label in names.items()]})
     rows = []
@@ -105,7 +105,7 @@ def kernels(folder, quick):
             name = f"kick_and_drift/sites:{n}/damped:{damped}/real_time"
             label = f"pass of {n} x {n} x 4, {where}{', damped' if damped else ''}"
             rows.append(row(name, label, elastic[name]))
-    groups.append({"question": "How fast is a node of the elastic block, in cache and out of it?", "item": "node",
+    groups.append({"question": "Nodes of the elastic block, in cache and out of it", "item": "node",
                    "note": "Force, kick and drift, one core. Bytes: u and v read and written once. The stream is that of memory.",
                    "rows": rows})
     rows = []
@@ -113,7 +113,7 @@ def kernels(folder, quick):
         name = f"level_transfer/sites:{transfer}/up:{up}/real_time"
         what = "forces to the coarse level" if up else "displacements to the fine level"
         rows.append(row(name, what, elastic[name], stream=False))
-    groups.append({"question": "What does the seam between two levels cost?", "item": "fine node",
+    groups.append({"question": "Transfer between two levels", "item": "fine node",
                    "note": f"{transfer} x {transfer} fine nodes, in cache, one core.", "rows": rows})
     rows = []
     for n in blocks:
@@ -121,7 +121,7 @@ def kernels(folder, quick):
             name = f"block_step/sites:{n}/threads:{t}/damped:1/real_time"
             rows.append(row(name, f"block of {n} sites and layers, {t} thread{'s' if t > 1 else ''}",
                             {**elastic[name], "threads_used": t}))
-    groups.append({"question": "And the whole block: levels, seams, halos?", "item": "node",
+    groups.append({"question": "The whole block: levels, transfers, halos", "item": "node",
                    "note": "Multiscale, damped; nanoseconds a node and core.", "rows": rows})
     limits = {"fused, double": pairs["lattice/mixed:0/observed:0"]["fused_GFLOP/s"],
               "fused, single": pairs["lattice/mixed:1/observed:0"]["fused_GFLOP/s"]}
@@ -146,6 +146,13 @@ def steps(folder, quick):
                 best[key] = {"key": key, "label": f"{n} sites and layers, {place}, {precision}",
                              "threads": threads, **result}
     return list(best.values())
+
+
+def commit():
+    """Of the source tree; "-dirty" if it has changes, "unknown" outside git."""
+    found = subprocess.run(["git", "-C", SOURCE, "describe", "--always", "--dirty", "--abbrev=8", "--exclude=*"],
+                           capture_output=True, text=True)
+    return found.stdout.strip() or "unknown"
 
 
 def all_times(results):
@@ -181,7 +188,7 @@ def main():
         say("Measuring; the numbers are worth something only while nothing else runs here." +
             (f" The load is {watch.load:.1f}: something does." if watch.load > 0.5 else ""))
         groups, limits, variant = kernels(folder, args.quick)
-        results = {"date": datetime.date.today().isoformat(), "machine": {**machine.describe(), "kernels": variant},
+        results = {"date": datetime.date.today().isoformat(), "commit": commit(), "machine": {**machine.describe(), "kernels": variant},
                    "quick": args.quick, "limits": limits, "kernels": groups, "steps": steps(folder, args.quick)}
         if args.scaling or args.page:
             say("Scaling ...")
@@ -204,7 +211,7 @@ def main():
         say(page.baseline_words(baseline))
     if args.save_baseline:
         os.makedirs(os.path.dirname(stored), exist_ok=True)
-        made = {key: results[key] for key in ("date", "machine", "load")}
+        made = {key: results[key] for key in ("date", "commit", "machine", "load")}
         with open(stored, "w") as file:
             json.dump({**made, "ns": {k: float(f"{t:.4g}") for k, t in all_times(results).items()}}, file, indent=1)
             file.write("\n")
