@@ -41,7 +41,7 @@ def numbers_of(file):
     found = {}
     with h5py.File(file) as h5:
         h5.visititems(lambda name, item: found.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None)
-    return {k: numpy.asarray(v) for k, v in found.items() if numpy.asarray(v).dtype.kind in "fiub"}
+    return {k: numpy.asarray(v) for k, v in found.items() if numpy.asarray(v).dtype.kind in "fiub" and "/run." not in k}
 
 
 def same(a, b):
