@@ -11,7 +11,6 @@ The sources are copied to BUILD/source and built there, each mutant with the lea
 the working tree is not touched. First the tests run without a mutant and must pass. A mutant is killed
 if one of its tests fails, or runs longer than ten times what it took without; one that does not
 compile says nothing about the tests and counts as not killed. Exit code 1 if any is not killed.
-results.txt holds the output of the last run of all of them.
 """
 
 import argparse
