@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <span>
 #include <string>
 #include <thread>
@@ -28,6 +29,12 @@ int report(const std::exception& error, const Communicator& world) {
         if (code == io::exit_code::scene)
             text +=
                 fmt::format("\n{} problem{}; nothing was written", count, count == 1 ? "" : "s");
+    } else if (dynamic_cast<const std::bad_alloc*>(&error)) {
+        code = io::exit_code::scene; // like a run that is refused because it does not fit
+        text =
+            "asperity: out of memory"
+            "\n    why: a limit (ulimit -v, the batch system's) or other processes left too little"
+            "\n    fix: `asperity plan SCENE` says what a run needs";
     } else {
         text = "asperity: internal error: " + text +
                "\n    why: the program met a state it does not expect"

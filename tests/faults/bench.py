@@ -416,12 +416,12 @@ class Bench:
         import resource
         out = self.out("memory")
         codes = []
-        for most in (400, 200, 100, 60, 40, 20):  # MB
+        for most in (400, 200, 100, 60, 52, 48, 44, 40, 20):  # MB
             done = self.run(out, preexec_fn=lambda m=most: resource.setrlimit(
                 resource.RLIMIT_AS, (m << 20, resource.RLIM_INFINITY)))
             codes.append(done.returncode)
-            if done.returncode < 0:
-                self.fail(f"{most} MB of memory: signal {-done.returncode}: {done.stdout[-300:]}")
+            if done.returncode < 0 or "internal error" in done.stdout:
+                self.fail(f"{most} MB of memory: exit {done.returncode}: {done.stdout[-300:]}")
             shutil.rmtree(out, ignore_errors=True)
         return f"exit codes {codes}"
 
