@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -34,12 +35,14 @@ theory::WaveStiffness wave_stiffness(const CellElasticity& elasticity, double sp
 template <class Law>
 theory::FlatInterface wall_interface(const Scene& scene, const InterfaceOptions& options,
                                      const Law& law) {
+    if constexpr (std::is_same_v<Law, ExponentialWall>)
+        throw theory::InvalidInput("the renormalised theory follows the curvature of a smooth law, "
+                                   "and the exponential wall has a kink where it is touched; take "
+                                   "interface.law = \"lennard-jones\" or atoms");
     const double area = scene.surface.spacing * scene.surface.spacing;
     const int sites = scene.surface.sites;
-    const FlatReference flat = flat_reference(options, scene.surface.spacing, sites, sites);
-    if (!(flat.work_of_adhesion > 0.0))
-        throw theory::InvalidInput("the wall does not attract, so there is no adhesion to compute");
-    const double separation = flat.separation;
+    const double separation =
+        flat_reference(options, scene.surface.spacing, sites, sites).separation;
     // As far inwards as the repulsion is about twice the largest tension.
     const double closest = separation - 2.0 * (law.contact_gap() - separation);
     return theory::FlatInterface::wall([law, area](double u) { return law.energy(u) / area; },
