@@ -35,7 +35,7 @@ namespace asperity {
 enum class InterfaceMethod { automatic, reference, lattice, rows, wall };
 
 struct InterfaceOptions {
-    std::optional<WallLaw> wall; ///< in place of atoms; a smeared layer is that of `potential`
+    std::optional<WallLaw> wall = {}; ///< in place of atoms; a smeared layer is that of `potential`
     LennardJones potential;
     bool tail = false; ///< continuum correction beyond the cutoff
     bool mixed =

@@ -58,17 +58,6 @@ void QuasistaticPath::resume() {
     record_.observed = true;
 }
 
-std::vector<StateArray> QuasistaticPath::states() {
-    const auto arrays = block_.state();
-    std::vector<StateArray> list = points_.states();
-    if (ahead_layer_.empty()) ahead_layer_.take(arrays);
-    for (const StateArray& array : ahead_layer_.arrays(arrays, "ahead_"))
-        list.push_back(array);
-    std::stable_sort(list.begin(), list.end(),
-                     [](const StateArray& a, const StateArray& b) { return a.level < b.level; });
-    return list;
-}
-
 QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     const double direction = leg == Leg::approach ? -1.0 : 1.0;
     if (direction != direction_) {
@@ -83,7 +72,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         closing_in_ = false;
     }
     const double aim = attracted_ ? options_.load : std::max(options_.load, 0.0);
-    while (!(ahead_.known != 0.0 && jump_ahead(leg, aim))) {
+    for (;;) {
+        if (ahead_.known != 0.0) close_in(leg, aim);
         const double top = record_.top + direction * length_;
         predicts_ = predicts_ && points_.predicts(top);
         const long long iterations = points_.iterations();
@@ -120,7 +110,6 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         if (std::exchange(predicts_, false)) continue;
         if (state.converged && !step.excess) {
             ahead_ = {1.0, top, state};
-            ahead_layer_.take(block_.state());
         }
         length_ *= 0.5;
         predicts_ = reversible_;
@@ -145,24 +134,22 @@ bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
     return record_.force <= aim + slack && state.force > aim + slack;
 }
 
-/// The state ahead becomes the next point if that is close enough. Otherwise the next step is
-/// half of the way there.
-bool QuasistaticPath::jump_ahead(Leg leg, double aim) {
+/// The next step goes half of the way to the state ahead; or all of it, once the work of such a
+/// step is known well enough. It is then relaxed from the last point like any other, for a fall
+/// from further away may have ended on another branch than the path takes.
+void QuasistaticPath::close_in(Leg leg, double aim) {
     const double way = std::abs(ahead_.top - record_.top);
     const StepCheck step = check(ahead_.state, ahead_.top);
     const bool loaded = leg == Leg::approach && passes_load(ahead_.state, aim);
     if (loaded || step.excess) {
         ahead_.known = 0.0;
-        return false;
+    } else if (step.accepted || way <= smallest_step()) {
+        length_ = way;
+        predicts_ = false;
+        ahead_.known = 0.0;
+    } else {
+        length_ = std::min(length_, 0.5 * way);
     }
-    if (step.accepted || way <= smallest_step()) {
-        ahead_layer_.restore(block_.state());
-        block_.settle({options_.along, ahead_.top});
-        accept(ahead_.state, ahead_.top, step, leg);
-        return true;
-    }
-    length_ = std::min(length_, 0.5 * way);
-    return false;
 }
 
 QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, double top) const {

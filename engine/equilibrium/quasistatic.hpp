@@ -17,8 +17,8 @@
 //   accepted  if nothing is missing;
 //   accepted, and what is missing counted as dissipated, if the work is known to be right: the
 //             force is smooth, or its jump times the step is too small to matter;
-//   halved    otherwise, and tried again from the last point. The state that was found is kept:
-//             it is the next point as soon as the last one has come close enough to it.
+//   halved    otherwise, and tried again from the last point. The energies of the state that was
+//             found are kept: they tell how close the last point has to come to it.
 //
 // So an instability ends up between two points so close that its place and its energy are known,
 // while many small instabilities that leave the force smooth are counted without looking for each.
@@ -94,7 +94,7 @@ public:
     /// stopped.
     template <class Visitor>
     void visit(Visitor& v);
-    std::vector<StateArray> states();
+    std::vector<StateArray> states() { return points_.states(); }
     void resume();
 
 private:
@@ -124,7 +124,7 @@ private:
     }
     StepCheck check(const RelaxedState& state, double top) const;
     bool passes_load(const RelaxedState& state, double aim) const;
-    bool jump_ahead(Leg leg, double aim);
+    void close_in(Leg leg, double aim);
     void accept(const RelaxedState& state, double top, const StepCheck& step, Leg leg);
     Instability describe(const RelaxedState& state, double energy, Leg leg) const;
     void set_record(const RelaxedState& state, double top);
@@ -143,7 +143,6 @@ private:
     bool closing_in_ = false; ///< on the load at which the approach ends
     double length_ = 0.0;     ///< of the next step, Å
     Ahead ahead_;
-    StateCopy ahead_layer_;
     double direction_ = 0.0; ///< of the last step
     ForceTrail trail_;
     bool attracted_ = false;
