@@ -84,6 +84,9 @@ TEST(Units, OtherFactorsFollowCodata) {
     EXPECT_NEAR(parse_quantity("1 N/m", "meV/Å^2").value, 62.41509, 1e-5);
     EXPECT_DOUBLE_EQ(*conversion("nm", "Å"), 10.0);
     EXPECT_FALSE(conversion("nm", "eV").has_value());
+    // A division is of the next symbol alone.
+    EXPECT_DOUBLE_EQ(*conversion("eV/Å Å", "eV"), 1.0);
+    EXPECT_DOUBLE_EQ(*conversion("eV/Å/Å", "eV/Å^2"), 1.0);
 }
 
 TEST(Units, MistakesAreExplained) {
