@@ -168,7 +168,8 @@ QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, dou
         v.gap = missing;
         return v;
     }
-    // What is less than the work may be wrong by is left unaccounted for: it shows in the residual.
+    // What is less than the work may be wrong by, or allowed, is left unaccounted for: it shows in
+    // the residual.
     double uncertain = integral.error;
     v.smooth = uncertain <= allowed;
     v.accepted = v.smooth;
@@ -177,7 +178,7 @@ QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, dou
         uncertain = 0.5 * step * std::abs(state.top_force - record_.top_force);
         v.accepted = uncertain <= options_.tolerance * sites_ * options_.step;
     }
-    if (v.work - gained > uncertain) v.dissipated = v.work - gained;
+    if (v.work - gained > std::max(uncertain, allowed)) v.dissipated = v.work - gained;
     v.gap = v.work - gained - v.dissipated;
     v.uncertain = uncertain;
     v.excess = gained - v.work > std::max(uncertain, allowed);

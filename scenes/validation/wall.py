@@ -3,11 +3,10 @@
 # SPDX-License-Identifier: MIT
 """Problems with closed forms over a wall (interface.kind = "wall"): a table beside each closed form.
 
-    scenes/validation/wall.py westergaard | johnson | sphere | area [--out results/wall]
+    scenes/validation/wall.py westergaard | johnson [--out results/wall]
 
 westergaard: contact of a wave without adhesion against pressure. johnson: the adhesive wave at zero load, for several ranges
-of the attraction, extrapolated. sphere: pressed without adhesion (Hertz), and pulled off (JKR), with periodic images.
-area: contact area against load of self-affine surfaces without adhesion.
+of the attraction, extrapolated.
 """
 import argparse
 import json

@@ -75,7 +75,7 @@ expect 0 sweep rough.toml --theory-only --set surface.rms=0.5:1.5:0.5 --set driv
 says "6 points in"
 for file in sweep.csv sweep.json gamma.svg area.svg full-contact.svg; do
     [ -s "a sweep/$file" ] || fail "a sweep/$file was not written"
-    says "a sweep/$file"
+    says "$file"
 done
 [ "$(wc -l <"a sweep/sweep.csv")" -eq 7 ] || fail "the table has not one line a point"
 [ "$(head -n 1 "a sweep/sweep.csv" | cut -d, -f1-4)" = "surface.rms,drive.load,delta_gamma,gamma_eff" ] ||
