@@ -39,7 +39,7 @@ inline constexpr Quantity result_quantities[] = {
     {"binding_energy", "meV/Å^2", per::area,
      "-(U_LJ + U_el) of the relaxed state without external force"},
     {"binding_energy_uncertainty", "meV/Å^2", per::area,
-     "its uncertainty by the forces left in the relaxed state"},
+     "its uncertainty: what forces of the size of drive.tolerance can stand for"},
     {"work_of_adhesion.approach", "meV/Å^2", per::area,
      "work of the interface's force on the mean height of the lowest layer, during the approach"},
     {"work_of_adhesion.pull_off", "meV/Å^2", per::area,
