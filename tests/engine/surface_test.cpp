@@ -229,11 +229,14 @@ TEST(MeasuredSurface, LosesItsPlaneAndIsScaledOnRequest) {
     o.rms = 0.0;
     o.detrend = true;
     Surface s = surface_from_heights(o, h, n, n);
-    double slope_x = 0.0;
+    double slope_x = 0.0, slope_y = 0.0;
     for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
+        for (int x = 0; x < n; ++x) {
             slope_x += (x - 9.5) * s.height[static_cast<std::size_t>(y * n + x)];
+            slope_y += (y - 9.5) * s.height[static_cast<std::size_t>(y * n + x)];
+        }
     EXPECT_NEAR(slope_x, 0.0, 1e-9);
+    EXPECT_NEAR(slope_y, 0.0, 1e-9);
     EXPECT_NEAR(mean_of(s.height), 0.0, 1e-12);
     o.rms = 2.5;
     s = surface_from_heights(o, h, n, n);
