@@ -58,8 +58,11 @@ EXIT_INPUT_OUTPUT, EXIT_SCENE, EXIT_STOPPED = 4, 2, 75
 
 class Bench:
     def __init__(self, program, library, long):
-        self.program, self.library, self.long = program, library, long
+        self.program, self.long = program, long
         self.work = os.path.realpath(tempfile.mkdtemp(prefix="asperity-faults-"))
+        # LD_PRELOAD separates its libraries by blanks, and the build's path may have some.
+        self.library = os.path.join(self.work, "fault.so")
+        os.symlink(os.path.abspath(library), self.library)
         self.scene = os.path.join(self.work, "scene.toml")
         with open(self.scene, "w") as file:
             file.write(SCENE)
