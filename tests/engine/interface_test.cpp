@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string>
 
@@ -403,6 +404,10 @@ TEST(InterfaceTail, RepulsiveSitesAreCountedWithTheTail) {
         options.tail = true;
         const Outcome with = sweep(surface, state, options, z, true);
         EXPECT_EQ(with.sums.repulsive, repulsive(with)) << z;
+        const auto& forces = with.force[2];
+        EXPECT_NEAR(with.sums.force_z.value(), std::accumulate(forces.begin(), forces.end(), 0.0),
+                    1e-9)
+            << z;
         fewer += without - with.sums.repulsive;
     }
     EXPECT_GT(fewer, 0) << "no site at which the tail decides";
