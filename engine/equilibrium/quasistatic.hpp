@@ -111,8 +111,8 @@ private:
     struct LegError {
         double gap = 0.0, squares = 0.0; ///< eV, eV^2
     };
-    /// A relaxed state further on. Between the last point and it the block becomes unstable, or
-    /// the force is not smooth enough to tell.
+    /// A relaxed state further on: its energies and forces, by which steps close in on it. Between
+    /// the last point and it the block becomes unstable, or the force is not smooth enough to tell.
     struct Ahead {
         double known = 0.0, top = 0.0;
         RelaxedState state;
@@ -161,10 +161,6 @@ void QuasistaticPath::Ahead::visit(Visitor& v) {
     v("ahead.elastic_energy", state.elastic_energy);
     v("ahead.force", state.force);
     v("ahead.top_force", state.top_force);
-    v("ahead.mean_height", state.mean_height);
-    v("ahead.in_contact", state.in_contact);
-    v("ahead.pushed", state.repulsive);
-    v("ahead.closest", state.closest);
 }
 
 template <class Visitor>
