@@ -113,9 +113,10 @@ io::Schema bind(Scene& scene) {
     schema.number("adhesion", interface.adhesion, "meV/Å^2", at_least(0.0),
                   "w of the exponential law; 0: no attraction");
     schema.number("range", interface.range, "Å", positive(), "of the exponential law");
-    schema.number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
-                     "of the exponential law's repulsion; \"auto\": ten times that of the block "
-                     "for its shortest wave, 5 π E* / spacing");
+    schema.number_or(
+        "stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
+        "of the exponential law's repulsion; \"auto\": a thousand times that of the block "
+        "for its shortest wave, 500 π E* / spacing, nearly a hard wall");
 
     auto& drive = scene.drive;
     schema.section("drive", "What is done to the top plane, and how time passes.");

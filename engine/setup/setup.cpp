@@ -103,7 +103,7 @@ InterfaceOptions interface_options(const Scene& scene) {
     const double shortest_wave = 0.5 * std::numbers::pi * modulus / a;
     options.wall =
         ExponentialWall(i.adhesion * site / units::milli_per_unit, i.range,
-                        i.stiffness.value_or(10.0 * shortest_wave) * units::gigapascal * site);
+                        i.stiffness.value_or(1000.0 * shortest_wave) * units::gigapascal * site);
     return options;
 }
 

@@ -4,8 +4,10 @@
 """The same adhesive rough contact by Asperity, Tamaas and ContactMechanics/Adhesion: compare.py ENV [--sites 128 256] [--loads 0 500].
 
 Asperity finds the state under each load (MPa) over a wall with exponential attraction; the others, at its mean gap, the state over a hard
-wall, from the same map, E*, w and range. Compared: mean pressure (difference over the largest tension w/range), contact area, energy
-(over w), processor seconds of the solution and of the whole process, largest memory. ENV: what setup.sh made; without it, exit code 77. Energies under a load hold the compression of Asperity's block too.
+wall, from the same map, E*, w and range; "lattice" is Adhesion with the stiffness of Asperity's block for each wave, read off Asperity's
+own state (pressure over displacement). Compared: mean pressure (difference over the largest tension w/range), contact area, energy of
+the gap (over w), processor seconds of the solution and of the whole process, largest memory. ENV: what setup.sh made; without it, exit
+code 77.
 """
 import argparse
 import json
@@ -17,6 +19,8 @@ import tempfile
 
 import h5py
 import numpy as np
+
+from peer import observables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GPA = 1 / 160.21766208
@@ -34,6 +38,17 @@ def measured(command: list[str]) -> tuple[str, float, float]:
             sys.exit(f"failed: {' '.join(command)}")
         out.seek(0)
         return out.read(), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+
+
+def stiffness(place: pathlib.Path, sites: int) -> np.ndarray:
+    """Stiffness of the block for each wave over E* q/2 (rfft2, mean wave 1), from a state's pressure and displacement."""
+    with h5py.File(place / "run.h5") as f:
+        pressure, u = f["fields/zero-load/pressure"][:] * GPA, f["fields/zero-load/gap"][:] + f["substrate/height"][:]
+    q = 2 * np.pi * np.hypot(np.fft.fftfreq(sites, 2.6)[:, None], np.fft.rfftfreq(sites, 2.6)[None, :])
+    q[0, 0] = 1.0
+    softer = np.abs(np.fft.rfft2(pressure) / np.fft.rfft2(u)) / (E / 2 * q)
+    softer[0, 0] = 1.0
+    return softer
 
 
 def main() -> None:
@@ -59,20 +74,23 @@ def main() -> None:
                         "interface.adhesion": a.adhesion, "interface.range": a.range, "surface.sites": sites, "surface.rms": 1.5,
                         "surface.cutoff": sites / 8, "theory.renormalised": "false", "output.checkpoint": 0, "drive.load": load,
                         "drive.tolerance": TOLERANCE}
-                _, process, memory = measured([a.program, "run", str(ROOT / "scenes/first-contact.toml"), "--progress", "off", "--out", str(place),
-                                               "--set", *(f"{k}={v}" for k, v in keys.items())])
+                scene = [a.program, "run", str(ROOT / "scenes/first-contact.toml"), "--progress", "off", "--set"]
+                options = lambda keys, place: scene + [f"{k}={v}" for k, v in keys.items()] + ["--out", str(place)]
+                _, process, memory = measured(options(keys, place))
                 result = json.loads((place / "result.json").read_text())
                 with h5py.File(place / "run.h5") as f:
                     heights, gap = f["substrate/height"][:], f["fields/zero-load/gap"][:]
+                measured(options(keys | {"drive.tolerance": 1e-7}, f"{place}-tight"))
+                softer = stiffness(pathlib.Path(f"{place}-tight"), sites)
                 np.save(f"{scratch}/map.npy", heights)
-                mine = -1e-3 * result["binding_energy"] / w
-                zero = result["zero_load"]
-                print(f"{sites:5} {load:8g} asperity  {result['contact_fraction']:.4f} {mine:9.5f} {0:20} {zero['residual_force']:9.1e} "
-                      f"{result['run']['iterations']:11} {result['run']['phases']['relax']['seconds']:8.2f} {process:10.2f} {memory:4.0f}")
-                case = {"map": f"{scratch}/map.npy", "edge": sites * 2.6, "modulus": E, "adhesion": w, "range": a.range,
-                        "gap": float(gap.mean()), "tolerance": TOLERANCE, "relative": 1e-6}
+                np.save(f"{scratch}/softer.npy", softer)
+                case = {"map": f"{scratch}/map.npy", "softer": f"{scratch}/softer.npy", "edge": sites * 2.6, "modulus": E, "adhesion": w,
+                        "range": a.range, "gap": float(gap.mean()), "tolerance": TOLERANCE, "relative": 1e-6}
                 pathlib.Path(f"{scratch}/case.json").write_text(json.dumps(case))
-                for name in ("tamaas", "adhesion"):
+                mine = observables(case, gap, heights, softer)["energy"] / w
+                print(f"{sites:5} {load:8g} asperity  {result['contact_fraction']:.4f} {mine:9.5f} {0:20} {result['zero_load']['residual_force']:9.1e} "
+                      f"{result['run']['iterations']:11} {result['run']['phases']['relax']['seconds']:8.2f} {process:10.2f} {memory:4.0f}")
+                for name in ("tamaas", "adhesion", "lattice"):
                     text, process, memory = measured([str(python), str(pathlib.Path(__file__).with_name("peer.py")), name, f"{scratch}/case.json"])
                     r = json.loads(text.splitlines()[-1])
                     difference = (r["pressure"] - load * 1e-3 * GPA) / (w / a.range)
