@@ -99,7 +99,7 @@ def _carry_out(given: argparse.Namespace) -> int:
 
         return export_command(given.directory, given.format)
     from .pool import PoolOptions
-    from .sweeps import SweepOptions, sweep_command
+    from .sweeps import sweep_command
     from .terminal import PROGRESS_MODES, parse_duration
 
     if given.progress not in PROGRESS_MODES:
@@ -107,16 +107,16 @@ def _carry_out(given: argparse.Namespace) -> int:
                          "choices: " + ", ".join(PROGRESS_MODES))
     scenes = _scenes(given)
     if given.command == "cost":
-        from .cost import CostOptions, cost_command
+        from .cost import cost_command
 
         if len(scenes) > 1:
             raise SceneError("command line", "more than one scene is given", f"{scenes[0]} and {scenes[1]}",
                              "for example: asperity cost scenes/cost/small.toml")
-        return cost_command(CostOptions(scenes[0], given.sets, [k for k in given.knobs.split(",") if k], given.out,
-                                        given.jobs, given.progress))
+        return cost_command(scenes[0], given.sets, [k for k in given.knobs.split(",") if k], given.out,
+                            PoolOptions(given.jobs, 1, progress=given.progress))
     limit = parse_duration(given.wall_limit) if given.wall_limit else None
     pool = PoolOptions(given.jobs, 0, given.launch.split(), limit, given.progress)
-    return sweep_command(SweepOptions(scenes, given.sets, given.out, given.theory_only, pool))
+    return sweep_command(scenes, given.sets, given.out, given.theory_only, pool)
 
 
 def main(words: list[str]) -> int:

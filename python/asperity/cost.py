@@ -17,6 +17,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from . import files, program, terminal
 from .cost_knobs import CostCase, Knob, KnobValue, Setting, cost_case, joined
 from .errors import SceneError
@@ -27,46 +29,47 @@ QUANTITIES = ("gamma", "contact", "approach", "pull-off", "force")
 """What is judged: binding energy at zero load over flat, contact fraction there, works of the two legs over flat,
 largest attraction of the pull-off (eV/Å). Energies are compared over the flat reference of the same interaction, so
 that a cutoff is not blamed for the adhesion that it takes from both."""
-QUESTIONS = ("state", "path")
-"""What a setting can be asked for: the relaxed state (gamma and contact), or all of the path too."""
 ASKED = {"state": 2, "path": len(QUANTITIES)}
+"""What a setting can be asked for: the relaxed state (the first two quantities), or all of the path too."""
 TARGETS = (0.05, 0.01, 0.001)
 NAN = math.nan
 
 
-def numbers_of(result: Values) -> list[float]:
+def nothing() -> np.ndarray:
+    return np.full(len(QUANTITIES), NAN)
+
+
+def numbers_of(result: Values) -> np.ndarray:
     """One number a quantity; NaN: none."""
-    def number(key: str) -> float:
-        value = result.number(key)
-        return NAN if value is None else value
-    flat = number("delta_gamma") or NAN
-    return [number("binding_energy") / flat, number("contact_fraction"), number("work_of_adhesion.approach") / flat,
-            number("work_of_adhesion.pull_off") / flat, number("pull_off_force")]
+    flat, *numbers = (NAN if (v := result.number(key)) is None else v for key in (
+        "delta_gamma", "binding_energy", "contact_fraction", "work_of_adhesion.approach", "work_of_adhesion.pull_off",
+        "pull_off_force"))
+    flat = flat or NAN
+    return np.array(numbers) / (flat, 1.0, flat, flat, 1.0)
 
 
-def errors_of(measured: list[float], reference: list[float]) -> list[float]:
+def errors_of(measured: np.ndarray, reference: np.ndarray) -> np.ndarray:
     """Relative and with their signs."""
-    return [(m - r) / abs(r) if r else NAN for m, r in zip(measured, reference)]
+    return (measured - reference) / np.where(reference == 0, NAN, np.abs(reference))
 
 
-def largest_error(measured: list[float], reference: list[float], question: str) -> float:
+def largest_error(measured: np.ndarray, reference: np.ndarray, question: str) -> float:
     """Without sign, of the quantities that the reference has. NaN: the measured run lacks one of them."""
-    if question == "path" and all(math.isnan(r) for r in reference[2:]):
+    if question == "path" and np.isnan(reference[ASKED["state"]:]).all():
         return NAN  # a reference that followed no path says nothing of one
-    pairs = list(zip(errors_of(measured, reference), reference))[: ASKED[question]]
-    errors = [abs(e) for e, r in pairs if r and not math.isnan(r)]
-    return max(errors) if errors and not any(math.isnan(e) for e in errors) else NAN
+    asked = slice(ASKED[question])
+    errors = np.abs(errors_of(measured, reference)[asked])[~np.isnan(reference[asked]) & (reference[asked] != 0)]
+    return float(errors.max(initial=0.0)) if errors.size else NAN  # NaN if one of them is
 
 
-def pareto_front(seconds: list[float], errors: list[float]) -> list[bool]:
+def pareto_front(seconds: np.ndarray, errors: np.ndarray) -> np.ndarray:
     """Which of them are beaten by no other in time and error at once; NaN is never among them."""
-    def beaten(i: int) -> bool:
-        return any(s <= seconds[i] and e <= errors[i] and (s < seconds[i] or e < errors[i])
-                   for s, e in zip(seconds, errors))
-    return [not (math.isnan(s) or math.isnan(e) or beaten(i)) for i, (s, e) in enumerate(zip(seconds, errors))]
+    s, e = np.asarray(seconds, float), np.asarray(errors, float)
+    beaten = (s <= s[:, None]) & (e <= e[:, None]) & ((s < s[:, None]) | (e < e[:, None]))
+    return ~(np.isnan(s) | np.isnan(e) | beaten.any(axis=1))
 
 
-def cheapest_within(seconds: list[float], errors: list[float], target: float) -> int | None:
+def cheapest_within(seconds: np.ndarray, errors: np.ndarray, target: float) -> int | None:
     """The one of the least time with an error within the target."""
     there = [i for i, e in enumerate(errors) if e <= target]
     return min(there, key=lambda i: seconds[i], default=None)
@@ -81,17 +84,11 @@ def order_of(x: list[float], errors: list[float], x0: float | None, floor: float
     points = [(v, abs(e)) for v, e in zip(x, errors) if abs(e) > floor and v > 0 and v != x0]
     if len({v for v, _ in points}) < 2:
         return None
-
-    def misfit(p: float) -> float:
-        rest = x0**p if x0 is not None else 0.0
-        try:
-            d = [math.log(e) - math.log(abs(v**p - rest)) for v, e in points]
-        except ValueError:
-            return math.inf
-        mean = sum(d) / len(d)
-        return sum(v * v for v in d) / len(d) - mean * mean
-
-    return min((s * 0.01 * i for i in range(5, 801) for s in (1, -1)), key=misfit)
+    at, error = np.array(points).T
+    power = np.array([s * 0.01 * i for i in range(5, 801) for s in (1, -1)])[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):  # of a power that leaves no difference
+        misfit = np.var(np.log(error) - np.log(np.abs(at**power - (0.0 if x0 is None else x0**power))), axis=1)
+    return float(power[np.argmin(np.nan_to_num(misfit, nan=np.inf)), 0])
 
 
 @dataclass
@@ -108,13 +105,18 @@ class CostRow:
     judged: bool = True
     """its error is one of settings: not the reference, not another solid"""
     outcome: Outcome = field(default_factory=Outcome)
-    numbers: list[float] = field(default_factory=lambda: [NAN] * len(QUANTITIES))
-    own_error: list[float] = field(default_factory=lambda: [NAN] * len(QUANTITIES))
-    error: dict[str, float] = field(default_factory=lambda: dict.fromkeys(QUESTIONS, NAN))
-    front: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(QUESTIONS, False))
+    numbers: np.ndarray = field(default_factory=nothing)
+    own_error: np.ndarray = field(default_factory=nothing)
+    error: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ASKED, NAN))
+    front: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(ASKED, False))
     seconds: float = NAN
     """of the processor"""
     wall: float = NAN
+
+    @property
+    def text(self) -> str:
+        """The setting as a user would give it."""
+        return "--set " + " ".join(self.setting) if self.setting else "the scene as it is"
 
 
 @dataclass
@@ -137,12 +139,12 @@ class Cost:
     def judge(self) -> None:
         """Errors, fronts, orders and cheapest settings of the rows that are there."""
         for row in self.rows:
-            row.error = {q: largest_error(row.numbers, self.rows[0].numbers, q) for q in QUESTIONS}
-            row.own_error = [NAN] * len(QUANTITIES)
+            row.error = {q: largest_error(row.numbers, self.rows[0].numbers, q) for q in ASKED}
+            row.own_error = nothing()
         seconds = [r.seconds for r in self.rows]
-        for question in QUESTIONS:
+        for question in ASKED:
             errors = [r.error[question] if r.judged else NAN for r in self.rows]
-            for row, front in zip(self.rows, pareto_front(seconds, errors)):
+            for row, front in zip(self.rows, pareto_front(seconds, errors).tolist()):
                 row.front[question] = front
             self.cheapest[question] = [cheapest_within(seconds, errors, t) for t in TARGETS]
         self.orders = []
@@ -189,45 +191,32 @@ class Cost:
         return found
 
 
-@dataclass
-class CostOptions:
-    scene: str
-    overrides: list[str] = field(default_factory=list)
-    knobs: list[str] = field(default_factory=list)
-    out: str = ""
-    jobs: int = 1
-    progress: str = "auto"
-
-
 class _Runs:
     """Settings that make the same scene are one run."""
 
-    def __init__(self, options: CostOptions, directory: Path):
-        self.options, self.directory = options, directory
+    def __init__(self, scene: str, overrides: list[str], directory: Path, options: PoolOptions):
+        self.scene, self.directory, self.options = scene, directory, options
+        # Maps and frames would be timed too.
+        self.common = joined(overrides, ["output.fields=zero-load", "output.trajectory=none"])
         self.made: dict[str, Job] = {}
 
     def run(self, rows: list[CostRow]) -> bool:
         """Runs the rows and fills in their numbers. False: stopped before the end."""
-        # Maps and frames would be timed too.
-        common = joined(self.options.overrides, ["output.fields=zero-load", "output.trajectory=none"])
-        overrides = [joined(common, row.setting) for row in rows]
-        points = program.theory_points(self.options.scene, overrides, runnable=True)
+        overrides = [joined(self.common, row.setting) for row in rows]
+        points = program.theory_points(self.scene, overrides, runnable=True)
         program.complaints(points)
-        jobs: list[Job] = []
-        of_row = []
+        jobs: dict[str, Job] = {}
         for row, given, point in zip(rows, overrides, points):
             name = ",".join(one.partition(".")[2] for one in sorted(row.setting)) or "scene"
-            job = self.made.setdefault(json.dumps(point["scene"]),
-                                       Job(name, self.directory / name, self.options.scene, given, point["scene"]))
-            if job not in jobs:
-                jobs.append(job)
-            of_row.append(jobs.index(job))
-        outcomes = [look_at(job) for job in jobs]
+            key = json.dumps(point["scene"])
+            jobs[key] = self.made.setdefault(key, Job(name, self.directory / name, self.scene, given, point["scene"]))
+        outcomes = [look_at(job) for job in jobs.values()]
         there = sum(o.status != WAITING for o in outcomes)
         print(f"{len(jobs)} runs in {self.directory}" + (f"; {there} are there already" if there else ""), flush=True)
-        complete = Pool(jobs, outcomes, PoolOptions(self.options.jobs, 1, [], None, self.options.progress)).run()
-        for row, i in zip(rows, of_row):
-            row.outcome = outcomes[i]
+        complete = Pool(list(jobs.values()), outcomes, self.options).run()
+        of_scene = dict(zip(jobs, outcomes))
+        for row, point in zip(rows, points):
+            row.outcome = of_scene[json.dumps(point["scene"])]
             if row.outcome.status == DONE:
                 result = row.outcome.result
                 row.numbers = numbers_of(result)
@@ -251,37 +240,38 @@ def _row(knob: Knob, value: KnobValue) -> CostRow:
                    judged=knob.name != "thickness")
 
 
-def cost_command(options: CostOptions) -> int:
+def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str, options: PoolOptions) -> int:
     """Returns the exit code: 75 if stopped before the end, that of the reference if it failed."""
     if "OMPI_COMM_WORLD_SIZE" in os.environ:
         raise SceneError("asperity cost", "it is not started under mpirun", "it starts its runs itself, each with one "
                          "thread, so that their times can be compared",
                          "asperity cost SCENE --jobs 2 runs two side by side")
-    found = program.check(options.scene, options.overrides)
+    found = program.check(scene, overrides)
     case = cost_case(found["scene"], found.get("longest_timestep", 0.0))
     if found["problems"]:
         raise SceneError("\n".join(found["problems"]))
-    case.knobs = _chosen(case.knobs, options.knobs)
+    case.knobs = _chosen(case.knobs, knobs)
     cost = Cost(found["name"], found["scene"], case)
     cost.rows = [CostRow("reference", "reference", case.reference, case.reference, judged=False),
                  CostRow("scene", "as it is", [], [])]
     cost.rows += [_row(knob, value) for knob in case.knobs
                   for value in [*knob.values, *([knob.twin] if knob.twin else [])]]
-    directory = Path(options.out or f"results/{cost.name}-cost")
+    directory = Path(out or f"results/{cost.name}-cost")
     print(f"reference: {case.reference_text}", flush=True)
-    runs = _Runs(options, directory)
-    complete = runs.run(cost.rows)
-    reference = cost.rows[0].outcome
-    if complete and reference.status == FAILED:
-        print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
-        return reference.exit_code
-    cost.judge()
-    if complete:
-        combinations = cost.combinations()
-        complete = not combinations or runs.run(combinations)
-        cost.rows += combinations
+    with files.in_use(directory):
+        runs = _Runs(scene, overrides, directory, options)
+        complete = runs.run(cost.rows)
+        reference = cost.rows[0].outcome
+        if complete and reference.status == FAILED:
+            print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
+            return reference.exit_code
         cost.judge()
-    written = write(cost, directory)
+        if complete:
+            combinations = cost.combinations()
+            complete = not combinations or runs.run(combinations)
+            cost.rows += combinations
+            cost.judge()
+        written = write(cost, directory)
     print(text_of(cost))
     print(f"in {directory}:" + "".join(f" {name}" for name in written))
     if complete:
@@ -292,55 +282,36 @@ def cost_command(options: CostOptions) -> int:
 
 # What is left behind.
 
-def setting_text(row: CostRow) -> str:
-    return "--set " + " ".join(row.setting) if row.setting else "the scene as it is"
-
-
 def csv_of(cost: Cost) -> str:
-    def number(value: float) -> str:
-        return f"{value:.10g}" if math.isfinite(value) else ""
-    lines = [",".join(["knob", "value", "setting", "processor_seconds", "wall_seconds", "ratio", *QUANTITIES,
-                       *(f"error_{q}" for q in QUESTIONS), *(f"own_{q}" for q in QUANTITIES),
-                       *(f"front_{q}" for q in QUESTIONS)])]
+    heads = ["knob", "value", "setting", "processor_seconds", "wall_seconds", "ratio", *QUANTITIES,
+             *(f"error_{q}" for q in ASKED), *(f"own_{q}" for q in QUANTITIES), *(f"front_{q}" for q in ASKED)]
     scene = cost.rows[1].seconds or NAN
-    for row in cost.rows:
-        values = [row.seconds, row.wall, row.seconds / scene, *row.numbers, *row.error.values(), *row.own_error]
-        lines.append(",".join([f'"{row.knob}"', f'"{row.label}"', f'"{" ".join(row.setting)}"', *map(number, values),
-                               *(str(int(f)) for f in row.front.values())]))
-    return "\n".join(lines) + "\n"
+    return files.csv_text([heads, *(
+        [row.knob, row.label, " ".join(row.setting), row.seconds, row.wall, row.seconds / scene, *row.numbers,
+         *row.error.values(), *row.own_error, *row.front.values()] for row in cost.rows)])
 
 
 def json_of(cost: Cost) -> dict[str, Any]:
     def known(value: float | None) -> float | None:
-        return None if value is None or not math.isfinite(value) else value
+        return None if value is None or not math.isfinite(value) else float(value)
 
-    def by_quantity(values: list) -> dict[str, float | None]:
+    def by_quantity(values) -> dict[str, float | None]:
         return {name: known(v) for name, v in zip(QUANTITIES, values)}
 
-    settings = []
-    for row in cost.rows:
-        settings.append({"knob": row.knob, "value": row.label, "set": row.setting, "processor_seconds": known(row.seconds),
-                         "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers),
-                         "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
-                         "pareto": dict(row.front)})
-        if row.outcome.status == FAILED:
-            settings[-1]["failed"] = row.outcome.reason
-    orders = []
-    for knob, measured in cost.orders:
-        orders.append({"knob": knob.name, "expected": knob.expected})
-        if knob.order is not None:
-            orders[-1]["expected_order"] = knob.order
-        orders[-1]["measured"] = by_quantity(measured)
-    cheapest: dict[str, list] = {}
-    for question, places in cost.cheapest.items():
-        for target, i in zip(TARGETS, places):
-            if i is not None:
-                row = cost.rows[i]
-                cheapest.setdefault(question, []).append({
-                    "target": target, "set": setting_text(row), "error": row.error[question],
-                    "processor_seconds": row.seconds})
+    settings = [{"knob": row.knob, "value": row.label, "set": row.setting, "processor_seconds": known(row.seconds),
+                 "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers),
+                 "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
+                 "pareto": dict(row.front),
+                 **({"failed": row.outcome.reason} if row.outcome.status == FAILED else {})} for row in cost.rows]
+    orders = [{"knob": knob.name, "expected": knob.expected,
+               **({} if knob.order is None else {"expected_order": knob.order}), "measured": by_quantity(measured)}
+              for knob, measured in cost.orders]
+    cheapest = {question: [{"target": target, "set": cost.rows[i].text, "error": cost.rows[i].error[question],
+                            "processor_seconds": cost.rows[i].seconds}
+                           for target, i in zip(TARGETS, places) if i is not None]
+                for question, places in cost.cheapest.items()}
     return {"scene": cost.scene, "reference": cost.case.reference_text, "settings": settings, "orders": orders,
-            "cheapest": cheapest}
+            "cheapest": {question: found for question, found in cheapest.items() if found}}
 
 
 def write(cost: Cost, directory: Path) -> list[str]:
@@ -351,7 +322,7 @@ def write(cost: Cost, directory: Path) -> list[str]:
     files.directory(directory)
     written = ["cost.csv", "cost.json"]
     files.write(directory / "cost.csv", csv_of(cost))
-    for question in QUESTIONS:
+    for question in ASKED:
         if cost.answered(question):
             fig = figures.make(lambda ax: plots.error_against_time(cost, question, ax))
             if fig is not None:
@@ -398,7 +369,7 @@ def text_of(cost: Cost) -> str:
         parts.append(terminal.table(["knob", "γ", "contact", "in", "out", "force", "expected"],
                                     [[knob.name, *("-" if p is None else f"{p:.1f}" for p in measured), knob.expected]
                                      for knob, measured in cost.orders], left=(0, 6)))
-    for question, what in zip(QUESTIONS, ("the state at zero load (γ, contact)",
+    for question, what in zip(ASKED, ("the state at zero load (γ, contact)",
                                           "the whole path (works, pull-off force too)")):
         if not cost.answered(question):
             continue
@@ -406,7 +377,7 @@ def text_of(cost: Cost) -> str:
         for target, i in zip(TARGETS, cost.cheapest[question]):
             row = None if i is None else cost.rows[i]
             parts.append(f"  {100 * target:>4g} %  " + ("none of those that were run" if row is None else
-                         f"{row.seconds:.2f} s, error {percent(row.error[question])} %: {setting_text(row)}"))
+                         f"{row.seconds:.2f} s, error {percent(row.error[question])} %: {row.text}"))
     if not cost.answered("path"):
         parts.append("\nThe path was not followed: works and force are not measured.")
     parts += [f"note: {note}" for note in cost.case.notes]

@@ -156,7 +156,7 @@ class Export:
 
     def _sites(self, state: State) -> int:
         """Of the state's maps, which must be of one size."""
-        sizes = {len(state[name]) for name in state.maps}
+        sizes = {len(state[name]) for name in state}
         if len(sizes) != 1:
             raise InputOutputError(str(self.run.file.path), f'state "{state.name}" cannot be exported',
                                    f"its maps have the sizes {sorted(sizes)}", "was the file written by another program?")
@@ -234,7 +234,7 @@ class Export:
         texts = {"substrate": image_text(self.run.edge / n, 0.0, {"height (Å)": self.run.substrate.height})}
         for state in self.run.fields.values():
             self._sites(state)
-            maps = {_title(name): state[name] for name in state.maps if not name.startswith("u_")}
+            maps = {_title(name): state[name] for name in state if not name.startswith("u_")}
             if all(name in state for name in ("u_x", "u_y", "u_z")):
                 maps["displacement (Å)"] = np.dstack([state["u_x"], state["u_y"], state["u_z"]])
             texts[file_name(state.name)] = image_text(self.spacing, 0.5 * self.spacing, maps)
@@ -249,7 +249,7 @@ class Export:
         n = len(self.run.substrate.height)
         grids = [_grid("substrate", n, self.run.edge / n, 0.0, [("height (Å)", "/substrate/height", False)])]
         for state in self.run.fields.values():
-            maps = [(_title(name), f"/fields/{state.name}/{name}", name == "contact") for name in state.maps]
+            maps = [(_title(name), f"/fields/{state.name}/{name}", name == "contact") for name in state]
             if maps:
                 grids.append(_grid(state.name, self._sites(state), self.spacing, 0.5 * self.spacing, maps))
         written = []

@@ -9,11 +9,17 @@ of an HDF5 file of the program (io/output_file.cpp).
 from __future__ import annotations
 
 import contextlib
+import csv
+import fcntl
+import io
 import json
+import math
 import os
 import re
+import socket
+import time
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -59,6 +65,99 @@ def write(path: Path, content: str | bytes) -> None:
     """Writes a file whole, or leaves the old one."""
     with replacing(path) as beside:
         beside.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
+    """Lines of comma-separated values: numbers with so many digits, those that are not finite as nothing."""
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows(
+        [v if isinstance(v, str) else f"{v:.{digits}g}" if math.isfinite(v) else "" for v in row] for row in rows)
+    return stream.getvalue()
+
+
+LOCK = "run.lock"
+"""The same file with the same content as in the directory of a run (io/result_directory.cpp), so that runs and
+sweeps keep each other out as well."""
+
+
+def _identity(process: int) -> dict[str, str]:
+    """A process of this machine: its number may be another's later, its start time not."""
+    def text(name: str) -> str:
+        with contextlib.suppress(OSError):
+            return Path(name).read_text()
+        return ""
+
+    after_name = text(f"/proc/{process}/stat").rpartition(")")[2].split()
+    return {"host": socket.gethostname(), "process": str(process), "start": "".join(after_name[19:20]),
+            "boot": text("/proc/sys/kernel/random/boot_id").strip()}
+
+
+@contextlib.contextmanager
+def _turn(place: Path) -> Iterator[None]:
+    """Of the processes that take or give back locks in a directory, one at a time (class Turn of the program)."""
+    handle = os.open(place, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        for _ in range(50):
+            with contextlib.suppress(OSError):
+                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                break
+            time.sleep(0.01)
+        yield
+    finally:
+        os.close(handle)
+
+
+def _take(place: Path) -> int:
+    """Opens the lock of a directory and keeps it; raises InputOutputError where another process has it."""
+    path = place / LOCK
+    handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o666)
+    kept = False
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        kept = True
+    except OSError:  # a file system without such locks: what stands in the file must do
+        pass
+    lines = os.read(handle, 4096).decode("utf-8", "replace").splitlines()
+    holder = {key: value for key, _, value in (line.partition(" ") for line in lines)}
+    mine = _identity(os.getpid())
+    number = holder.get("process", "")
+    # Of another machine nothing can be known.
+    if kept or (holder and holder.get("host") != mine["host"]) or (
+            number.isdigit() and _identity(int(number)).items() <= holder.items()):
+        os.close(handle)
+        raise InputOutputError(
+            str(place), "is in use by another process",
+            f"process {holder['process']} on host {holder['host']} has had it since {holder['since']} ({path})"
+            if {"process", "host", "since"} <= set(holder) else f"{path} does not say by whom",
+            "wait for its end, stop it, or name another directory: --out" if holder.get("host") == mine["host"] else
+            f"wait for its end, or name another directory (--out); where it is certain that no such process lives, "
+            f"remove {path}")
+    os.ftruncate(handle, 0)
+    since = {"since": time.strftime("%Y-%m-%d %H:%M:%S")}
+    os.pwrite(handle, "".join(f"{key} {value}\n" for key, value in {**mine, **since}.items()).encode(), 0)
+    return handle
+
+
+@contextlib.contextmanager
+def in_use(place: Path) -> Iterator[None]:
+    """Makes a directory, and keeps other sweeps and runs out of it; it goes again if nothing was written into it."""
+    made = not place.exists()
+    directory(place)
+    try:
+        with _turn(place):
+            handle = _take(place)
+    except OSError as error:
+        raise _refuse(place / LOCK, error) from None
+    try:
+        yield
+    finally:
+        with contextlib.suppress(OSError), _turn(place):
+            os.unlink(place / LOCK)
+        os.close(handle)
+        if made:
+            with contextlib.suppress(OSError):  # something is in it
+                place.rmdir()
 
 
 _JSON_END = re.compile(rb',\n  "digest": "crc32:([0-9a-f]{8})"\n}\n\Z')

@@ -49,9 +49,9 @@ def raise_for(code: int, text: str) -> None:
     raise BY_CODE.get(code, InternalError)(text.strip() or f"asperity ended with exit code {code}")
 
 
-def call(arguments: Iterable[str], *, text: str | None = None, before: Iterable[str] = ()) -> str:
-    """Runs the program to its end and returns what it printed. `before`: words of a launcher."""
-    words = [*before, path(), *arguments]
+def call(arguments: Iterable[str], *, text: str | None = None) -> str:
+    """Runs the program to its end and returns what it printed."""
+    words = [path(), *arguments]
     try:
         done = subprocess.run(words, input=text, capture_output=True, text=True, encoding="utf-8")
     except OSError as error:

@@ -28,10 +28,20 @@ PATH_CAPTIONS = {
 MAPS = (("gap", "Gap", "Height of each site above the substrate below it."),
         ("pressure", "Pressure", "Normal force of the substrate on a site over its area. Blue is attractive, orange "
                                  "repulsive; the colour bar spans 99\u00a0% of the values."),
-        ("contact", "Contact", "Sites nearer to an atom of the substrate than the inflection of the potential."))
+        ("contact", "Contact", ""))
 STATE_COLUMNS = (("binding_energy", "binding energy, meV/Å²"), ("contact_fraction", "contact"),
                  ("pushed_fraction", "repulsive"), ("mean_height", "mean height, Å"),
                  ("elastic_energy", "elastic energy, meV/Å²"), ("barrier", "barrier to the next, MPa"))
+
+
+def _in_contact(run: Result) -> str:
+    """Which sites the program counts as in contact."""
+    if run.key("interface.kind") != "wall":
+        return "Sites nearer to an atom of the substrate than the inflection of the potential"
+    if run.key("interface.law") == "exponential":
+        return "Sites that touch the wall"
+    return "Sites nearer to the wall than the inflection of its potential"
+
 
 def _top(page: Page, run: Result) -> None:
     if run.failure_text:
@@ -56,8 +66,8 @@ def _path(page: Page, run: Result) -> None:
     page.section("path", "Force and contact")
     page.figure("separation", "Force and separation", PATH_CAPTIONS[run.curved], partial(plots.separation, run))
     page.figure("contact", "Contact over the path",
-                "Sites nearer to an atom of the substrate than the inflection of the potential (in contact), and sites "
-                "whose net normal force is repulsive.", partial(plots.contact, run))
+                f"{_in_contact(run)} (in contact), and sites whose net normal force is repulsive.",
+                partial(plots.contact, run))
 
 
 def _state(page: Page, run: Result, state: State) -> None:
@@ -67,7 +77,7 @@ def _state(page: Page, run: Result, state: State) -> None:
         if key == "gap":
             caption += " The colour bar ends at the cutoff." if run.curved else \
                 " The colour bar spans 99\u00a0% of the values."
-        page.figure(f"{key}-{name}", heading, caption, partial(plots.map_of, run, state, key))
+        page.figure(f"{key}-{name}", heading, caption or f"{_in_contact(run)}.", partial(plots.map_of, run, state, key))
     page.figure(f"pressures-{name}", "Distribution of pressure",
                 "How the interface’s pressure is distributed over the sites that feel any: the left wing is attractive, "
                 "the right one repulsive. Per site of the box.", partial(plots.pressures, state))

@@ -24,8 +24,8 @@ from .plots.style import COLOURS, CONTACT, DASHES, GREY, curve, finish
 from .pool import DONE, FAILED
 from .report import end, write_run_page
 from .result import Result, Values
-from .sweeps import Sweep, load_sweeps, plotted_axis
-from .tables import groups_of, number, spread_of, text_of, theory_numbers
+from .sweeps import Sweep, load_sweeps
+from .tables import Table, text_of
 from .words import KeyNumber
 
 MOST_POINTS = 24
@@ -58,7 +58,7 @@ class _Points:
         self.thumbs: list[dict[str, str]] = []
         self.runs: list[tuple[str, Result]] = []
         self.origin = ""
-        for number, (_, places) in enumerate(groups_of(sweep.axes, sweep.points)):
+        for number, (_, places) in enumerate(sweep.table.groups):
             self.links.append("")
             done = [p for i in places if (p := sweep.points[i]).get("status") == DONE and p.get("directory")]
             if done and number < MOST_POINTS:
@@ -111,15 +111,11 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
     return True
 
 
-def _half_way(sweep: Sweep, points: list[dict], column: str) -> float | None:
-    """Where a quantity has fallen to half, between the points; seeds averaged."""
-    def value(point: dict) -> float:
-        if column.startswith("theory."):
-            return number(theory_numbers(point).get(column[7:]))
-        return number(point.get("result", {}).get(column))
-    curve_ = sorted((number(values["surface.rms"]), s.mean) for values, places in groups_of(sweep.axes, points)
-                    if (s := spread_of([value(points[i]) for i in places])).count)
-    for (x0, y0), (x1, y1) in zip(curve_, curve_[1:]):
+def _half_way(table: Table, column: str) -> float | None:
+    """The roughness at which a quantity has fallen to half, between the points; seeds averaged."""
+    means = table.average(table.values(column)).mean
+    points = sorted((x, y) for x, y in zip(table.at("surface.rms"), means) if np.isfinite(y))
+    for (x0, y0), (x1, y1) in zip(points, points[1:]):
         if y0 >= 0.5 > y1:
             return x0 + (x1 - x0) * (y0 - 0.5) / (y0 - y1)
     return None
@@ -127,18 +123,19 @@ def _half_way(sweep: Sweep, points: list[dict], column: str) -> float | None:
 
 def _key_numbers(sweep: Sweep) -> list[KeyNumber]:
     """What a sweep over roughness alone comes to."""
-    if [k for k in sweep.axes if not is_seed(k)] != ["surface.rms"] or not plotted_axis(sweep.axes, sweep.points):
+    table, curves = sweep.table, sweep.curves
+    if [k for k in sweep.axes if not is_seed(k)] != ["surface.rms"] or not table.along:
         return []
     wanted = [("rms where the binding energy is half of Δγ", "binding_energy_ratio", "gamma_eff_ratio"),
               ("rms where half of the area is in contact", "contact_fraction", "contact_fraction")]
-    if any("contact_radius.zero_load" in p.get("result", {}) for p in sweep.points):
+    if "contact_radius.zero_load" in table:
         wanted = [("rms where γ by JKR, way out, is half of Δγ", "jkr.out_ratio", "gamma_eff_ratio")]
     found = []
     for name, simulated, theory in wanted:
-        measured = _half_way(sweep, sweep.points, simulated)
+        measured = _half_way(table, simulated) if sweep.simulated else None
         lines = {"theory": theory, "renormalised": "renormalised." + theory}
         expected = {words: x for words, column in lines.items()
-                    if (x := _half_way(sweep, sweep.theory or sweep.points, "theory." + column)) is not None}
+                    if (x := _half_way(curves, "theory." + column)) is not None}
         if measured is not None:
             found.append(KeyNumber(f"{measured:.2f}", "Å", name, ", ".join(f"{w}: {x:.2f} Å" for w, x in expected.items())))
         elif expected:
@@ -169,7 +166,7 @@ def _notices(page: Page, sweep: Sweep) -> None:
 
 
 def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
-    heads, rows, meaning = text_of(sweep)
+    heads, rows, meaning = text_of(sweep.table)
     stride = max(1, (len(rows) + 39) // 40)
     page.section("points-" + file_name(sweep.name), f"The points of {sweep.name}" if several else "All points")
     page.add("table", {"heads": heads, "rows": [Row([minus(c) for c in row], link)

@@ -166,8 +166,6 @@ class RunFile:
                 if self._whole is None and "asperity_digest" in file.attrs:
                     raise ValueError("the digest at its end is missing")
                 return action(file)
-        except InputOutputError:
-            raise
         except Exception as error:  # h5py raises OSError, KeyError, RuntimeError, ValueError, TypeError
             why = str(error).splitlines()[0] if str(error) else type(error).__name__
             if not h5py.is_hdf5(self.path):
@@ -204,21 +202,44 @@ class RunFile:
         return self._read(value)
 
 
-class Series(Mapping):
-    """The path of a run: columns by name, numpy arrays of equal length. `unit(name)`, `frame()`."""
+class Group(Mapping):
+    """Arrays of a group of run.h5 by name, also as attributes, read when they are asked for.
 
-    def __init__(self, file: RunFile):
-        self._file = file
-        self._names = file.members("/series")
+    Maps are square, [y, x]; what stands in `lists` has one dimension and is reached by other members.
+    """
 
-    @functools.cached_property
-    def _columns(self) -> dict[str, np.ndarray]:
-        columns = {name: self._file.array(f"/series/{name}", 1).astype(float) for name in self._names}
-        rows = min((len(c) for c in columns.values()), default=0)
-        return {name: column[:rows] for name, column in columns.items()}
+    lists: tuple[str, ...] = ()
+
+    def __init__(self, file: RunFile, path: str):
+        self._file, self._path = file, path
+        self._all = file.members(path)
+        self._names = [name for name in self._all if name not in self.lists]
+        self._read: dict[str, np.ndarray] = {}
+
+    def _array(self, name: str) -> np.ndarray:
+        values = self._file.array(f"{self._path}/{name}", 2)
+        if values.shape[0] != values.shape[1] or not values.size:
+            raise InputOutputError(str(self._file.path), f"{self._path}/{name} is no square map",
+                                   f"its shape is {values.shape}", "was the file written by another program?")
+        return values
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return self._columns[name]
+        if name not in self._names:
+            raise KeyError(name)
+        if name not in self._read:
+            self._read[name] = self._array(name)
+        return self._read[name]
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"{self._path} has no {name!r}; it has {', '.join(self)}") from None
+
+    def __contains__(self, name: object) -> bool:  # without reading it
+        return name in self._names
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -227,114 +248,64 @@ class Series(Mapping):
         return len(self._names)
 
     def unit(self, name: str) -> str:
-        """The unit of a column; "" of a pure number."""
-        return str(self._file.attribute(f"/series/{name}", "unit") or "")
+        """The unit of an array; "" of pure numbers."""
+        return str(self._file.attribute(f"{self._path}/{name}", "unit") or "")
+
+    def _lists(self, *names: str) -> list[np.ndarray] | None:
+        """Arrays of one dimension, if all are there."""
+        return [self._file.array(f"{self._path}/{n}", 1) for n in names] if set(names) <= set(self._all) else None
+
+
+class Series(Group):
+    """The path of a run: columns of equal length."""
+
+    def __init__(self, file: RunFile):
+        super().__init__(file, "/series")
+        columns = {name: file.array(f"/series/{name}", 1).astype(float) for name in self._names}
+        rows = min((len(c) for c in columns.values()), default=0)
+        self._read = {name: column[:rows] for name, column in columns.items()}
 
     def frame(self):
         """The columns as a pandas DataFrame."""
         import pandas
 
-        return pandas.DataFrame(dict(self))
+        return pandas.DataFrame(self._read)
 
 
-class State:
-    """The maps of one state as attributes: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact.
+class State(Group):
+    """The maps of one state: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact."""
 
-    Each is an array [y, x], read when it is asked for. `maps` are the names of those that are there.
-    """
+    lists = ("gap_edges", "gap_density")
 
     def __init__(self, file: RunFile, name: str):
+        super().__init__(file, f"/fields/{name}")
         self.name = name
-        self._file = file
-        self._group = f"/fields/{name}"
-        self._names = file.members(self._group)
-        self._maps: dict[str, np.ndarray] = {}
-
-    @property
-    def maps(self) -> list[str]:
-        return [n for n in self._names if n not in ("gap_edges", "gap_density")]
 
     @functools.cached_property
     def reference_height(self) -> float:
         """z of undisplaced sites, Å."""
-        value = self._file.attribute(self._group, "reference_height")
+        value = self._file.attribute(self._path, "reference_height")
         return float(value) if isinstance(value, (float, int, np.number)) else 0.0
 
-    @functools.cached_property
-    def gap_distribution(self) -> tuple[np.ndarray, np.ndarray] | None:
+    @property
+    def gap_distribution(self) -> list[np.ndarray] | None:
         """P(u): edges of the bins (Å) and density (1/Å)."""
-        if not {"gap_edges", "gap_density"} <= set(self._names):
-            return None
-        edges, density = (self._file.array(f"{self._group}/{n}", 1) for n in ("gap_edges", "gap_density"))
-        return (edges, density) if len(edges) == len(density) + 1 else None
-
-    def unit(self, name: str) -> str:
-        return str(self._file.attribute(f"{self._group}/{name}", "unit") or "")
-
-    def __contains__(self, name: str) -> bool:
-        return name in self._names
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self._names:
-            raise KeyError(name)
-        if name not in self._maps:
-            values = self._file.array(f"{self._group}/{name}", 2)
-            if values.shape[0] != values.shape[1] or not values.size:
-                raise InputOutputError(str(self._file.path), f"{self._group}/{name} is no square map",
-                                       f"its shape is {values.shape}", "was the file written by another program?")
-            self._maps[name] = values
-        return self._maps[name]
-
-    def __getattr__(self, name: str) -> np.ndarray:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            return self[name]
-        except KeyError:
-            raise AttributeError(f"state {self.name!r} has no map {name!r}; it has {', '.join(self.maps)}") from None
+        found = self._lists(*self.lists)
+        return found if found and len(found[0]) == len(found[1]) + 1 else None
 
 
-class Fields(Mapping):
-    """The states whose maps were written, by name: "zero-load", "pull-off", "step-1000", ..."""
-
-    def __init__(self, file: RunFile):
-        self._states = {name: State(file, name) for name in file.members("/fields")}
-
-    def __getitem__(self, name: str) -> State:
-        return self._states[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._states)
-
-    def __len__(self) -> int:
-        return len(self._states)
-
-
-class Substrate:
+class Substrate(Group):
     """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4)."""
 
+    lists = ("spectrum_q", "spectrum", "spectrum_target")
+
     def __init__(self, file: RunFile):
-        self._file = file
-        self._names = file.members("/substrate")
+        super().__init__(file, "/substrate")
 
-    def __bool__(self) -> bool:
-        return "height" in self._names
-
-    @functools.cached_property
-    def height(self) -> np.ndarray:
-        values = self._file.array("/substrate/height", 2).astype(float)
-        if values.shape[0] != values.shape[1] or not values.size:
-            raise InputOutputError(str(self._file.path), "/substrate/height is no square map",
-                                   f"its shape is {values.shape}", "was the file written by another program?")
-        return values
-
-    @functools.cached_property
-    def spectrum(self) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-        names = ("spectrum_q", "spectrum", "spectrum_target")
-        if not set(names) <= set(self._names):
-            return None
-        q, realised, target = (self._file.array(f"/substrate/{n}", 1) for n in names)
-        return (q, realised, target) if len(q) == len(realised) == len(target) else None
+    @property
+    def spectrum(self) -> list[np.ndarray] | None:
+        found = self._lists(*self.lists)
+        return found if found and len({len(c) for c in found}) == 1 else None
 
 
 class Result(Values):
@@ -353,15 +324,16 @@ class Result(Values):
         expect(self.directory, "result.json")
         super().__init__(read_json(self.directory / "result.json"))
         self.notes: list[str] = []
-        file = self.file = RunFile(self.directory / "run.h5")
         try:
-            self.series, self.fields, self.substrate = Series(file), Fields(file), Substrate(file)
-            dict(self.series)
+            self._open("run.h5")
         except InputOutputError as error:
             self.notes.append(f"run.h5 cannot be read to its end ({str(error).split('why: ')[-1].splitlines()[0]}).")
-            self.file = RunFile(self.directory / "no run.h5")
-            self.series, self.fields = Series(self.file), Fields(self.file)
-            self.substrate = Substrate(self.file)
+            self._open("no run.h5")
+
+    def _open(self, name: str) -> None:
+        file = self.file = RunFile(self.directory / name)
+        self.series, self.substrate = Series(file), Substrate(file)
+        self.fields = {state: State(file, state) for state in file.members("/fields")}
 
     @property
     def units(self) -> Values:

@@ -10,26 +10,27 @@ a sweep that was stopped, and adds points to those that are there. A Sweep is wh
 from __future__ import annotations
 
 import contextlib
+import functools
 import math
 import os
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from . import program
+import h5py
+import numpy as np
+
+from . import files, program, terminal
 from .errors import Error, InputOutputError, SceneError
 from .grid import Axis, axes_of, is_seed, points_of, shown
 from .pool import DONE, FAILED, STOPPED, Job, Outcome, Pool, PoolOptions, look_at
 from .result import Result, Values, read_json
 from .scene import SceneLike, assignments, scene_file
-from .tables import RENAMED, Table, print_table, write_tables
+from .tables import Columns, Table, columns_of, text_of
 
-OVER_FLAT = ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off", "work_of_adhesion.pairwise",
-             "jkr.in", "jkr.out", "jkr.in_averaged", "jkr.out_averaged", "sphere.maugis_images",
-             "states.first.binding_energy", "states.deepest.binding_energy")
-"""Energies of a result that also have a column of their ratio to the flat reference."""
+TABLES = "sweep.csv, sweep.json, sweep.h5"
 
 
 @dataclass
@@ -51,10 +52,15 @@ class Sweep:
     @property
     def table(self) -> Table:
         """Its columns by name as numpy arrays, one value a point; table.units, table.frame()."""
-        return Table.of_points(self.axes, self.points, self.simulated)
+        return Table(self.axes, self.points, self.simulated)
 
     @property
-    def means(self) -> Table:
+    def curves(self) -> Table:
+        """The same of the theory's curves; of the points where there are none."""
+        return Table(self.axes, self.theory, False) if self.theory else self.table
+
+    @property
+    def means(self) -> Columns:
         """The same with the seeds averaged: mean, .deviation and .count of every column."""
         return self.table.means()
 
@@ -75,10 +81,72 @@ class Sweep:
 
         return write_sweep_page(self.directory).path
 
+    def json(self, table: Table) -> dict[str, Any]:
+        """sweep.json: everything the report and the plots of a sweep are made from."""
+        # In a fixed order, whatever was filled in when.
+        order = ("set", "delta_gamma", "theory", "directory", "status", "failure", "result")
+        found: dict[str, Any] = {"name": self.name, "scene": self.scene, "axes": self.axes,
+                                 "points": [{n: p[n] for n in order if n in p} for p in self.points]}
+        if self.theory:
+            found["theory"] = self.theory
+        if self.simulated:
+            found["means"] = means = [{"set": values} for values, _ in table.groups]
+            for name, average in table.averages().items():
+                for line, mean, deviation, count in zip(means, *map(np.ndarray.tolist, average)):
+                    if count:
+                        line[name] = {"mean": mean, **({"deviation": deviation} if count > 1 else {}), "count": count}
+        if self.notes:
+            found["notes"] = self.notes
+        return {**found, "run": {**self.run, **_build()}}
+
+    def write(self) -> None:
+        """The tables as they are at this moment. sweep.json is written last."""
+        place, table = files.directory(self.directory), self.table
+        means = table.means()
+
+        def csv(columns: Mapping, last: str, words: list[str]) -> str:
+            return files.csv_text([[*columns, last], *(
+                [*(shown(column[row]) if name in self.axes else column[row] for name, column in columns.items()), word]
+                for row, word in enumerate(words))])
+
+        files.write(place / "sweep.csv", csv(table, "status", table.status))
+        if self.simulated and any(is_seed(key) for key in self.axes):
+            done = [str(sum(table.status[i] == DONE for i in rows)) for _, rows in table.groups]
+            files.write(place / "sweep-mean.csv", csv({n: c for n, c in means.items() if not n.endswith(".count")},
+                                                      "points", done))
+        with files.replacing(place / "sweep.h5") as beside, h5py.File(beside, "w") as file:
+            for group, columns in (("points", table), ("means", means)):
+                made, units = file.create_group(group), columns.units
+                for name, values in columns.items():
+                    if isinstance(values, list):
+                        made.attrs[name] = np.array(values, dtype=h5py.string_dtype())
+                    else:
+                        made.create_dataset(name, data=np.asarray(values, float)).attrs["unit"] = units[name]
+        files.write(place / "sweep.json", files.sealed_json(self.json(table)))
+
+    def print_table(self) -> None:
+        """The table on the terminal: twenty lines show as much as a hundred; the files have them all."""
+        heads, rows, meaning = text_of(self.table)
+        stride = max(1, (len(rows) + 19) // 25)
+        if meaning:
+            print(f"{self.name}: {meaning}")
+        print(terminal.table(heads, [r for i, r in enumerate(rows) if i % stride == 0 or i + 1 == len(rows)],
+                             left=(0, len(heads) - 1)))
+        if stride > 1:
+            print(f"  (every {stride}th of {len(rows)} lines; all are in the files)")
+
     def __repr__(self) -> str:
         done = sum(p.get("status") == DONE for p in self.points)
         return f"<Sweep {self.name}: {len(self.points)} points over {', '.join(self.axes)}" + (
             f", {done} done>" if self.simulated else ">")
+
+
+@functools.lru_cache(maxsize=None)
+def _build() -> dict[str, str]:
+    """Version, git, compiler and flags of the program."""
+    lines = (line.split(None, 1) for line in program.call(["info"]).splitlines()[1:])
+    found = {line[0]: line[1].strip() for line in lines if len(line) == 2}
+    return {name: found[name] for name in ("version", "git", "compiler", "flags") if name in found}
 
 
 def load_sweep(directory: str | os.PathLike) -> Sweep:
@@ -116,39 +184,7 @@ def load_sweeps(directory: Path) -> list[Sweep]:
     return [load_sweep(p.parent) for p in sorted(directory.glob("*/sweep.json"))]
 
 
-def columns_of(result: Values) -> dict[str, float]:
-    """The numbers of a result.json that a table holds, by column."""
-    flat = result.number("delta_gamma")
-    found: dict[str, float] = {}
-    if isinstance(states := result.find("states.all"), list):
-        found["states.count"] = len(states)
-    for path, value in result.numbers().items():
-        if path.split(".")[0] in ("scene", "units", "failure", "theory") or not math.isfinite(value):
-            continue
-        if path.startswith("run.") and path != "run.wall_seconds":
-            continue
-        found[RENAMED.get(path, path)] = value
-        if path in OVER_FLAT and flat:
-            found[path + "_ratio"] = value / flat
-    return found
-
-
-@dataclass
-class _Plan:
-    """A scene and its points, read and checked."""
-
-    file: str
-    base: dict[str, Any]
-    axes: list[Axis]
-    fixed: list[str]
-    grid: list[list[str]]
-    points: list[dict[str, Any]]
-    note: str = ""
-
-    @property
-    def places(self) -> dict[str, str]:
-        return {axis.key: axis.where for axis in self.axes if axis.where}
-
+# From scenes to sweeps.
 
 def _default_axis(file: str, fixed: list[str]) -> Axis:
     """Without a --set of several values: 100 roughnesses to a good way past the end of adhesion."""
@@ -160,12 +196,13 @@ def _default_axis(file: str, fixed: list[str]) -> Axis:
     return Axis("surface.rms", [f"{i * step:.12g}" for i in range(1, 101)], "surface.rms")
 
 
-def _plan(file: str, given: list[str], theory_only: bool) -> _Plan:
-    axes, fixed = axes_of(given, program.check(file)["sweep"])
+def _axes(file: str, sets: list[str], of_scene: list[dict[str, str]], theory_only: bool,
+          say: Callable[[str], None]) -> tuple[list[Axis], list[str], dict]:
+    """The axes, the overrides of every point, and the scene as the program reads it with these."""
+    axes, fixed = axes_of(sets, of_scene)
     base = program.check(file, fixed)
     if theory_only and not base["theory_needs_surface"]:
         axes = [axis for axis in axes if not axis.is_seed]  # the theory of a target spectrum knows no seeds
-    note = ""
     if not axes:
         nothing = "there is nothing to sweep"
         if not theory_only:
@@ -178,13 +215,9 @@ def _plan(file: str, given: list[str], theory_only: bool) -> _Plan:
             raise SceneError("asperity sweep", nothing, "no --set gives several values",
                              "for example --set surface.rms=1,2,3 or surface.rms=0.1:10:0.1")
         axes = [_default_axis(file, fixed)]
-        note = (f"no --set gives several values: sweeping surface.rms from {axes[0].values[0]} to "
-                f"{axes[0].values[-1]} Å")
-    grid = points_of(axes)
-    plan = _Plan(file, base, axes, fixed, grid, [], note)
-    plan.points = program.theory_points(file, [fixed + point for point in grid], runnable=not theory_only)
-    program.complaints(plan.points, plan.places)
-    return plan
+        say(f"note: no --set gives several values: sweeping surface.rms from {axes[0].values[0]} to "
+            f"{axes[0].values[-1]} Å")
+    return axes, fixed, base
 
 
 def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
@@ -194,33 +227,21 @@ def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
             "delta_gamma": point.get("delta_gamma"), "theory": point["theory"]}
 
 
-def plotted_axis(axes: Sequence[str], points: list[dict[str, Any]]) -> str | None:
-    """The key along x: of those with numbers the one with the most values."""
-    best, most = None, 0
-    for key in axes:
-        values = [p["set"].get(key) for p in points]
-        numbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
-        if numbers and not is_seed(key) and len(set(values)) > most:
-            best, most = key, len(set(values))
-    return best
-
-
-def _theory_curves(plan: _Plan, points: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """The theory between the points: the same axes, one seed, and 61 values along x."""
-    x = plotted_axis([a.key for a in plan.axes], points)
+    x = Table([a.key for a in axes], points, False).along
     if x is None:
         return []
-    axes = []
-    for axis in plan.axes:
+    finer = []
+    for axis in axes:
         values = axis.values[:1] if axis.is_seed else axis.values
         if axis.key == x and program.schema()[x]["kind"] == "number":
-            numbers = [p["set"][x] for p in points]
-            low, high = min(numbers), max(numbers)
+            low, high = (pick(p["set"][x] for p in points) for pick in (min, max))
             values = [f"{low + (high - low) * i / 60:.12g}" for i in range(61)]
-        axes.append(Axis(axis.key, values))
-    found = program.theory_points(plan.file, [plan.fixed + point for point in points_of(axes)])
+        finer.append(Axis(axis.key, values))
+    found = program.theory_points(file, [fixed + point for point in points_of(finer)])
     program.complaints(found)
-    return [_point(axes, point) for point in found]
+    return [_point(finer, point) for point in found]
 
 
 def _point_name(point: dict[str, Any]) -> str:
@@ -231,163 +252,124 @@ def _point_name(point: dict[str, Any]) -> str:
     return ",".join(parts).replace("/", "_").replace(" ", "_")
 
 
-def _fill_in(sweep: Sweep, outcomes: list[Outcome]) -> None:
-    for point, outcome in zip(sweep.points, outcomes):
-        point["status"] = outcome.status
-        point.pop("failure", None)
-        if outcome.exit_code:
-            point["failure"] = {"exit_code": outcome.exit_code, "reason": outcome.reason}
-        point["result"] = columns_of(outcome.result)
+def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, prefix: str, theory_only: bool,
+             say: Callable[[str], None]) -> tuple[Sweep, list[Job]]:
+    """A scene's points, read and checked, and the runs that they need. prefix: of their names."""
+    axes, fixed, base = _axes(file, sets, found["sweep"], theory_only, say)
+    overrides = [fixed + point for point in points_of(axes)]
+    answers = program.theory_points(file, overrides, runnable=not theory_only)
+    program.complaints(answers, {axis.key: axis.where for axis in axes if axis.where})
+    notes = list(dict.fromkeys(note for answer in answers for note in answer["notes"]))
+    sweep = Sweep(base["name"], base["scene"], [a.key for a in axes], [_point(axes, a) for a in answers], notes=notes,
+                  simulated=not theory_only, directory=place)
+    jobs: dict[str, Job] = {}
+    if theory_only:
+        return sweep, []
+    for point, given, answer in zip(sweep.points, overrides, answers):
+        point["directory"] = name = _point_name(point)
+        if name in jobs:
+            raise SceneError("asperity sweep", f"two points are the same: {name}",
+                             "every point has a directory of its own", "give every value once")
+        jobs[name] = Job(prefix + name, place / name, file, given, answer["scene"])
+    sweep.theory = _theory_curves(file, axes, fixed, sweep.points)
+    return sweep, list(jobs.values())
 
 
-@dataclass
-class SweepOptions:
-    scenes: list[str]
-    sets: list[str] = field(default_factory=list)
-    out: str = ""
-    theory_only: bool = False
-    pool: PoolOptions = field(default_factory=PoolOptions)
+# Carrying them out.
 
-
-def _free_directory(asked: str, name: str) -> tuple[Path, str]:
-    """Where a sweep of the theory goes, and a note if that is not the expected place."""
+def _directory(asked: str, name: str, theory_only: bool, say: Callable[[str], None]) -> Path:
+    """Where the sweep goes. Of the theory alone, nothing is resumed: a directory of its own."""
+    place = Path(asked or f"results/{name}{'-theory' * theory_only}-sweep")
+    if place.exists() and not place.is_dir():
+        raise SceneError(f"--out {place}", "is not a directory", "a file of that name is there", "name another directory")
+    if not theory_only or not (place / "sweep.json").exists():
+        return place
     if asked:
-        place = Path(asked)
-        if place.exists() and not place.is_dir():
-            raise SceneError(f"--out {asked}", "is not a directory", "a file of that name is there",
-                             "name another directory")
-        if (place / "sweep.json").exists():
-            raise SceneError(f"--out {asked}", "already holds a sweep", "results are not written over",
-                             "name another directory, or remove this one")
-        return place, ""
-    first = place = Path("results") / f"{name}-theory-sweep"
-    number = 2
+        raise SceneError(f"--out {asked}", "already holds a sweep", "results are not written over",
+                         "name another directory, or remove this one")
+    first, number = place, 2
     while (place / "sweep.json").exists():
         place, number = first.with_name(f"{first.name}-{number}"), number + 1
-    return place, "" if place == first else f"{first} already holds a sweep; this one goes to {place}"
+    say(f"note: {first} already holds a sweep; this one goes to {place}")
+    return place
 
 
-def _prepare(options: SweepOptions) -> tuple[list[_Plan], list[Sweep], Path, str]:
-    """Plans and tables of all scenes, the directory, and a note about it."""
-    plans: list[_Plan] = []
-    sweeps: list[Sweep] = []
-    for file in options.scenes:
-        plan = _plan(file, options.sets, options.theory_only)
-        name = plan.base["name"]
-        if any(s.name == name for s in sweeps):
-            raise SceneError(file, "has the name of another scene of the sweep",
-                             "the points of a scene go to a folder of its name", "rename one of the files")
-        notes = list(dict.fromkeys(note for point in plan.points for note in point["notes"]))
-        sweeps.append(Sweep(name, plan.base["scene"], [a.key for a in plan.axes],
-                            [_point(plan.axes, p) for p in plan.points], notes=notes,
-                            simulated=not options.theory_only))
-        plans.append(plan)
-    name, note = "+".join(s.name for s in sweeps), ""
-    if options.theory_only:
-        place, note = _free_directory(options.out, name)
-    else:
-        place = Path(options.out or f"results/{name}-sweep")
-    for sweep in sweeps:
-        sweep.directory = place / sweep.name if len(sweeps) > 1 else place
-    return plans, sweeps, place, note
+class _Carried:
+    """The sweeps of some scenes, carried out. complete: every point was run."""
+
+    def __init__(self, scenes: list[str], sets: list[str], out: str, theory_only: bool, options: PoolOptions,
+                 say: Callable[[str], None]):
+        found = {file: program.check(file) for file in scenes}
+        names = [found[file]["name"] for file in scenes]
+        for i, file in enumerate(scenes):
+            if names[i] in names[:i]:
+                raise SceneError(file, "has the name of another scene of the sweep",
+                                 "the points of a scene go to a folder of its name", "rename one of the files")
+        several = len(scenes) > 1
+        self.place = _directory(out, "+".join(names), theory_only, say)
+        self.start, self.written = time.monotonic(), 0.0
+        with files.in_use(self.place):
+            prepared = [_prepare(file, found[file], sets, self.place / name if several else self.place,
+                                 f"{name}/" * several, theory_only, say) for file, name in zip(scenes, names)]
+            self.sweeps = [sweep for sweep, _ in prepared]
+            self.jobs = [job for _, jobs in prepared for job in jobs]
+            self.outcomes = [look_at(job) for job in self.jobs]
+            self.complete = True
+            if self.jobs:
+                there, failed = (sum(o.status == s for o in self.outcomes) for s in (DONE, FAILED))
+                say(f"{len(self.jobs)} points in {self.place}" + (f"; {there} are there already" if there else "")
+                    + (f"; {failed} failed before, and are left alone" if failed else ""))
+                self.complete = Pool(self.jobs, self.outcomes, options).run(self._write_sometimes)
+            self._write()
+
+    def _write_sometimes(self, _: int) -> None:
+        if time.monotonic() - self.written >= 1.0:  # else points are short; all are written at the end
+            self._write()
+
+    def _write(self) -> None:
+        """The tables with what there is."""
+        self.written = time.monotonic()
+        outcomes = iter(self.outcomes)
+        for sweep in self.sweeps:
+            for point, outcome in zip(sweep.points, outcomes) if sweep.simulated else ():
+                point["status"] = outcome.status
+                point.pop("failure", None)
+                if outcome.exit_code:
+                    point["failure"] = {"exit_code": outcome.exit_code, "reason": outcome.reason}
+                point["result"] = columns_of(outcome.result)
+            sweep.run["wall_seconds"] = time.monotonic() - self.start
+            sweep.write()
 
 
-def _jobs(plans: list[_Plan], sweeps: list[Sweep]) -> list[Job]:
-    jobs: list[Job] = []
-    for plan, sweep in zip(plans, sweeps):
-        for point, overrides, found in zip(sweep.points, plan.grid, plan.points):
-            point["directory"] = name = _point_name(point)
-            place = sweep.directory / name
-            if any(job.directory == place for job in jobs):
-                raise SceneError("asperity sweep", f"two points are the same: {name}",
-                                 "every point has a directory of its own", "give every value once")
-            jobs.append(Job(f"{sweep.name}/{name}" if len(sweeps) > 1 else name, place, plan.file,
-                            plan.fixed + overrides, found["scene"]))
-    return jobs
-
-
-@dataclass
-class _Done:
-    """What became of the points. complete: all of them were run."""
-
-    place: Path
-    sweeps: list[Sweep]
-    jobs: list[Job] = field(default_factory=list)
-    outcomes: list[Outcome] = field(default_factory=list)
-    complete: bool = True
-
-
-def carry_out(options: SweepOptions, say: Callable[[str], None]) -> _Done:
-    """Runs what is missing and keeps the tables up to date; the theory alone needs no runs."""
-    start = time.monotonic()
-    plans, sweeps, place, moved = _prepare(options)
-    for note in [*(plan.note for plan in plans), moved]:
-        if note:
-            say(f"note: {note}")
-    done = _Done(place, sweeps)
-    written = 0.0
-
-    def tables(_: int = -1) -> None:
-        nonlocal written
-        if _ >= 0 and time.monotonic() - written < 1.0:
-            return  # short points; the last call comes at the end
-        written = time.monotonic()
-        first = 0
-        for sweep in sweeps:
-            if sweep.simulated:
-                _fill_in(sweep, done.outcomes[first:first + len(sweep.points)])
-                first += len(sweep.points)
-            sweep.run["wall_seconds"] = time.monotonic() - start
-            write_tables(sweep)
-
-    if not options.theory_only:
-        done.jobs = _jobs(plans, sweeps)
-        for plan, sweep in zip(plans, sweeps):
-            sweep.theory = _theory_curves(plan, sweep.points)
-        done.outcomes = [look_at(job) for job in done.jobs]
-        there, failed = (sum(o.status == s for o in done.outcomes) for s in (DONE, FAILED))
-        say(f"{len(done.jobs)} points in {place}" + (f"; {there} are there already" if there else "")
-            + (f"; {failed} failed before, and are left alone" if failed else ""))
-        done.complete = Pool(done.jobs, done.outcomes, options.pool).run(tables)
-    tables()
-    return done
-
-
-def sweep_command(options: SweepOptions) -> int:
+def sweep_command(scenes: list[str], sets: list[str], out: str, theory_only: bool, options: PoolOptions) -> int:
     """`asperity sweep`: its exit code, 75 if stopped before the end, else that of the first failure."""
     from .plots.sweep import write_plots
 
-    if not options.theory_only and "OMPI_COMM_WORLD_SIZE" in os.environ:
+    if not theory_only and "OMPI_COMM_WORLD_SIZE" in os.environ:
         raise SceneError("asperity sweep", "a sweep of simulations is not started under mpirun",
                          "it starts its points itself, each as a run of its own",
                          'asperity sweep SCENE --launch "mpirun -n 2" gives every point two ranks')
-
-    def say(text: str) -> None:
-        print(text, flush=True)
-
-    done = carry_out(options, say)
+    done = _Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True))
     plots, note = write_plots(done.place, done.sweeps)
     for sweep in done.sweeps:
-        say("")
-        print_table(sweep)
+        print()
+        sweep.print_table()
         for said in sweep.notes:
-            say(f"note: {said}")
+            print(f"note: {said}")
     if note:
-        say(f"note: {note}")
-    code = 0
-    for job, outcome in zip(done.jobs, done.outcomes):
-        if outcome.status == FAILED:
-            say(f"failed: {job.name} (exit {outcome.exit_code}): {outcome.reason}")
-            code = code or outcome.exit_code
-    if options.theory_only:
-        say(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
+        print(f"note: {note}")
+    failed = [(job, outcome) for job, outcome in zip(done.jobs, done.outcomes) if outcome.status == FAILED]
+    for job, outcome in failed:
+        print(f"failed: {job.name} (exit {outcome.exit_code}): {outcome.reason}")
+    if theory_only:
+        print(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
     else:
-        say(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
-    say("tables: sweep.csv, sweep.json, sweep.h5; plots:" + "".join(f" {p.name}" for p in plots))
+        print(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
+    print(f"tables: {TABLES}; plots:" + "".join(f" {p.name}" for p in plots))
     if not done.complete:
-        say("Stopped early: the same command goes on from here.")
+        print("Stopped early: the same command goes on from here.")
         return STOPPED
-    return code
+    return next((outcome.exit_code for _, outcome in failed), 0)
 
 
 def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | os.PathLike | None = None,
@@ -403,6 +385,5 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
              if not isinstance(value, (int, float)) else f"{key}={shown(value)}"
              for key, value in (values or {}).items()]
     with scene_file(scene) as file:
-        options = SweepOptions([file], assignments(given), str(out or ""), theory_only,
-                               PoolOptions(jobs=jobs, progress="off"))
-        return carry_out(options, lambda text: None).sweeps[0]
+        return _Carried([file], assignments(given), str(out or ""), theory_only, PoolOptions(jobs=jobs, progress="off"),
+                        lambda text: None).sweeps[0]

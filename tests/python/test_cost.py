@@ -9,6 +9,7 @@ import signal
 import subprocess
 import time
 
+import numpy as np
 import pytest
 
 import asperity
@@ -30,18 +31,19 @@ def test_energies_are_compared_over_their_own_flat():
 
 
 def test_what_was_not_followed_answers_nothing():
-    reference = [0.5, 0.9, 0.5, 0.5, 100.0]
-    state_only = [0.51, 0.9, NAN, NAN, NAN]
+    reference = np.array([0.5, 0.9, 0.5, 0.5, 100.0])
+    state_only = np.array([0.51, 0.9, NAN, NAN, NAN])
     assert cost.largest_error(state_only, reference, "state") == pytest.approx(0.02)
     assert math.isnan(cost.largest_error(state_only, reference, "path"))
     assert math.isnan(cost.largest_error(state_only, state_only, "path"))
     # What the reference itself lacks is not asked for.
-    assert cost.largest_error([0.5, 0.9, 0.45, NAN, NAN], [0.5, 0.9, 0.5, NAN, NAN], "path") == pytest.approx(0.1)
+    assert cost.largest_error(np.array([0.5, 0.9, 0.45, NAN, NAN]), np.array([0.5, 0.9, 0.5, NAN, NAN]),
+                              "path") == pytest.approx(0.1)
 
 
 def test_the_front_holds_what_nothing_beats_in_both():
     seconds, errors = [1, 2, 3, 4, 2, 5, 1], [0.5, 0.2, 0.2, 0.1, 0.3, NAN, 0.5]
-    assert cost.pareto_front(seconds, errors) == [True, True, False, True, False, False, True]
+    assert list(cost.pareto_front(seconds, errors)) == [True, True, False, True, False, False, True]
     assert [cost.cheapest_within(seconds, errors, t) for t in (0.25, 0.6, 0.01)] == [1, 0, None]
 
 
@@ -86,7 +88,7 @@ def test_tables_judge_what_was_run():
     def add(name, x, error, seconds):
         setting = [f"drive.timestep={x}"]
         made.rows.append(cost.CostRow(name, str(x), setting, setting, x, name != "reference",
-                                      numbers=[1 + error, 1.0, NAN, NAN, NAN], seconds=seconds))
+                                      numbers=np.array([1 + error, 1.0, NAN, NAN, NAN]), seconds=seconds))
     add("reference", 0, 0.0, 9.0)
     add("scene", 2, 4e-3, 4.0)
     for x in (4, 3, 2, 1):

@@ -106,18 +106,26 @@ def test_files_hold_the_curves(path_run, tmp_path):
     leg = path_run.series["leg"]
     approach = table[:, 1][np.isfinite(table[:, 1])]
     assert approach == pytest.approx(path_run.series["force"][leg == 0] / path_run.edge**2 / units.GIGAPASCAL, rel=1e-8)
-    assert text.startswith('"mean separation (Å)","approach: mean stress F/A_0 (GPa)"')
+    assert text.startswith("mean separation (Å),approach: mean stress F/A_0 (GPa)")
     fig = files.make(lambda ax: run_plots.map_of(path_run, path_run.fields["zero-load"], "gap", ax))
     assert np.genfromtxt(io.StringIO(files.csv(fig)), delimiter=",").shape == (32, 32)
 
 
 def test_points_carry_their_uncertainty():
-    from asperity.plots.sweep import SIMULATED, _bar
+    from asperity.plots.sweep import SIMULATED
+    from asperity.tables import Table
 
     approach = SIMULATED["gamma"][2][0]
-    point = {"result": {"work_of_adhesion.approach": 50.0, "work_of_adhesion.approach_ratio": 0.5,
-                        "work_of_adhesion.uncertainty.approach": 3.0}}
-    assert approach.error(point) == pytest.approx(0.03)
-    assert _bar(approach, [point], float("nan")) == pytest.approx(0.03)
-    assert _bar(approach, [point, point], 0.04) == pytest.approx(0.05)
-    assert _bar(approach, [{"result": {"work_of_adhesion.approach_ratio": 0.5}}], 0.04) == pytest.approx(0.04)
+
+    def average(*results):
+        return approach.average(Table(["surface.rms", "surface.seed"], [
+            {"set": {"surface.rms": 1.0, "surface.seed": i}, "theory": {}, "result": r} for i, r in enumerate(results)], True))
+    energy, ratio, uncertainty = (f"work_of_adhesion.{name}" for name in ("approach", "approach_ratio", "uncertainty.approach"))
+    one = {energy: 50.0, ratio: 0.5, uncertainty: 3.0}
+    assert average(one) == pytest.approx((0.5, 0.03))
+    spread = 0.04 / np.sqrt(2)  # of two, a deviation of 0.04
+    two = [{energy: 100 * r, ratio: r, uncertainty: 6.0 * r} for r in (0.5 - spread, 0.5 + spread)]
+    assert average(*two) == pytest.approx((0.5, 0.05))  # with 0.03
+    bare = [{ratio: 0.5 - spread}, {ratio: 0.5 + spread}]
+    assert average(*bare) == pytest.approx((0.5, 0.04))
+    assert np.isnan(average(bare[0])[1]).all()

@@ -17,10 +17,11 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import grid, pool, tables
+from asperity import grid, pool
 from asperity.plots import sweep as plots
 from asperity.plots.style import drawn
 from asperity.sweeps import load_sweep, load_sweeps
+from asperity.tables import text_of
 from conftest import STATE, command
 from matplotlib.figure import Figure
 
@@ -116,11 +117,11 @@ def nine_points():
 
 def test_tables_average_over_seeds(tmp_path):
     sweep = nine_points()
-    first, _, last = sweep.table.spreads("binding_energy")
-    assert (first.count, last.count) == (3, 2)
-    assert first.mean == pytest.approx(41.375 / 3, rel=1e-14)
-    assert first.deviation == pytest.approx(math.sqrt((100 + 182.25 + 319.515625 - 41.375**2 / 3) / 2), rel=1e-12)
-    found = tables.json_of(sweep)
+    average = sweep.table.averages()["binding_energy"]
+    assert list(average.count) == [3, 3, 2]
+    assert average.mean[0] == pytest.approx(41.375 / 3, rel=1e-14)
+    assert average.deviation[0] == pytest.approx(math.sqrt((100 + 182.25 + 319.515625 - 41.375**2 / 3) / 2), rel=1e-12)
+    found = sweep.json(sweep.table)
     assert found["means"][0]["binding_energy"]["mean"] == pytest.approx(41.375 / 3)
     assert found["means"][2]["binding_energy"]["count"] == 2
     assert found["points"][8]["status"] == "waiting"
@@ -129,7 +130,7 @@ def test_tables_average_over_seeds(tmp_path):
 def test_csv_hdf5_and_json_hold_the_same(tmp_path):
     sweep = nine_points()
     sweep.directory = tmp_path / "out"
-    tables.write_tables(sweep)
+    sweep.write()
     assert {p.name for p in sweep.directory.iterdir()} == {"sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json"}
     rows = numbers(sweep.directory)
     assert list(rows[0])[:5] == ["surface.rms", "surface.seed", "delta_gamma", "binding_energy", "binding_energy_ratio"]
@@ -143,15 +144,17 @@ def test_csv_hdf5_and_json_hold_the_same(tmp_path):
         assert np.isnan(file["points/binding_energy"][-1])
         assert file["points/theory.renormalised.gamma_eff_ratio"][0] == pytest.approx(0.7)
     back = load_sweep(sweep.directory)
-    assert tables.text_of(back) == tables.text_of(sweep) and back.notes == ["a note"]
-    assert tables.csv_of(back.table) == (sweep.directory / "sweep.csv").read_text()
+    assert text_of(back.table) == text_of(sweep.table) and back.notes == ["a note"]
+    written = {p.name: p.read_bytes() for p in sweep.directory.glob("*.csv")}
+    back.write()
+    assert written == {p.name: p.read_bytes() for p in sweep.directory.glob("*.csv")}
     assert [s.name for s in load_sweeps(tmp_path)] == ["s"]  # in a folder of its own
 
 
 def test_plots_of_a_sweep_read_back_are_the_same(tmp_path):
     sweep = nine_points()
     sweep.directory = tmp_path
-    tables.write_tables(sweep)
+    sweep.write()
     def curves(of):
         ax = Figure().add_subplot()
         assert plots.plot([of], "gamma", ax)
@@ -262,6 +265,26 @@ def wait_for(condition, seconds=60):
     while not condition():
         assert time.monotonic() < end, "waited in vain"
         time.sleep(0.05)
+
+
+def test_a_directory_has_one_sweep_at_a_time(place):
+    """The second sweep, and a run, are refused; what a killed sweep left behind is no obstacle."""
+    words = ["sweep", "path.toml", "--set", "drive.velocity=30,40", "--progress", "off", "--out", "one"]
+    child = subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words], stdout=subprocess.DEVNULL)
+    wait_for((place / "one/velocity=30/run.journal").exists)
+    begun = time.monotonic()
+    for second in (words, ["run", "path.toml", "--out", "one"]):
+        said = command(*second, expect=4)
+        assert f"process {child.pid} on host {os.uname().nodename} has had it since 20" in said, said
+    assert time.monotonic() - begun < 10  # far less than the points take
+    child.send_signal(signal.SIGKILL)
+    child.wait()
+    assert (place / "one/run.lock").exists()
+    assert "2 of 2 points are done" in command(*words)
+    assert not (place / "one/run.lock").exists()
+    # Of another machine nothing can be known.
+    (place / "one/run.lock").write_text("host elsewhere\nprocess 7\nsince 2026-01-01 00:00:00\n")
+    assert "process 7 on host elsewhere" in command(*words, expect=4)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 import json
 import re
 from pathlib import Path
@@ -58,8 +59,9 @@ def csv(fig: Figure) -> str:
     ax = fig.axes[0]
     kept = drawn(ax)
     if kept.map is not None:
-        return "".join(",".join("%.6g" % v if np.isfinite(v) else "" for v in row) + "\n" for row in kept.map)
-    heads, columns = [], []
+        return files.csv_text(kept.map, 6)
+    heads: list[str] = []
+    columns: list[np.ndarray] = []
     x, y = plain(ax.get_xlabel()), plain(ax.get_ylabel())
     for one in kept.curves:
         name = f"{one.label}: {y}" if one.label else y
@@ -68,10 +70,7 @@ def csv(fig: Figure) -> str:
         if one.spread is not None:
             heads.append(name + ", standard deviation")
             columns.append(one.spread)
-    lines = [",".join('"' + head.replace('"', '""') + '"' for head in heads)]
-    for i in range(max((len(c) for c in columns), default=0)):
-        lines.append(",".join("%.9g" % c[i] if i < len(c) and np.isfinite(c[i]) else "" for c in columns))
-    return "\n".join(lines) + "\n"
+    return files.csv_text([heads, *itertools.zip_longest(*columns, fillvalue=np.nan)], 9)
 
 
 def inline_svg(fig: Figure) -> str:

@@ -14,9 +14,9 @@ from matplotlib.axes import Axes
 
 from .. import program, scene
 from ..errors import Error, InputOutputError
-from ..result import Result, State
+from ..result import Result, State, Values
 from ..units import GIGAPASCAL, NANONEWTON
-from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, YELLOW, curve, finish, image
+from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, YELLOW, curve, drawn_into, finish, image
 
 LEGS = (("approach", BLUE), ("pull-off", RED))
 
@@ -191,17 +191,11 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     curves = []
     for words, line, key in (("theory", "-", "gamma_eff"),
                              ("renormalised theory", DASHES[3], "renormalised.gamma_eff")):
-        x, y = [], []
-        for value, point in zip(values, points):
-            theory = point["theory"]
-            found = theory
-            for part in key.split("."):
-                found = found.get(part) if isinstance(found, dict) else None
-            if isinstance(found, (int, float)):
-                x.append(value)
-                y.append(found / theory["delta_gamma"])
-        if x:
-            curves.append((words, x, y, line))
+        theories = [Values(point["theory"]) for point in points]
+        found = [(value, gamma / theory.delta_gamma) for value, theory in zip(values, theories)
+                 if (gamma := theory.number(key)) is not None]
+        if found:
+            curves.append((words, *zip(*found), line))
     return curves
 
 
@@ -257,7 +251,7 @@ def height(run: Result, ax: Axes) -> bool:
 
 def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
     """A map of a state from above: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact."""
-    if name not in state.maps or not run.edge:
+    if name not in state or not run.edge:
         return False
     values = state[name]
     if name == "contact":
@@ -287,14 +281,7 @@ class RunPlots:
         self._run = run
 
     def _draw(self, name: str, draw: Callable[[Axes], bool], ax: Axes | None) -> Axes:
-        if ax is None:
-            import matplotlib.pyplot as plt
-
-            ax = plt.subplots(layout="constrained")[1]
-        if not draw(ax):
-            raise InputOutputError(str(self._run.directory), f"has nothing for the plot {name!r}",
-                                   "the run wrote no such data", "")
-        return ax
+        return drawn_into(ax, draw, str(self._run.directory), name, "the run wrote no such data")
 
     def __getattr__(self, name: str) -> Callable[..., Axes]:
         if name in OF_RUN:

@@ -10,6 +10,7 @@ their dashes and markers. Theory is drawn in dashes or dots and says so in the l
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -21,10 +22,11 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
 
+from ..errors import InputOutputError
+
 BLUE, RED, GREEN, PINK, YELLOW, SKY, GREY = COLOURS = (
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#4d4d4d")
 DASHES = ("-", (0, (6, 1.5)), (0, (3, 1.2)), (0, (6, 1.5, 1, 1.5)), (0, (1, 1.2)), (0, (8, 2, 2, 2)), (0, (2, 3)))
-MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
 INK, PAPER = "#1a1a1b", "#fefefd"
 """Text and background; the page replaces them by its own, which may be dark."""
@@ -80,12 +82,23 @@ def style() -> Any:
     return matplotlib.rc_context(RC)
 
 
-def figure(size: tuple[float, float] = SIZE) -> tuple[Figure, Axes]:
+def drawn_into(ax: Axes | None, draw: Callable[[Axes], bool], where: str, name: str, why: str) -> Axes:
+    """For people: draws into an axes, which is made if none is given; raises where there is nothing to draw."""
+    if ax is None:
+        import matplotlib.pyplot as plt
+
+        ax = plt.subplots(layout="constrained")[1]
+    if not draw(ax):
+        raise InputOutputError(where, f"has nothing for the plot {name!r}", why)
+    return ax
+
+
+def figure() -> tuple[Figure, Axes]:
     """A figure of the package's size that belongs to no window.
 
     The frame has a fixed place, so that the figures of a page or a paper line up.
     """
-    made = Figure(figsize=size)
+    made = Figure(figsize=SIZE)
     return made, made.add_axes((0.165, 0.155, 0.805, 0.815))
 
 

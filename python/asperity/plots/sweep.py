@@ -18,13 +18,12 @@ from matplotlib.axes import Axes
 
 from .. import files as writing
 from .. import program
-from ..errors import InputOutputError
 from ..grid import is_seed, shown
-from ..tables import groups_of, number, spread_of, theory_numbers
+from ..tables import Table
 from ..units import NANONEWTON
 from ..units import shown as shown_unit
 from . import files
-from .style import BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, finish
+from .style import BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, finish
 
 if TYPE_CHECKING:
     from ..sweeps import Sweep
@@ -37,7 +36,7 @@ MOST_CURVES = len(COLOURS)
 
 @dataclass
 class Trace:
-    """A quantity of the points: column of the result ("theory.": of the theory) over `unit`."""
+    """A quantity of the points: a column of the table over `unit`."""
 
     label: str
     column: str
@@ -45,29 +44,24 @@ class Trace:
     line: Any = ""
     marker: str = ""
     filled: bool = True
-    flat: bool = False
-    """of a sphere it means nothing"""
     unit: float = 1.0
     unless: str = ""
     """not drawn where it equals this column"""
     uncertainty: str = ""
     """column of what its energy (the column without _ratio) may be wrong by"""
 
-    def value(self, point: dict[str, Any]) -> float:
-        if self.column.startswith("theory."):
-            return number(theory_numbers(point).get(self.column[7:]))
-        result = point.get("result", {})
-        if self.flat and np.isfinite(number(result.get("contact_radius.zero_load"))):
-            return np.nan
-        if self.unless and result.get(self.column) == result.get(self.unless):
-            return np.nan
-        return number(result.get(self.column)) / self.unit
+    def values(self, table: Table) -> np.ndarray:
+        values = table.values(self.column) / self.unit
+        return np.where(values == table.values(self.unless), np.nan, values) if self.unless else values
 
-    def error(self, point: dict[str, Any]) -> float:
-        """The uncertainty of value(), NaN where the result has none."""
-        result = point.get("result", {})
-        energy = number(result.get(self.column.removesuffix("_ratio")))
-        return number(result.get(self.uncertainty)) * abs(self.value(point) / energy) if energy else np.nan
+    def average(self, table: Table) -> tuple[np.ndarray, np.ndarray]:
+        """Means, and error bars: the spread over the seeds and the mean uncertainty of one, as independent errors."""
+        values = self.values(table)
+        energy = table.values(self.column.removesuffix("_ratio"))
+        error = table.values(self.uncertainty) * np.abs(np.divide(values, energy, where=energy != 0, out=energy * np.nan))
+        mean, deviation, _ = table.average(values)
+        bars = np.array([deviation, table.average(error).mean])
+        return mean, np.where(np.isfinite(bars).any(axis=0), np.sqrt(np.nansum(bars**2, axis=0)), np.nan)
 
 
 THEORY = Trace("theory", "theory.gamma_eff_ratio", GREY, "-")
@@ -80,19 +74,19 @@ Spec = tuple[str, list[Trace], list[Trace]]
 
 SIMULATED: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED], [
-        Trace("approach", "work_of_adhesion.approach_ratio", BLUE, "", "o", flat=True,
+        Trace("approach", "work_of_adhesion.approach_ratio", BLUE, "", "o",
               uncertainty="work_of_adhesion.uncertainty.approach"),
-        Trace("pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False, flat=True,
+        Trace("pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False,
               uncertainty="work_of_adhesion.uncertainty.pull_off"),
-        Trace("state at zero load", "binding_energy_ratio", GREEN, "", "^", flat=True,
+        Trace("state at zero load", "binding_energy_ratio", GREEN, "", "^",
               uncertainty="binding_energy_uncertainty"),
-        Trace("deepest state", "states.deepest.binding_energy_ratio", GREEN, "", "^", False, flat=True,
+        Trace("deepest state", "states.deepest.binding_energy_ratio", GREEN, "", "^", False,
               unless="states.first.binding_energy_ratio"),
         Trace("curved, in", "jkr.in_ratio", SKY, "", "D"),
         Trace("curved, out", "jkr.out_ratio", YELLOW, "", "v", False)]),
-    "area": (CONTACT, AREA, [Trace("state at zero load", "contact_fraction", GREEN, "", "^", flat=True)]),
+    "area": (CONTACT, AREA, [Trace("state at zero load", "contact_fraction", GREEN, "", "^")]),
     "separation": ("mean separation (Å)", [Trace("renormalised theory", "theory.renormalised.separation", PINK, DASHES[3])],
-                   [Trace("state at zero load", "zero_load.mean_height", GREEN, "", "^", flat=True)]),
+                   [Trace("state at zero load", "zero_load.mean_height", GREEN, "", "^")]),
     "radius": ("√(contact area / π) (Å)", [], [
         Trace("at zero load", "contact_radius.zero_load", GREEN, "", "^"),
         Trace("at the pull-off force", "contact_radius.pull_off", RED, "", "s", False)]),
@@ -110,36 +104,31 @@ def _label_of(key: str) -> str:
     return f"{name} ({unit})" if unit else name
 
 
-def _curves(sweep: Sweep, points: list[dict[str, Any]], x: str) -> dict[str, list[tuple[float, list[dict]]]]:
-    """Groups of points over x, by the values of the other axes in words."""
-    found: dict[str, list[tuple[float, list[dict]]]] = {}
-    for values, places in groups_of(sweep.axes, points):
+def _curves(table: Table, x: str) -> dict[str, list[int]]:
+    """The groups of points that make a curve over x, by the values of the other axes in words."""
+    found: dict[str, list[int]] = {}
+    for group, (values, _) in enumerate(table.groups):
         words = []
         for key, value in values.items():
             if key != x:
                 unit = program.schema().get(key, {}).get("unit", "") if isinstance(value, (int, float)) else ""
                 words.append(f"{key.partition('.')[2]} = {shown(value)}" + f" {shown_unit(unit)}" * bool(unit))
-        found.setdefault(", ".join(words), []).append((number(values.get(x)), [points[i] for i in places]))
-    return {words: sorted(groups, key=lambda g: g[0]) for words, groups in found.items()}
+        found.setdefault(", ".join(words), []).append(group)
+    return {words: sorted(groups, key=table.at(x).__getitem__) for words, groups in found.items()}
 
 
-def _bar(trace: Trace, points: list[dict[str, Any]], deviation: float) -> float:
-    """The spread over the seeds and the mean uncertainty of one, as independent errors."""
-    parts = [deviation, spread_of([trace.error(p) for p in points]).mean]
-    return float(np.sqrt(np.nansum(np.square(parts)))) if np.isfinite(parts).any() else np.nan
-
-
-def _trace(ax: Axes, curves: dict, trace: Trace, prefix: str, first: bool, colour: str) -> bool:
+def _trace(ax: Axes, table: Table, x: str, trace: Trace, prefix: str, first: bool, colour: str) -> bool:
+    curves = _curves(table, x)
+    along, (means, bars) = table.at(x), trace.average(table)
     several = len(curves) > 1
     any_drawn = False
     for i, (words, groups) in enumerate(list(curves.items())[:MOST_CURVES]):
-        spreads = [spread_of([trace.value(p) for p in points]) for _, points in groups]
-        if not any(s.count for s in spreads):
+        if not np.isfinite(means[groups]).any():
             continue
         label = (words if first else "") if several else prefix + trace.label
-        curve(ax, [x for x, _ in groups], [s.mean for s in spreads], label, line=trace.line, marker=trace.marker,
-              filled=trace.filled, colour=COLOURS[i] if several else colour, behind=not trace.marker,
-              spread=[_bar(trace, points, s.deviation) for (_, points), s in zip(groups, spreads)] if trace.marker else None)
+        curve(ax, along[groups], means[groups], label, line=trace.line, marker=trace.marker, filled=trace.filled,
+              colour=COLOURS[i] if several else colour, behind=not trace.marker,
+              spread=bars[groups] if trace.marker else None)
         drawn(ax).curves[-1].label = prefix + trace.label + (f", {words}" if several else "")
         any_drawn = True
     if several and any_drawn:  # what the dashes and markers mean
@@ -150,12 +139,10 @@ def _trace(ax: Axes, curves: dict, trace: Trace, prefix: str, first: bool, colou
 
 def parts_of(sweeps: Sequence[Sweep]) -> tuple[list[Sweep], str, str]:
     """The sweeps that share a plot, their key along x, and what kept others out."""
-    from ..sweeps import plotted_axis
-
     shared: list[Sweep] = []
     along, note = "", ""
     for sweep in sweeps:
-        x = plotted_axis(sweep.axes, sweep.points)
+        x = sweep.table.along
         if x is None:
             note = "no plots: none of the swept keys is a number"
         elif along and x != along:
@@ -163,8 +150,7 @@ def parts_of(sweeps: Sequence[Sweep]) -> tuple[list[Sweep], str, str]:
         else:
             along = x
             shared.append(sweep)
-            others = len({tuple(shown(p["set"].get(k)) for k in sweep.axes if k != x and not is_seed(k))
-                          for p in sweep.points})
+            others = len(_curves(sweep.table, x))
             if others > MOST_CURVES:
                 note = f"the plots show the first {MOST_CURVES} of {others} curves"
     return shared, along, note
@@ -183,25 +169,24 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     y, lines, points = (SIMULATED if shared[0].simulated else OF_THEORY)[name]
     simulated = False
     used = {trace.colour for trace in lines}
-    for part, sweep in enumerate(shared):
-        if part == 0:  # a sweep without curves of its own has the theory of its points
-            curves = _curves(sweep, sweep.theory or sweep.points, x)
-            for trace in lines:
-                _trace(ax, curves, trace, "", trace is lines[0], trace.colour)
+    curves = shared[0].curves
+    for trace in lines:
+        _trace(ax, curves, x, trace, "", trace is lines[0], trace.colour)
+    for sweep in shared:
         if not sweep.simulated:
             continue
-        curves = _curves(sweep, sweep.points, x)
+        table = sweep.table
         prefix = f"{sweep.name}: " if len(shared) > 1 else ""
         last = GREY
         for i, trace in enumerate(points):
-            if not any(np.isfinite(trace.value(p)) for p in sweep.points):
+            if not np.isfinite(trace.values(table)).any():
                 continue
             colour = next((c for c in (trace.colour, *COLOURS) if c not in used), trace.colour)
             if trace.unless:  # of the same colour as what it is compared with
                 colour = last
             last = colour
             used.add(colour)
-            simulated |= _trace(ax, curves, trace, prefix, i == 0 and not lines, colour)
+            simulated |= _trace(ax, table, x, trace, prefix, i == 0 and not lines, colour)
     if not ax.lines or (shared[0].simulated and not simulated):
         return False
     ys = [v for c in drawn(ax).curves for v in c.y if np.isfinite(v)]
@@ -220,14 +205,8 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
 
 def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
     """The same for people: makes an axes if none is given, raises InputOutputError if there is nothing."""
-    if ax is None:
-        import matplotlib.pyplot as plt
-
-        ax = plt.subplots(layout="constrained")[1]
-    if name not in names(sweeps) or not plot(sweeps, name, ax):
-        raise InputOutputError(sweeps[0].name, f"has nothing for the plot {name!r}",
-                               f"plots: {', '.join(names(sweeps))}", "")
-    return ax
+    return drawn_into(ax, lambda a: name in names(sweeps) and plot(sweeps, name, a), sweeps[0].name, name,
+                      f"plots: {', '.join(names(sweeps))}")
 
 
 def write_plots(directory: Path, sweeps: Sequence[Sweep]) -> tuple[list[Path], str]:
