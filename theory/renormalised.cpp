@@ -404,11 +404,12 @@ void check(const RoughInterface& rough, const RenormalisedOptions& options) {
     if (!std::isfinite(rough.pressure))
         throw InvalidInput(
             message("renormalised theory: pressure ", rough.pressure, " is not a number"));
-    if (!(options.tolerance > 0 && options.steps >= 2 && options.spacing > 0 &&
-          options.max_refinement >= 0 && options.max_refinement < 12))
+    if (!(options.tolerance > 0 && options.useful > 0 && options.steps >= 2 &&
+          options.spacing > 0 && options.max_refinement >= 0 && options.max_refinement < 12))
         throw InvalidInput(
-            message("renormalised theory: tolerance ", options.tolerance, ", steps ", options.steps,
-                    ", spacing ", options.spacing, ", max_refinement ", options.max_refinement,
+            message("renormalised theory: tolerance ", options.tolerance, ", largest error ",
+                    options.useful, ", steps ", options.steps, ", spacing ", options.spacing,
+                    ", max_refinement ", options.max_refinement,
                     "; they must be positive, steps 2 at least, refinements below 12"));
     // Left of the grid the interface must be much stiffer than the block.
     const FlatInterface& flat = rough.flat;
@@ -431,6 +432,7 @@ void check(const RoughInterface& rough, const RenormalisedOptions& options) {
 
 RenormalisedState solve(const RoughInterface& rough, const RenormalisedOptions& options) {
     check(rough, options);
+    constexpr double most = 1.01; // roughness only weakens
     const double depth = rough.flat.work_of_adhesion();
     RenormalisedState state;
     if (rough.spectrum.smooth() && rough.pressure == 0) {
@@ -458,10 +460,23 @@ RenormalisedState solve(const RoughInterface& rough, const RenormalisedOptions& 
         state.grids = level + 1;
         coarse = point;
         best = now;
-        state.converged = state.gamma_ratio_error <= options.tolerance &&
-                          state.contact_error <= options.tolerance;
+        const double error_now = std::max(state.gamma_ratio_error, state.contact_error);
+        state.converged = error_now <= options.tolerance;
         if (level >= 2 && state.converged) break;
+        if (level >= 3 && !(error_now <= 30 * options.useful)) break; // two more grids do not help
     }
+    if (!(std::max(state.gamma_ratio_error, state.contact_error) <= options.useful))
+        throw NoSolution(message("renormalised theory: on the finest grid tried the errors are ",
+                                 state.gamma_ratio_error, " of the work of adhesion and ",
+                                 state.contact_error, " of the contact, more than ", options.useful,
+                                 ": roughness of rms slope ", rough.spectrum.rms_slope(),
+                                 " is too steep for so strong an interface",
+                                 "; choose less roughness, or a weaker or wider interaction"));
+    if (best.gamma > most * depth)
+        throw NoSolution(message(
+            "renormalised theory: it finds ", best.gamma / depth, " times the work of adhesion of ",
+            "the flat surfaces, more than they have: of second order in the slope it does not ",
+            "hold at an rms slope of ", rough.spectrum.rms_slope(), "; choose less roughness"));
     state.gamma_eff = best.gamma;
     state.gamma_ratio = best.gamma / depth;
     state.contact_fraction = std::clamp(best.contact, 0.0, 1.0);

@@ -63,6 +63,7 @@ struct RoughInterface {
 
 struct RenormalisedOptions {
     double tolerance = 1e-4; ///< on γ_eff/Δγ and on the contact fraction
+    double useful = 1e-2;    ///< no answer if one of these errors is larger on the finest grid
     int max_refinement = 3;  ///< halvings beyond the first two grids
     int steps = 14;          ///< of the coarsest grid in ln q; others follow the rms
     double spacing =
@@ -81,7 +82,9 @@ struct RenormalisedState {
     int grids = 0;
 };
 
-/// InvalidInput for what makes no sense, NoSolution for a pull beyond the tension that is borne.
+/// InvalidInput for what makes no sense; NoSolution for a pull beyond the tension that is borne,
+/// for errors above `useful`, and for slopes at which more than the work of adhesion would come
+/// out.
 [[nodiscard]] RenormalisedState solve(const RoughInterface& rough,
                                       const RenormalisedOptions& options = {});
 

@@ -137,6 +137,33 @@ TEST(TheoryOfAScene, RenormalisedIsLeftOutWhereTheSceneSaysSo) {
         EXPECT_NE(io::find(json, std::string("theory.renormalised.") + key), nullptr) << key;
 }
 
+/// No number without a bound: none where the errors are large, a note where they are above 1e-4 or
+/// the slope above what was compared with simulations, and none where all is well.
+TEST(TheoryOfAScene, RenormalisedSaysHowWellItIsKnown) {
+    const auto renormalised = [](double epsilon, double rms) {
+        Scene s = small(rms);
+        s.interface.epsilon = epsilon;
+        io::Result result;
+        record_theory(theory_case(s), solve_theory(theory_case(s)), result);
+        const io::Json json = result.json();
+        const io::Json* note = io::find(json, "theory.renormalised.note");
+        EXPECT_EQ(io::find(json, "theory.renormalised.gamma_eff") != nullptr,
+                  io::find(json, "theory.renormalised.gamma_eff_error") != nullptr);
+        return std::pair(io::find(json, "theory.renormalised.gamma_eff") != nullptr,
+                         note ? note->get<std::string>() : std::string());
+    };
+    const auto [well, silence] = renormalised(0.1, 1);
+    EXPECT_TRUE(well);
+    EXPECT_EQ(silence, "");
+    const auto [steep, slope] = renormalised(0.1, 4);
+    EXPECT_TRUE(steep);
+    EXPECT_NE(slope.find("second order in the slope"), std::string::npos) << slope;
+    const auto [answered, reason] = renormalised(10, 8);
+    EXPECT_FALSE(answered);
+    EXPECT_NE(reason.find("; choose less roughness"), std::string::npos) << reason;
+    EXPECT_EQ(reason.find("known to"), std::string::npos) << reason;
+}
+
 TEST(TheoryOfAScene, RealisedSpectrumHasTheRmsAndTheFullContactEnergyOfTheMap) {
     for (const Amplitudes amplitudes : {Amplitudes::gaussian, Amplitudes::fixed}) {
         Scene s = small(0.8);

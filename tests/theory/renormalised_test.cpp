@@ -323,13 +323,43 @@ TEST(Renormalised, HardInputs) {
                         EXPECT_LE(s.gamma_ratio, 1.05);
                         EXPECT_TRUE(!s.converged || s.gamma_ratio_error <= 1e-4);
                         ++answers;
-                    } catch (const InvalidInput& error) {
+                        EXPECT_LE(s.gamma_ratio_error, 0.01);
+                        EXPECT_LE(s.contact_error, 0.01);
+                    } catch (const std::logic_error& error) { // InvalidInput, NoSolution
                         EXPECT_NE(std::string(error.what()).find("; "), std::string::npos);
                         ++refusals;
                     }
                 }
     EXPECT_GE(answers, 18);
     EXPECT_EQ(answers + refusals, 36);
+}
+
+/// Steep roughness under a strong attraction: errors that stay large, and more adhesion than the
+/// flat surfaces have, are no answers.
+TEST(Renormalised, NoNumberWithoutAUsefulBound) {
+    const double q_L = 8 * paper::q_L; // a box of 64 sites
+    const Spectrum steep = Spectrum::self_affine(
+        {.q_L = q_L, .q0 = 3 * q_L, .q1 = 32 * q_L, .hurst = 0.8, .h_rms = 8});
+    const auto reason = [&](double epsilon, bool friction, const RenormalisedOptions& options) {
+        try {
+            const RenormalisedState s =
+                solve({steep, FlatInterface::hollow_sites({epsilon, 3.28, 13.12}, 2.6),
+                       StiffnessTable::half_space(paper::contact_modulus, 0.42), friction, 0},
+                      options);
+            EXPECT_LE(s.gamma_ratio, 1.01);
+            EXPECT_LE(std::max(s.gamma_ratio_error, s.contact_error), options.useful);
+            return std::string();
+        } catch (const NoSolution& error) {
+            return std::string(error.what());
+        }
+    };
+    for (const bool friction : {true, false})
+        EXPECT_NE(reason(10, friction, {.max_refinement = 1}).find("on the finest grid tried"),
+                  std::string::npos);
+    // With so wide a bound the number itself is still refused.
+    EXPECT_NE(reason(10, false, {.useful = 500, .max_refinement = 1}).find("than they have"),
+              std::string::npos);
+    EXPECT_EQ(reason(0.1, true, {}), "");
 }
 
 TEST(Renormalised, ErrorsSayWhatIsWrong) {
@@ -350,6 +380,7 @@ TEST(Renormalised, ErrorsSayWhatIsWrong) {
     refuses([] { (void)StiffnessTable({{2, 1, 1, 0, 1}, {1, 1, 1, 0, 1}}); }, "ascend");
     refuses([] { (void)solve(rough(3, std::nan(""))); }, "not a number");
     refuses([] { (void)solve(rough(3), {.tolerance = 0}); }, "tolerance");
+    refuses([] { (void)solve(rough(3), {.useful = 0}); }, "largest error");
     refuses(
         [] {
             RoughInterface stiff = rough(3);
