@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The drive's decisions, and the books that a simulation keeps.
+// Decisions of the drive; the sums and the energy balance of a simulation.
 #include "engine/block/flat_reference.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace asperity;
 
@@ -91,6 +92,11 @@ TEST(Drive, TurnsSmoothly) {
         EXPECT_LE(now - before, 1.0001 * 1e-4 / 1000.0 * 1.5707963268);
         before = now;
     }
+    // It starts and ends without acceleration: a hundredth of the ramp changes the velocity by
+    // sin^2(pi / 200) of the whole change.
+    const double little = 1e-4 * std::pow(std::sin(std::numbers::pi / 200.0), 2);
+    EXPECT_NEAR(drive.velocity(210.0) - drive.velocity(200.0), little, 1e-4 * little);
+    EXPECT_NEAR(drive.velocity(1200.0) - drive.velocity(1190.0), little, 1e-4 * little);
 }
 
 TEST(Drive, PullOffEndsOutOfReach) {
