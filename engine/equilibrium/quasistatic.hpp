@@ -78,11 +78,12 @@ public:
     double approach_work() const { return approach_; }
     double pull_off_work() const { return pull_off_; }
     /// What these, and what was dissipated on the leg, may be wrong by, eV: the sum of the gaps in
-    /// the energy balance of its steps, and twice the root of the sum of squares of what the work
-    /// of each step with an instability is not known by.
+    /// the energy balance of its steps, and three times the root of the sum of squares of what the
+    /// work of each step with an instability is not known by. (Three, for these errors are not
+    /// independent: measured in docs/relaxation.md.)
     double uncertainty(Leg leg) const {
         const LegError& e = error(leg);
-        return e.gap + 2.0 * std::sqrt(e.squares);
+        return e.gap + 3.0 * std::sqrt(e.squares);
     }
     const Dissipation& dissipation() const { return dissipation_; }
     long long iterations() const { return points_.iterations(); }
