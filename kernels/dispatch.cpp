@@ -15,6 +15,7 @@
     extern const TransferKernels transfer_kernels;                                                 \
     extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;                        \
     extern const InterfaceKernels::Sweeps<RowSubstrate> row_sweeps;                                \
+    extern const InterfaceKernels::Sweeps<CellSubstrate> cell_sweeps;                              \
     extern const InterfaceKernels::AllWalls walls;                                                 \
     extern const RowKernels row_kernels;                                                           \
     }
@@ -54,7 +55,8 @@ const ElasticKernels& elastic_kernels(CellStrain strain) {
 const TransferKernels& transfer_kernels() { return ASPERITY_TABLE(transfer_kernels); }
 const InterfaceKernels& interface_kernels() {
     static const InterfaceKernels kernels = {ASPERITY_TABLE(lattice_sweeps),
-                                             ASPERITY_TABLE(row_sweeps), ASPERITY_TABLE(walls)};
+                                             ASPERITY_TABLE(row_sweeps),
+                                             ASPERITY_TABLE(cell_sweeps), ASPERITY_TABLE(walls)};
     return kernels;
 }
 const RowKernels& row_kernels() { return ASPERITY_TABLE(row_kernels); }

@@ -108,13 +108,14 @@ struct Totals {
 };
 
 /// Replaces the sites that the tables do not cover by the reference loop.
-inline void sum_beyond(const InterfaceSites& sites, const SubstrateMap& map, const LennardJones& lj,
-                       unsigned beyond, int x, int y, int count, SiteTerms& s) {
+template <class Judge>
+void sum_beyond(const InterfaceSites& sites, const Judge& judge, const LennardJones& lj,
+                unsigned beyond, int x, int y, int count, SiteTerms& s) {
     const auto& u = sites.displacement;
     for (int i = 0; i < count; ++i) {
         if (!(beyond >> i & 1u)) continue;
         const PairSum p =
-            pair_sum(map, lj, (sites.x0 + x + i + 0.5) * sites.spacing + u.x(x + i, y),
+            pair_sum(judge, lj, (sites.x0 + x + i + 0.5) * sites.spacing + u.x(x + i, y),
                      (sites.y0 + y + 0.5) * sites.spacing + u.y(x + i, y),
                      sites.reference_height + u.z(x + i, y));
         s.x[i] = p.force[0];
@@ -125,21 +126,37 @@ inline void sum_beyond(const InterfaceSites& sites, const SubstrateMap& map, con
     }
 }
 
+/// What sweep_blocks() asks of a substrate: the height that heights are counted from, the largest
+/// sideways displacement its tables allow for, what the reference loop takes, and its reach.
+template <class Heights>
+struct Ground {
+    const Heights& from;
+    double datum() const { return from.heights.datum; }
+    double margin() const { return from.reach.offset_margin; }
+    const SubstrateMap& judge() const { return from.map; }
+    template <class T>
+    ASPERITY_INLINE Reach reach(int x, int y, const BlockOfSites& site,
+                                const PairTerms<Simd, T>& pair) const {
+        return Reach(from.reach, x, y, from.heights.datum, site, pair.cutoff, pair.floor);
+    }
+};
+
 /// The sweep over rows [row_begin, row_end), a block of sites at a time; sum(site, reach, x, y,
 /// count, terms) is what differs between substrates.
 template <class T, bool observe, class Substrate, class SumOfPairs>
 ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& substrate,
                                   const LennardJones& lj, const PairTerms<Simd, T>& pair,
                                   int row_begin, int row_end, InterfaceSums& sums, SumOfPairs sum) {
-    const double datum = substrate.heights.datum;
+    const Ground<Substrate> ground{substrate};
+    const double datum = ground.datum();
     const int nx = sites.displacement.x.nx;
     Totals totals;
     for (int y = row_begin; y < row_end; ++y)
         for (int x = 0; x < nx; x += interface_block) {
             const int count = nx - x < interface_block ? nx - x : interface_block;
             const BlockOfSites site(sites, x, y, count, datum, deepest<T>(lj.cutoff), ceiling<T>,
-                                    substrate.reach.offset_margin);
-            const Reach reach(substrate.reach, x, y, datum, site, pair.cutoff, pair.floor);
+                                    ground.margin());
+            const auto reach = ground.reach(x, y, site, pair);
             if (reach.from_rest < 0.0 && !site.beyond) {
                 totals.pass<observe>(sites, x, y, count);
                 continue;
@@ -151,7 +168,7 @@ ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& 
             } else {
                 terms.clear();
             }
-            if (site.beyond) sum_beyond(sites, substrate.map, lj, site.beyond, x, y, count, terms);
+            if (site.beyond) sum_beyond(sites, ground.judge(), lj, site.beyond, x, y, count, terms);
             totals.take<observe>(sites, pair.contact_r2, terms, x, y, count);
         }
     totals.give(sums);

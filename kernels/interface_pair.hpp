@@ -66,6 +66,11 @@ struct PairTerms {
         ta = b * both;
         tb = a * both;
     }
+    /// r_m^2 / a.
+    template <bool close>
+    ASPERITY_INLINE V inverse(V a) const {
+        return rm2 / held<close>(a);
+    }
 
     /// In Å^2. Visited atoms beyond the cutoff are no neighbours.
     ASPERITY_INLINE double nearest(T r2) const {

@@ -5,7 +5,8 @@
 //
 // One loop over the rows of substrate atoms within the cutoff of the site, one over the atoms of a
 // row. Atoms are counted beyond the box and folded back for their height alone, so periodic images
-// need no thought and the cutoff may exceed the box. Cost: 4 r_c^2 / b^2 distances per site.
+// need no thought and the cutoff may exceed the box. Cost: 4 r_c^2 / b^2 distances per site. Over
+// atoms anywhere: one loop over all of them, and over the images of each within the cutoff.
 //
 // The tail correction is here too: it is one formula per site, no sum over pairs.
 #include "kernels/pair_sum.hpp"
@@ -17,16 +18,47 @@ PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double 
     return portable::sum_of_pairs(map, potential, x, y, z);
 }
 
-void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
-                     const LennardJones& potential, int row_begin, int row_end,
-                     InterfaceSums& sums) {
+PairSum pair_sum(const SubstrateAtoms& atoms, const LennardJones& potential, double x, double y,
+                 double z) {
+    PairSum sum;
+    if (!(std::fabs(x) + std::fabs(y) + std::fabs(z) < 1e9)) {
+        sum.force[0] = sum.force[1] = sum.force[2] = sum.energy = std::nan("");
+        return sum;
+    }
+    const double reach = potential.cutoff, edge = atoms.edge;
+    for (std::int64_t i = 0; i < atoms.count; ++i) {
+        const double dz = z - atoms.z[i];
+        for (double n = std::ceil((y - reach - atoms.y[i]) / edge);
+             n <= std::floor((y + reach - atoms.y[i]) / edge); ++n)
+            for (double m = std::ceil((x - reach - atoms.x[i]) / edge);
+                 m <= std::floor((x + reach - atoms.x[i]) / edge); ++m) {
+                const double dx = x - (atoms.x[i] + m * edge), dy = y - (atoms.y[i] + n * edge);
+                const double r2 = dx * dx + dy * dy + dz * dz;
+                if (r2 >= potential.r2_cut()) continue;
+                const double f = potential.force_over_distance(r2);
+                sum.force[0] += f * dx;
+                sum.force[1] += f * dy;
+                sum.force[2] += f * dz;
+                sum.energy += potential.energy(r2);
+                if (r2 < sum.nearest_r2) sum.nearest_r2 = r2;
+            }
+    }
+    return sum;
+}
+
+namespace {
+
+template <class Substrate>
+void sweep_one_by_one(const InterfaceSites& sites, const Substrate& substrate,
+                      const LennardJones& potential, int row_begin, int row_end,
+                      InterfaceSums& sums) {
     const auto& u = sites.displacement;
     const double a = sites.spacing;
     const double contact = potential.contact_distance();
     for (int y = row_begin; y < row_end; ++y)
         for (int x = 0; x < u.x.nx; ++x) {
             const PairSum site =
-                pair_sum(map, potential, (sites.x0 + x + 0.5) * a + u.x(x, y),
+                pair_sum(substrate, potential, (sites.x0 + x + 0.5) * a + u.x(x, y),
                          (sites.y0 + y + 0.5) * a + u.y(x, y), sites.reference_height + u.z(x, y));
             sites.force.x(x, y) = site.force[0];
             sites.force.y(x, y) = site.force[1];
@@ -39,6 +71,19 @@ void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
             sums.in_reach += 1;
             if (site.nearest_r2 < sums.closest_r2) sums.closest_r2 = site.nearest_r2;
         }
+}
+
+} // namespace
+
+void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
+                     const LennardJones& potential, int row_begin, int row_end,
+                     InterfaceSums& sums) {
+    sweep_one_by_one(sites, map, potential, row_begin, row_end, sums);
+}
+void reference_sweep(const InterfaceSites& sites, const SubstrateAtoms& atoms,
+                     const LennardJones& potential, int row_begin, int row_end,
+                     InterfaceSums& sums) {
+    sweep_one_by_one(sites, atoms, potential, row_begin, row_end, sums);
 }
 
 void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,

@@ -4,15 +4,17 @@
 // Forces between the block's lowest layer and the rigid substrate: Lennard-Jones pairs, or a wall
 // with a law of the gap below each site (wall_law.hpp), which has a sweep of its own.
 //
-// Three sweeps over pairs give the same answer:
+// Pairs are with a map of heights over a square lattice, or with atoms anywhere. Four sweeps:
 //   reference  every site against every substrate atom in reach by an explicit loop over pairs,
-//              scalar: what the other two are tested against;
+//              scalar: what the other three are tested against;
 //   lattice    both sides are the same lattice, so the neighbours of a site are known offsets: SIMD
 //              over sites, sums in registers over the offsets in a fixed order;
 //   rows       a substrate with a spacing of its own (incommensurate): site by site, SIMD over the
-//              atoms along x, row after row.
+//              atoms along x, row after row;
+//   cells      atoms anywhere, sixteen to a cell: site by site, SIMD over the atoms of the cells
+//              near it.
 //
-// The last two exist twice: in double, and mixed: a site's pairs, and in the lattice sweep their
+// The last three exist twice: in double, and mixed: a site's pairs, and in the lattice sweep their
 // sums, in single precision. Mixed heights are 32-bit integers, multiples of 2^-22 Å: the
 // difference of two is exact, wherever in the box and however high it is formed, and only then
 // becomes a float.
@@ -25,11 +27,12 @@
 // block follows a gap, from the gap the lateral distance beyond which no pair can interact, and
 // only offsets (atoms) nearer than that are visited. What is left out would have added exact zeros.
 // In the same way, from how low the substrate gets, follow the offsets that need no comparison with
-// the cutoff.
+// the cutoff. The sweep over cells compares each site with the bounds of the cells near its block.
 //
 // Reproducibility: a site's force is summed in an order that the site alone decides (offset number,
-// or atoms counted from the one below it), never the tile, block or lane it is in; so its bits are
-// the same for any decomposition and number of threads. Sums over sites are exact sums.
+// atoms counted from the one below it, number of the cell), never the tile, block or lane it is in;
+// so its bits are the same for any decomposition and number of threads. Sums over sites are exact
+// sums.
 //
 // Sites displaced sideways by more than offset_margin (a run about to be stopped by its guard) are
 // summed one by one with the reference loop, so no pair is ever missed.
@@ -141,6 +144,47 @@ struct RowSubstrate {
     SubstrateMap map;
 };
 
+/// Substrate atoms anywhere, periodic in x and y: what the reference loop needs.
+struct SubstrateAtoms {
+    const double* x = nullptr; ///< Å, in the box
+    const double* y = nullptr;
+    const double* z = nullptr;
+    std::int64_t count = 0;
+    double edge = 0.0; ///< of the box, Å
+};
+
+/// Atoms in a cell: the widest register in single precision.
+inline constexpr int cell_atoms = 16;
+/// The atoms that fill a cell stand so deep that larger cutoffs might reach them, Å.
+inline constexpr double largest_cell_cutoff = 100.0;
+
+/// A periodic image of a cell, moved by (x, y) edges of the box.
+struct CellImage {
+    std::int32_t cell;
+    std::int16_t x, y;
+};
+
+/// Atoms anywhere in cells of cell_atoms, [cell * cell_atoms + atom]. Heights are over the datum.
+/// A cell that is not full is filled with atoms so low that no site reaches them.
+struct CellSubstrate {
+    const double *x = nullptr, *y = nullptr, *z = nullptr; ///< Å; or, mixed,
+    const std::int32_t *fixed_x = nullptr, *fixed_y = nullptr,
+                       *fixed_z = nullptr; ///< from the cell's centre, in fixed_quantum
+    /// [bound * cells + cell], Å: least x, greatest x, least y, greatest y, least z, greatest z.
+    const double* bounds = nullptr;
+    std::int64_t cells = 0;
+    /// The cells within the cutoff and the margin of a block of sites, sideways: images[k], k from
+    /// first[b] to first[b + 1] with b = y * blocks + x / interface_block; in ascending order of
+    /// (y, x, cell).
+    const CellImage* images = nullptr;
+    const std::int64_t* first = nullptr;
+    const double* highest = nullptr; ///< [b]: atom of these cells, over the datum, Å
+    int blocks = 0;                  ///< in a row
+    double datum = 0.0;              ///< height of the highest atom, Å
+    double offset_margin = 0.0;      ///< largest sideways displacement the lists allow for, Å
+    SubstrateAtoms atoms;
+};
+
 /// What one site feels: the sums of the reference loop.
 struct PairSum {
     double force[3] = {0.0, 0.0, 0.0}; ///< eV/Å
@@ -152,9 +196,15 @@ struct PairSum {
 /// a site at (x, y, z), by rows of atoms. Not-a-number where the position is none.
 PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double x, double y,
                  double z);
+/// The same over atoms anywhere, one after the other.
+PairSum pair_sum(const SubstrateAtoms& atoms, const LennardJones& potential, double x, double y,
+                 double z);
 
 /// The reference sweep: pair_sum for each site of rows [row_begin, row_end).
 void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
+                     const LennardJones& potential, int row_begin, int row_end,
+                     InterfaceSums& sums);
+void reference_sweep(const InterfaceSites& sites, const SubstrateAtoms& atoms,
                      const LennardJones& potential, int row_begin, int row_end,
                      InterfaceSums& sums);
 
@@ -246,6 +296,7 @@ struct InterfaceKernels {
     };
     Sweeps<LatticeSubstrate> lattice;
     Sweeps<RowSubstrate> rows;
+    Sweeps<CellSubstrate> cells;
 
     /// Over a wall, in double; [observe]. nearest_r2: the square of the gap, 0 where it is
     /// negative.

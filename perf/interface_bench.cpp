@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// How long does a pair take, and how near is that to the processor's limit? Both sweeps, in double
-// and mixed, force only and observed, over a nearly flat interface at the equilibrium separation;
-// and what skipping gains over a rough one in partial contact. One thread.
+// How long does a pair take, and how near is that to the processor's limit? The three sweeps, in
+// double and mixed, force only and observed, over a nearly flat interface at the equilibrium
+// separation, that over cells on the atoms of the one over rows; and what skipping gains over a
+// rough one in partial contact. One thread.
 //
 //   s/pair         time by pairs within the cutoff, so lanes spent on others show
 //   limit          what the multiplications of a pair (fused or not) take in a loop of nothing but
@@ -32,7 +33,8 @@ constexpr double a = 2.6;
 constexpr int n = 128;
 
 /// Of four pairs in the force-only lattice sweep: 4 for r^2, 6 about two shared divisions, 16 for
-/// the force, 4 for its z component, 1 for the lateral ones. The sweep over rows takes one more.
+/// the force, 4 for its z component, 1 for the lateral ones. The sweep over rows takes one more,
+/// the one over cells 15; its shares are of the same limit.
 constexpr int multiplications = 31;
 constexpr int divisions = 2;
 /// Of these multiplications 13 are fused with an addition; 16 more additions stand alone.
@@ -113,6 +115,21 @@ Surface nearly_flat(int sites) {
     return s;
 }
 
+/// The same, as atoms anywhere.
+Surface as_atoms(const Surface& map) {
+    Surface s;
+    s.sites = n;
+    s.length = map.length;
+    s.height.assign(static_cast<std::size_t>(n) * n, map.height.front());
+    const double b = map.length / map.sites;
+    for (int i = 0; i < map.sites * map.sites; ++i) {
+        s.atoms.x.push_back(b * (i % map.sites));
+        s.atoms.y.push_back(b * (i / map.sites));
+        s.atoms.z.push_back(map.height[static_cast<std::size_t>(i)]);
+    }
+    return s;
+}
+
 /// Pairs within the cutoff, of all sites.
 double pairs_in_reach(double b, double cutoff, double z) {
     double pairs = 0.0;
@@ -145,13 +162,16 @@ double time_sweeps(benchmark::State& state, const Surface& substrate,
 }
 
 /// In contact over a nearly flat substrate of so many sites.
-void contact(benchmark::State& state, int sites, bool mixed, bool observe) {
+void contact(benchmark::State& state, int sites, bool atoms_anywhere) {
     constexpr double height = 3.11;
+    const bool mixed = state.range(0), observe = state.range(1);
     InterfaceOptions options;
     options.mixed = mixed;
     const double pairs = pairs_in_reach(n * a / sites, options.potential.cutoff, height);
     const double product = limit(mixed), with_division = limit_with_division(mixed);
-    const double pair = time_sweeps(state, nearly_flat(sites), options, height, observe) / pairs;
+    const Surface map = nearly_flat(sites);
+    const double pair =
+        time_sweeps(state, atoms_anywhere ? as_atoms(map) : map, options, height, observe) / pairs;
     state.counters["s/pair"] = pair;
     state.counters["limit"] = product;
     state.counters["share"] = product / pair;
@@ -161,10 +181,9 @@ void contact(benchmark::State& state, int sites, bool mixed, bool observe) {
     state.counters["fused_GFLOP/s"] = fused_rate(mixed);
 }
 
-void lattice(benchmark::State& state) { contact(state, n, state.range(0), state.range(1)); }
-void rows(benchmark::State& state) {
-    contact(state, substrate_sites(n, 1.618), state.range(0), state.range(1));
-}
+void lattice(benchmark::State& state) { contact(state, n, false); }
+void rows(benchmark::State& state) { contact(state, substrate_sites(n, 1.618), false); }
+void cells(benchmark::State& state) { contact(state, substrate_sites(n, 1.618), true); }
 
 void out_of_reach(benchmark::State& state) { time_sweeps(state, nearly_flat(n), {}, 14.0, false); }
 
@@ -184,6 +203,7 @@ void partial_contact(benchmark::State& state) {
 const std::vector<std::vector<std::int64_t>> both{{0, 1}, {0, 1}};
 BENCHMARK(lattice)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
 BENCHMARK(rows)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
+BENCHMARK(cells)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
 BENCHMARK(out_of_reach);
 BENCHMARK(partial_contact)->ArgName("skip")->Arg(0)->Arg(1);
 

@@ -75,7 +75,7 @@ def row(key, label, entry, stream=True):
 
 def kernels(folder, quick):
     """The groups of rows on kernels, and the limits they were held against."""
-    pairs = google(os.path.join(folder, "interface_bench"), "lattice|rows|out_of_reach|partial", quick)
+    pairs = google(os.path.join(folder, "interface_bench"), "lattice|rows|cells|out_of_reach|partial", quick)
     sizes, blocks, threads = ((32,), (128,), (1,)) if quick else ((64, 512), (256, 512), (1, 2))
     transfer = 128 if quick else 512
     few = "|".join(map(str, sizes))
@@ -84,7 +84,7 @@ def kernels(folder, quick):
     elastic = google(os.path.join(folder, "elastic_bench"), pattern, quick)
 
     rows = []
-    for sweep in ("lattice", "rows"):
+    for sweep in ("lattice", "rows", "cells"):
         for mixed in (0, 1):
             for observed in (0, 1):
                 name = f"{sweep}/mixed:{mixed}/observed:{observed}"

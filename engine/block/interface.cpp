@@ -73,11 +73,15 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
             "cutoff "
             "(4 r0 = {} Å keeps 98 % of the work of adhesion) and set interface.tail = true",
             cutoff, max_half_offsets - 4, spacing, 4.0 * options.potential.r0));
+    if (substrate.atoms.size() > 0) build_cells(substrate);
     map_ = {map_height_.data(), substrate.sites, tile.sites * spacing / substrate.sites};
     if (same_lattice) map_.spacing = spacing;
     method_ = options.method;
     if (method_ == InterfaceMethod::automatic)
-        method_ = same_lattice ? InterfaceMethod::lattice : InterfaceMethod::rows;
+        method_ = cells_         ? InterfaceMethod::cells
+                  : same_lattice ? InterfaceMethod::lattice
+                                 : InterfaceMethod::rows;
+    if (cells_) return;
     if (method_ == InterfaceMethod::lattice && !same_lattice)
         throw std::invalid_argument(fmt::format(
             "interface: the lattice sweep needs as many atoms ({}) as sites ({}) across the box; "
@@ -113,6 +117,32 @@ void Interface::build_wall(const Surface& substrate) {
             below(x, y) = substrate.height[static_cast<std::size_t>(tile_.y0 + y) *
                                                static_cast<std::size_t>(substrate.sites) +
                                            static_cast<std::size_t>(tile_.x0 + x)];
+}
+
+namespace {
+
+CellOptions cell_options(const InterfaceOptions& options, double spacing, double margin) {
+    return {spacing,
+            options.potential.cutoff,
+            margin,
+            !options.mixed,
+            options.mixed || options.single_too,
+            options.skip};
+}
+
+} // namespace
+
+void Interface::build_cells(const Surface& substrate) {
+    const double cutoff = options_.potential.cutoff;
+    const bool others =
+        options_.method == InterfaceMethod::lattice || options_.method == InterfaceMethod::rows;
+    if (options_.tail || others || cutoff > largest_cell_cutoff)
+        throw std::invalid_argument(fmt::format(
+            "interface: a substrate of atoms anywhere has no mean plane for a tail and no rows, "
+            "and a cutoff of {} Å at most; it was asked for {} Å{}{}",
+            largest_cell_cutoff, cutoff, options_.tail ? ", a tail" : "",
+            others ? ", the sweep over a lattice or rows" : ""));
+    cells_.emplace(substrate.atoms, tile_, cell_options(options_, spacing_, margin_));
 }
 
 /// For each block of sites and each ring of lateral distance: the greatest and least height in it.
@@ -282,6 +312,14 @@ std::size_t Interface::bytes_for(const InterfaceOptions& options, const Tile& ti
     return bytes;
 }
 
+std::size_t Interface::bytes_over_atoms(const InterfaceOptions& options, const Tile& tile,
+                                        double spacing, std::size_t atoms) {
+    const auto sites = static_cast<std::size_t>(tile.sites);
+    return sites * sites * sizeof(double) +
+           SubstrateCells::bytes_for(atoms, tile,
+                                     cell_options(options, spacing, margin_for(spacing)));
+}
+
 /// The tile's heights with their halo, and how many offsets lie within each lateral distance.
 void Interface::build_lattice() {
     const LatticeReach reach(options_.potential.cutoff + margin_, spacing_);
@@ -331,6 +369,8 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe, 
     };
     const auto lattice = pick(interface_kernels().lattice);
     const auto rows = pick(interface_kernels().rows);
+    const auto cells = pick(interface_kernels().cells);
+    const CellSubstrate in_cells = cells_ ? cells_->view() : CellSubstrate{};
     const LennardJones& potential = options_.potential;
     InterfaceSums total;
 #pragma omp parallel
@@ -353,8 +393,14 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe, 
             case InterfaceMethod::rows:
                 rows(sites, rows_, potential, y, y + 1, mine);
                 break;
+            case InterfaceMethod::cells:
+                cells(sites, in_cells, potential, y, y + 1, mine);
+                break;
             default:
-                reference_sweep(sites, map_, potential, y, y + 1, mine);
+                if (cells_)
+                    reference_sweep(sites, in_cells.atoms, potential, y, y + 1, mine);
+                else
+                    reference_sweep(sites, map_, potential, y, y + 1, mine);
             }
             if (options_.tail)
                 tail_sweep(sites, tail_, mean_height_.plane(0), y, y + 1, observe, mine);
@@ -451,7 +497,8 @@ std::size_t Interface::bytes() const {
     const std::size_t doubles = map_height_.size() + reach_highest_.size() + reach_lowest_.size();
     return doubles * sizeof(double) + columns_.size() * sizeof(std::int32_t) +
            (height_.empty() ? 0 : height_.bytes()) +
-           (fixed_height_.empty() ? 0 : fixed_height_.bytes()) + tail_bytes();
+           (fixed_height_.empty() ? 0 : fixed_height_.bytes()) + tail_bytes() +
+           (cells_ ? cells_->bytes() : 0);
 }
 
 ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks) {

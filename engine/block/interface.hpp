@@ -10,8 +10,9 @@
 // communicated here: the sweep is local to the tile, and its sums are exact (ExactSum), to be
 // merged over ranks in any order.
 //
-// Which sweep runs is decided at construction: wall if there is one; lattice if the substrate has
-// the block's lattice, rows otherwise; in double, or mixed. The tables allow for sideways
+// Which sweep runs is decided at construction: wall if there is one; cells if the substrate's atoms
+// have positions of their own; lattice if it has the block's lattice, rows otherwise; in double, or
+// mixed. The tables allow for sideways
 // displacements up to two spacings; sites that go beyond are summed by the reference loop
 // (kernels/interface_sweep.hpp), so no pair is ever missed and no table is ever rebuilt.
 //
@@ -22,6 +23,7 @@
 #include "decomposition/communicator.hpp"
 #include "decomposition/field.hpp"
 #include "decomposition/tile.hpp"
+#include "engine/block/substrate_cells.hpp"
 #include "engine/scene/surface.hpp"
 #include "kernels/interface_sweep.hpp"
 
@@ -32,7 +34,7 @@
 
 namespace asperity {
 
-enum class InterfaceMethod { automatic, reference, lattice, rows, wall };
+enum class InterfaceMethod { automatic, reference, lattice, rows, cells, wall };
 
 struct InterfaceOptions {
     std::optional<WallLaw> wall = {}; ///< in place of atoms; a smeared layer is that of `potential`
@@ -120,15 +122,19 @@ public:
     InterfaceMethod method() const { return method_; }
     const InterfaceOptions& options() const { return options_; }
     std::size_t bytes() const;
-    /// What an interface over a substrate of N x N atoms would hold, without making it.
+    /// What an interface over a substrate of N x N atoms would hold, without making it; and about
+    /// what one over so many atoms anywhere would.
     static std::size_t bytes_for(const InterfaceOptions& options, const Tile& tile, double spacing,
                                  int substrate_sites);
+    static std::size_t bytes_over_atoms(const InterfaceOptions& options, const Tile& tile,
+                                        double spacing, std::size_t atoms);
     std::size_t tail_bytes() const { return mean_height_.empty() ? 0 : mean_height_.bytes(); }
 
 private:
     InterfaceSums sweep_sites(const InterfaceSites& sites, bool observe, bool mixed) const;
     double height_below(const VectorPlane<const double>& displacement, int x, int y) const;
     void build_wall(const Surface& substrate);
+    void build_cells(const Surface& substrate);
     void build_reach();
     void build_lattice();
     void build_rows();
@@ -150,7 +156,8 @@ private:
     std::vector<std::int32_t> columns_;
     LatticeSubstrate lattice_;
     RowSubstrate rows_;
-    Field<double> mean_height_; ///< tail: of the atoms within the cutoff sideways
+    std::optional<SubstrateCells> cells_; ///< where the substrate has atoms of its own
+    Field<double> mean_height_;           ///< tail: of the atoms within the cutoff sideways
     TailCorrection tail_;
 
 public:

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The substrate's height map (docs/model.md): flat, self-affine, or measured; curved on
-// request.
+// request. Or its atoms, at positions of their own, and the map of the topmost ones.
 //
 // A self-affine surface is made by Fourier filtering: each integer wavevector draws its amplitude
 // and phase from a counter-based generator keyed by seed and wavevector, so the same seed gives the
@@ -13,13 +13,14 @@
 // h(x) = sum_q h_q exp(i q x). q in 1/Å, C in Å^4. q_L = 2 pi / L.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace asperity {
 
-enum class SurfaceKind { flat, self_affine, file };
+enum class SurfaceKind { flat, self_affine, file, atoms };
 enum class Amplitudes { gaussian, fixed };
 
 struct SurfaceOptions {
@@ -56,11 +57,19 @@ struct SurfaceStatistics {
     std::vector<SpectrumBin> spectrum; ///< bins of width q_L
 };
 
+/// Atoms anywhere, Å.
+struct AtomPositions {
+    std::vector<double> x, y, z;
+    std::size_t size() const { return x.size(); }
+};
+
 struct Surface {
     int sites = 0;
     double length = 0.0;        ///< Å
     double radius = 0.0;        ///< of the cap that the heights hold, Å; 0: none
-    std::vector<double> height; ///< height[y * sites + x] of the atom at (x, y) length / sites, Å
+    std::vector<double> height; ///< height[y * sites + x] of the atom at (x, y) length / sites, Å;
+                                ///< where there are `atoms`, of the topmost one near it
+    AtomPositions atoms;        ///< in the box [0, length); empty: one for each height
     SurfaceStatistics statistics;
     std::string origin;             ///< of a measured map: whose it is, where its file says so
     std::vector<std::string> notes; ///< what was clipped or resampled, in words
@@ -78,6 +87,11 @@ int sites_of_map(const SurfaceOptions& options);
 /// the middle is cut out; one that is narrower is refused (std::invalid_argument).
 Surface surface_from_heights(const SurfaceOptions& options, std::vector<double> heights, int nx,
                              int ny);
+
+/// Atoms in the box of the options. Heights are those of the topmost atom nearest to each site of
+/// the lattice, sites without one being filled by Laplace's equation; their mean becomes z = 0.
+/// Throws std::invalid_argument where atoms coincide.
+Surface surface_from_atoms(const SurfaceOptions& options, AtomPositions atoms);
 
 /// Persson's C(q) of the options, Å^4 (q in 1/Å), with the spectrum clipped at the grid's Nyquist
 /// wavevector.

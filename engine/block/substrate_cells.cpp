@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/block/substrate_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+/// Longest edge of a cell, Å: positions from its centre fit into 32 bits.
+constexpr double longest_edge = 64.0;
+/// Atoms that fill a cell stand this far below it, Å: a site that sums over the cell is within the
+/// cutoff of its bounds, and so beyond the cutoff of these.
+constexpr double filler_depth = 2.0 * largest_cell_cutoff + longest_edge;
+static_assert((filler_depth + longest_edge + largest_cell_cutoff + 1.0) / fixed_quantum < 0x1p31,
+              "differences fit into 32 bits");
+/// Rounding in a bound must leave no atom out, Å.
+constexpr double slack = 1e-3;
+
+std::size_t blocks_of(const Tile& tile) {
+    return static_cast<std::size_t>((tile.nx + interface_block - 1) / interface_block);
+}
+
+} // namespace
+
+/// Halves of halves of the atoms. Heights are over the datum.
+struct SubstrateCells::Tree {
+    struct Node {
+        double low[3], high[3];
+        std::int32_t cell = -1;             ///< of a leaf
+        std::int32_t left = -1, right = -1; ///< of the others
+    };
+    const AtomPositions& atoms;
+    double datum;
+    std::vector<std::int64_t> order;      ///< atoms, cell by cell
+    std::vector<std::int64_t> cell_begin; ///< in the order
+    std::vector<Node> nodes;
+
+    Tree(const AtomPositions& of, double over) : atoms(of), datum(over), order(of.size()) {
+        std::iota(order.begin(), order.end(), std::int64_t{0});
+        const auto count = static_cast<std::int64_t>(order.size());
+        halve(0, count);
+        cell_begin.push_back(count);
+    }
+    std::size_t cells() const { return cell_begin.size() - 1; }
+    double at(int axis, std::int64_t atom) const {
+        const auto i = static_cast<std::size_t>(atom);
+        return axis == 0 ? atoms.x[i] : axis == 1 ? atoms.y[i] : atoms.z[i] - datum;
+    }
+
+    std::int32_t halve(std::int64_t first, std::int64_t last) {
+        Node node{};
+        int longest = 0;
+        const auto extent = [&](int axis) { return node.high[axis] - node.low[axis]; };
+        for (int k = 0; k < 3; ++k) {
+            node.low[k] = std::numeric_limits<double>::max();
+            node.high[k] = std::numeric_limits<double>::lowest();
+            for (auto i = order.begin() + first; i != order.begin() + last; ++i) {
+                node.low[k] = std::min(node.low[k], at(k, *i));
+                node.high[k] = std::max(node.high[k], at(k, *i));
+            }
+            if (extent(k) > extent(longest)) longest = k;
+        }
+        const std::size_t here = nodes.size();
+        nodes.push_back(node);
+        if (last - first <= cell_atoms && extent(longest) <= longest_edge) {
+            nodes[here].cell = static_cast<std::int32_t>(cell_begin.size());
+            cell_begin.push_back(first);
+            return static_cast<std::int32_t>(here);
+        }
+        const std::int64_t full = (last - first + cell_atoms - 1) / cell_atoms;
+        const std::int64_t half =
+            full > 1 ? (full + 1) / 2 * cell_atoms : std::max<std::int64_t>((last - first) / 2, 1);
+        const auto middle = order.begin() + first + half;
+        std::nth_element(order.begin() + first, middle, order.begin() + last,
+                         [&](std::int64_t a, std::int64_t b) {
+                             return std::pair(at(longest, a), a) < std::pair(at(longest, b), b);
+                         });
+        // What nth_element leaves on either side has no order that the standard fixes.
+        std::sort(order.begin() + first, middle);
+        std::sort(middle, order.begin() + last);
+        const std::int32_t left = halve(first, first + half), right = halve(first + half, last);
+        nodes[here].left = left;
+        nodes[here].right = right;
+        return static_cast<std::int32_t>(here);
+    }
+};
+
+SubstrateCells::SubstrateCells(AtomPositions atoms, const Tile& tile, const CellOptions& options)
+    : atoms_(std::move(atoms)), edge_(tile.sites * options.spacing),
+      datum_(*std::max_element(atoms_.z.begin(), atoms_.z.end())), margin_(options.margin) {
+    const Tree tree(atoms_, datum_);
+    fill(tree, options);
+    list(tree, tile, options);
+}
+
+void SubstrateCells::fill(const Tree& tree, const CellOptions& options) {
+    const std::size_t cells = tree.cells(), slots = cells * cell_atoms;
+    bounds_.resize(6 * cells);
+    if (options.in_double)
+        for (auto* wide : {&cell_x_, &cell_y_, &cell_z_})
+            wide->resize(slots);
+    if (options.in_mixed)
+        for (auto* fixed : {&fixed_x_, &fixed_y_, &fixed_z_})
+            fixed->resize(slots);
+    std::vector<double>* const wide[3] = {&cell_x_, &cell_y_, &cell_z_};
+    std::vector<std::int32_t>* const fixed[3] = {&fixed_x_, &fixed_y_, &fixed_z_};
+    for (const Tree::Node& node : tree.nodes) {
+        if (node.cell < 0) continue;
+        const auto cell = static_cast<std::size_t>(node.cell);
+        const std::int64_t begin = tree.cell_begin[cell];
+        const std::int64_t atoms = tree.cell_begin[cell + 1] - begin;
+        for (int k = 0; k < 3; ++k) {
+            const auto axis = static_cast<std::size_t>(k);
+            bounds_[2 * axis * cells + cell] = node.low[k];
+            bounds_[(2 * axis + 1) * cells + cell] = node.high[k];
+            const double centre = 0.5 * (node.low[k] + node.high[k]);
+            for (std::int64_t i = 0; i < cell_atoms; ++i) {
+                const double value =
+                    i < atoms ? tree.at(k, tree.order[static_cast<std::size_t>(begin + i)])
+                              : node.low[k] - (k == 2 ? filler_depth : 0.0);
+                const std::size_t slot = cell * cell_atoms + static_cast<std::size_t>(i);
+                if (options.in_double) (*wide[k])[slot] = value;
+                if (options.in_mixed)
+                    (*fixed[k])[slot] =
+                        static_cast<std::int32_t>(std::nearbyint((value - centre) / fixed_quantum));
+            }
+        }
+    }
+}
+
+void SubstrateCells::list(const Tree& tree, const Tile& tile, const CellOptions& options) {
+    const double widest = options.cutoff + options.margin + slack, a = options.spacing;
+    blocks_ = static_cast<int>(blocks_of(tile));
+    block_first_.push_back(0);
+    const int images = static_cast<int>(std::ceil(widest / edge_)) + 1;
+    std::vector<std::int32_t> open;
+    for (int y = 0; y < tile.ny; ++y)
+        for (int block = 0; block < blocks_; ++block) {
+            const int last = std::min(tile.nx, (block + 1) * interface_block) - 1;
+            const double left = (tile.x0 + block * interface_block + 0.5) * a;
+            const double right = (tile.x0 + last + 0.5) * a;
+            const double site_y = (tile.y0 + y + 0.5) * a;
+            double highest = std::numeric_limits<double>::lowest();
+            for (int j = -images; j <= images; ++j)
+                for (int i = -images; i <= images; ++i) {
+                    // Depth first, left before right: cells in ascending order.
+                    open.assign(1, 0);
+                    while (!open.empty()) {
+                        const Tree::Node& node = tree.nodes[static_cast<std::size_t>(open.back())];
+                        open.pop_back();
+                        const double dx = std::max({node.low[0] + i * edge_ - right,
+                                                    left - node.high[0] - i * edge_, 0.0});
+                        const double dy = std::max({node.low[1] + j * edge_ - site_y,
+                                                    site_y - node.high[1] - j * edge_, 0.0});
+                        if (dx * dx + dy * dy >= widest * widest) continue;
+                        if (node.cell < 0) {
+                            open.push_back(node.right);
+                            open.push_back(node.left);
+                            continue;
+                        }
+                        images_.push_back({node.cell, static_cast<std::int16_t>(i),
+                                           static_cast<std::int16_t>(j)});
+                        highest = std::max(highest, node.high[2]);
+                    }
+                }
+            block_first_.push_back(static_cast<std::int64_t>(images_.size()));
+            block_highest_.push_back(options.skip ? highest : std::numeric_limits<double>::max());
+        }
+    images_.shrink_to_fit();
+}
+
+CellSubstrate SubstrateCells::view() const {
+    CellSubstrate view;
+    view.x = cell_x_.data();
+    view.y = cell_y_.data();
+    view.z = cell_z_.data();
+    view.fixed_x = fixed_x_.data();
+    view.fixed_y = fixed_y_.data();
+    view.fixed_z = fixed_z_.data();
+    view.bounds = bounds_.data();
+    view.cells = static_cast<std::int64_t>(bounds_.size()) / 6;
+    view.images = images_.data();
+    view.first = block_first_.data();
+    view.highest = block_highest_.data();
+    view.blocks = blocks_;
+    view.datum = datum_;
+    view.offset_margin = margin_;
+    view.atoms = atoms();
+    return view;
+}
+
+SubstrateAtoms SubstrateCells::atoms() const {
+    return {atoms_.x.data(), atoms_.y.data(), atoms_.z.data(),
+            static_cast<std::int64_t>(atoms_.size()), edge_};
+}
+
+std::size_t SubstrateCells::bytes() const {
+    const auto size = [](const auto&... vectors) {
+        return ((vectors.size() * sizeof(vectors[0])) + ...);
+    };
+    return size(atoms_.x, atoms_.y, atoms_.z, cell_x_, cell_y_, cell_z_, fixed_x_, fixed_y_,
+                fixed_z_, bounds_, block_highest_, images_, block_first_);
+}
+
+std::size_t SubstrateCells::bytes_for(std::size_t atoms, const Tile& tile,
+                                      const CellOptions& options) {
+    const auto count = static_cast<double>(atoms);
+    const double cells = std::ceil(count / cell_atoms);
+    const double a = options.spacing, edge = tile.sites * a;
+    const double blocks = static_cast<double>(blocks_of(tile)) * tile.ny;
+    // Cells that a disk of the widest reach, moved along a block of sites, touches: those of a
+    // layer, or about four spacings wide.
+    const double reach = options.cutoff + options.margin, along = (interface_block - 1) * a;
+    const double cell = std::max(4.0 * a, edge / std::sqrt(cells));
+    const double area = (std::numbers::pi * reach + 2.0 * along) * reach +
+                        cell * (along + 4.0 * reach) + cell * cell;
+    const double listed = blocks * std::ceil(area * cells / (edge * edge));
+    const double slot = (options.in_double ? 24.0 : 0.0) + (options.in_mixed ? 12.0 : 0.0);
+    return static_cast<std::size_t>(24.0 * count + cells * (cell_atoms * slot + 48.0) +
+                                    16.0 * blocks + 8.0 + sizeof(CellImage) * listed);
+}
+
+} // namespace asperity

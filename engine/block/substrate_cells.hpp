@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Substrate atoms anywhere, in the cells that the sweep over cells reads
+// (kernels/interface_sweep.hpp).
+//
+// Atoms are halved along the longest edge of their bounds, at a multiple of cell_atoms, until
+// cell_atoms or fewer are left: cells of any solid are compact and full. Ties go by the number of
+// the atom, so every rank makes the same cells in the same order. The substrate is rigid: cells and
+// the lists of cells near each block of sites are made once.
+#pragma once
+
+#include "decomposition/tile.hpp"
+#include "engine/scene/surface.hpp"
+#include "kernels/interface_sweep.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace asperity {
+
+/// What the cells are made for.
+struct CellOptions {
+    double spacing = 2.6;                    ///< of the sites, Å
+    double cutoff = 13.12;                   ///< Å, largest_cell_cutoff at most
+    double margin = 5.2;                     ///< sideways displacement that the lists allow for, Å
+    bool in_double = true, in_mixed = false; ///< sweeps that will read them
+    bool skip = true; ///< false: no block of sites is passed over (same bits; for tests)
+};
+
+class SubstrateCells {
+public:
+    /// For the sites of a tile; the box is tile.sites spacings wide.
+    SubstrateCells(AtomPositions atoms, const Tile& tile, const CellOptions& options);
+
+    /// What the sweep reads, and the reference; of this object's arrays.
+    CellSubstrate view() const;
+    SubstrateAtoms atoms() const;
+
+    std::size_t bytes() const;
+    /// About what the cells of so many atoms would hold, without making them.
+    static std::size_t bytes_for(std::size_t atoms, const Tile& tile, const CellOptions& options);
+
+private:
+    struct Tree;
+    void fill(const Tree& tree, const CellOptions& options);
+    void list(const Tree& tree, const Tile& tile, const CellOptions& options);
+
+    AtomPositions atoms_; ///< as given
+    double edge_, datum_, margin_;
+    std::vector<double> cell_x_, cell_y_, cell_z_;
+    std::vector<std::int32_t> fixed_x_, fixed_y_, fixed_z_;
+    std::vector<double> bounds_, block_highest_;
+    std::vector<CellImage> images_;
+    std::vector<std::int64_t> block_first_;
+    int blocks_ = 0;
+};
+
+} // namespace asperity

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The sweep over cells of substrate atoms: judged by the reference, by energy differences, by
+// itself on other tiles, and by the sweeps over the lattice and over rows of the same atoms.
+#include "engine/block/interface.hpp"
+#include "engine/block/substrate_cells.hpp"
+
+#include "decomposition/field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace asperity;
+
+namespace {
+
+constexpr double a = 2.6;
+constexpr int sites = 24; // 62.4 Å: more than twice the cutoff
+
+double scatter(double n) {
+    const double s = 1e4 * std::sin(12.9898 * n + 0.7);
+    return s - std::floor(s);
+}
+
+/// Three rough layers without any lattice, and a step of 4 Å at half the box.
+struct Solid {
+    AtomPositions atoms;
+    Solid() {
+        auto& [x, y, z] = atoms;
+        for (int i = 0; i < 1500; ++i) {
+            x.push_back(sites * a * scatter(3 * i));
+            y.push_back(sites * a * scatter(3 * i + 1));
+            z.push_back(-7.0 * scatter(3 * i + 2) - (x.back() < 0.5 * sites * a ? 4.0 : 0.0));
+        }
+    }
+    SubstrateCells cells(const Tile& tile, bool mixed, bool skip = true) const {
+        return {atoms, tile, CellOptions{a, 13.12, 2.0 * a, !mixed, mixed, skip}};
+    }
+};
+
+struct Swept {
+    std::vector<double> force;
+    InterfaceSums sums;
+};
+
+/// Displacements by place in the box, up to `size` Å.
+VectorField<double> displaced(const Tile& tile, double size) {
+    VectorField<double> u(tile, 1);
+    const auto v = u.plane(0);
+    for (int y = 0; y < tile.ny; ++y)
+        for (int x = 0; x < tile.nx; ++x) {
+            const int n = (tile.y0 + y) * sites + tile.x0 + x;
+            v.x(x, y) = size * (2.0 * scatter(0.1 + n) - 1.0);
+            v.y(x, y) = size * (2.0 * scatter(0.2 + n) - 1.0);
+            v.z(x, y) = size * (2.0 * scatter(0.3 + n) - 1.0);
+        }
+    return u;
+}
+
+template <class Sweep>
+Swept swept(const Tile& tile, const VectorField<double>& u, double height, Sweep sweep) {
+    VectorField<double> force(tile, 1);
+    InterfaceSites at{u.plane(0), force.plane(0), a, height, tile.x0, tile.y0, {}};
+    Swept s;
+    sweep(at, s.sums);
+    const auto f = force.plane(0);
+    for (int y = 0; y < tile.ny; ++y)
+        for (int x = 0; x < tile.nx; ++x)
+            for (double part : {f.x(x, y), f.y(x, y), f.z(x, y)})
+                s.force.push_back(part);
+    return s;
+}
+
+const Tile whole{0, 0, sites, sites, sites};
+const LennardJones potential{};
+
+Swept by_cells(const SubstrateCells& cells, const Tile& tile, const VectorField<double>& u,
+               double height, bool mixed) {
+    const auto& kernels = interface_kernels().cells;
+    return swept(tile, u, height, [&](const InterfaceSites& at, InterfaceSums& sums) {
+        (mixed ? kernels.in_mixed : kernels.plain)[1](at, cells.view(), potential, 0, tile.ny,
+                                                      sums);
+    });
+}
+
+Swept by_reference(const SubstrateCells& cells, const VectorField<double>& u, double height) {
+    return swept(whole, u, height, [&](const InterfaceSites& at, InterfaceSums& sums) {
+        reference_sweep(at, cells.atoms(), potential, 0, sites, sums);
+    });
+}
+
+} // namespace
+
+TEST(SubstrateCells, AgreeWithTheReference) {
+    const Solid solid;
+    for (bool mixed : {false, true}) {
+        const SubstrateCells cells = solid.cells(whole, mixed);
+        // In contact, about to leave, partly out of reach; one with sites beyond the margin.
+        for (const auto& [height, size] :
+             {std::pair{2.5, 0.3}, {8.0, 1.0}, {12.0, 0.3}, {3.0, 6.0}}) {
+            const auto u = displaced(whole, size);
+            const Swept judge = by_reference(cells, u, height),
+                        mine = by_cells(cells, whole, u, height, mixed);
+            double largest = 0.0;
+            for (double f : judge.force)
+                largest = std::max(largest, std::abs(f));
+            ASSERT_GT(largest, 0.0);
+            const double tolerance = mixed ? 1e-5 : 1e-12;
+            for (std::size_t i = 0; i < judge.force.size(); ++i)
+                ASSERT_NEAR(mine.force[i], judge.force[i],
+                            tolerance * (largest + std::abs(judge.force[i])))
+                    << height << " " << i;
+            const double energy = judge.sums.energy.value();
+            EXPECT_NEAR(mine.sums.energy.value(), energy, tolerance * (1.0 + std::abs(energy)));
+            EXPECT_EQ(mine.sums.in_contact, judge.sums.in_contact);
+            EXPECT_NEAR(mine.sums.closest_r2, judge.sums.closest_r2, 1e-4);
+        }
+    }
+}
+
+TEST(SubstrateCells, ForceIsMinusTheGradientOfTheEnergy) {
+    const SubstrateCells cells = Solid().cells(whole, false);
+    const double height = 2.5, h = 1e-4;
+    auto u = displaced(whole, 0.3);
+    const Swept here = by_cells(cells, whole, u, height, false);
+    for (int part = 0; part < 3; ++part)
+        for (int site : {0, 17, 200, sites * sites - 1}) {
+            const auto v = u.plane(0);
+            double& moved = (part == 0 ? v.x : part == 1 ? v.y : v.z)(site % sites, site / sites);
+            const double rest = moved;
+            moved = rest + h;
+            const double up = by_cells(cells, whole, u, height, false).sums.energy.value();
+            moved = rest - h;
+            const double down = by_cells(cells, whole, u, height, false).sums.energy.value();
+            moved = rest;
+            const double f = here.force[static_cast<std::size_t>(3 * site + part)];
+            // The force steps by V'(r_c), about 1e-4 eV/Å, where an atom crosses the cutoff.
+            EXPECT_NEAR(f, -(up - down) / (2.0 * h), 1e-3 * (1.0 + std::abs(f)))
+                << part << " " << site;
+        }
+}
+
+TEST(SubstrateCells, SameBitsOnAnyTile) {
+    const Solid solid;
+    for (bool mixed : {false, true})
+        for (double height : {2.5, 11.0}) {
+            const Swept all =
+                by_cells(solid.cells(whole, mixed), whole, displaced(whole, 1.0), height, mixed);
+            const Swept unskipped = by_cells(solid.cells(whole, mixed, false), whole,
+                                             displaced(whole, 1.0), height, mixed);
+            EXPECT_EQ(all.force, unskipped.force);
+            InterfaceSums sums;
+            for (const Tile& tile : {Tile{0, 0, 7, sites, sites}, Tile{7, 0, sites - 7, 11, sites},
+                                     Tile{7, 11, sites - 7, sites - 11, sites}}) {
+                const Swept part =
+                    by_cells(solid.cells(tile, mixed), tile, displaced(tile, 1.0), height, mixed);
+                std::size_t i = 0;
+                for (int y = 0; y < tile.ny; ++y)
+                    for (int x = 0; x < 3 * tile.nx; ++x, ++i)
+                        ASSERT_EQ(part.force[i], all.force[static_cast<std::size_t>(
+                                                     3 * ((tile.y0 + y) * sites + tile.x0) + x)]);
+                sums.merge(part.sums);
+            }
+            EXPECT_EQ(sums.energy.value(), all.sums.energy.value());
+            EXPECT_EQ(sums.force_z.value(), all.sums.force_z.value());
+            EXPECT_EQ(sums.in_contact, all.sums.in_contact);
+        }
+}
+
+namespace {
+
+/// m x m heights, and the same as atoms.
+std::pair<Surface, Surface> map_and_atoms(int m) {
+    Surface map;
+    map.sites = m;
+    map.length = sites * a;
+    const double b = map.length / m;
+    Surface atoms = map;
+    for (int j = 0; j < m; ++j)
+        for (int i = 0; i < m; ++i) {
+            map.height.push_back(3.0 * scatter(0.4 + j * m + i));
+            atoms.atoms.x.push_back(i * b);
+            atoms.atoms.y.push_back(j * b);
+            atoms.atoms.z.push_back(map.height.back());
+        }
+    atoms.sites = sites;
+    atoms.height.assign(sites * sites, map.height.front()); // of maps alone
+    return {map, atoms};
+}
+
+Swept over(const Surface& substrate, const InterfaceOptions& options, double height, double size) {
+    const Interface interface(substrate, whole, a, options);
+    const auto u = displaced(whole, size);
+    return swept(whole, u, height, [&](const InterfaceSites& at, InterfaceSums& sums) {
+        sums = interface.sweep(at.displacement, at.force, height, true);
+    });
+}
+
+void expect_alike(const Swept& one, const Swept& other, double tolerance) {
+    double largest = 0.0;
+    for (double f : one.force)
+        largest = std::max(largest, std::abs(f));
+    ASSERT_GT(largest, 0.0);
+    for (std::size_t i = 0; i < one.force.size(); ++i)
+        ASSERT_NEAR(one.force[i], other.force[i], tolerance * largest) << i;
+    const double energy = one.sums.energy.value();
+    EXPECT_NEAR(other.sums.energy.value(), energy, tolerance * std::abs(energy));
+    EXPECT_EQ(other.sums.in_contact, one.sums.in_contact);
+    EXPECT_EQ(other.sums.repulsive, one.sums.repulsive);
+}
+
+} // namespace
+
+TEST(SubstrateCells, OfASurfacesAtomsActLikeItsLatticeAndItsRows) {
+    for (int m : {sites, 39}) // the block's lattice, and an incommensurate one
+        for (bool mixed : {false, true})
+            for (double height : {5.0, 13.0}) {
+                const auto [map, atoms] = map_and_atoms(m);
+                InterfaceOptions options;
+                options.mixed = mixed;
+                const Interface by_map(map, whole, a, options), by_atoms(atoms, whole, a, options);
+                EXPECT_EQ(by_map.method(),
+                          m == sites ? InterfaceMethod::lattice : InterfaceMethod::rows);
+                EXPECT_EQ(by_atoms.method(), InterfaceMethod::cells);
+                expect_alike(over(map, options, height, 0.3), over(atoms, options, height, 0.3),
+                             mixed ? 3e-6 : 1e-11);
+            }
+}
+
+TEST(SubstrateCells, OfASteppedTwoLayerSolidAgreeWithTheReference) {
+    // Two layers of a square lattice of 2.4 Å turned by no angle to the block's, and a terrace.
+    Surface solid;
+    solid.sites = sites;
+    solid.length = sites * a;
+    const int m = 26;
+    const double b = solid.length / m;
+    for (int layer = 0; layer < 3; ++layer)
+        for (int j = 0; j < m; ++j)
+            for (int i = 0; i < (layer == 0 ? m / 2 : m); ++i) {
+                solid.atoms.x.push_back((i + 0.5 * (layer % 2)) * b);
+                solid.atoms.y.push_back((j + 0.5 * (layer % 2)) * b);
+                solid.atoms.z.push_back(-1.7 * layer);
+            }
+    solid.height.assign(sites * sites, 0.0);
+    for (double height : {2.6, 9.0}) {
+        InterfaceOptions reference;
+        reference.method = InterfaceMethod::reference;
+        expect_alike(over(solid, reference, height, 0.3), over(solid, {}, height, 0.3), 1e-11);
+        InterfaceOptions all;
+        all.skip = false;
+        EXPECT_EQ(over(solid, all, height, 0.3).force, over(solid, {}, height, 0.3).force);
+    }
+    // The second layer counts.
+    Surface top = solid;
+    top.atoms.x.resize(static_cast<std::size_t>(m * (m / 2)));
+    top.atoms.y.resize(top.atoms.x.size());
+    top.atoms.z.resize(top.atoms.x.size());
+    EXPECT_LT(over(solid, {}, 2.6, 0.0).sums.energy.value(),
+              1.2 * over(top, {}, 2.6, 0.0).sums.energy.value());
+}
