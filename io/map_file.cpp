@@ -47,26 +47,6 @@ constexpr Foreign foreign[] = {{"GWYP", "a Gwyddion file (.gwy)"},
                                {"aISO-1.0", "a Surface Data File (.sdf)"},
                                {"bISO-1.0", "a Surface Data File (.sdf)"}};
 
-std::string contents(const std::string& file) {
-    std::error_code error;
-    const auto size = fs::file_size(file, error);
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || error)
-        refuse_map(file, "the height map cannot be opened",
-                   error ? error.message() : std::strerror(errno), "check its permissions");
-    // A number takes two bytes of text at least, and eight here. Small files are not worth a look.
-    constexpr std::uintmax_t small = 16u << 20;
-    if (size > small && 6.0 * static_cast<double>(size) > available_memory().bytes)
-        refuse_map(file, "the height map is larger than the memory",
-                   fmt::format("it has {:.3g} GB", static_cast<double>(size) / 1e9),
-                   "cut a piece out of it before");
-    std::string text(size, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (stream.bad() || static_cast<std::size_t>(stream.gcount()) != text.size())
-        refuse_map(file, "the height map cannot be read to its end", std::strerror(errno), "");
-    return text;
-}
-
 RawMap read_raw(const std::string& file, const std::string& dataset) {
     std::ifstream stream(file, std::ios::binary);
     char head[24] = {};
@@ -85,8 +65,9 @@ RawMap read_raw(const std::string& file, const std::string& dataset) {
                 fmt::format("convert it: python3 -m asperity.maps {} heights.h5; or export it "
                             "as text with a header, HDF5 or .npy",
                             file));
-    if (start.starts_with("\x93NUMPY")) return read_map_numpy(contents(file), file);
-    return read_map_text(contents(file), file, ending == ".xyz");
+    if (start.starts_with("\x93NUMPY"))
+        return read_map_numpy(file_contents(file, "the height map"), file);
+    return read_map_text(file_contents(file, "the height map"), file, ending == ".xyz");
 }
 
 /// Heights in Å, missing points counted, sizes in Å.
@@ -138,6 +119,27 @@ void complete(RawMap& map, const std::string& unit_wanted) {
 
 void refuse_map(std::string where, std::string what, std::string why, std::string fix) {
     throw SceneError(Problem{std::move(where), std::move(what), std::move(why), std::move(fix)});
+}
+
+std::string file_contents(const std::string& file, const char* what) {
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || error)
+        refuse_map(file, fmt::format("{} cannot be opened", what),
+                   error ? error.message() : std::strerror(errno), "check its permissions");
+    // A number takes two bytes of text at least, and eight here. Small files are not worth a look.
+    constexpr std::uintmax_t small = 16u << 20;
+    if (size > small && 6.0 * static_cast<double>(size) > available_memory().bytes)
+        refuse_map(file, fmt::format("{} is larger than the memory", what),
+                   fmt::format("it has {:.3g} GB", static_cast<double>(size) / 1e9),
+                   "cut a piece out of it before");
+    std::string text(size, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (stream.bad() || static_cast<std::size_t>(stream.gcount()) != text.size())
+        refuse_map(file, fmt::format("{} cannot be read to its end", what), std::strerror(errno),
+                   "");
+    return text;
 }
 
 double length_unit(const std::string& unit, const std::string& where) {

@@ -29,6 +29,9 @@ RawMap read_map_hdf5(const std::string& file, const std::string& dataset);
 RawMap read_map_hdf5_here(const std::string& file, const std::string& dataset);
 
 [[noreturn]] void refuse_map(std::string where, std::string what, std::string why, std::string fix);
+/// The bytes of a file that a scene names; `what` it is, for messages. Refused if it is larger than
+/// the memory.
+std::string file_contents(const std::string& file, const char* what);
 /// Å per unit, refused if it is no length.
 double length_unit(const std::string& unit, const std::string& where);
 

@@ -226,7 +226,10 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
 
     io::Table table({"the surface made", "", ""});
     table.align_left(2);
-    table.row({"atoms", fmt::format("{0} x {0}", surface.sites), ""});
+    if (surface.atoms.size() > 0) table.row({"atoms", fmt::format("{}", surface.atoms.size()), ""});
+    table.row({surface.atoms.size() > 0 ? "sites" : "atoms",
+               fmt::format("{0} x {0}", surface.sites),
+               surface.atoms.size() > 0 ? "heights of the topmost atoms" : ""});
     table.row({"edge", io::cell(surface.length, 6), "Å"});
     table.row({"pixel", io::cell(surface.length / surface.sites), "Å"});
     table.row({"rms height", io::cell(statistics.rms), "Å"});

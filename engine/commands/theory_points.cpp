@@ -62,7 +62,16 @@ std::vector<std::string> overrides_of(const std::string& line, const std::string
     return overrides;
 }
 
-Json point_json(const Scene& scene, SurfaceCache& surfaces) {
+/// simulated: the theory stands beside a run, which goes on without one.
+Json point_json(const Scene& scene, SurfaceCache& surfaces, bool simulated) {
+    if (const std::string why = no_theory(scene); simulated && !why.empty()) {
+        io::Result values = scene_result(scene);
+        values.set("delta_gamma", examine(scene, 1).flat.work_of_adhesion);
+        values.set("theory.note", why);
+        Json point = values.json();
+        point["notes"] = Json::array();
+        return point;
+    }
     const TheoryCase what = theory_case(scene, surfaces.of(scene));
     const TheoryNumbers numbers = solve_theory(what);
     io::Result values = scene_result(scene);
@@ -112,7 +121,7 @@ int theory_points_command(const TheoryPoints& what) {
         try {
             const Scene scene = read_scene_text(text, what.scene, overrides);
             if (what.runnable) examine(scene, 1);
-            point = point_json(scene, surfaces);
+            point = point_json(scene, surfaces, what.runnable);
         } catch (const io::SceneError& error) {
             point = problems_json(error.problems());
         }

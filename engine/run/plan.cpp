@@ -114,8 +114,7 @@ class Estimate {
 public:
     Estimate(Plan& plan, const Scene& scene) : plan_(plan), scene_(scene) {
         const auto begin = std::chrono::steady_clock::now();
-        const bool whole =
-            scene.surface.kind == SurfaceKind::file || scene.surface.sites <= largest_surface;
+        const bool whole = scene.surface.reads_file() || scene.surface.sites <= largest_surface;
         surface_ = scene_surface(whole ? scene : smaller_box(scene));
         const double measured = static_cast<double>(surface_.height.size());
         surface_seconds_ =

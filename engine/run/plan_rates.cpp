@@ -50,6 +50,17 @@ Piece cut_out(const Scene& scene, const Setup& setup, const Surface& surface) {
                 surface.height[static_cast<std::size_t>(periodic(y, surface.sites)) *
                                    static_cast<std::size_t>(surface.sites) +
                                static_cast<std::size_t>(periodic(x, surface.sites))]);
+    // Atoms of the piece; those nearer to its far sides than to each other would coincide there.
+    constexpr double apart = 0.5;
+    piece.surface.atoms = {};
+    const double length = piece.surface.length;
+    const double end = block.sites < scene.surface.sites ? length - apart : length;
+    for (std::size_t i = 0; i < surface.atoms.size(); ++i) {
+        if (surface.atoms.x[i] >= end || surface.atoms.y[i] >= end) continue;
+        piece.surface.atoms.x.push_back(surface.atoms.x[i]);
+        piece.surface.atoms.y.push_back(surface.atoms.y[i]);
+        piece.surface.atoms.z.push_back(surface.atoms.z[i]);
+    }
     return piece;
 }
 

@@ -89,6 +89,14 @@ constexpr const char* map_columns[] = {"gap", "pressure", "distance", "u_x", "u_
 void write_substrate(io::Hdf5File& file, const Surface& surface) {
     const auto n = static_cast<std::uint64_t>(surface.sites);
     io::write_described(file, "/substrate/height", {n, n}, surface.height);
+    if (const std::size_t count = surface.atoms.size(); count > 0) {
+        std::vector<double> places;
+        places.reserve(3 * count);
+        for (std::size_t i = 0; i < count; ++i)
+            places.insert(places.end(),
+                          {surface.atoms.x[i], surface.atoms.y[i], surface.atoms.z[i]});
+        io::write_described(file, "/substrate/atoms", {count, 3}, places);
+    }
     io::write_described_attribute(file, "/substrate", "edge", surface.length);
     std::vector<double> q, realised, target;
     for (const SpectrumBin& bin : surface.statistics.spectrum) {

@@ -27,6 +27,8 @@ void add_surface(const Surface& surface, io::Result& result) {
     result.set("surface.rms_slope", s.rms_slope);
     result.set("surface.min", s.lowest);
     result.set("surface.max", s.highest);
+    if (surface.atoms.size() > 0)
+        result.set("surface.atoms", static_cast<long long>(surface.atoms.size()));
     if (!surface.origin.empty()) result.set("surface.origin", surface.origin);
 }
 

@@ -8,6 +8,7 @@
 #include "engine/run/stop_signals.hpp"
 #include "engine/run/summary.hpp"
 #include "io/described.hpp"
+#include "io/digest.hpp"
 #include "io/json.hpp"
 
 #include <fmt/format.h>
@@ -37,13 +38,19 @@ void print_unless_closed(const Print& print) {
     }
 }
 
-/// What may not change between a checkpoint and its resumption.
-std::string physics_of(const Scene& scene) {
+/// What may not change between a checkpoint and its resumption: keys, and the atoms of a file.
+std::string physics_of(const Scene& scene, const Surface& surface) {
     const io::Json all = scene_json(scene);
     io::Json part = io::Json::object();
     for (const char* section : {"surface", "block", "interface", "drive"})
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
+    if (surface.atoms.size() > 0) {
+        io::Digest digest;
+        for (const auto* places : {&surface.atoms.x, &surface.atoms.y, &surface.atoms.z})
+            digest.update(std::as_bytes(std::span(*places)));
+        part["surface"]["atoms"] = digest.value();
+    }
     return io::json_text(part);
 }
 
@@ -53,7 +60,7 @@ RunSession::RunSession(const Scene& of, const RunOptions& options, const Communi
     : scene(of), ranks(on), options_(options), setup(make_setup(scene, ranks.size())),
       surface(scene_surface(scene)), grid(make_grid(scene, setup, ranks.size(), ranks.rank())),
       storage_(options, scene.name, ranks), progress(options.progress, !ranks.root()),
-      fingerprint_(physics_of(scene)) {
+      fingerprint_(physics_of(scene, surface)) {
     progress.tell(options.listener);
     if (scene.writes_field("pull-off")) strongest_.layer = VectorField<double>(grid.tile(0), 1);
     print_notes();

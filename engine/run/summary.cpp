@@ -35,8 +35,11 @@ std::string levels_text(const Scene& scene, const Setup& setup) {
 std::string surface_text(const Scene& scene, const Surface& surface) {
     if (scene.surface.kind == SurfaceKind::flat) return "flat";
     const auto& s = surface.statistics;
-    return fmt::format("rms {:.3f} Å, rms slope {:.3f}, heights {:.2f} to {:.2f} Å", s.rms,
-                       s.rms_slope, s.lowest, s.highest);
+    const std::string atoms = surface.atoms.size() > 0
+                                  ? fmt::format("{} atoms, topmost ones: ", surface.atoms.size())
+                                  : std::string();
+    return atoms + fmt::format("rms {:.3f} Å, rms slope {:.3f}, heights {:.2f} to {:.2f} Å", s.rms,
+                               s.rms_slope, s.lowest, s.highest);
 }
 
 using Number = std::optional<double>;
@@ -115,8 +118,10 @@ void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
                  pull_off = of("work_of_adhesion.pull_off"), state = of("binding_energy");
     row("work of adhesion", "binding_energy", 2, approach, pull_off, state);
     const auto share = [&](Number v) { return v && flat != 0.0 ? Number(*v / flat) : Number(); };
-    table.row({fmt::format("  over flat on flat ({:.2f})", flat), number(share(approach), 4),
-               number(share(pull_off), 4), number(share(state), 4)});
+    const bool anywhere = scene.surface.kind == SurfaceKind::atoms;
+    table.row(
+        {fmt::format("  over {} ({:.2f})", anywhere ? "one flat layer" : "flat on flat", flat),
+         number(share(approach), 4), number(share(pull_off), 4), number(share(state), 4)});
     const bool quasistatic = of("dissipated.energy").has_value();
     if (quasistatic)
         row("dissipated at instabilities", "dissipated.approach", 2,
@@ -141,8 +146,9 @@ void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
                    "the block.\n"
                    "  {:.1f} % of the block's surface atoms are in contact.\n",
                    *state,
-                   flat > 0.0 ? fmt::format(", {:.1f} % of that of two flat surfaces",
-                                            100.0 * *state / flat)
+                   flat > 0.0 ? fmt::format(", {:.1f} % of that of {}", 100.0 * *state / flat,
+                                            anywhere ? "one flat layer of the block's lattice"
+                                                     : "two flat surfaces")
                               : std::string(),
                    *of("work_of_adhesion.pairwise"), *of("zero_load.elastic_energy"),
                    100.0 * *of("contact_fraction"));

@@ -135,7 +135,17 @@ bool theory_needs_surface(const Scene& scene) {
                                            scene.theory.spectrum == TheorySpectrum::realised);
 }
 
+std::string no_theory(const Scene& scene) {
+    if (scene.surface.kind != SurfaceKind::atoms) return {};
+    return "the substrate's atoms stand anywhere (surface.kind = \"atoms\"), and the theories are "
+           "of one layer with heights, whose flat reference they divide by";
+}
+
 TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional<double> flat) {
+    if (const std::string why = no_theory(scene); !why.empty())
+        throw io::SceneError(io::Problem{scene.positions.where("surface.kind"),
+                                         "no theory applies to this scene", why,
+                                         "take a surface with heights: self-affine, flat or file"});
     TheoryCase out;
     const int substrate = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
     if (!flat) {
@@ -209,6 +219,10 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::Result& r
 }
 
 void add_theory(const Scene& scene, const Surface& surface, double flat, io::Result& result) {
+    if (const std::string why = no_theory(scene); !why.empty()) {
+        result.set("theory.note", why);
+        return;
+    }
     try {
         const TheoryCase what = theory_case(scene, &surface, flat);
         record_theory(what, solve_theory(what), result);

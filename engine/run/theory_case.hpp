@@ -43,9 +43,12 @@ struct TheoryCase {
 /// The theory of this scene follows the surface itself, not the target spectrum.
 bool theory_needs_surface(const Scene& scene);
 
+/// Why no theory applies to the scene; empty: one does.
+std::string no_theory(const Scene& scene);
+
 /// surface: the scene's, if it has been made already (at whatever rms: its spectrum is scaled to
 /// the scene's); flat: the flat reference (meV/Å^2), likewise.
-/// Throws io::SceneError.
+/// Throws io::SceneError, also where no theory applies.
 TheoryCase theory_case(const Scene& scene, const Surface* surface = nullptr,
                        std::optional<double> flat = std::nullopt);
 

@@ -157,7 +157,9 @@ void check_coverage(const Scene& scene, io::Problems& problems) {
     if (s.radius)
         outside("surface.radius", fmt::format("= {:.6g} Å", *s.radius),
                 "solids that are not curved");
-    if (s.kind == SurfaceKind::file) outside("surface.kind", "= \"file\"", "self-affine surfaces");
+    if (s.reads_file())
+        outside("surface.kind", s.kind == SurfaceKind::file ? "= \"file\"" : "= \"atoms\"",
+                "self-affine surfaces");
     if (s.kind == SurfaceKind::self_affine)
         if (const double bending = bending_energy(scene); bending > calibration::most_bending)
             outside("surface.rms",

@@ -25,8 +25,10 @@ io::Schema bind(Scene& scene) {
     schema.choice<SurfaceKind>("kind", surface.kind,
                                {{"flat", SurfaceKind::flat},
                                 {"self-affine", SurfaceKind::self_affine},
-                                {"file", SurfaceKind::file}},
-                               "what the substrate is");
+                                {"file", SurfaceKind::file},
+                                {"atoms", SurfaceKind::atoms}},
+                               "what the substrate is: one layer of atoms with heights, made or "
+                               "from a map; \"atoms\": those of a file, anywhere");
     schema.integer("sites", surface.sites, between(4, 32768),
                    "N; the periodic box is N spacings wide");
     schema.number("spacing", surface.spacing, "Å", positive(),
@@ -37,7 +39,7 @@ io::Schema bind(Scene& scene) {
     schema
         .number("rms", surface.rms, "Å", at_least(0.0),
                 "rms height; a map from a file is scaled to it only if the scene gives it")
-        .omitted = [&surface] { return surface.kind == SurfaceKind::file && !surface.rms_given; };
+        .omitted = [&surface] { return surface.reads_file() && !surface.rms_given; };
     schema.number("hurst", surface.hurst, "", between(0.0, 1.0), "Hurst exponent H");
     schema.number("rolloff", surface.rolloff, "", at_least(1.0),
                   "q0 / q_L: C(q) is constant below");
@@ -51,7 +53,8 @@ io::Schema bind(Scene& scene) {
     schema.text(
         "file", surface.file,
         "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), text (matrix, .xyz, ESRI grid) or "
-        ".npy, looked for beside the scene, then in the working directory");
+        ".npy; for kind = \"atoms\": LAMMPS data or extended XYZ (.xyz, .extxyz), with the block's "
+        "periodic box; looked for beside the scene, then in the working directory");
     schema.number_or("file_size", surface.file_size, "auto", "Å", positive(),
                      "edge of the map; \"auto\": what the file says, else the box");
     schema.text("file_unit", surface.file_unit,

@@ -73,6 +73,8 @@ struct Scene {
         MapCrop file_crop = MapCrop::none;
         Detrend detrend = Detrend::none;
         Resample resample = Resample::none;
+
+        bool reads_file() const { return kind == SurfaceKind::file || kind == SurfaceKind::atoms; }
     } surface;
 
     struct Block {

@@ -5,6 +5,7 @@
 // worth a note.
 #include "engine/scene/scene.hpp"
 
+#include "kernels/interface_sweep.hpp"
 #include "kernels/variant.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +16,53 @@
 #include <tuple>
 
 namespace asperity {
+
+namespace {
+
+/// What a substrate of atoms anywhere cannot be combined with.
+void check_atoms(const Scene& scene, io::Problems& problems) {
+    const auto& [surface, interface] = std::tie(scene.surface, scene.interface);
+    const auto refuse = [&](const char* key, const std::string& value, const char* why,
+                            const char* instead) {
+        problems.add(key, "= " + value + " with surface.kind = \"atoms\"", why, instead);
+    };
+    const auto refuse_number = [&](const char* key, double value, const char* why,
+                                   const char* instead) {
+        refuse(key, fmt::format("{:.6g}", value), why, instead);
+    };
+    constexpr const char* as_they_are = "the atoms stand where their file says";
+    if (interface.kind == InterfaceKind::wall)
+        refuse("interface.kind", "\"wall\"", "a wall stands in place of atoms",
+               "take interface.kind = \"atoms\", or surface.kind = \"file\" with a map");
+    if (interface.tail)
+        refuse("interface.tail", "true", "the tail is that of one layer of known density",
+               "take a larger interface.cutoff, and tail = false");
+    if (interface.cutoff > largest_cell_cutoff)
+        refuse_number("interface.cutoff", interface.cutoff,
+                      "the cells of atoms hold for cutoffs up to 100 Å",
+                      "take a cutoff of 100 Å or less");
+    if (surface.rms_given)
+        refuse_number("surface.rms", surface.rms, as_they_are, "leave it out, and scale the file");
+    if (surface.radius)
+        refuse_number("surface.radius", *surface.radius, as_they_are,
+                      "leave it out, and curve the file");
+    if (surface.lattice_ratio != 1.0)
+        refuse_number("surface.lattice_ratio", surface.lattice_ratio, as_they_are,
+                      "leave it out: the file has its own spacing");
+    if (surface.file_size)
+        refuse_number("surface.file_size", *surface.file_size,
+                      "the file says how wide its periodic box is", "leave it out");
+    if (surface.file_unit != "auto")
+        refuse("surface.file_unit", "\"" + surface.file_unit + "\"", "files of atoms are in Å",
+               "leave it out, and write the file in Å");
+    if (surface.detrend != Detrend::none)
+        refuse("surface.detrend", surface.detrend == Detrend::plane ? "\"plane\"" : "\"periodic\"",
+               as_they_are, "leave it out");
+    if (surface.resample != Resample::none)
+        refuse("surface.resample", "\"band-limited\"", as_they_are, "leave it out");
+}
+
+} // namespace
 
 void check_scene(const Scene& scene, io::Problems& problems) {
     const auto& [surface, interface, drive] = std::tie(scene.surface, scene.interface, scene.drive);
@@ -59,6 +107,8 @@ void check_scene(const Scene& scene, io::Problems& problems) {
             fmt::format("the cap would not reach the corners, {:.6g} Å from the centre",
                         scene.edge() * std::numbers::sqrt2 / 2.0),
             "give a larger radius or fewer sites");
+
+    if (surface.kind == SurfaceKind::atoms) check_atoms(scene, problems);
 
     if (wall && scene.block.model != BlockModel::spectral)
         problems.add(
@@ -156,6 +206,10 @@ std::vector<io::Problem> device_problems(const Scene& scene) {
                "a device takes steps in time; equilibria are relaxed by the "
                "processor",
                "take numerics.device = \"none\", or drive.mode = \"dynamic\" with an approach");
+    if (scene.surface.kind == SurfaceKind::atoms)
+        refuse("surface.kind = \"atoms\"",
+               "the device sums over a substrate of the block's own lattice",
+               "take numerics.device = \"none\"");
     if (scene.surface.lattice_ratio != 1.0)
         refuse(fmt::format("surface.lattice_ratio = {:.6g}", scene.surface.lattice_ratio),
                "the device sums over a substrate of the block's own lattice",
@@ -232,8 +286,12 @@ std::vector<std::string> notes(const Scene& scene) {
          {"interface.epsilon", "interface.r0", "interface.cutoff", "interface.tail"})
         if (exponential) idle(key, "the wall has the exponential law");
     if (wall) idle("numerics.precision", "a wall is worked out in double precision");
-    if (surface.kind != SurfaceKind::file) idle("surface.file", "surface.kind is not \"file\"");
+    if (!surface.reads_file())
+        idle("surface.file", "surface.kind is neither \"file\" nor \"atoms\"");
     if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");
+    if (surface.kind == SurfaceKind::atoms)
+        for (const char* key : {"surface.file_missing", "surface.file_crop", "theory.delta_gamma"})
+            idle(key, "surface.kind is \"atoms\"");
     if (surface.kind != SurfaceKind::self_affine)
         for (const char* key : {"surface.hurst", "surface.rolloff", "surface.cutoff"})
             idle(key, "surface.kind is not \"self-affine\"");

@@ -15,12 +15,13 @@ namespace asperity {
 
 namespace {
 
-/// The map of kind = "file": beside the scene, then in the working directory (the other way round
-/// if it was named on the command line).
+/// The file of kind = "file" or "atoms": beside the scene, then in the working directory (the other
+/// way round if it was named on the command line).
 void find_map(Scene& scene, io::Problems& problems) {
     namespace fs = std::filesystem;
+    const bool atoms = scene.surface.kind == SurfaceKind::atoms;
     std::string file = scene.surface.file, dataset;
-    if (const std::size_t colon = file.find(":/"); colon != std::string::npos) {
+    if (const std::size_t colon = file.find(":/"); colon != std::string::npos && !atoms) {
         dataset = file.substr(colon);
         file.resize(colon);
     }
@@ -35,12 +36,13 @@ void find_map(Scene& scene, io::Problems& problems) {
     std::string looked = places[0].string();
     if (places[1] != places[0]) looked += " and " + places[1].string();
     const bool named = scene.positions.is_set("surface.file");
-    problems.add(
-        named ? "surface.file" : "surface.kind",
-        named ? fmt::format("= \"{}\": there is no such file", scene.surface.file)
-              : "= \"file\" needs surface.file",
-        "looked for " + looked,
-        "give the path of a height map, relative to the scene or to the working directory");
+    problems.add(named ? "surface.file" : "surface.kind",
+                 named ? fmt::format("= \"{}\": there is no such file", scene.surface.file)
+                       : fmt::format("= \"{}\" needs surface.file", atoms ? "atoms" : "file"),
+                 "looked for " + looked,
+                 fmt::format("give the path of a {}, relative to the scene or to the working "
+                             "directory",
+                             atoms ? "file of atoms" : "height map"));
 }
 
 } // namespace
@@ -69,7 +71,7 @@ Scene read_scene_text(const std::string& text, const std::string& file,
     // Keys that could not be read still have their defaults, so the checks between keys can go on;
     // what they find about such a key is left out, it has been complained about already.
     io::Problems contradictions = scene.problems();
-    if (scene.surface.kind == SurfaceKind::file) find_map(scene, contradictions);
+    if (scene.surface.reads_file()) find_map(scene, contradictions);
     check_scene(scene, contradictions);
     for (const io::Problem& problem : contradictions.list()) {
         const bool told =

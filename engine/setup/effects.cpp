@@ -135,7 +135,10 @@ constexpr std::array<Rule, effect_count> rules = {{
              fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
      }},
     {Effect::theory, "theory",
-     [](const Scene&) {
+     [](const Scene& s) {
+         if (s.surface.kind == SurfaceKind::atoms)
+             return Switch{false, "surface.kind = \"atoms\": the theory is of one layer with "
+                                  "heights"};
          return Switch{true, "always: one solution for each result"};
      }},
     {Effect::device, "device",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/setup/memory.hpp"
 
+#include "io/atoms_file.hpp"
 #include "io/available_memory.hpp"
 #include "io/error.hpp"
 #include "kernels/interface_sweep.hpp"
@@ -21,16 +22,28 @@ namespace asperity {
 
 namespace {
 
-double atoms_of(const Scene& scene) {
+/// Heights of the substrate.
+double heights_of(const Scene& scene) {
     const double n = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
     return n * n;
 }
 
-/// Heights, and the waves that they are made from and measured by (make_surface, measure).
+/// Of a substrate of atoms anywhere: how many the head of its file announces.
+std::size_t atoms_of(const Scene& scene) {
+    return scene.surface.kind == SurfaceKind::atoms ? io::atoms_announced(scene.surface.map) : 0;
+}
+
+double surface_bytes(const Scene& scene) {
+    return 8.0 * heights_of(scene) + 24.0 * static_cast<double>(atoms_of(scene));
+}
+
+/// The surface, the waves that heights are made from and measured by (make_surface, measure), and
+/// the places that atoms are compared at (surface_from_atoms).
 double making_bytes(const Scene& scene) {
-    const double heights = 8.0, waves = 16.0;
+    const double waves = 16.0, places = 45.0;
     const double copies = scene.surface.kind == SurfaceKind::flat ? 1.0 : 2.0;
-    return atoms_of(scene) * (heights + copies * waves);
+    return surface_bytes(scene) + heights_of(scene) * copies * waves +
+           static_cast<double>(atoms_of(scene)) * places;
 }
 
 /// The ranks of this machine: their values added up. Collective.
@@ -85,10 +98,15 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
     const Tile tile = grid.tile(0);
     MemoryNeed need;
     need.making = making_bytes(scene);
-    need.surface = 8.0 * atoms_of(scene);
+    need.surface = surface_bytes(scene);
+    const InterfaceOptions& interface = setup.simulation.interface;
+    const double a = scene.surface.spacing;
     need.interface = static_cast<double>(
-        Interface::bytes_for(setup.simulation.interface, tile, scene.surface.spacing,
-                             substrate_sites(scene.surface.sites, scene.surface.lattice_ratio)));
+        scene.surface.kind == SurfaceKind::atoms
+            ? Interface::bytes_over_atoms(interface, tile, a, atoms_of(scene))
+            : Interface::bytes_for(
+                  interface, tile, a,
+                  substrate_sites(scene.surface.sites, scene.surface.lattice_ratio)));
     if (scene.block.model == BlockModel::spectral) {
         const double columns = scene.surface.sites / 2 + 1;
         const double parts = scene.interface.frictionless ? 1.0 : 3.0;

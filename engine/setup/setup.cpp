@@ -4,6 +4,7 @@
 
 #include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
+#include "io/atoms_file.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
 
@@ -17,6 +18,41 @@
 #include <stdexcept>
 
 namespace asperity {
+
+namespace {
+
+/// The atoms of the scene's file, whose periodic box must be the block's.
+Surface atoms_of_file(const Scene& scene, const SurfaceOptions& options) {
+    const auto& s = scene.surface;
+    io::AtomsFile file = io::read_atoms_file(s.map);
+    const double edge = options.length;
+    // Files have six digits and more.
+    const auto differs = [&](double width) { return std::abs(width - edge) > 1e-6 * edge; };
+    if (differs(file.width_x) || differs(file.width_y)) {
+        const double sites = std::round(file.width_x / s.spacing);
+        const bool square = std::abs(file.width_x - file.width_y) <= 1e-6 * file.width_x;
+        throw std::invalid_argument(fmt::format(
+            "the periodic box of the atoms in {} is {:.8g} x {:.8g} Å, and the block's {:.8g} x "
+            "{:.8g} Å ({} sites of {:.6g} Å); {}",
+            s.file, file.width_x, file.width_y, edge, edge, s.sites, s.spacing,
+            square && sites >= 4.0 && sites <= 32768.0
+                ? fmt::format("take surface.sites = {0:.0f} and surface.spacing = {1:.10g}, or "
+                              "repeat or cut the atoms",
+                              sites, file.width_x / sites)
+                : std::string("repeat or cut the atoms to the block's square box")));
+    }
+    const std::size_t count = file.x.size();
+    Surface surface =
+        surface_from_atoms(options, {std::move(file.x), std::move(file.y), std::move(file.z)});
+    surface.notes.insert(
+        surface.notes.begin(),
+        fmt::format("{}: {} atoms{}, {}", std::filesystem::path(s.file).filename().string(), count,
+                    file.type.empty() ? "" : fmt::format(" of type {}", file.type), file.format));
+    surface.notes.insert(surface.notes.begin() + 1, file.notes.begin(), file.notes.end());
+    return surface;
+}
+
+} // namespace
 
 Surface scene_surface(const Scene& scene) {
     require_memory_for_surface(scene);
@@ -33,6 +69,7 @@ Surface scene_surface(const Scene& scene) {
     options.seed = static_cast<std::uint64_t>(s.seed);
     options.radius = s.radius.value_or(0.0);
     try {
+        if (s.kind == SurfaceKind::atoms) return atoms_of_file(scene, options);
         if (s.kind != SurfaceKind::file) return make_surface(options);
         io::HeightMap map =
             io::read_height_map(s.map, {s.file_unit, s.file_missing == MapMissing::fill,
@@ -65,7 +102,7 @@ Surface scene_surface(const Scene& scene) {
         return surface;
     } catch (const std::invalid_argument& e) {
         io::Problems problems = scene.problems();
-        problems.add(s.kind == SurfaceKind::file ? "surface.file" : "surface.kind",
+        problems.add(s.reads_file() ? "surface.file" : "surface.kind",
                      std::string(": ") + e.what());
         problems.throw_if_any();
         throw;
@@ -128,6 +165,10 @@ Setup make_setup(const Scene& scene, int ranks) {
 
     InterfaceOptions& interface = setup.simulation.interface;
     interface = interface_options(scene);
+    if (scene.surface.kind == SurfaceKind::atoms)
+        setup.notes.push_back("delta_gamma is that of one flat layer of the block's lattice, a "
+                              "unit of measure: the substrate has atoms of its own, and no theory "
+                              "applies to it");
     const int substrate = substrate_sites(block.sites, scene.surface.lattice_ratio);
     try {
         setup.flat = flat_reference(interface, block.spacing, block.sites, substrate);
@@ -191,7 +232,7 @@ Setup examine(const Scene& scene, int ranks) {
         for (const io::Problem& problem : error.problems())
             problems.add(problem);
     }
-    if (scene.surface.kind == SurfaceKind::file) {
+    if (scene.surface.reads_file()) {
         try {
             scene_surface(scene);
         } catch (const io::SceneError& error) {

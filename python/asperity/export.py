@@ -145,7 +145,9 @@ class Export:
         height = self.run.substrate.height
         n = len(height)
         y, x = np.divmod(np.arange(n * n), n)
-        self.rigid = np.column_stack([x * self.run.edge / n, y * self.run.edge / n, height.ravel()])
+        self.rigid = self.run.substrate.atoms
+        if self.rigid is None:
+            self.rigid = np.column_stack([x * self.run.edge / n, y * self.run.edge / n, height.ravel()])
 
     def _path(self, name: str) -> Path:
         return files.directory(self.run.directory / "export") / name

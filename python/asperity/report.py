@@ -172,7 +172,8 @@ def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
     for part in (_top, _path, _states, _surface, _energies, _numbers, _times):
         part(page, run)
     keys = run.find("scene")
-    measured = ", with the map beside it" if run.key("surface.kind") == "file" else ""
+    beside = {"file": "map", "atoms": "file of atoms"}.get(str(run.key("surface.kind")), "")
+    measured = f", with the {beside} beside it" if beside else ""
     end(page, run, "The scene", keys if isinstance(keys, dict) else None,
         f"Every key with the value that was used. Saved as a file, it runs again{measured}.")
     page.said = page.write()

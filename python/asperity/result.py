@@ -295,17 +295,22 @@ class State(Group):
 
 
 class Substrate(Group):
-    """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4)."""
+    """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4), atoms [atom, 3] (Å) where
+    they stand anywhere, else None."""
 
-    lists = ("spectrum_q", "spectrum", "spectrum_target")
+    lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms")
 
     def __init__(self, file: RunFile):
         super().__init__(file, "/substrate")
 
     @property
     def spectrum(self) -> list[np.ndarray] | None:
-        found = self._lists(*self.lists)
+        found = self._lists(*self.lists[:3])
         return found if found and len({len(c) for c in found}) == 1 else None
+
+    @functools.cached_property
+    def atoms(self) -> np.ndarray | None:
+        return self._file.array(f"{self._path}/atoms", 2).astype(float) if "atoms" in self._all else None
 
 
 class Result(Values):
@@ -396,7 +401,7 @@ class Result(Values):
         if kind == "flat":
             what = "flat"
         elif rms is None:
-            what = "as measured" if kind == "file" else "rough"
+            what = {"file": "as measured", "atoms": "atoms from a file"}.get(kind, "rough")
         else:
             what = f"rms {rms:.4g} Å" if rms > 0 else "smooth"
         radius = f", R = {self.radius:.4g} Å" if self.radius else ""

@@ -54,7 +54,9 @@ def lead(run: Result) -> str:
     sites = run.number("scene.surface.sites")
     if not sites:
         return ""
-    surface = {"flat": "a flat substrate", "file": "a measured substrate"}.get(
+    atoms = run.number("surface.atoms") or 0
+    surface = {"flat": "a flat substrate", "file": "a measured substrate",
+               "atoms": f"a substrate of {atoms:.0f} atoms"}.get(
         run.text("scene.surface.kind"), "a self-affine rough substrate")
     rms, slope = run.number("surface.rms"), run.number("surface.rms_slope")
     if rms:
@@ -130,8 +132,9 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
     if run.curved:
         text = f"Without external force the sphere is bound by {state * run.edge**2 / 1e3:.4g} eV."
     else:
+        unit = "one flat layer of the block’s lattice" if run.key("surface.kind") == "atoms" else "two flat surfaces"
         text = (f"Without external force the solids are bound by {energy(state)}, {percent(state / flat)} of the "
-                f"{energy(flat)} of two flat surfaces.")
+                f"{energy(flat)} of {unit}.")
         if bonds is not None:
             text += (f" The bonds across the interface give {energy(bonds)}; {energy(bonds - state)} of it is spent on "
                      "bending the block into contact.")

@@ -5,7 +5,8 @@
 // that a relaxation finds. The run on one rank, in the same process, is the judge; so a wrong tile,
 // a stale halo or a sum that depends on its order shows at its first bit.
 //
-// Two stacks on 32 x 32 sites, and their kin: warm, at finite strain, a plain lattice. Shallow: 4 +
+// Two stacks on 32 x 32 sites, and their kin: warm, at finite strain, a plain lattice, over atoms
+// anywhere. Shallow: 4 +
 // 4 + 5 cells; three ranks cut its lowest level alone (10
 // + 11 + 11 rows, odd offsets) and hold the other two whole. Deep: five levels down to 2 x 2 nodes;
 // two and four ranks cut four of them and hold the last one whole.
@@ -33,11 +34,21 @@ struct Stack {
     int thickness, layers;
     double temperature;
     bool finite = false; ///< strain
+    bool atoms = false;  ///< a substrate of atoms anywhere
 };
-constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},      {"deep", 62, 2, 0.0},
-                            {"warm", 32, 3, 300.0},       {"lattice", 6, 0, 0.0},
-                            {"finite", 32, 3, 0.0, true}, {"finite lattice", 6, 0, 0.0, true}};
+constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
+                            {"deep", 62, 2, 0.0},
+                            {"warm", 32, 3, 300.0},
+                            {"lattice", 6, 0, 0.0},
+                            {"finite", 32, 3, 0.0, true},
+                            {"finite lattice", 6, 0, 0.0, true},
+                            {"atoms", 32, 3, 0.0, false, true}};
 void PrintTo(const Stack& s, std::ostream* out) { *out << s.name; }
+
+Surface surface_of(const Stack& stack, const char* name) {
+    const Surface surface = test::reference_surface(name);
+    return stack.atoms ? test::disordered(surface) : surface;
+}
 
 BlockOptions block_of(const Stack& stack) {
     BlockOptions options = test::paper_block(32, stack.thickness, stack.layers);
@@ -68,7 +79,7 @@ struct Trace {
 
 Trace run(const Stack& stack, const Communicator& ranks) {
     const SimulationOptions options = options_of(stack);
-    const Surface surface = test::reference_surface("c3_N32_T32_rms1.5");
+    const Surface surface = surface_of(stack, "c3_N32_T32_rms1.5");
     Simulation s(options, surface, ranks, test::grid_for(options.block, ranks));
     s.start(7.0);
     Trace trace;
@@ -92,9 +103,8 @@ Trace run(const Stack& stack, const Communicator& ranks) {
 }
 
 Trace relaxation(const Stack& stack, const Communicator& ranks) {
-    const auto r =
-        test::relax_from_attraction(block_of(stack), test::paper_interface(),
-                                    test::reference_surface("c4_N32_T16_rms3"), 1e-3, ranks);
+    const auto r = test::relax_from_attraction(block_of(stack), test::paper_interface(),
+                                               surface_of(stack, "c4_N32_T16_rms3"), 1e-3, ranks);
     Trace trace;
     trace.numbers = {r.binding_energy,
                      r.pairwise,

@@ -61,6 +61,24 @@ Surface reference_surface(const std::string& name, double factor) {
     return surface_of(std::move(heights));
 }
 
+Surface disordered(Surface surface) {
+    const double b = surface.length / surface.sites;
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> aside(-0.4, 0.4);
+    for (const double layer : {0.0, 1.0})
+        for (std::size_t i = 0; i < surface.height.size(); ++i) {
+            const auto n = static_cast<std::size_t>(surface.sites);
+            const auto folded = [&](std::size_t site) {
+                const double place = (static_cast<double>(site) + 0.5 * layer) * b + aside(random);
+                return place - surface.length * std::floor(place / surface.length);
+            };
+            surface.atoms.x.push_back(folded(i % n));
+            surface.atoms.y.push_back(folded(i / n));
+            surface.atoms.z.push_back(surface.height[i] - 1.8 * layer);
+        }
+    return surface;
+}
+
 ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicator) {
     return ProcessGrid(communicator.size(), communicator.rank(), options.sites,
                        static_cast<int>(level_shapes(options).size()));

@@ -22,6 +22,9 @@ InterfaceOptions paper_interface(double cutoff_in_r0 = 4.0);
 Surface flat_surface(int sites);
 /// A map of tests/physics/data, at its own size, its heights times a factor.
 Surface reference_surface(const std::string& name, double factor = 1.0);
+/// Its atoms, displaced sideways by up to 0.4 Å, over a second layer: a substrate of atoms
+/// anywhere.
+Surface disordered(Surface surface);
 
 ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicator);
 inline ProcessGrid serial_grid(const BlockOptions& options) {

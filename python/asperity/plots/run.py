@@ -145,7 +145,7 @@ def spectrum(run: Result, ax: Axes) -> bool:
 def roughness(run: Result, ax: Axes) -> bool:
     """γ_eff/Δγ of the theory over the roughness, with this run's numbers at its own."""
     flat, rms = run.number("delta_gamma") or 0.0, run.number("surface.rms") or run.number("theory.h_rms") or 0.0
-    if flat <= 0 or rms <= 0:
+    if flat <= 0 or rms <= 0 or run.key("surface.kind") == "atoms":  # no theory, and Δγ but a unit
         return False
     for words, x, y, line in theory_over_roughness(run, rms):
         curve(ax, x, y, words, colour=GREY, line=line, behind=True)

@@ -1,0 +1,70 @@
+#!/bin/bash
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+#
+# A substrate of atoms from a file, as a user meets it: a flat layer written as atoms gives the numbers of the
+# flat surface, a run is resumed with the same bits over the same atoms only, and what does not apply is said.
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+
+export OMP_NUM_THREADS=1
+
+# number DIRECTORY KEY: the first number behind this key of a result.
+number() { sed -n "s/.*\"$2\": \([-0-9.e+]*\),\?$/\1/p" "$1/result.json" | head -n 1; }
+
+# 16 x 16 atoms at height 57 Å, from the last to the first, some of them outside of the box.
+awk 'BEGIN { print "a flat layer, units = metal\n\n256 atoms\n1 atom types\n10 51.6 xlo xhi\n-5 36.6 ylo yhi\n50 60 zlo zhi\n\nAtoms\n"
+    for (n = 255; n >= 0; --n) printf "%d 1 %.17g %.17g 57\n", n + 1, 10 + 2.6 * (n % 16) - (n % 5 ? 0 : 41.6), -5 + 2.6 * int(n / 16) }' >flat.data
+printf '[surface]\nkind = "atoms"\nfile = "flat.data"\nsites = 16\n[drive]\npath = ["zero-load"]\n' >atoms.toml
+printf '[surface]\nkind = "flat"\nsites = 16\n[drive]\npath = ["zero-load"]\n' >flat.toml
+expect 0 run flat.toml --progress off --out flat
+expect 0 run atoms.toml --progress off --out atoms
+says "256 atoms"
+says "a unit of measure"
+says "over one flat layer (98.86)"
+says "coordinates of atoms lay outside of the box"
+for key in binding_energy contact_fraction mean_height; do
+    awk -v a="$(number atoms $key)" -v b="$(number flat $key)" \
+        'BEGIN { d = a - b; exit !(a != "" && b != "" && d * d <= 1e-16) }' ||
+        fail "$key: $(number atoms $key) over atoms, $(number flat $key) over the flat surface"
+done
+grep -q '"atoms": 256' atoms/result.json || fail "the number of atoms is missing"
+grep -q '"note": "the substrate.s atoms stand anywhere' atoms/result.json || fail "theory.note is missing"
+! grep -q gamma_eff atoms/result.json || fail "a theory that does not apply"
+
+# The scene that comes with Asperity, in time and without.
+ln -s "$source/scenes/atoms/stepped.data" stepped.data
+cp "$source/scenes/atoms/stepped.toml" .
+expect 0 check stepped.toml
+says "a unit of measure"
+expect 0 plan stepped.toml
+says 'the theory is of one layer with heights'
+expect 0 surface stepped.toml --out heights
+says "555"
+says "heights of the topmost atoms"
+expect 2 theory stepped.toml
+says "no theory applies"
+expect 2 check stepped.toml --set surface.sites=32
+says "the periodic box of the atoms in stepped.data is 41.6 x 41.6 Å"
+expect 2 check stepped.toml --set interface.tail=true numerics.device=emulated
+says "interface.tail"
+says "numerics.device"
+expect 0 sweep stepped.toml --set drive.load=0,100 drive.path=zero-load --out swept --progress off
+[ "$(grep -c '"status": "done"' swept/sweep.json)" = 2 ] || fail "a sweep over atoms: $out"
+expect 2 sweep stepped.toml --set drive.load=0,100 --theory-only
+
+# Same bits in parts, and over other atoms not at all.
+found() { grep -E '"(approach|pull_off|binding_energy|mean_height|work|force|elastic|kinetic|steps)": [-0-9]' "$1/result.json"; }
+fast=(--progress off --set drive.velocity=100 block.layers_per_level=3)
+for mode in dynamic quasistatic; do
+    expect 0 run stepped.toml --out whole-$mode "${fast[@]}" drive.mode=$mode
+    expect 0 run stepped.toml --out parts-$mode "${fast[@]}" drive.mode=$mode drive.max_steps=25
+    expect 0 run stepped.toml --out parts-$mode --resume auto "${fast[@]}" drive.mode=$mode
+    [ -n "$(found whole-$mode)" ] && [ "$(found whole-$mode)" = "$(found parts-$mode)" ] ||
+        fail "$mode: $(diff <(found whole-$mode) <(found parts-$mode))"
+done
+expect 0 run stepped.toml --out parts "${fast[@]}" drive.mode=dynamic drive.max_steps=25
+rm stepped.data
+sed '0,/^3 1 5.5467/s//3 1 5.5468/' "$source/scenes/atoms/stepped.data" >stepped.data
+expect 2 run stepped.toml --out parts --resume auto "${fast[@]}" drive.mode=dynamic
+finish

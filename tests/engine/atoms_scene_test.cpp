@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Scenes whose substrate is a file of atoms: a surface written out as atoms gives the run of the
+// surface, boxes are compared, and what does not go together is refused.
+#include "engine/run/run_record.hpp"
+#include "engine/setup/memory.hpp"
+#include "engine/setup/setup.hpp"
+#include "io/error.hpp"
+#include "io/json.hpp"
+
+#include "support/cases.hpp"
+#include "support/scratch.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace asperity {
+namespace {
+
+constexpr const char* small = "[surface]\nsites = 16\nrms = 0.8\n[block]\nthickness = 16\n"
+                              "layers_per_level = 3\n[drive]\nvelocity = 100\n";
+
+Scene scene_of(const std::vector<std::string>& overrides) {
+    return read_scene_text(small, "test.toml", overrides);
+}
+/// Of atoms in a file; the rms of the text above is left out.
+Scene scene_over(const std::string& file, std::vector<std::string> overrides = {}) {
+    overrides.insert(overrides.begin(), {"surface.kind=atoms", "surface.file=" + file});
+    std::string text = small;
+    text.erase(text.find("rms = 0.8\n"), 10);
+    return read_scene_text(text, "test.toml", overrides);
+}
+
+/// The surface's atoms as extended XYZ, raised by `up`; in any order that does not matter.
+std::string as_xyz(const Surface& surface, double up = 0.0) {
+    const double b = surface.length / surface.sites;
+    std::string text = fmt::format("{}\nLattice=\"{} 0 0 0 {} 0 0 0 40\"\n", surface.height.size(),
+                                   surface.length, surface.length);
+    for (int i = surface.sites * surface.sites - 1; i >= 0; --i)
+        text += fmt::format("Au {} {} {}\n", b * (i % surface.sites), b * (i / surface.sites),
+                            surface.height[static_cast<std::size_t>(i)] + up);
+    return text;
+}
+
+/// Force, energies and heights of every step of a fast approach that turns on contact.
+std::vector<double> path_over(const Scene& scene, const Surface& surface) {
+    const auto setup = make_setup(scene, 1);
+    Simulation s(setup.simulation, surface, Communicator(), make_grid(scene, setup, 1, 0));
+    s.start(9.0);
+    std::vector<double> numbers;
+    for (int n = 0; n < 900; ++n) {
+        const StepRecord& now = s.step(n % 10 == 0);
+        s.drive().observe(now.time, now.force, false);
+        numbers.insert(numbers.end(), {now.force, now.mean_height});
+        if (now.observed)
+            numbers.insert(numbers.end(), {now.interface_energy, now.elastic_energy,
+                                           static_cast<double>(now.in_contact)});
+    }
+    return numbers;
+}
+
+TEST(AtomsScene, OfASurfaceWrittenOutIsTheRunOfThatSurface) {
+    const io::Scratch scratch;
+    for (const char* ratio : {"surface.lattice_ratio=1", "surface.lattice_ratio=1.618"}) {
+        const Scene made = scene_of({ratio});
+        Surface surface = scene_surface(made);
+        const Scene read = scene_over(scratch.write("rough.xyz", as_xyz(surface, 3.0)));
+        const Surface atoms = scene_surface(read);
+        ASSERT_EQ(atoms.atoms.size(), surface.height.size());
+        // The last atom of the file is the first height.
+        const double shift = atoms.atoms.z.back() - surface.height.front();
+        for (double& h : surface.height)
+            h += shift;
+        const std::vector<double> one = path_over(made, surface), other = path_over(read, atoms);
+        ASSERT_EQ(one.size(), other.size());
+        for (std::size_t i = 0; i < one.size(); ++i)
+            ASSERT_NEAR(one[i], other[i], 1e-7 * (1.0 + std::abs(one[i]))) << ratio << " " << i;
+        EXPECT_GT(*std::max_element(one.begin(), one.end()), 100.0)
+            << "the scene must touch, or nothing is tested";
+    }
+}
+
+TEST(AtomsScene, HasTheHeightsOfItsTopmostAtoms) {
+    const io::Scratch scratch;
+    const Surface surface = scene_surface(scene_of({}));
+    const std::string text = as_xyz(surface, 5.0);
+    const Surface found = scene_surface(scene_over(scratch.write("a.xyz", text)));
+    for (std::size_t i = 0; i < surface.height.size(); ++i)
+        ASSERT_NEAR(found.height[i], surface.height[i], 1e-12);
+    EXPECT_NEAR(found.statistics.rms, surface.statistics.rms, 1e-12);
+    EXPECT_EQ(*std::max_element(found.height.begin(), found.height.end()),
+              *std::max_element(found.atoms.z.begin(), found.atoms.z.end()));
+    // An atom below another is no height; a site without one is filled.
+    std::string deeper = text;
+    deeper.replace(0, deeper.find('\n'), "257");
+    deeper += "Au 0.3 0.2 -4\n";
+    const Surface with_more = scene_surface(scene_over(scratch.write("b.xyz", deeper)));
+    EXPECT_EQ(with_more.height, found.height);
+    EXPECT_EQ(with_more.atoms.size(), 257u);
+    std::string fewer = text;
+    fewer.replace(0, fewer.find('\n'), "255");
+    fewer.erase(fewer.rfind("Au"));
+    const Surface with_hole = scene_surface(scene_over(scratch.write("c.xyz", fewer)));
+    EXPECT_TRUE(std::isfinite(with_hole.height[0]));
+    EXPECT_NE(with_hole.notes.back().find("1 of 256 sites"), std::string::npos)
+        << with_hole.notes.back();
+}
+
+/// All that a scene over this file is refused for.
+std::string refusal(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const io::SceneError& error) {
+        std::string all;
+        for (const io::Problem& problem : error.problems())
+            all += io::format(problem) + "\n";
+        return all;
+    }
+    return "";
+}
+
+TEST(AtomsScene, RefusesWhatDoesNotGoTogether) {
+    const io::Scratch scratch;
+    const std::string file = scratch.write("a.xyz", as_xyz(scene_surface(scene_of({}))));
+    const std::vector<std::pair<std::string, std::string>> refused = {
+        {"surface.rms=1", "surface.rms = 1"},
+        {"surface.radius=1000", "surface.radius = 1000"},
+        {"surface.lattice_ratio=1.618", "surface.lattice_ratio = 1.618"},
+        {"surface.file_size=41.6", "surface.file_size = 41.6"},
+        {"surface.file_unit=nm", "surface.file_unit = \"nm\""},
+        {"surface.detrend=plane", "surface.detrend = \"plane\""},
+        {"surface.resample=band-limited", "surface.resample = \"band-limited\""},
+        {"interface.tail=true", "interface.tail = true"},
+        {"numerics.device=emulated", "numerics.device"},
+        {"numerics.accuracy=1%", "surface.kind"}};
+    for (const auto& [key, said] : refused) {
+        const std::string what = refusal([&, k = key] { scene_over(file, {k}); });
+        EXPECT_NE(what.find(said), std::string::npos) << key << "\n" << what;
+    }
+    const std::string wall = refusal([&] {
+        scene_over(file, {"interface.kind=wall", "block.model=spectral", "drive.path=zero-load"});
+    });
+    EXPECT_NE(wall.find("interface.kind"), std::string::npos) << wall;
+    const std::string none = refusal([&] { scene_over("no-such-file.xyz"); });
+    EXPECT_NE(none.find("there is no such file"), std::string::npos) << none;
+    EXPECT_EQ(refusal([&] { examine(scene_over(file), 1); }), "");
+}
+
+TEST(AtomsScene, RefusesAnotherBoxAndAtomsThatStandTwice) {
+    const io::Scratch scratch;
+    const Surface surface = scene_surface(scene_of({}));
+    const std::string text = as_xyz(surface);
+    const std::string file = scratch.write("a.xyz", text);
+    const std::string box = refusal([&] { examine(scene_over(file, {"surface.sites=32"}), 1); });
+    EXPECT_NE(box.find("is 41.6 x 41.6 Å, and the block's 83.2 x 83.2 Å"), std::string::npos)
+        << box;
+    EXPECT_NE(box.find("surface.sites = 16"), std::string::npos) << box;
+    // On the box's far edge, and a hundredth of an ångström from its twin across the corner.
+    for (const char* atom : {"Au 41.6 0 {}\n", "Au 41.595 41.595 {}\n", "Au -0.01 0.01 {}\n"}) {
+        std::string twice = text;
+        twice.replace(0, twice.find('\n'), "257");
+        twice += fmt::format(fmt::runtime(atom), surface.height[0]);
+        const std::string what =
+            refusal([&] { examine(scene_over(scratch.write("b.xyz", twice)), 1); });
+        EXPECT_NE(what.find("atoms 256 and 257"), std::string::npos) << atom << what;
+    }
+}
+
+TEST(AtomsScene, CountsItsMemoryAndHasNoTheory) {
+    const io::Scratch scratch;
+    for (const char* ratio : {"surface.lattice_ratio=1", "surface.lattice_ratio=2.3"})
+        for (const char* precision : {"numerics.precision=double", "numerics.precision=mixed"}) {
+            const Surface made = scene_surface(scene_of({ratio, "surface.sites=48"}));
+            const Scene scene =
+                scene_over(scratch.write("a.xyz", as_xyz(made)), {"surface.sites=48", precision});
+            const auto setup = make_setup(scene, 1);
+            const MemoryNeed need = memory_of_rank(scene, setup, 1, 0, 1);
+            const Surface surface = scene_surface(scene);
+            EXPECT_EQ(need.surface,
+                      8.0 * static_cast<double>(surface.height.size() + 3 * surface.atoms.size()));
+            const Interface interface(surface, make_grid(scene, setup, 1, 0).tile(0), 2.6,
+                                      setup.simulation.interface);
+            EXPECT_GE(need.interface, static_cast<double>(interface.bytes())) << ratio;
+            EXPECT_LE(need.interface, 1.3 * static_cast<double>(interface.bytes())) << ratio;
+            EXPECT_FALSE(setup.effects.on(Effect::theory));
+            const io::Json result = run_result(scene, surface, setup, {}, 1).json();
+            EXPECT_EQ(result["surface"]["atoms"], surface.atoms.size());
+            EXPECT_TRUE(result["theory"].contains("note"));
+            EXPECT_FALSE(result["theory"].contains("gamma_eff"));
+        }
+}
+
+} // namespace
+} // namespace asperity
