@@ -5,11 +5,8 @@
 // The main loop of a simulation is DynamicRun::integrate() in engine/run/dynamic_run.cpp.
 // Every rank of mpirun runs this; how they end together is in engine/commands/ending.hpp.
 #include "engine/commands/command_line.hpp"
+#include "engine/commands/commands.hpp"
 #include "engine/commands/ending.hpp"
-#include "engine/commands/inspect.hpp"
-#include "engine/commands/study.hpp"
-#include "engine/commands/theory_command.hpp"
-#include "engine/commands/theory_points.hpp"
 #include "engine/commit.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/stop_signals.hpp"
@@ -37,72 +34,100 @@ int on_root(const Communicator& world, const std::function<int()>& work) {
     return code;
 }
 
-const std::vector<Command> own_commands = {
-    {"run",
-     "simulate a scene",
-     {takes::scene, takes::out("results/<scene>"), takes::resume, takes::restart,
-      takes::wall_limit("stop with a checkpoint before this time has passed (exit 75)"),
-      takes::progress},
-     [](const Arguments& given, const Communicator& world) {
-         const RunOptions options = run_options(given);
-         return run(scene_of(given), options, world);
-     },
-     "",
-     true},
-    {"init",
-     "write a commented scene to start from; never over a file",
-     {takes::new_file},
-     [](const Arguments& given, const Communicator& world) {
-         return init_command(given.out, world);
-     }},
-    {"check",
-     "look for mistakes in a scene without running it",
-     {takes::scene, takes::json},
-     [](const Arguments& given, const Communicator& world) {
-         return check_command(scene_of(given), given.json, world);
-     }},
-    {"plan",
-     "what a scene will simulate and what not, and what it will cost; runs nothing",
-     {takes::scene, takes::ranks},
-     [](const Arguments& given, const Communicator& world) {
-         return plan_command(scene_of(given), given.ranks, world);
-     }},
-    {"surface",
-     "make or read the surface, print and write its statistics and heights",
-     {takes::scene, takes::out("results/<scene>-surface")},
-     [](const Arguments& given, const Communicator& world) {
-         return surface_command(scene_of(given), given.out, world);
-     }},
-    {"theory",
-     "the analytic theory of a scene, without simulating it",
-     {takes::scene, takes::out("results/<scene>-theory"), takes::json, takes::points},
-     [](const Arguments& given, const Communicator& world) {
-         if (!given.points.empty()) {
-             TheoryPoints points{{}, {}, given.points, given.runnable};
-             points.scene = scene_file(given, points.overrides);
-             return on_root(world, [&] { return theory_points_command(points); });
-         }
-         const Scene scene = scene_of(given);
-         return on_root(world, [&] { return theory_command(scene, given.out, given.json); });
-     }},
-    {"defaults",
-     "every key of a scene with its default, as TOML",
-     {takes::markdown, takes::plain, takes::json, takes::results},
-     [](const Arguments& given, const Communicator& world) {
-         return given.json ? schema_command(given.results, world)
-                           : defaults_command(given.markdown, given.plain, given.results, world);
-     }},
-    {"info",
-     "what this program was built from and runs on",
-     {},
-     [](const Arguments&, const Communicator& world) { return info_command(world); }},
-};
-
-/// In the order of --help: the study commands before the two last.
+/// In the order of --help.
 std::vector<Command> all_commands() {
-    std::vector<Command> all = own_commands;
-    all.insert(all.end() - 2, study_commands().begin(), study_commands().end());
-    return all;
+    return {
+        {"run",
+         "simulate a scene",
+         {takes::scene,
+          takes::set,
+          takes::out("results/<scene>"),
+          {"--resume", "auto|FILE", "go on from a checkpoint: auto, or its file",
+           &Arguments::resume},
+          {"--restart", "", "throw away an unfinished run that the directory holds",
+           &Arguments::restart},
+          {"--wall-limit", "23h50m", "stop with a checkpoint before this time has passed (exit 75)",
+           &Arguments::wall_limit},
+          takes::progress},
+         [](const Arguments& given, const Communicator& world) {
+             const RunOptions options = run_options(given);
+             return run(scene_of(given), options, world);
+         },
+         true},
+        {"init",
+         "write a commented scene to start from; never over a file",
+         {{"FILE", "", "the scene file to be made (default: scene.toml)", &Arguments::out}},
+         [](const Arguments& given, const Communicator& world) {
+             return init_command(given.out, world);
+         }},
+        {"check",
+         "look for mistakes in a scene without running it",
+         {takes::scene, takes::set, takes::json},
+         [](const Arguments& given, const Communicator& world) {
+             return check_command(scene_of(given), given.json, world);
+         }},
+        {"plan",
+         "what a scene will simulate and what not, and what it will cost; runs nothing",
+         {takes::scene,
+          takes::set,
+          {"--ranks", "N", "for so many ranks (default: as started)", &Arguments::ranks}},
+         [](const Arguments& given, const Communicator& world) {
+             return plan_command(scene_of(given), given.ranks, world);
+         }},
+        {"surface",
+         "make or read the surface, print and write its statistics and heights",
+         {takes::scene, takes::set, takes::out("results/<scene>-surface")},
+         [](const Arguments& given, const Communicator& world) {
+             return surface_command(scene_of(given), given.out, world);
+         }},
+        {"theory",
+         "the analytic theory of a scene, without simulating it",
+         {takes::scene,
+          takes::set,
+          takes::out("results/<scene>-theory"),
+          takes::json,
+          {"--points", "FILE",
+           "many variations in one call: a JSON array of overrides a line (-: standard input), a "
+           "line "
+           "of JSON for each",
+           &Arguments::points},
+          {"--runnable", "", "with --points: also check what a run would refuse",
+           &Arguments::runnable}},
+         [](const Arguments& given, const Communicator& world) {
+             if (!given.points.empty()) {
+                 TheoryPoints points{{}, {}, given.points, given.runnable};
+                 points.scene = scene_file(given, points.overrides);
+                 return on_root(world, [&] { return theory_points_command(points); });
+             }
+             const Scene scene = scene_of(given);
+             return on_root(world, [&] { return theory_command(scene, given.out, given.json); });
+         }},
+        {"sweep", "a scene over several values of its keys: runs, theory, one table", {}},
+        {"cost",
+         "what accuracy costs in time: a scene with each of its numerical settings varied",
+         {}},
+        {"report", "a run or a sweep as one self-contained HTML page", {}},
+        {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}},
+        {"defaults",
+         "every key of a scene with its default, as TOML",
+         {{"--markdown", "", "as the reference page docs/scene.md", &Arguments::markdown},
+          {"--plain", "", "without explanations", &Arguments::plain},
+          takes::json,
+          {"--results", "",
+           "every name of result.json and run.h5: the reference page docs/result.md; with --json "
+           "those "
+           "of result.json",
+           &Arguments::results}},
+         [](const Arguments& given, const Communicator& world) {
+             return given.json
+                        ? schema_command(given.results, world)
+                        : defaults_command(given.markdown, given.plain, given.results, world);
+         }},
+        {"info",
+         "what this program was built from and runs on",
+         {},
+         [](const Arguments&, const Communicator& world) { return info_command(world); }},
+    };
 }
 
 /// Threads of this rank, where OMP_NUM_THREADS is not set: the processors it may use, shared with
@@ -121,11 +146,12 @@ void choose_threads() {
 
 int main(int argc, char** argv) {
     using namespace asperity;
-    if (const auto failed = hand_over_to_python(argc, argv)) return *failed;
+    const std::vector<Command> commands = all_commands();
+    if (const auto failed = hand_over_to_python(commands, argc, argv)) return *failed;
     stop_signals::catch_all();
     io::set_commit(build_commit);
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
     choose_threads();
-    return ended_in_order(world, [&] { return carry_out(all_commands(), argc, argv, world); });
+    return ended_in_order(world, [&] { return carry_out(commands, argc, argv, world); });
 }

@@ -60,8 +60,6 @@ Descriptor Directory::open(const std::string& name, int flags) const {
     return Descriptor(::openat(fd(), name.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0644));
 }
 
-void make_directory(const std::string& directory) { Directory::make(directory); }
-
 void Directory::remove(const std::string& name) const {
     if (::unlinkat(fd(), name.c_str(), 0) != 0 && errno != ENOENT)
         throw FileError(*this / name, "cannot be removed", std::strerror(errno),

@@ -79,7 +79,4 @@ private:
     std::string name_;
 };
 
-/// Makes the directory (and its parents). Throws FileError.
-void make_directory(const std::string& directory);
-
 } // namespace asperity::io

@@ -3,13 +3,12 @@
 //
 // What a file of heights holds, before a scene makes anything of it.
 //
-// | format        | recognized by            | size and unit |
-// |---------------|--------------------------|---------------------------------------------------------|
-// | text matrix   | numbers                  | headers of Gwyddion and SPIP, "# edge: 41.6 Å"; else
-// none | | XYZ           | name ends in .xyz        | size from the coordinates; the unit must be
-// given       | | ESRI grid     | first word is ncols      | size from cellsize; the unit must be
-// given              | | NumPy         | its first bytes          | none | | HDF5          | its
-// first bytes          | attributes unit, size_x, size_y                         |
+//     format       recognized by         size and unit
+//     text matrix  numbers               headers of Gwyddion and SPIP, "# edge: 41.6 Å"; else none
+//     XYZ          name ends in .xyz     size from the coordinates; the unit must be given
+//     ESRI grid    first word is ncols   size from cellsize; the unit must be given
+//     NumPy        its first bytes       none
+//     HDF5         its first bytes       attributes unit, size_x, size_y
 //
 // Text: one row of the map a line, numbers separated by blanks, tabs, commas or semicolons; #
 // starts a comment. Decimal commas are read where the separators are tabs or semicolons. Row r is

@@ -56,12 +56,4 @@ std::string_view name(AreaFactor reading) {
     return "none";
 }
 
-AreaFactor area_factor_named(std::string_view text) {
-    for (AreaFactor reading :
-         {AreaFactor::gaussian, AreaFactor::small_slope, AreaFactor::none, AreaFactor::lattice})
-        if (text == name(reading)) return reading;
-    throw InvalidInput(message("area factor: '", text,
-                               "' is not known; choose gaussian, small-slope, none or lattice"));
-}
-
 } // namespace asperity::theory

@@ -28,8 +28,7 @@ struct AreaReading {
 /// S(s), 1 at s = 0.
 [[nodiscard]] double area_factor(AreaReading reading, double slope_variance);
 
-/// "gaussian", "small-slope", "none" or "lattice", and back; an unknown name is InvalidInput.
+/// "gaussian", "small-slope", "none" or "lattice".
 [[nodiscard]] std::string_view name(AreaFactor reading);
-[[nodiscard]] AreaFactor area_factor_named(std::string_view text);
 
 } // namespace asperity::theory

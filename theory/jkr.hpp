@@ -31,15 +31,8 @@ namespace jkr {
 
 /// On the equilibrium curve at contact radius a.
 [[nodiscard]] SphereState at_radius(const AdhesiveSphere& sphere, double radius);
-/// The stable state at a load; NoSolution beyond pull-off.
-[[nodiscard]] SphereState at_force(const AdhesiveSphere& sphere, double force);
-/// The stable state at an approach; NoSolution beyond the fixed-grips end.
-[[nodiscard]] SphereState at_approach(const AdhesiveSphere& sphere, double approach);
-
 /// Where a controlled load pulls off: F = -(3/2)πwR.
 [[nodiscard]] SphereState pull_off(const AdhesiveSphere& sphere);
-/// Where controlled grips pull off: F = -(5/6)πwR.
-[[nodiscard]] SphereState fixed_grips_pull_off(const AdhesiveSphere& sphere);
 
 /// γ from a measured pull-off force, γ = |F|/(3πR/2): the paper's Eq. (6) turned round.
 [[nodiscard]] double work_from_pull_off(double pull_off_force, double radius);

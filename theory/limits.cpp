@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Where adhesive contact ends: the critical roughness and the largest tension.
+// Where adhesive contact ends: the critical roughness.
 //
-// Both ask for the march at the lower end of g0 (shooting.hpp) to reach γ_eff(ζ_1) = Δγ, which is
-// one more scalar root, in ln h or in p, and far better conditioned than watching γ_eff go to zero:
-// with the area factor off the function is exactly a straight line in ln h. On three grids,
-// extrapolated.
+// The march at the lower end of g0 (shooting.hpp) has to reach γ_eff(ζ_1) = Δγ, which is one more
+// scalar root, in ln h, and far better conditioned than watching γ_eff go to zero: with the area
+// factor off the function is exactly a straight line in ln h. On three grids, extrapolated.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -105,57 +104,6 @@ CriticalRoughness critical_roughness(const AdhesiveContact& c, const SolverOptio
     const Shooting::Limit limit = shooting.extrapolate(h);
     result.h_rms = limit.value;
     result.error = limit.error;
-    return result;
-}
-
-TensionLimit tension_limit(const AdhesiveContact& contact, const SolverOptions& options) {
-    check(contact);
-    check(options);
-    const FullContactState full = full_contact(contact);
-    const double strongest = std::sqrt(contact.work_of_adhesion * full.real_area *
-                                       contact.contact_modulus * contact.spectrum.q_L());
-    TensionLimit result;
-    if (!(strongest > 0))
-        throw NoSolution("tension limit: without adhesion no tension can be borne");
-    if (contact.spectrum.smooth()) {
-        result.pressure = -strongest;
-        result.area = result.gamma_ratio = 1;
-        return result;
-    }
-    AdhesiveContact c = contact;
-    c.pressure = 0;
-    if (solve(c, options).status != Status::adhesive)
-        throw NoSolution(message("tension limit: at h_rms = ", c.spectrum.rms_height(),
-                                 " the surfaces do not hold together even at zero load"));
-    std::array<double, 3> pull{}, area{};
-    for (int refinement = 0; refinement < 3; ++refinement) {
-        double a = 0;
-        // In units of the largest conceivable pull.
-        const auto excess = [&](double x) {
-            c.pressure = -x * strongest;
-            return Shooting(c, options).excess_at_edge(refinement, &a);
-        };
-        const auto i = static_cast<std::size_t>(refinement);
-        double low = 1e-3;
-        while (low > 1e-12 && excess(low) > 0)
-            low /= 10;
-        if (low <= 1e-12)
-            throw NoSolution(message("tension limit: at h_rms = ", c.spectrum.rms_height(),
-                                     " the tension borne is below 1e-12 of ", strongest,
-                                     ", too close to the critical roughness to resolve"));
-        const double x = root_between(excess, low, 1 - 1e-12, 1e-11);
-        excess(x);
-        pull[i] = x * strongest;
-        area[i] = a;
-    }
-    const Shooting shooting(contact, options);
-    const Shooting::Limit p = shooting.extrapolate(pull);
-    result.pressure = -p.value;
-    result.pressure_error = p.error;
-    result.area = shooting.extrapolate(area).value;
-    result.gamma_ratio =
-        p.value * p.value /
-        (contact.contact_modulus * contact.spectrum.q_L() * contact.work_of_adhesion);
     return result;
 }
 

@@ -15,7 +15,6 @@
 #include <cstdint>
 
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include "theory/error.hpp"
 
@@ -24,9 +23,8 @@ namespace {
 
 void check_lambda(double lambda) {
     if (!(lambda > 0) || !std::isfinite(lambda))
-        throw InvalidInput(
-            message("Maugis: lambda = ", lambda,
-                    " is not positive; use dmt for its limit 0 and jkr for infinity"));
+        throw InvalidInput(message("Maugis: lambda = ", lambda,
+                                   " is not positive; its limits are DMT (0) and JKR (infinity)"));
 }
 
 /// s + (s² - 1) arctan s = (m² - 2)φ + s.
@@ -63,7 +61,7 @@ maugis::Reduced on_curve(double lambda, double s) {
     return {m, a * a * a - lambda * a * a * (s + m * m * phi), a, a * a - 4.0 / 3 * lambda * a * s};
 }
 
-maugis::Reduced reduced_pull_off(double lambda, double& log_s) {
+maugis::Reduced reduced_pull_off(double lambda) {
     // Once on a coarse net, for the bracket, then Brent.
     const auto force = [&](double x) { return on_curve(lambda, std::exp(x)).force; };
     double best = 0, lowest = 1e300;
@@ -73,8 +71,7 @@ maugis::Reduced reduced_pull_off(double lambda, double& log_s) {
             best = x;
         }
     const auto minimum = boost::math::tools::brent_find_minima(force, best - 0.2, best + 0.2, 50);
-    log_s = minimum.first;
-    return on_curve(lambda, std::exp(log_s));
+    return on_curve(lambda, std::exp(minimum.first));
 }
 
 SphereState with_units(const AdhesiveSphere& s, const maugis::Reduced& r) {
@@ -94,8 +91,6 @@ double tabor_number(double radius, double work_of_adhesion, double modulus, doub
 
 namespace maugis {
 
-double parameter_from_tabor(double tabor) { return 1.157 * tabor; }
-
 Reduced at_ratio(double lambda, double m) {
     check_lambda(lambda);
     if (!(m > 1))
@@ -106,8 +101,7 @@ Reduced at_ratio(double lambda, double m) {
 
 Reduced pull_off(double lambda) {
     check_lambda(lambda);
-    double log_s = 0;
-    return reduced_pull_off(lambda, log_s);
+    return reduced_pull_off(lambda);
 }
 
 SphereState pull_off(const AdhesiveSphere& sphere, double lambda) {
@@ -115,42 +109,6 @@ SphereState pull_off(const AdhesiveSphere& sphere, double lambda) {
     return with_units(sphere, pull_off(lambda));
 }
 
-SphereState at_force(const AdhesiveSphere& sphere, double lambda, double force) {
-    check(sphere);
-    check_lambda(lambda);
-    double log_s = 0;
-    const Reduced end = reduced_pull_off(lambda, log_s);
-    const double F = force / sphere.force_unit();
-    if (F < end.force)
-        throw NoSolution(message("Maugis: force ", force, " pulls harder than pull-off, ",
-                                 end.force * sphere.force_unit(), " at lambda = ", lambda,
-                                 ", so the sphere is off; pull less"));
-    // The stable branch runs from pull-off to smaller s (larger contact).
-    const auto f = [&](double x) { return on_curve(lambda, std::exp(x)).force - F; };
-    double low = log_s - 1;
-    while (f(low) < 0)
-        low -= 1;
-    std::uintmax_t iterations = 200;
-    const auto bracket = boost::math::tools::toms748_solve(
-        f, low, log_s, boost::math::tools::eps_tolerance<double>(50), iterations);
-    return with_units(sphere, on_curve(lambda, std::exp((bracket.first + bracket.second) / 2)));
-}
-
 } // namespace maugis
 
-namespace dmt {
-
-SphereState at_force(const AdhesiveSphere& s, double force) {
-    check(s);
-    const double F = force / s.force_unit() + 2;
-    if (!(F >= 0))
-        throw NoSolution(message("DMT: force ", force, " pulls harder than pull-off, ",
-                                 -2 * s.force_unit(), ", so the sphere is off; pull less"));
-    const double a = std::cbrt(F);
-    return {force, a * s.radius_unit(), a * a * s.approach_unit()};
-}
-
-SphereState pull_off(const AdhesiveSphere& s) { return at_force(s, -2 * s.force_unit()); }
-
-} // namespace dmt
 } // namespace asperity::theory

@@ -18,9 +18,6 @@ namespace asperity::theory {
 
 namespace maugis {
 
-/// λ = 1.157 μ.
-[[nodiscard]] double parameter_from_tabor(double tabor);
-
 /// A state in Maugis' units (jkr.hpp), at m = c/a >= 1, c the radius the attraction reaches.
 struct Reduced {
     double m = 1, force = 0, radius = 0, approach = 0;
@@ -31,17 +28,7 @@ struct Reduced {
 
 /// The same with dimensions.
 [[nodiscard]] SphereState pull_off(const AdhesiveSphere& sphere, double lambda);
-/// The stable state at a load; NoSolution beyond pull-off.
-[[nodiscard]] SphereState at_force(const AdhesiveSphere& sphere, double lambda, double force);
 
 } // namespace maugis
 
-namespace dmt {
-
-/// Hertz under F + 2πwR.
-[[nodiscard]] SphereState at_force(const AdhesiveSphere& sphere, double force);
-/// F = -2πwR, a = 0.
-[[nodiscard]] SphereState pull_off(const AdhesiveSphere& sphere);
-
-} // namespace dmt
 } // namespace asperity::theory

@@ -248,19 +248,6 @@ ContactState solve(const AdhesiveContact& c, const SolverOptions& options) {
     return s;
 }
 
-std::vector<ContactState> roughness_curve(const AdhesiveContact& contact,
-                                          std::span<const double> h_rms,
-                                          const SolverOptions& options) {
-    std::vector<ContactState> curve;
-    curve.reserve(h_rms.size());
-    AdhesiveContact at = contact;
-    for (double h : h_rms) {
-        at.spectrum = contact.spectrum.with_rms_height(h);
-        curve.push_back(solve(at, options));
-    }
-    return curve;
-}
-
 FullContactState full_contact(const AdhesiveContact& c) {
     check(c);
     const Magnification end = c.spectrum.last();

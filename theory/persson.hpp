@@ -96,11 +96,6 @@ struct ContactState {
 /// Solves Eqs. (2) to (5).
 [[nodiscard]] ContactState solve(const AdhesiveContact& contact, const SolverOptions& options = {});
 
-/// The same at several roughnesses (the spectrum rescaled to each).
-[[nodiscard]] std::vector<ContactState> roughness_curve(const AdhesiveContact& contact,
-                                                        std::span<const double> h_rms,
-                                                        const SolverOptions& options = {});
-
 /// A = A0 throughout: γ_full = Δγ S(q1) - (π/2) E* ∫ q² C dq.
 struct FullContactState {
     double gamma = 0;          ///< [energy/area], any sign
@@ -121,16 +116,6 @@ struct CriticalRoughness {
 };
 [[nodiscard]] CriticalRoughness critical_roughness(const AdhesiveContact& contact,
                                                    const SolverOptions& options = {});
-
-/// The largest tension a nominally flat contact bears. The branch ends where -p reaches σ_a(1).
-struct TensionLimit {
-    double pressure = 0;    ///< negative [stress]
-    double area = 0;        ///< A/A0 there, finite
-    double gamma_ratio = 0; ///< γ_eff(1)/Δγ there
-    double pressure_error = 0;
-};
-[[nodiscard]] TensionLimit tension_limit(const AdhesiveContact& contact,
-                                         const SolverOptions& options = {});
 
 /// Without adhesion: A(ζ)/A0 = erf(p/√(2T)) (0 when pulling).
 [[nodiscard]] double nonadhesive_area(double pressure, double stress_variance);

@@ -151,10 +151,10 @@ Shooting::Outcome Shooting::follow(const Outcome& near, int refinement) const {
     return search(refinement);
 }
 
-double Shooting::excess_at_edge(int refinement, double* area) const {
-    if (pressing_) return excess_at(0, refinement, area); // γ_eff(1) = 0
-    if (lowest_ > 0)                                      // the path starts on the boundary
-        return excess_at(std::log(1e-9 * lowest_ / contact_.work_of_adhesion), refinement, area);
+double Shooting::excess_at_edge(int refinement) const {
+    if (pressing_) return excess_at(0, refinement); // γ_eff(1) = 0
+    if (lowest_ > 0)                                // the path starts on the boundary
+        return excess_at(std::log(1e-9 * lowest_ / contact_.work_of_adhesion), refinement);
     // Zero load: g0 -> 0 with A -> 0; what is left of A² is the error of stopping short.
     // W must be in its linear part, a² << β. A falls as a power of g0, so one look tells how far
     // down to go.
@@ -164,7 +164,6 @@ double Shooting::excess_at_edge(int refinement, double* area) const {
         x = std::max({-160.0, 2 * x, 1.05 * x * std::log(small) / std::log(a)});
         value = excess_at(x, refinement, &a);
     }
-    if (area != nullptr) *area = 0;
     return value;
 }
 

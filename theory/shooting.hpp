@@ -34,7 +34,7 @@ public:
     [[nodiscard]] Outcome follow(const Outcome& near, int refinement) const;
 
     /// The limiting march where the adhesive branch ends: g0 at its lower end.
-    [[nodiscard]] double excess_at_edge(int refinement, double* area = nullptr) const;
+    [[nodiscard]] double excess_at_edge(int refinement) const;
 
     [[nodiscard]] double g0(double x) const;
     [[nodiscard]] double lowest_g0() const { return lowest_; }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <type_traits>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -78,87 +79,41 @@ RunOptions run_options(const Arguments& given) {
 
 namespace takes {
 
-void scene(CLI::App& command, Arguments& given) {
-    command.add_option("SCENE", given.words, "the scene file (TOML); - is the standard input")
-        ->required()
-        ->type_name("");
-    command
-        .add_option("--set", given.overrides,
-                    "override a key of the scene: section.key=value; repeatable")
-        ->type_name("key=value")
-        ->allow_extra_args(false);
-}
-
-void new_file(CLI::App& command, Arguments& given) {
-    command.add_option("FILE", given.out, "the scene file to be made (default: scene.toml)")
-        ->type_name("");
-}
-
-void resume(CLI::App& command, Arguments& given) {
-    command.add_option("--resume", given.resume, "go on from a checkpoint: auto, or its file")
-        ->type_name("auto|FILE");
-}
-
-void restart(CLI::App& command, Arguments& given) {
-    command.add_flag("--restart", given.restart,
-                     "throw away an unfinished run that the directory holds");
-}
-
-void progress(CLI::App& command, Arguments& given) {
-    command.add_option("--progress", given.progress, "auto, bar, lines or off")->type_name("MODE");
-}
-
-void ranks(CLI::App& command, Arguments& given) {
-    command.add_option("--ranks", given.ranks, "for so many ranks (default: as started)")
-        ->type_name("N")
-        ->check(CLI::PositiveNumber);
-}
-
-void markdown(CLI::App& command, Arguments& given) {
-    command.add_flag("--markdown", given.markdown, "as the reference page docs/scene.md");
-}
-
-void results(CLI::App& command, Arguments& given) {
-    command.add_flag(
-        "--results", given.results,
-        "every name of result.json and run.h5: the reference page docs/result.md; with "
-        "--json those of result.json");
-}
-
-void plain(CLI::App& command, Arguments& given) {
-    command.add_flag("--plain", given.plain, "without explanations");
-}
-
-void json(CLI::App& command, Arguments& given) {
-    command.add_flag("--json", given.json, "one line of JSON for programs; writes no files");
-}
-
-void points(CLI::App& command, Arguments& given) {
-    command
-        .add_option("--points", given.points,
-                    "many variations in one call: a JSON array of overrides a line (-: standard "
-                    "input), a line of JSON for each")
-        ->type_name("FILE");
-    command.add_flag("--runnable", given.runnable,
-                     "with --points: also check what a run would refuse");
-}
+const Option scene = {"SCENE", "", "the scene file (TOML); - is the standard input",
+                      &Arguments::words};
+const Option set = {"--set", "key=value",
+                    "override a key of the scene: section.key=value; repeatable",
+                    &Arguments::overrides};
+const Option json = {"--json", "", "one line of JSON for programs; writes no files",
+                     &Arguments::json};
+const Option progress = {"--progress", "MODE", "auto, bar, lines or off", &Arguments::progress};
 
 Option out(const std::string& otherwise) {
-    return [otherwise](CLI::App& command, Arguments& given) {
-        command
-            .add_option("--out", given.out,
-                        fmt::format("result directory (default: {})", otherwise))
-            ->type_name("DIR");
-    };
-}
-
-Option wall_limit(const std::string& explanation) {
-    return [explanation](CLI::App& command, Arguments& given) {
-        command.add_option("--wall-limit", given.wall_limit, explanation)->type_name("23h50m");
-    };
+    return {"--out", "DIR", fmt::format("result directory (default: {})", otherwise),
+            &Arguments::out};
 }
 
 } // namespace takes
+
+namespace {
+
+void add(CLI::App& command, const Option& option, Arguments& given) {
+    const auto add_to = [&](auto& field) -> CLI::Option* {
+        using Field = std::remove_reference_t<decltype(field)>;
+        if constexpr (std::is_same_v<Field, bool>)
+            return command.add_flag(option.name, field, option.explanation);
+        else
+            return command.add_option(option.name, field, option.explanation)
+                ->type_name(option.value);
+    };
+    CLI::Option& added =
+        *std::visit([&](auto member) { return add_to(given.*member); }, option.into);
+    if (option.name == takes::scene.name) added.required();
+    if (option.name == takes::set.name) added.allow_extra_args(false);
+    if (std::holds_alternative<int Arguments::*>(option.into)) added.check(CLI::PositiveNumber);
+}
+
+} // namespace
 
 int carry_out(const std::vector<Command>& commands, int argc, char** argv,
               const Communicator& world) {
@@ -175,8 +130,7 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
     for (const Command& command : commands) {
         CLI::App& entry = *app.add_subcommand(command.name, command.purpose);
         for (const Option& option : command.options)
-            option(entry, given);
-        if (!command.footer.empty()) entry.footer(command.footer);
+            add(entry, option, given);
         names.push_back(command.name);
     }
 

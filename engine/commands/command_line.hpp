@@ -5,8 +5,7 @@
 // call.
 //
 //     const std::vector<Command> commands = {
-//         {"theory", "the analytic theory of a scene", {takes::scene,
-//         takes::out("results/<scene>")},
+//         {"check", "look for mistakes in a scene", {takes::scene, takes::set, takes::json},
 //          [](const Arguments& given, const Communicator& world) { ... return code; }}};
 //     return carry_out(commands, argc, argv, world);
 #pragma once
@@ -15,12 +14,10 @@
 #include "engine/scene/scene.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace asperity {
 
@@ -52,33 +49,35 @@ std::string scene_file(const Arguments& given, std::vector<std::string>& overrid
 /// Throw io::SceneError, like those above.
 RunOptions run_options(const Arguments& given);
 
-using Option = std::function<void(CLI::App&, Arguments&)>;
+struct Option {
+    std::string name;  ///< "--out"; without dashes: a word
+    std::string value; ///< what stands behind it, for --help; empty: a flag
+    std::string explanation;
+    std::variant<bool Arguments::*, int Arguments::*, std::string Arguments::*,
+                 std::vector<std::string> Arguments::*>
+        into;
+};
 
 struct Command {
     std::string name;
-    std::string purpose; ///< one line
-    std::vector<Option> options;
-    std::function<int(const Arguments&, const Communicator&)> act; ///< returns the exit code
-    std::string footer = {};                                       ///< below its options
+    std::string purpose;         ///< one line
+    std::vector<Option> options; ///< none of a command of the Python package, which has its own
+    /// Returns the exit code. Empty: the Python package carries it out.
+    std::function<int(const Arguments&, const Communicator&)> act = {};
     bool looks_at_signals = false; ///< ends by itself after a signal (stop_signals.hpp)
 };
 
-/// The options; where commands mean different things by one, it takes its words of explanation.
+/// Options of several commands, or with a value that is checked.
 namespace takes {
-void scene(CLI::App& command, Arguments& given); ///< and --set
-void new_file(CLI::App& command, Arguments& given);
-void resume(CLI::App& command, Arguments& given);
-void restart(CLI::App& command, Arguments& given);
-void progress(CLI::App& command, Arguments& given);
-void ranks(CLI::App& command, Arguments& given);
-void markdown(CLI::App& command, Arguments& given);
-void plain(CLI::App& command, Arguments& given);
-void json(CLI::App& command, Arguments& given);
-void points(CLI::App& command, Arguments& given); ///< and --runnable
-void results(CLI::App& command, Arguments& given);
+extern const Option scene, set, json, progress;
 Option out(const std::string& otherwise);
-Option wall_limit(const std::string& explanation);
 } // namespace takes
+
+/// If argv names a command of the Python package (python/asperity): replaces this process by
+/// `python3 -m asperity`, which calls this program back through $ASPERITY_PROGRAM. Returns only if
+/// argv names another command (nothing) or Python or the package was not found (the exit code; the
+/// reason is printed). Before MPI is initialised.
+std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int argc, char** argv);
 
 /// Reads the command line and carries out the command it names; --help and --version are answered.
 /// Returns the exit code. Throws io::SceneError for a call that cannot be understood.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/commands/inspect.hpp"
+#include "engine/commands/commands.hpp"
 
 #include "decomposition/communicator.hpp"
 #include "engine/run/plan.hpp"

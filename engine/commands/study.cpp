@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/commands/study.hpp"
+//
+// The commands that the Python package carries out.
+#include "engine/commands/command_line.hpp"
 
 #include "io/error.hpp"
 
@@ -48,26 +50,11 @@ std::string python() {
 
 } // namespace
 
-const std::vector<Command>& study_commands() {
-    const auto nowhere = [](const Arguments&, const Communicator&) {
-        return io::exit_code::internal; // hand_over_to_python() comes first
-    };
-    static const std::vector<Command> list = {
-        {"sweep", "a scene over several values of its keys: runs, theory, one table", {}, nowhere},
-        {"cost",
-         "what accuracy costs in time: a scene with each of its numerical settings varied",
-         {},
-         nowhere},
-        {"report", "a run or a sweep as one self-contained HTML page", {}, nowhere},
-        {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}, nowhere},
-    };
-    return list;
-}
-
-std::optional<int> hand_over_to_python(int argc, char** argv) {
-    const auto& list = study_commands();
-    if (argc < 2 || std::none_of(list.begin(), list.end(),
-                                 [&](const Command& command) { return command.name == argv[1]; }))
+std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int argc,
+                                       char** argv) {
+    if (argc < 2 || std::none_of(commands.begin(), commands.end(), [&](const Command& command) {
+            return !command.act && command.name == argv[1];
+        }))
         return std::nullopt;
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);

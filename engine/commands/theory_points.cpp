@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/commands/theory_points.hpp"
+#include "engine/commands/commands.hpp"
 
 #include "engine/run/run_record.hpp"
 #include "engine/run/theory_case.hpp"

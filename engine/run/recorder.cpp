@@ -6,7 +6,6 @@
 #include "io/described.hpp"
 #include "io/h5md.hpp"
 #include "io/result_directory.hpp"
-#include "io/series.hpp"
 
 #include <algorithm>
 #include <array>
@@ -308,19 +307,21 @@ void Recorder::build() {
     io::write_h5md_head(file, io::build_info().version);
     write_substrate(file, surface_);
     const std::vector<std::string> names = columns(mode_);
-    io::Series series(file, names);
+    std::vector<std::vector<double>> series(names.size());
     TrajectoryWriter trajectory(file);
     journal_->replay([&](std::uint64_t kind, io::Journal::Bytes payload) {
         io::PayloadReader record(payload);
         if (kind == rows_record)
             while (!record.at_end())
-                series.append(record.get<double>(names.size()));
+                for (std::vector<double>& column : series)
+                    column.push_back(record.get<double>());
         else if (kind == fields_record)
             write_fields(file, record);
         else
             trajectory.append(record);
     });
-    series.flush();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        io::write_described(file, "/series/" + names[i], {series[i].size()}, series[i]);
     add_(file);
     file.close();
     built_ = Clock::now();

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 #include "io/error.hpp"
-#include "io/h5md.hpp"
 #include "io/hdf5_file.hpp"
-#include "io/series.hpp"
 
 #include "support/scratch.hpp"
 
@@ -127,28 +125,6 @@ TEST(Hdf5File, ReadOnlyFilesStayAsTheyAre) {
     Hdf5File file(scratch / "a.h5", Hdf5File::Mode::read);
     EXPECT_THROW(file.make_group("/g"), FileError);
     EXPECT_THROW(file.write<double>("/x", {1}, std::vector<double>{1}), FileError);
-}
-
-TEST(Series, ColumnsWithUnits) {
-    const Scratch scratch;
-    const std::vector<std::string> columns = {"step", "force"};
-    {
-        Hdf5File file(scratch / "run.h5", Hdf5File::Mode::create);
-        write_h5md_head(file, "0.1.0");
-        Series series(file, columns);
-        for (int i = 0; i < 150; ++i)
-            series.append({1.0 * i, -0.5 * i});
-        EXPECT_EQ(series.rows(), 150u);
-        EXPECT_EQ(file.shape("/series/step"), Hdf5File::Shape{128}); // the rest waits in memory
-        series.flush();
-        EXPECT_THROW(series.append({1.0}), FileError);
-        file.close();
-    }
-    const Hdf5File file(scratch / "run.h5", Hdf5File::Mode::read);
-    EXPECT_EQ(file.read<double>("/series/force").at(149), -74.5);
-    EXPECT_EQ(file.read_text_attribute("/series/force", "unit"), "eV/Å");
-    EXPECT_EQ(file.read_text_attribute("/series/step", "unit"), "1");
-    EXPECT_EQ(file.read_text_attribute("/h5md/creator", "version"), "0.1.0");
 }
 
 } // namespace

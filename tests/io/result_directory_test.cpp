@@ -106,7 +106,7 @@ TEST(ResultDirectory, RefusesResultsAndUnfinishedRuns) {
         EXPECT_TRUE(holds(refusal({path, "x"}), "already holds a result")) << odd;
     }
     EXPECT_TRUE(holds(refusal({scratch.write("file", ""), "x"}), "is not a directory"));
-    EXPECT_THROW(make_directory((scratch / "file") + "/sub"), FileError);
+    EXPECT_THROW(Directory::make((scratch / "file") + "/sub"), FileError);
 }
 
 TEST(ResultDirectory, NumbersItsDirectories) {

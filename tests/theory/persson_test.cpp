@@ -142,26 +142,22 @@ TEST(Persson, EndOfTheBranch) {
 TEST(Persson, TensionBranchEnds) {
     for (const auto& [h, p, area] :
          {std::array{3.0, -1.974, 0.741}, std::array{5.0, -1.020, 0.323}}) {
-        const TensionLimit end = tension_limit(paper::contact(h));
-        EXPECT_NEAR(end.pressure / gpa, p, 0.5e-3) << h;
-        EXPECT_NEAR(end.area, area, 0.5e-3) << h;
         AdhesiveContact c = paper::contact(h);
-        c.pressure = 0.999 * end.pressure;
+        c.pressure = (p + 0.5e-3) * gpa;
         const ContactState before = solve(c);
-        EXPECT_EQ(before.status, Status::adhesive);
-        EXPECT_GT(before.area, end.area);
-        EXPECT_LT(before.area, end.area + 0.02);
+        EXPECT_EQ(before.status, Status::adhesive) << h;
+        EXPECT_GT(before.area, area);
+        EXPECT_LT(before.area, area + 0.02);
         // -p stays inside σ_a(1), which it reaches at the end.
         EXPECT_GT(before.profile.front().detachment_stress, -c.pressure);
         EXPECT_LT(before.profile.front().detachment_stress, -1.02 * c.pressure);
-        c.pressure = 1.001 * end.pressure;
+        c.pressure = (p - 0.5e-3) * gpa;
         const ContactState after = solve(c);
         EXPECT_EQ(after.status, Status::no_contact);
         EXPECT_EQ(after.area, 0);
         EXPECT_EQ(after.gamma_eff, 0);
         EXPECT_NE(after.reason.find("no adhesive solution"), std::string::npos) << after.reason;
     }
-    EXPECT_THROW((void)tension_limit(paper::contact(8)), NoSolution);
 }
 
 TEST(Persson, StressIsNotConserved) {
@@ -358,17 +354,16 @@ TEST(Persson, ErrorEstimateIsHonest) {
 }
 
 TEST(Persson, HundredRoughnessesInTenSeconds) {
-    std::vector<double> h;
-    for (int i = 1; i <= 100; ++i)
-        h.push_back(0.1 * i);
+    std::vector<ContactState> curve;
     const std::clock_t begin = std::clock();
-    const auto curve = roughness_curve(paper::contact(1), h);
+    for (int i = 1; i <= 100; ++i)
+        curve.push_back(solve(paper::contact(0.1 * i)));
     const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     RecordProperty("seconds", std::to_string(seconds));
     EXPECT_LT(seconds, 10);
     for (std::size_t i = 1; i < curve.size(); ++i) {
-        EXPECT_LE(curve[i].gamma_ratio, curve[i - 1].gamma_ratio) << h[i];
-        EXPECT_LE(curve[i].area, curve[i - 1].area + 1e-9) << h[i];
+        EXPECT_LE(curve[i].gamma_ratio, curve[i - 1].gamma_ratio) << i;
+        EXPECT_LE(curve[i].area, curve[i - 1].area + 1e-9) << i;
     }
     EXPECT_EQ(curve.back().area, 0);
 }

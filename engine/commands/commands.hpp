@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What the commands other than `run` do. Each returns the exit code and throws io::SceneError with
+// all that is wrong with the scene; rank 0 alone prints.
+#pragma once
+
+#include "engine/scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+class Communicator;
+
+/// `asperity init`: a commented scene to start from. Throws where the file is there.
+int init_command(const std::string& file, const Communicator& world);
+/// `asperity check`. json: the scene as it would be used, its [sweep], notes and limits, as one
+/// line.
+int check_command(const Scene& scene, bool json, const Communicator& world);
+/// `asperity plan`; ranks: to plan for, 0: as many as there are.
+int plan_command(const Scene& scene, int ranks, const Communicator& world);
+/// `asperity surface`: heights.h5 and result.json in `out` (empty: results/<scene>-surface).
+int surface_command(const Scene& scene, const std::string& out, const Communicator& world);
+/// `asperity defaults`: as TOML, with or without explanations, or as the page docs/scene.md.
+int defaults_command(bool markdown, bool plain, bool results, const Communicator& world);
+/// `asperity defaults --json`: of every key its kind, unit, default, choices and meaning; results:
+/// instead of every value of result.json its unit and meaning.
+int schema_command(bool results, const Communicator& world);
+/// `asperity info`
+int info_command(const Communicator& world);
+
+/// `asperity theory`, on one rank: the analytic theory with its profile over magnification and
+/// where adhesion ends; result.json and theory.h5 in `out` (empty: results/<scene>-theory), and a
+/// table. json: prints what result.json would hold as one line and writes nothing.
+int theory_command(const Scene& scene, const std::string& out, bool json);
+
+/// `asperity theory SCENE --points FILE`, on one rank: many variations of one scene in one call,
+/// for programs. Sweeps use it to check their points and to compute the theory beside them.
+///
+/// Each line of the input is a JSON array of overrides, ["surface.rms=1", "surface.seed=2"]. Each
+/// line of the output is a JSON object for the point of the same line, either
+///     {"name", "scene", "delta_gamma", "theory": {...}, "notes": [...]}
+/// with the keys and units of result.json, or {"problems": [{"where", "what", "why", "fix"}]}.
+struct TheoryPoints {
+    std::string scene;                  ///< file
+    std::vector<std::string> overrides; ///< of every point
+    std::string points;                 ///< file of the points; "-": standard input
+    bool runnable = false; ///< also report what a run of the point would refuse (examine())
+};
+/// Throws io::FileError for the input.
+int theory_points_command(const TheoryPoints& what);
+
+} // namespace asperity
