@@ -110,7 +110,7 @@ void add(CLI::App& command, const Option& option, Arguments& given) {
         *std::visit([&](auto member) { return add_to(given.*member); }, option.into);
     if (option.name == takes::scene.name) added.required();
     if (option.name == takes::set.name) added.allow_extra_args(false);
-    if (std::holds_alternative<int Arguments::*>(option.into)) added.check(CLI::PositiveNumber);
+    if (std::holds_alternative<int Arguments::*>(option.into)) added.check(CLI::Range(1, 1 << 20));
 }
 
 } // namespace

@@ -142,7 +142,7 @@ def _take(place: Path) -> int:
 @contextlib.contextmanager
 def in_use(place: Path) -> Iterator[None]:
     """Makes a directory, and keeps other sweeps and runs out of it; it goes again if nothing was written into it."""
-    made = not place.exists()
+    made = [path for path in (place, *place.parents) if not path.exists()]
     directory(place)
     try:
         with _turn(place):
@@ -155,9 +155,9 @@ def in_use(place: Path) -> Iterator[None]:
         with contextlib.suppress(OSError), _turn(place):
             os.unlink(place / LOCK)
         os.close(handle)
-        if made:
-            with contextlib.suppress(OSError):  # something is in it
-                place.rmdir()
+        with contextlib.suppress(OSError):  # something is in it
+            for path in made:
+                path.rmdir()
 
 
 _JSON_END = re.compile(rb',\n  "digest": "crc32:([0-9a-f]{8})"\n}\n\Z')

@@ -208,7 +208,7 @@ def test_points_are_known_by_their_result(tmp_path):
     (["--wall-limit", "soon"], "is no length of time"), (["--progress", "loud"], "choices: auto, bar, lines, off"),
     (["state.toml"], "has the name of another scene"), (["--set", "surface.rsm=1,2"], "did you mean surface.rms?")])
 def test_what_is_wrong_is_said_before_anything_runs(place, words, says):
-    assert says in command("sweep", "state.toml", *words, "--out", "bad", expect=2)
+    assert says in command("sweep", "state.toml", *words, "--out", "no/such", expect=2)
     assert sorted(p.name for p in place.iterdir()) == ["path.toml", "state.toml"]
 
 
