@@ -181,7 +181,7 @@ TEST(Verlet, ReversedVelocitiesRetraceThePath) {
             }
 }
 
-TEST(Books, ADrivenDampedRunBalances) {
+TEST(EnergyBalance, ADrivenDampedRunBalances) {
     // Work of the top plane and of the moving medium = change of energy + dissipation, up to the
     // trapezia's dt^2.
     const auto residual = [](double dt) {
@@ -205,7 +205,7 @@ TEST(Books, ADrivenDampedRunBalances) {
     EXPECT_NEAR(coarse / fine, 4.0, 0.8);
 }
 
-TEST(Books, DampingAloneTakesWhatTheDissipationSays) {
+TEST(EnergyBalance, DampingAloneTakesWhatTheDissipationSays) {
     // The energy lost over 15 ps, all but a few percent of it damped away; Verlet's own ripple, of
     // order dt^2, is what the first energy is known to.
     const auto error = [](double dt) {
