@@ -184,7 +184,7 @@ TEST(MixedPrecision, KeepsEnergyOverTenThousandSteps) {
     EXPECT_LT(std::abs(drift[1]), std::abs(drift[0]) + 0.02 * ripple);
 }
 
-TEST(MixedPrecision, ClosesTheBooksOfADrivenRun) {
+TEST(MixedPrecision, ClosesTheEnergyBalanceOfADrivenRun) {
     double residual[2];
     for (bool mixed : {false, true}) {
         SimulationOptions options = contact_options(mixed);

@@ -192,7 +192,7 @@ TEST(MixedPrecision, DoesNotDriftOverAHundredThousandSteps) {
     EXPECT_NEAR(mixed.ripple, exact.ripple, 0.02 * exact.ripple);
 }
 
-TEST(MixedPrecision, ClosesTheBooksOverAHundredThousandSteps) {
+TEST(MixedPrecision, ClosesTheEnergyBalanceOverAHundredThousandSteps) {
     const auto driven = [](bool mixed) {
         SimulationOptions options = free_contact(10.0);
         options.interface.mixed = mixed;
