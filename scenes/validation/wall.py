@@ -3,10 +3,12 @@
 # SPDX-License-Identifier: MIT
 """Problems with closed forms over a wall (interface.kind = "wall"): a table beside each closed form.
 
-    scenes/validation/wall.py westergaard | johnson [--out results/wall]
+    scenes/validation/wall.py westergaard | johnson | load | hertz | jkr | area [--out results/wall]
 
 westergaard: contact of a wave without adhesion against pressure. johnson: the adhesive wave at zero load, for several ranges
-of the attraction, extrapolated.
+of the attraction, extrapolated. load: the same wave under pressures from near pull-off to beyond the jump into full contact. hertz:
+a paraboloid without adhesion, periodic images corrected for. jkr: force against height of an adhesive sphere, as the range
+falls. area: contact area of self-affine surfaces against pressure without adhesion, extrapolated in the spacing.
 """
 import argparse
 import json
@@ -14,6 +16,9 @@ import math
 import pathlib
 import subprocess
 import sys
+
+import h5py
+import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GPA = 1 / 160.21766208  # eV/Å³
@@ -25,19 +30,23 @@ class Runs:
         self.out, self.program = out, program
         out.mkdir(parents=True, exist_ok=True)
 
+    def map(self, name: str, heights: np.ndarray) -> dict:
+        """Keys of a surface of these heights."""
+        path = (self.out / f"{name}.npy").resolve()
+        np.save(path, heights)
+        return {"surface.kind": "file", "surface.file": path, "surface.sites": len(heights), "surface.rms": float(np.std(heights))}
+
     def sine(self, sites: int, amplitude: float) -> dict:
         """Keys of a map of one wave along x, h cos(2πx/λ), λ the box."""
-        path = self.out / f"sine-{sites}-{amplitude:.6g}.txt"
-        row = " ".join(f"{amplitude * math.cos(2 * math.pi * x / sites):.9f}" for x in range(sites))
-        path.write_text("\n".join([row] * sites) + "\n")
-        return {"surface.kind": "file", "surface.file": path.resolve(), "surface.sites": sites, "surface.rms": amplitude / math.sqrt(2)}
+        wave = amplitude * np.cos(2 * math.pi * np.arange(sites) / sites)
+        return self.map(f"sine-{sites}-{amplitude:.6g}", np.tile(wave, (sites, 1)))
 
     def state(self, name: str, keys: dict) -> dict:
         """The relaxed state of a scene over a wall; a run that is there already is read."""
         place = self.out / name
         if not (place / "result.json").exists():
             settings = {"drive.path": "zero-load", "block.model": "spectral", "interface.kind": "wall", "theory.renormalised": "false",
-                        "output.checkpoint": 0, **keys}
+                        "output.checkpoint": 0, "drive.tolerance": 1e-6, **keys}
             settings.setdefault("block.thickness", settings["surface.sites"])
             command = [self.program, "run", str(ROOT / "scenes/paper/flat-3A.toml"), "--progress", "off", "--out", str(place),
                        "--set", *(f"{k}={v}" for k, v in settings.items())]
@@ -45,6 +54,15 @@ class Runs:
             if done.returncode:
                 sys.exit(f"{' '.join(command)}\n{done.stderr}")
         return json.loads((place / "result.json").read_text())
+
+    def path(self, name: str, keys: dict) -> dict:
+        """Force (eV/Å), mean height (Å), contact fraction along a path at a held mean height, and the theories' curves."""
+        self.state(name, {"drive.mode": "quasistatic", "drive.path": '["approach","pull-off"]', "drive.hold": "mean-height",
+                          "output.fields": "[]"} | keys)
+        with h5py.File(self.out / name / "run.h5") as file:
+            series = {k: file[f"series/{k}"][:] for k in ("force", "mean_height", "contact_fraction", "leg")}
+            curves = {n: {k: c[k][:] for k in c} for n, c in file.get("curves", {}).items()}
+        return series | {"curves": curves}
 
 
 def westergaard(runs: Runs) -> None:
@@ -97,9 +115,109 @@ def johnson(runs: Runs) -> None:
         print(f"      extrapolated to range zero: {c - (b - c) ** 2 / ((a - b) - (b - c)):.4f}")
 
 
+def load(runs: Runs) -> None:
+    """States from the attached side; above the largest pressure of partial contact (0.3877 p* at α = 0.3) contact is full."""
+    print("α = 0.3: p/p*, contact fraction for each range (sites), closed form")
+    w, box, alpha = 0.1, 332.8, 0.3
+    cases = ((2.0, 64), (1.0, 128), (0.5, 256))
+    print("   p/p* " + "".join(f"{reach:5} Å ({sites:3})" for reach, sites in cases) + "   closed   deviation of the last")
+    amplitude = math.sqrt(2 * w * box / (math.pi**2 * E)) / alpha
+    peak = math.pi * E * amplitude / box
+    f = np.linspace(1e-3, 0.999, 100000)
+    closed = np.sin(math.pi * f / 2) ** 2 - alpha * np.sqrt(np.tan(math.pi * f / 2))
+    for pressure in (-0.08, -0.04, 0, 0.1, 0.2, 0.3, 0.34, 0.36, 0.38, 0.4, 0.44):
+        found = [runs.state(f"load-{pressure}-{sites}", runs.sine(sites, amplitude) | {
+            "surface.spacing": box / sites, "interface.adhesion": 1e3 * w, "interface.range": reach,
+            "drive.load": pressure * peak / GPA * 1e3})["contact_fraction"] for reach, sites in cases]
+        rising = (f > f[np.argmin(closed[f < 0.5])]) & (f < f[np.argmax(closed)])
+        exact = float(np.interp(pressure, closed[rising], f[rising])) if pressure < closed.max() else 1.0
+        print(f"{pressure:7}" + "".join(f"{x:13.4f}" for x in found) + f"{exact:10.4f}{found[-1] - exact:10.4f}")
+
+
+# Sums over a square lattice (theory/periodic_sphere.hpp): the images' displacement near the contact.
+PHI0, PHI2 = -3.9002649, 9.0336217
+
+
+def hertz(runs: Runs) -> None:
+    """ContactMechanics' values for E* = 5, R = 4, F = 7: δ = 0.6507880, a = 1.6134286, p0 = 1.2839257."""
+    unit, radius, modulus, box = 20.0, 4.0, 5.0, 16.0  # Å; the rest in units of the example
+    print("sites  F      a       Hertz   deviation  δ        Hertz    deviation  p0      Hertz   deviation  (with images)")
+    for sites in (128, 256):
+        x = (np.arange(sites) - sites / 2) * box / sites
+        cap = -(x[:, None] ** 2 + x[None, :] ** 2) / (2 * radius) * unit
+        for force in (0.5, 2.0, 7.0):
+            pressed = 1 / radius + PHI2 * force / (2 * math.pi * modulus * box**3)  # the images flatten the sphere's gap
+            a = (0.75 * force / modulus / pressed) ** (1 / 3)
+            delta, p0 = a * a * pressed, 1.5 * force / (math.pi * a * a)
+            r = runs.state(f"hertz-{sites}-{force}", runs.map(f"cap-{sites}", cap) | {
+                "surface.spacing": box * unit / sites, "interface.adhesion": 0, "drive.load": force / box**2 / modulus * E / GPA * 1e3})
+            with h5py.File(runs.out / f"hertz-{sites}-{force}" / "run.h5") as f:
+                highest = f["fields/zero-load/pressure"][:].max() * GPA / E * modulus
+                apex = f["substrate/height"][:].max()
+            found = box * math.sqrt(r["contact_fraction"] / math.pi)
+            sunk = (apex - r["zero_load"]["mean_height"]) / unit - PHI0 * force / (math.pi * modulus * box)
+            print(f"{sites:5} {force:5} {found:8.4f} {a:7.4f} {found / a - 1:9.4f} {sunk:9.4f} {delta:8.4f} {sunk / delta - 1:9.4f} "
+                  f"{highest:9.4f} {p0:7.4f} {highest / p0 - 1:9.4f}")
+
+
+def jkr(runs: Runs) -> None:
+    """A sphere of 300 Å in a box of 332.8 Å, w = 30 meV/Å², paths at a held mean height against JKR and Maugis-Dugdale with images."""
+    print("range/Å  sites  λ (Maugis)  pull-off over (3/2)πwR  JKR     Maugis  rms of F - Maugis over pull-off, attached branch  from JKR")
+    for reach, sites in ((1.4, 64), (0.7, 128), (0.35, 256)):
+        name = f"jkr-{sites}"
+        r = runs.path(name, {"surface.kind": "flat", "surface.radius": 300, "surface.sites": sites, "surface.spacing": 332.8 / sites,
+                             "interface.adhesion": 30, "interface.range": reach, "drive.tolerance": 1e-3 * (64 / sites) ** 2})
+        result = json.loads((runs.out / name / "result.json").read_text())
+        sphere, unit = result["sphere"], 1.5 * math.pi * 0.03 * 300
+        attached = (r["leg"] == r["leg"].max()) & (r["contact_fraction"] > 0.004)
+        off = {}
+        for theory, curve in r["curves"].items():
+            # From the deepest point outwards to where the theory's branch ends at a held height.
+            height, force = curve["height"], curve["force"]
+            if height[0] > height[-1]:
+                height, force = height[::-1], force[::-1]
+            end = int(np.argmax(height)) + 1
+            height, force = height[:end], force[:end]
+            inside = attached & (r["mean_height"] < height.max()) & (r["mean_height"] > height.min())
+            off[theory] = np.sqrt(np.mean((np.interp(r["mean_height"][inside], height, force) - r["force"][inside]) ** 2)) / unit
+        print(f"{reach:6} {sites:6} {sphere['maugis_parameter']:9.3f} {-r['force'].min() / unit:15.4f} {sphere['jkr_images'] / 30:20.4f} "
+              f"{sphere['maugis_images'] / 30:8.4f} {off['maugis_images']:16.4f} {off['jkr_images']:40.4f}")
+
+
+def area(runs: Runs) -> None:
+    """κ of A/A0 = κ p/(E* h'), the same surfaces (H = 0.8, waves of 32 lengths down to box/16) at 128, 256 and 512 sites."""
+    print("p/(E*h')  A/A0 at 128, 256, 512 sites  extrapolated  κ       Persson, erf  (means of three surfaces)")
+    box, modes = 332.8, 16
+    surfaces = []
+    for seed in (1, 2, 3):
+        random = np.random.default_rng(seed)
+        k = np.hypot(np.fft.fftfreq(128, 1 / 128)[:, None], np.fft.rfftfreq(128, 1 / 128)[None, :])
+        amplitude = np.where((k >= 1) & (k <= modes), np.maximum(k, 1) ** -1.8, 0)
+        spectrum = np.fft.rfft2(random.standard_normal((128, 128))) * amplitude
+        surfaces.append(spectrum)
+    slope = 0.1
+    for reduced in (0.01, 0.02, 0.05, 0.1, 0.2, 0.4):
+        means = []
+        for sites in (128, 256, 512):
+            found = []
+            for seed, spectrum in enumerate(surfaces, 1):
+                whole = np.zeros((sites, sites // 2 + 1), complex)
+                whole[:64, :64], whole[-63:, :64] = spectrum[:64, :64], spectrum[-63:, :64]
+                gradient = 2j * math.pi / box * np.fft.fftfreq(sites, 1 / sites)[:, None], 2j * math.pi / box * np.fft.rfftfreq(sites, 1 / sites)[None, :]
+                slopes = [np.fft.irfft2(g * whole, s=(sites, sites)) for g in gradient]
+                heights = np.fft.irfft2(whole, s=(sites, sites)) * slope / math.sqrt(sum(np.mean(g**2) for g in slopes))
+                r = runs.state(f"area-{reduced}-{sites}-{seed}", runs.map(f"area-{sites}-{seed}", heights) | {
+                    "surface.spacing": box / sites, "interface.adhesion": 0, "drive.load": reduced * slope * E / GPA * 1e3})
+                found.append(r["contact_fraction"])
+            means.append(np.mean(found))
+        a, b, c = means
+        limit = 2 * c - b
+        print(f"{reduced:7} {a:12.4f} {b:7.4f} {c:7.4f} {limit:13.4f} {limit / reduced:10.3f} {math.erf(reduced * math.sqrt(2)):10.4f}")
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("problem", choices=["westergaard", "johnson"])
+    parser.add_argument("problem", choices=["westergaard", "johnson", "load", "hertz", "jkr", "area"])
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/wall"))
     parser.add_argument("--program", default=str(ROOT / "asperity"))
     arguments = parser.parse_args()
