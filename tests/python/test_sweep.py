@@ -151,6 +151,23 @@ def test_csv_hdf5_and_json_hold_the_same(tmp_path):
     assert [s.name for s in load_sweeps(tmp_path)] == ["s"]  # in a folder of its own
 
 
+def test_a_table_knows_what_means_nothing():
+    """Of a sphere, energies over the nominal area; the key along x is the one with the most numbers that is no seed."""
+    flat = nine_points()
+    flat.points = flat.points[:6]  # two roughnesses, three seeds
+    assert flat.table.along == "surface.rms" and np.isfinite(flat.table.values("binding_energy_ratio")).all()
+    sphere = nine_points()
+    for point in sphere.points[:8]:
+        point["result"].update({"contact_radius.zero_load": 30.0, "jkr.out_ratio": 0.9})
+    table = sphere.table
+    assert np.isnan(table.values("binding_energy_ratio")).all() and (table["binding_energy_ratio"][:8] > 0).all()
+    heads = text_of(table)[0]
+    assert "state" not in heads and "JKR out" in heads and "theory" in heads
+    assert np.isnan(table.values("no such column")).all()
+    theory = asperity.Sweep("t", {}, flat.axes, flat.points).table  # the same names in a sweep of the theory alone
+    assert (theory.values("theory.gamma_eff") == theory["gamma_eff"]).all()
+
+
 def test_plots_of_a_sweep_read_back_are_the_same(tmp_path):
     sweep = nine_points()
     sweep.directory = tmp_path
