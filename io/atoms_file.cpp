@@ -324,6 +324,9 @@ std::map<std::string, std::string_view> properties_of(const Lines& lines) {
         if (end == std::string_view::npos)
             refuse(lines.where(), fmt::format("the value of '{}' has no end", key),
                    fmt::format("a {} is missing", close), "write the file again");
+        if (list.size() > most_words)
+            refuse(lines.where(), "the second line has too many properties",
+                   fmt::format("{} can be read", most_words), "leave out what is not needed");
         if (!list.try_emplace(key, text.substr(at, end - at)).second)
             refuse(lines.where(), fmt::format("'{}' stands twice", key), "",
                    "write the file again");
@@ -371,7 +374,12 @@ Columns columns_of(const Lines& lines, std::string_view text) {
             refuse(lines.where(), fmt::format("Properties gives '{}' {} columns", name, width),
                    fmt::format("1 to {} can be read", most_words), "write fewer columns");
         if (name == "species" && width == 1) columns.species = columns.all;
-        if (name == "pos" && kind == "R" && width == 3) columns.position = columns.all;
+        if (name == "pos" && kind == "R" && width == 3) {
+            if (columns.position != std::string_view::npos)
+                refuse(lines.where(), "Properties has pos:R:3 twice",
+                       "one of them would be taken for the other", "write the file again");
+            columns.position = columns.all;
+        }
         columns.all += static_cast<std::size_t>(width);
     }
     if (columns.position == std::string_view::npos || columns.all >= most_words)

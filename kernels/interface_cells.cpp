@@ -15,6 +15,8 @@
 // its own. The lanes are added at the end, by halving.
 #include "kernels/interface_block.hpp"
 
+#include <bit>
+
 namespace asperity::ASPERITY_VARIANT {
 
 template <>
@@ -40,63 +42,81 @@ namespace {
 /// Fixed-point and single-precision distances differ from those of the bounds by less, Å.
 constexpr double cell_slack = 1e-5;
 
-/// Cells near a block of sites.
+/// Cells near a block of sites, and where one of the sites stands as they see it.
+template <class T>
 struct NearCells {
     static constexpr int most = 64;
     int count = 0;
-    alignas(64) double low_x[most], high_x[most], low_y[most], high_y[most], low_z[most],
-        high_z[most];
-    double shift_x[most], shift_y[most]; ///< of the image, Å
-    std::int32_t cell[most];
+    std::int64_t cell[most];
+    alignas(64) double low[3][most], high[3][most]; ///< bounds of the image, Å
+    alignas(64) double origin[3][most]; ///< positions in the cell are counted from here, Å
+    alignas(64) double from[3][most];   ///< the site's, to be read by place()
 
-    /// Images [from, to) within `reach` of the block, as many as there is room for; where to go on.
-    ASPERITY_INLINE std::int64_t gather(const CellSubstrate& atoms, std::int64_t from,
-                                        std::int64_t to, double left, double right, double y,
-                                        const BlockOfSites& site, double reach) {
-        const double aside = site.sideways, edge = atoms.atoms.edge;
+    /// Images [next, end) within `reach` of a box around the sites, as many as there is room for;
+    /// where to go on.
+    ASPERITY_INLINE std::int64_t gather(const CellSubstrate& atoms, std::int64_t next,
+                                        std::int64_t end, const double (&least)[3],
+                                        const double (&greatest)[3], double reach) {
         count = 0;
-        for (; from < to && count < most; ++from) {
-            const CellImage image = atoms.images[from];
+        for (; next < end && count < most; ++next) {
+            const CellImage image = atoms.images[next];
             const double* bound = atoms.bounds + image.cell;
-            const auto n = static_cast<std::ptrdiff_t>(atoms.cells);
-            const int k = count;
-            shift_x[k] = image.x * edge;
-            shift_y[k] = image.y * edge;
-            low_x[k] = bound[0] + shift_x[k];
-            high_x[k] = bound[n] + shift_x[k];
-            low_y[k] = bound[2 * n] + shift_y[k];
-            high_y[k] = bound[3 * n] + shift_y[k];
-            low_z[k] = bound[4 * n];
-            high_z[k] = bound[5 * n];
-            cell[k] = image.cell;
-            const auto gap = [](double a, double b) {
-                return a > b ? (a > 0.0 ? a : 0.0) : (b > 0.0 ? b : 0.0);
-            };
-            const double dx = gap(low_x[k] - right - aside, left - aside - high_x[k]);
-            const double dy = gap(low_y[k] - y - aside, y - aside - high_y[k]);
-            const double dz = gap(low_z[k] - site.highest_z, site.lowest_z - high_z[k]);
-            count += dx * dx + dy * dy + dz * dz < reach * reach;
+            const double shift[3] = {image.x * atoms.atoms.edge, image.y * atoms.atoms.edge, 0.0};
+            double distance2 = 0.0;
+            for (int k = 0; k < 3; ++k) {
+                const double bottom = bound[2 * k * atoms.cells] + shift[k],
+                             top = bound[(2 * k + 1) * atoms.cells] + shift[k];
+                low[k][count] = bottom;
+                high[k][count] = top;
+                origin[k][count] = mixed ? 0.5 * (bottom + top) : shift[k];
+                // Twice the greatest of below, above and zero, without a branch: at most one of
+                // the two is positive.
+                const double below = bottom - greatest[k], above = least[k] - top;
+                const double gap = (below + std::fabs(below)) + (above + std::fabs(above));
+                distance2 += 0.25 * (gap * gap);
+            }
+            cell[count] = image.cell;
+            count += distance2 < reach * reach;
         }
         for (int k = count; k < most && k % Real::width; ++k)
-            low_x[k] = high_x[k] = low_y[k] = high_y[k] = low_z[k] = high_z[k] = 1e30;
-        return from;
+            low[0][k] = high[0][k] = 1e30;
+        return next;
     }
 
-    /// Bits of those within `reach` of a point.
-    ASPERITY_INLINE std::uint64_t within(double x, double y, double z, double reach) const {
-        const Real px(x), py(y), pz(z), zero(0.0), reach2(reach * reach);
+    /// Bits of those within `reach` of a site, which is placed before them.
+    ASPERITY_INLINE std::uint64_t within(double x, double y, double z, double reach) {
+        const Real site[3] = {x, y, z}, zero(0.0), reach2(reach * reach);
         std::uint64_t bits = 0;
-        for (int k = 0; k < count; k += Real::width) {
-            const auto gap = [&](const double* low, const double* high, Real p) {
-                return max(max(Real::load(low + k) - p, p - Real::load(high + k)), zero);
-            };
-            const Real dx = gap(low_x, high_x, px), dy = gap(low_y, high_y, py),
-                       dz = gap(low_z, high_z, pz);
-            bits |= static_cast<std::uint64_t>(
-                        bits_where_less(fma(dx, dx, fma(dy, dy, dz * dz)), reach2))
-                    << k;
+        for (int c = 0; c < count; c += Real::width) {
+            Real r2(0.0);
+            for (int k = 0; k < 3; ++k) {
+                biased(site[k] - Real::load(origin[k] + c)).store(from[k] + c);
+                const Real below = Real::load(low[k] + c) - site[k],
+                           above = site[k] - Real::load(high[k] + c);
+                const Real gap = max(max(below, above), zero);
+                r2 = fma(gap, gap, r2);
+            }
+            bits |= static_cast<std::uint64_t>(bits_where_less(r2, reach2)) << c;
         }
         return bits;
+    }
+
+    /// The site's coordinate from a cell, in every lane.
+    ASPERITY_INLINE auto place(int k, int c) const {
+        if constexpr (mixed) // the integer of a biased number is its last 32 bits
+            return Simd::Int32::same(
+                static_cast<std::int32_t>(std::bit_cast<std::int64_t>(from[k][c])));
+        else
+            return Real(from[k][c]);
+    }
+
+private:
+    static constexpr bool mixed = std::is_same_v<T, float>;
+    ASPERITY_INLINE static Real biased(Real length) {
+        if constexpr (mixed)
+            return fma(length, Real(1.0 / fixed_quantum), Real(0x1.8p52));
+        else
+            return length;
     }
 };
 
@@ -105,34 +125,24 @@ template <class T>
 struct CellView;
 template <>
 struct CellView<double> {
-    const double *x, *y, *z;
-    Real at_x, at_y, at_z;
-    ASPERITY_INLINE CellView(const CellSubstrate& atoms, std::int64_t cell, double px, double py,
-                             double pz)
-        : x(atoms.x + cell * cell_atoms), y(atoms.y + cell * cell_atoms),
-          z(atoms.z + cell * cell_atoms), at_x(px), at_y(py), at_z(pz) {}
-    ASPERITY_INLINE Real dx(int k) const { return at_x - Real::load(x + k); }
-    ASPERITY_INLINE Real dy(int k) const { return at_y - Real::load(y + k); }
-    ASPERITY_INLINE Real dz(int k) const { return at_z - Real::load(z + k); }
+    const double* atoms[3];
+    Real at[3];
+    ASPERITY_INLINE CellView(const CellSubstrate& of, const NearCells<double>& near, int c)
+        : atoms{of.x + near.cell[c] * cell_atoms, of.y + near.cell[c] * cell_atoms,
+                of.z + near.cell[c] * cell_atoms},
+          at{near.place(0, c), near.place(1, c), near.place(2, c)} {}
+    ASPERITY_INLINE Real d(int k, int lane) const { return at[k] - Real::load(atoms[k] + lane); }
 };
 template <>
 struct CellView<float> {
-    using V = Pack<float>;
-    const std::int32_t *x, *y, *z;
-    SiteHeight<Simd, float> at_x, at_y, at_z; // differences of fixed-point numbers
-    ASPERITY_INLINE CellView(const CellSubstrate& atoms, std::int64_t cell, double px, double py,
-                             double pz)
-        : x(atoms.fixed_x + cell * cell_atoms), y(atoms.fixed_y + cell * cell_atoms),
-          z(atoms.fixed_z + cell * cell_atoms), at_x(px - centre(atoms, 0, cell)),
-          at_y(py - centre(atoms, 2, cell)), at_z(pz - centre(atoms, 4, cell)) {}
-    ASPERITY_INLINE V dx(int k) const { return at_x.above(x + k); }
-    ASPERITY_INLINE V dy(int k) const { return at_y.above(y + k); }
-    ASPERITY_INLINE V dz(int k) const { return at_z.above(z + k); }
-
-private:
-    ASPERITY_INLINE static double centre(const CellSubstrate& atoms, int bound, std::int64_t cell) {
-        const double* low = atoms.bounds + bound * atoms.cells + cell;
-        return 0.5 * (low[0] + low[atoms.cells]);
+    const std::int32_t* atoms[3];
+    Simd::Int32 at[3];
+    ASPERITY_INLINE CellView(const CellSubstrate& of, const NearCells<float>& near, int c)
+        : atoms{of.fixed_x + near.cell[c] * cell_atoms, of.fixed_y + near.cell[c] * cell_atoms,
+                of.fixed_z + near.cell[c] * cell_atoms},
+          at{near.place(0, c), near.place(1, c), near.place(2, c)} {}
+    ASPERITY_INLINE Pack<float> d(int k, int lane) const {
+        return to_float(at[k] - Simd::Int32::load(atoms[k] + lane));
     }
 };
 
@@ -159,13 +169,15 @@ struct CellSums {
     ASPERITY_INLINE void add_cell(const PairTerms<Simd, T>& pair, const CellView<T>& cell) {
         const auto square = [](V dx, V dy, V dz) { return fma(dx, dx, fma(dy, dy, dz * dz)); };
         if constexpr (V::width == cell_atoms) {
-            const V dx = cell.dx(0), dy = cell.dy(0), dz = cell.dz(0), r2 = square(dx, dy, dz);
+            const V dx = cell.d(0, 0), dy = cell.d(1, 0), dz = cell.d(2, 0),
+                    r2 = square(dx, dy, dz);
             add(pair, dx, dy, dz, r2, pair.template inverse<true>(r2));
         } else {
             for (int k = 0; k < cell_atoms; k += 2 * V::width) {
                 const int l = k + V::width;
-                const V dx = cell.dx(k), dy = cell.dy(k), dz = cell.dz(k), r2 = square(dx, dy, dz);
-                const V ex = cell.dx(l), ey = cell.dy(l), ez = cell.dz(l), s2 = square(ex, ey, ez);
+                const V dx = cell.d(0, k), dy = cell.d(1, k), dz = cell.d(2, k);
+                const V ex = cell.d(0, l), ey = cell.d(1, l), ez = cell.d(2, l);
+                const V r2 = square(dx, dy, dz), s2 = square(ex, ey, ez);
                 V t, s;
                 pair.template inverse<true>(r2, s2, t, s);
                 add(pair, dx, dy, dz, r2, t);
@@ -204,27 +216,24 @@ void cell_sweep(const InterfaceSites& sites, const CellSubstrate& atoms, const L
             __attribute__((always_inline)) {
                 const std::ptrdiff_t block =
                     static_cast<std::ptrdiff_t>(y) * atoms.blocks + x / interface_block;
-                const double left = (sites.x0 + x + 0.5) * a;
-                const double right = (sites.x0 + x + count - 1 + 0.5) * a;
-                const double at_y = (sites.y0 + y + 0.5) * a;
+                const double at_x = (sites.x0 + x + 0.5) * a, at_y = (sites.y0 + y + 0.5) * a;
+                const double least[3] = {at_x - site.sideways, at_y - site.sideways, site.lowest_z};
+                const double greatest[3] = {at_x + (count - 1) * a + site.sideways,
+                                            at_y + site.sideways, site.highest_z};
                 CellSums<T, observe> sum[interface_block];
                 for (int i = 0; i < count; ++i)
                     sum[i].clear(pair);
-                NearCells near;
+                NearCells<T> near;
                 std::int64_t next = atoms.first[block];
                 const std::int64_t end = atoms.first[block + 1];
                 while (next < end) {
-                    next = near.gather(atoms, next, end, left, right, at_y, site, reach);
+                    next = near.gather(atoms, next, end, least, greatest, reach);
                     for (int i = 0; i < count; ++i) {
                         const double px = (sites.x0 + x + i + 0.5) * a + site.ux[i];
-                        const double py = at_y + site.uy[i], pz = site.z[i];
-                        std::uint64_t bits = near.within(px, py, pz, reach);
+                        std::uint64_t bits = near.within(px, at_y + site.uy[i], site.z[i], reach);
                         CellSums<T, observe> mine = sum[i];
-                        for (; bits; bits &= bits - 1) {
-                            const int k = __builtin_ctzll(bits);
-                            mine.add_cell(pair, {atoms, near.cell[k], px - near.shift_x[k],
-                                                 py - near.shift_y[k], pz});
-                        }
+                        for (; bits; bits &= bits - 1)
+                            mine.add_cell(pair, {atoms, near, __builtin_ctzll(bits)});
                         sum[i] = mine;
                     }
                 }

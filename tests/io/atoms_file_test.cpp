@@ -7,6 +7,8 @@
 
 #include "support/scratch.hpp"
 
+#include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -164,6 +166,11 @@ TEST(AtomsFile, RefusesWhatCouldBecomeAWrongNumber) {
     extended(lattice, std::string(lattice) + " pbc=\"T F T\"", "is not periodic");
     extended(lattice, std::string(lattice) + " Properties=species:S:1", "no pos:R:3");
     extended(lattice, std::string(lattice) + " Properties=species:S:1:pos:R:x", "is no number");
+    extended(lattice, std::string(lattice) + " Properties=pos:R:3:pos:R:3", "pos:R:3 twice");
+    std::string many = lattice;
+    for (int i = 0; i < 100; ++i)
+        many += fmt::format(" key{}=1", i);
+    extended(lattice, many, "too many properties");
     extended("Au 10.75", "Ag 10.75", "of several types");
     extended("Au 10.75", "10.75", "has 3 columns");
     for (const char* file : {"solid.data", "solid.xyz"}) {
@@ -179,6 +186,50 @@ TEST(AtomsFile, RefusesWhatCouldBecomeAWrongNumber) {
     const std::size_t last = good.find("\nVelocities") - 1;
     for (std::size_t end = 0; end < last; ++end)
         EXPECT_NE(refusal(good.substr(0, end), "solid.data"), "") << end;
+}
+
+TEST(AtomsFile, OfAnyBytesIsRefusedOrWhole) {
+    std::mt19937_64 random(3);
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+    const std::string inserted = "0123456789.-+eE \t\n#\"=:{}[]nanifxyzR\0\xff";
+    int read = 0;
+    for (const char* file : {"solid.data", "solid.xyz"}) {
+        const std::string good =
+            file == std::string("solid.data")
+                ? lammps(" # full", " 7 1 0.25", "", " 0 0 0")
+                : xyz(std::string(lattice) + " Properties=species:S:1:pos:R:3");
+        for (int n = 0; n < 20000; ++n) {
+            std::string text = good;
+            for (std::size_t change = 1 + below(3); change > 0; --change) {
+                const std::size_t at = below(text.size());
+                const char c = inserted[below(inserted.size())];
+                if (const std::size_t kind = below(4); kind == 0)
+                    text.insert(at, 1, c);
+                else if (kind == 1)
+                    text.erase(at, 1 + below(8));
+                else if (kind == 2)
+                    text.insert(at, text.substr(below(text.size()), below(40)));
+                else
+                    text[at] = c;
+            }
+            try {
+                const AtomsFile atoms = read_atoms_text(text, file);
+                ++read;
+                const std::size_t count = atoms.x.size();
+                ASSERT_GT(count, 0u);
+                ASSERT_EQ(atoms.y.size(), count);
+                ASSERT_EQ(atoms.z.size(), count);
+                ASSERT_TRUE(atoms.width_x > 0.0 && atoms.width_y > 0.0) << text;
+                for (std::size_t i = 0; i < count; ++i) {
+                    ASSERT_TRUE(atoms.x[i] >= 0.0 && atoms.x[i] < atoms.width_x) << text;
+                    ASSERT_TRUE(atoms.y[i] >= 0.0 && atoms.y[i] < atoms.width_y) << text;
+                    ASSERT_LE(std::abs(atoms.z[i]), 1e7) << text;
+                }
+            } catch (const SceneError&) { // anything else is a failure
+            }
+        }
+    }
+    EXPECT_GT(read, 1000) << "changes that the format allows";
 }
 
 TEST(AtomsFile, AnnouncesItsNumberOfAtoms) {
