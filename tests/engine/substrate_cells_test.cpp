@@ -99,9 +99,10 @@ TEST(SubstrateCells, AgreeWithTheReference) {
     const Solid solid;
     for (bool mixed : {false, true}) {
         const SubstrateCells cells = solid.cells(whole, mixed);
-        // In contact, about to leave, partly out of reach; one with sites beyond the margin.
+        // In contact, about to leave, partly out of reach, and almost; one with sites beyond the
+        // margin.
         for (const auto& [height, size] :
-             {std::pair{2.5, 0.3}, {8.0, 1.0}, {12.0, 0.3}, {3.0, 6.0}}) {
+             {std::pair{2.5, 0.3}, {8.0, 1.0}, {12.0, 0.3}, {13.6, 1.0}, {3.0, 6.0}}) {
             const auto u = displaced(whole, size);
             const Swept judge = by_reference(cells, u, height),
                         mine = by_cells(cells, whole, u, height, mixed);
@@ -147,7 +148,7 @@ TEST(SubstrateCells, ForceIsMinusTheGradientOfTheEnergy) {
 TEST(SubstrateCells, SameBitsOnAnyTile) {
     const Solid solid;
     for (bool mixed : {false, true})
-        for (double height : {2.5, 11.0}) {
+        for (double height : {2.5, 11.0, 13.6}) { // the last one: a few sites are in reach
             const Swept all =
                 by_cells(solid.cells(whole, mixed), whole, displaced(whole, 1.0), height, mixed);
             const Swept unskipped = by_cells(solid.cells(whole, mixed, false), whole,
