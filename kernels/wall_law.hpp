@@ -71,7 +71,6 @@ public:
         const V deeper = below * (force(g) + V(0.5 * stiffness_) * below);
         return select(gap > V(reach_), V(0.0), plane + deeper);
     }
-    /// Sites nearer than this, the largest tension, are in contact: (11/5)^(1/6) r0.
     /// Where a spring to the gap `goal` leaves a site, from a gap near by: spring (goal - g) +
     /// force(g) = 0 by Newton's method. The spring is stiffer than softest() is negative.
     template <class V>
@@ -83,10 +82,13 @@ public:
             const V held = spring + select(g > V(reach_), V(0.0), stiffness);
             g = max(V(floor_), g + (spring * (goal - g) + force(g)) / held);
         }
-        return g;
+        // Below the floor the law is linear.
+        const V push = spring * (goal - V(floor_)) + force(V(floor_));
+        return select(push < V(0.0), V(floor_) + push / (spring + V(stiffness_)), g);
     }
     /// The least stiffness -dF/dg of a site, eV/Å^2: negative.
     double softest() const { return plane_ * (shift_ - 25.0 / 44.0 * well_); }
+    /// Sites nearer than this, the largest tension, are in contact: (11/5)^(1/6) r0.
     ASPERITY_INLINE double contact_gap() const { return contact_; }
     double reach() const { return reach_; }
 

@@ -199,6 +199,8 @@ RelaxedState follow(Descent& descent, SpectralBlock& block, const RelaxOptions& 
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
     state.interface_energy = values[0];
     state.force = values[1];
+    // Largest values pass over what is not a number; sums do not.
+    state.converged = state.converged && std::isfinite(values[0]) && std::isfinite(values[1]);
     state.top_force = block.constraint().is_mean_height() ? state.force : block.top_force();
     state.elastic_energy = block.elastic_energy();
     state.mean_height = block.mean_height();

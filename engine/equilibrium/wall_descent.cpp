@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace asperity {
@@ -137,15 +138,25 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
         mean_ = mean;
         return turn;
     }
-    // The uniform force that keeps the mean height, by the secant from the last one.
-    double before = uniform_force_, excess = settle(before);
-    double force = before + spring_ * excess;
-    for (int i = 0; i < 20 && std::abs(excess) > 1e-13; ++i) {
-        const double now = settle(force), slope = (now - excess) / (force - before);
-        before = std::exchange(force, slope == 0.0 ? force : force - now / slope);
+    // The uniform force that keeps the mean height, by the secant from the last one. The mean falls
+    // as the force grows; a secant that leaves what is known of the root is replaced by a halving.
+    // Where all sites move as far as they may, the force changes nothing, and stays.
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    double force = uniform_force_, excess = settle(force), low = -infinite, high = infinite;
+    double next = force + spring_ * excess;
+    for (int i = 0; i < 60 && std::abs(excess) > 1e-13; ++i) {
+        (excess > 0.0 ? low : high) = force;
+        const double now = settle(next);
+        if (now == excess) break;
+        const double before = std::exchange(force, next);
+        next = force - now * (force - before) / (now - excess);
         excess = now;
+        (excess > 0.0 ? low : high) = force;
+        if (next > low && next < high) continue;
+        const bool between = low > -infinite && high < infinite;
+        next = between ? 0.5 * (low + high) : force + 2.0 * spring_ * excess;
     }
-    uniform_force_ = before;
+    uniform_force_ = force;
     mean_ = mean;
     return turn;
 }

@@ -71,6 +71,14 @@ same held held-parts
 expect 0 check path.toml "${held[@]}" 'drive.path=["zero-load"]' 'output.fields=[]'
 says "drive.hold has no effect"
 
+# Over a wall: the balance, and the same when stopped and resumed.
+wall=(--set interface.kind=wall interface.adhesion=60 'output.fields=["zero-load"]')
+expect 0 run path.toml --progress off --out wall "${wall[@]}"
+says "dissipated at instabilities"
+expect 75 run path.toml --progress off --out wall-parts --wall-limit 0.02s "${wall[@]}"
+expect 0 run path.toml --progress off --out wall-parts --resume auto "${wall[@]}"
+same wall wall-parts
+
 # One relaxation, stopped inside.
 for model in spectral multiscale; do
     zero=(--set drive.path=zero-load 'output.fields=["zero-load"]' surface.sites=64 drive.tolerance=1e-6 block.model=$model)

@@ -15,6 +15,7 @@
 #include <bit>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -31,7 +32,14 @@ struct Kind {
     bool spectral = false, frictionless = false;
     int layers_per_level = 2;
     Constraint::Of along = Constraint::Of::top;
+    std::optional<WallLaw> wall = {};
 };
+
+InterfaceOptions interface_of(const Kind& kind) {
+    InterfaceOptions o = test::paper_interface();
+    o.wall = kind.wall;
+    return o;
+}
 
 /// A soft block on a rough map: under a held top plane it snaps in.
 struct Contact {
@@ -49,7 +57,7 @@ struct Contact {
         : options(test::paper_block(16, 60, kind.layers_per_level)),
           grid(kind.spectral ? ProcessGrid::slabs(ranks.size(), ranks.rank(), 16)
                              : test::grid_for(options, ranks)),
-          interface(surface, grid.tile(0), options.spacing, test::paper_interface()),
+          interface(surface, grid.tile(0), options.spacing, interface_of(kind)),
           block(kind.spectral ? spectral_at_rest(options, ranks, kind.frictionless)
                               : at_rest(Block(options, ranks, grid))),
           path(*block, interface, path_options(kind.along)) {}
@@ -136,7 +144,11 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
           Kind{.name = "spectral, mean height",
           .spectral = true,
           .along = Constraint::Of::mean_height},
-          Kind{.name = "frictionless", .spectral = true, .frictionless = true}}) {
+          Kind{.name = "frictionless", .spectral = true, .frictionless = true},
+          Kind{.name = "wall",
+          .spectral = true,
+          .frictionless = true,
+          .wall = ExponentialWall(0.7, 1.3, 1000.0)}}) {
         const std::vector<std::uint64_t> whole = cycle(world(), kind, 45);
         // Each stretch by objects of its own, levels also by the first rank alone.
         std::size_t point = 0;

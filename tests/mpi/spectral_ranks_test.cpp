@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 using namespace asperity;
 
@@ -39,9 +40,12 @@ struct State {
 
 /// Pressed down on a rough map by what is prescribed, or let go.
 State relax_on(const Communicator& ranks, const BlockOptions& options, const Surface& surface,
-               const Constraint& constraint, bool frictionless) {
+               const Constraint& constraint, bool frictionless,
+               const std::optional<WallLaw>& wall = {}) {
     SpectralBlock block(options, ranks, frictionless);
-    const Interface interface(surface, block.tile(), options.spacing, test::paper_interface());
+    InterfaceOptions over = test::paper_interface();
+    over.wall = wall;
+    const Interface interface(surface, block.tile(), options.spacing, over);
     block.constrain(constraint);
     block.settle();
     RelaxOptions relaxation;
@@ -129,4 +133,29 @@ TEST(SpectralBlock, RelaxesLikeOneRank) {
                 // What the top feels is what the substrate exerts.
                 EXPECT_NEAR(shared.top_force, shared.relaxed.force, 1e-7 * map.sites * map.sites);
             }
+}
+
+/// The rounding of sums over slabs is all that the number of ranks changes.
+TEST(SpectralBlock, RelaxesOverAWallLikeOneRank) {
+    const BlockOptions options = test::paper_block(16, 8, 0);
+    const Surface surface = test::reference_surface("c2_N16_T8_rms1.5");
+    const WallLaw walls[] = {LennardJonesWall({0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false),
+                             ExponentialWall(0.7, 1.3, 1000.0), ExponentialWall(0.0, 1.0, 1000.0)};
+    for (const WallLaw& wall : walls)
+        for (const Constraint& constraint :
+             {Constraint::load(5.0), Constraint::top(-4.5), Constraint::mean_height(-4.5)}) {
+            const State shared = relax_on(test::world(), options, surface, constraint, true, wall);
+            const State alone = relax_on(Communicator(), options, surface, constraint, true, wall);
+            ASSERT_TRUE(shared.relaxed.converged && alone.relaxed.converged);
+            const double energy = alone.relaxed.interface_energy + alone.relaxed.elastic_energy;
+            const double size =
+                std::abs(alone.relaxed.interface_energy) + alone.relaxed.elastic_energy;
+            ASSERT_GT(size, 0.1);
+            EXPECT_NEAR(shared.relaxed.interface_energy + shared.relaxed.elastic_energy, energy,
+                        1e-9 * size);
+            EXPECT_EQ(shared.relaxed.in_contact, alone.relaxed.in_contact);
+            EXPECT_NEAR(shared.relaxed.mean_height, alone.relaxed.mean_height, 1e-8);
+            EXPECT_NEAR(shared.relaxed.force, alone.relaxed.force, 1e-7 * 256);
+            EXPECT_NEAR(shared.top_force, alone.top_force, 1e-7 * 256);
+        }
 }

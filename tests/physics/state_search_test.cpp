@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -43,6 +44,12 @@ Surface hill(int sites, double height, double width) {
 /// Relaxed energy where the summit alone touches, full contact, and a single way between them.
 Case two_states(bool spectral = true) {
     return Case(test::paper_block(32, 32, spectral ? 0 : 4), hill(32, 12.0, 6.0), spectral);
+}
+
+/// The same hill as a wall of smeared atoms.
+Case two_states_over_a_wall() {
+    return Case(test::paper_block(32, 32, 0), hill(32, 12.0, 6.0),
+                LennardJonesWall({0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false));
 }
 
 /// Normal displacements only: with lateral ones, sites between atoms of the substrate are states of
@@ -227,6 +234,68 @@ void expect_same(const StateList& a, const StateList& b, double share) {
     }
 }
 
+/// The force between two states, integrated, is what their energies differ by.
+void expect_work_of_the_force(Case& c) {
+    Search s(c);
+    s.start();
+    const StateList states = s.finish();
+    ASSERT_EQ(states.all.size(), 2u);
+    EXPECT_EQ(states.instabilities, 0);
+    const double z0 = states.all[0].numbers.mean_height, z1 = states.all[1].numbers.mean_height;
+    s.search.restore_first();
+    constexpr int pieces = 200; // of Simpson's rule
+    double work = 0.0;
+    for (int i = 0; i <= pieces; ++i) {
+        const double z = z0 + (z1 - z0) * i / pieces - c.interface.start_height();
+        const double weight = i == 0 || i == pieces ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+        work += weight * relax(c, Constraint::mean_height(z)).force;
+    }
+    work *= (z1 - z0) / pieces / 3.0;
+    const double gained =
+        states.all[1].numbers.binding_energy - states.all[0].numbers.binding_energy;
+    // What the work lacks was dissipated where a few sites jumped; the search tells larger ones.
+    const double dissipated = gained - 1e3 * work / area(c);
+    EXPECT_GE(dissipated, -1e-4 * gained);
+    EXPECT_LE(dissipated, 5e-3 * gained);
+}
+
+/// A search that stops every so many points and goes on from its checkpoint.
+void expect_same_when_resumed(const std::string& file, int points,
+                              const std::function<Case()>& contact) {
+    Case undisturbed = contact();
+    const StateList states = all_states(undisturbed);
+    bool done = false;
+    for (int part = 0; !done; ++part) {
+        Case c = contact();
+        Search s(c);
+        if (part == 0) {
+            s.start();
+        } else {
+            const RunScalars scalars = read_checkpoint(file, Communicator(), c.grid, {}, "it");
+            read_checkpoint(file, Communicator(), c.grid, s.search.states(), "it");
+            RestoreScalars restore{scalars};
+            s.search.visit(restore);
+            s.search.resume();
+        }
+        for (int i = 0; i < points && !done; ++i)
+            done = s.search.advance() == StateSearch::Outcome::done;
+        CollectScalars collect;
+        s.search.visit(collect);
+        write_checkpoint(file, Communicator(), c.grid, s.search.states(), collect.values, "it");
+        if (!done) continue;
+        const StateList found = s.search.found();
+        EXPECT_GT(part, 3);
+        EXPECT_EQ(found.points, states.points);
+        ASSERT_EQ(found.all.size(), states.all.size());
+        for (std::size_t i = 0; i < found.all.size(); ++i) {
+            EXPECT_EQ(found.all[i].numbers.binding_energy, states.all[i].numbers.binding_energy);
+            EXPECT_EQ(found.all[i].numbers.mean_height, states.all[i].numbers.mean_height);
+            EXPECT_EQ(found.all[i].barrier, states.all[i].barrier);
+        }
+    }
+    std::filesystem::remove(file);
+}
+
 } // namespace
 
 TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
@@ -270,27 +339,12 @@ TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
 TEST(StateSearch, EnergiesDifferByTheWorkOfTheForce) {
     Case c = two_states();
     without_friction(c);
-    Search s(c);
-    s.start();
-    const StateList states = s.finish();
-    ASSERT_EQ(states.all.size(), 2u);
-    EXPECT_EQ(states.instabilities, 0);
-    const double z0 = states.all[0].numbers.mean_height, z1 = states.all[1].numbers.mean_height;
-    s.search.restore_first();
-    constexpr int pieces = 200; // of Simpson's rule
-    double work = 0.0;
-    for (int i = 0; i <= pieces; ++i) {
-        const double z = z0 + (z1 - z0) * i / pieces - c.interface.start_height();
-        const double weight = i == 0 || i == pieces ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
-        work += weight * relax(c, Constraint::mean_height(z)).force;
-    }
-    work *= (z1 - z0) / pieces / 3.0;
-    const double gained =
-        states.all[1].numbers.binding_energy - states.all[0].numbers.binding_energy;
-    // What the work lacks was dissipated where a few sites jumped; the search tells larger ones.
-    const double dissipated = gained - 1e3 * work / area(c);
-    EXPECT_GE(dissipated, -1e-4 * gained);
-    EXPECT_LE(dissipated, 5e-3 * gained);
+    expect_work_of_the_force(c);
+}
+
+TEST(StateSearch, OverAWallEnergiesDifferByTheWorkOfTheForce) {
+    Case c = two_states_over_a_wall();
+    expect_work_of_the_force(c);
 }
 
 TEST(StateSearch, SameStatesWithAnotherStepAndWithLevels) {
@@ -340,41 +394,11 @@ TEST(StateSearch, FullContactIsTheOnlyState) {
 }
 
 TEST(StateSearch, ResumedItFindsTheSameBits) {
-    const std::string file = "state_search.h5";
-    const auto contact = [] {
+    expect_same_when_resumed("state_search.h5", 11, [] {
         return Case(test::paper_block(32, 32, 0), hill(32, 16.0, 5.0), true);
-    };
-    Case undisturbed = contact();
-    const StateList states = all_states(undisturbed);
-    EXPECT_GT(states.instabilities, 0);
-    bool done = false;
-    for (int part = 0; !done; ++part) {
-        Case c = contact();
-        Search s(c);
-        if (part == 0) {
-            s.start();
-        } else {
-            const RunScalars scalars = read_checkpoint(file, Communicator(), c.grid, {}, "it");
-            read_checkpoint(file, Communicator(), c.grid, s.search.states(), "it");
-            RestoreScalars restore{scalars};
-            s.search.visit(restore);
-            s.search.resume();
-        }
-        for (int i = 0; i < 11 && !done; ++i)
-            done = s.search.advance() == StateSearch::Outcome::done;
-        CollectScalars collect;
-        s.search.visit(collect);
-        write_checkpoint(file, Communicator(), c.grid, s.search.states(), collect.values, "it");
-        if (!done) continue;
-        const StateList found = s.search.found();
-        EXPECT_GT(part, 3);
-        EXPECT_EQ(found.points, states.points);
-        ASSERT_EQ(found.all.size(), states.all.size());
-        for (std::size_t i = 0; i < found.all.size(); ++i) {
-            EXPECT_EQ(found.all[i].numbers.binding_energy, states.all[i].numbers.binding_energy);
-            EXPECT_EQ(found.all[i].numbers.mean_height, states.all[i].numbers.mean_height);
-            EXPECT_EQ(found.all[i].barrier, states.all[i].barrier);
-        }
-    }
-    std::filesystem::remove(file);
+    });
+}
+
+TEST(StateSearch, ResumedOverAWallItFindsTheSameBits) {
+    expect_same_when_resumed("state_search_wall.h5", 4, two_states_over_a_wall);
 }

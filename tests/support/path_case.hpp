@@ -17,6 +17,13 @@
 
 namespace asperity::test {
 
+/// The paper's interface with a wall in place of the atoms.
+inline InterfaceOptions over(const WallLaw& wall) {
+    InterfaceOptions o = paper_interface();
+    o.wall = wall;
+    return o;
+}
+
 /// A block over a surface, and the path of equilibria.
 struct PathCase {
     BlockOptions options;
@@ -30,6 +37,11 @@ struct PathCase {
           interface(surface, grid.tile(0), o.spacing, paper_interface(cutoff)),
           block(spectral ? spectral_at_rest(o, Communicator())
                          : at_rest(Block(o, Communicator(), grid))) {}
+    /// A frictionless spectral block over a wall.
+    PathCase(const BlockOptions& o, Surface s, const WallLaw& wall)
+        : options(o), surface(std::move(s)),
+          interface(surface, grid.tile(0), o.spacing, over(wall)),
+          block(spectral_at_rest(o, Communicator(), true)) {}
 
     QuasistaticPath path(double tolerance, double step = 0.25, double load = 0.0,
                          Constraint::Of along = Constraint::Of::top) {
