@@ -70,9 +70,5 @@ struct FileError : Error {
     FileError(std::string path, std::string what, std::string why, std::string fix = "")
         : FileError(Problem{std::move(path), std::move(what), std::move(why), std::move(fix)}) {}
 };
-/// The run ended before its path did, and can be taken up again (exit 75).
-struct StoppedEarly : Error {
-    explicit StoppedEarly(Problem p) : Error(exit_code::stopped, std::move(p)) {}
-};
 
 } // namespace asperity::io

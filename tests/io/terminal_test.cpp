@@ -17,7 +17,6 @@ TEST(Errors, Grammar) {
     EXPECT_EQ(format(Problem{"", "x is wrong", "", ""}), "x is wrong");
     EXPECT_EQ(PhysicsError("a", "b", "c").code(), 3);
     EXPECT_EQ(FileError("p", "a", "b").code(), 4);
-    EXPECT_EQ(StoppedEarly(Problem{}).code(), 75);
     EXPECT_STREQ(SceneError(std::vector<Problem>{{"a", "b", "", ""}, {"c", "d", "", ""}}).what(),
                  "a: b\nc: d");
 }
