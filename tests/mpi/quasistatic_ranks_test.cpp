@@ -148,7 +148,7 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
           Kind{.name = "wall",
           .spectral = true,
           .frictionless = true,
-          .wall = ExponentialWall(0.7, 1.3, 1000.0)}}) {
+          .wall = ExponentialWall(0.7, 0.4, 1000.0)}}) {
         const std::vector<std::uint64_t> whole = cycle(world(), kind, 45);
         // Each stretch by objects of its own, levels also by the first rank alone.
         std::size_t point = 0;
