@@ -181,7 +181,7 @@ TEST(AtomsFile, RefusesWhatCouldBecomeAWrongNumber) {
     }
     EXPECT_EQ(refusal(good, "solid.data") + refusal(frame, "solid.xyz"), "");
     // Cut anywhere.
-    for (std::size_t end = 0; end + 1 < frame.size(); ++end)
+    for (std::size_t end = 0; end < frame.size(); ++end)
         EXPECT_NE(refusal(frame.substr(0, end), "solid.xyz"), "") << end;
     const std::size_t last = good.find("\nVelocities") - 1;
     for (std::size_t end = 0; end < last; ++end)
