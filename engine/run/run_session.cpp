@@ -38,18 +38,20 @@ void print_unless_closed(const Print& print) {
     }
 }
 
-/// What may not change between a checkpoint and its resumption: keys, and the atoms of a file.
+/// What may not change between a checkpoint and its resumption: keys, and the map or the atoms of a
+/// file.
 std::string physics_of(const Scene& scene, const Surface& surface) {
     const io::Json all = scene_json(scene);
     io::Json part = io::Json::object();
     for (const char* section : {"surface", "block", "interface", "drive"})
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
-    if (surface.atoms.size() > 0) {
+    if (scene.surface.kind == SurfaceKind::file || scene.surface.kind == SurfaceKind::atoms) {
         io::Digest digest;
-        for (const auto* places : {&surface.atoms.x, &surface.atoms.y, &surface.atoms.z})
-            digest.update(std::as_bytes(std::span(*places)));
-        part["surface"]["atoms"] = digest.value();
+        for (const auto* values :
+             {&surface.height, &surface.atoms.x, &surface.atoms.y, &surface.atoms.z})
+            digest.update(std::as_bytes(std::span(*values)));
+        part["surface"]["content"] = digest.value();
     }
     return io::json_text(part);
 }

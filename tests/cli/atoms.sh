@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # A substrate of atoms from a file, as a user meets it: a flat layer written as atoms gives the numbers of the
-# flat surface, a run is resumed with the same bits over the same atoms only, and what does not apply is said.
+# flat surface, a run is resumed with the same bits over the same file only, and what does not apply is said.
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
@@ -67,4 +67,14 @@ expect 0 run stepped.toml --out parts "${fast[@]}" drive.mode=dynamic drive.max_
 rm stepped.data
 sed '0,/^3 1 5.5467/s//3 1 5.5468/' "$source/scenes/atoms/stepped.data" >stepped.data
 expect 2 run stepped.toml --out parts --resume auto "${fast[@]}" drive.mode=dynamic
+
+# Nor over another map.
+map() { awk -v bump="$1" 'BEGIN { for (y = 0; y < 16; ++y) { for (x = 0; x < 16; ++x) printf "%g ", (x == 3 && y == 5 ? bump : 0); print "" } }' >map.txt; }
+printf '[surface]\nkind = "file"\nfile = "map.txt"\nfile_unit = "Å"\nsites = 16\n' >map.toml
+map 1
+expect 0 run map.toml --out mapped "${fast[@]}" drive.max_steps=25
+map 1.001
+expect 2 run map.toml --out mapped --resume auto "${fast[@]}"
+map 1
+expect 0 run map.toml --out mapped --resume auto "${fast[@]}" drive.max_steps=50
 finish
