@@ -21,7 +21,6 @@ namespace asperity::io {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
 /// Coordinates beyond are no solid (1 mm), and lose the digits that forces need, Å.
 constexpr double largest_coordinate = 1e7;
 /// Words of a line that are looked at.
@@ -29,19 +28,6 @@ constexpr std::size_t most_words = 64;
 
 [[noreturn]] void refuse(std::string where, std::string what, std::string why, std::string fix) {
     throw SceneError(Problem{std::move(where), std::move(what), std::move(why), std::move(fix)});
-}
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return result;
 }
 
 /// For messages: no more of it than fits a line.

@@ -28,6 +28,22 @@ RawMap read_map_hdf5(const std::string& file, const std::string& dataset);
 /// The same in this process: a damaged file may end it.
 RawMap read_map_hdf5_here(const std::string& file, const std::string& dataset);
 
+// Of lines of text: blanks at their ends are no part of them.
+inline constexpr std::string_view blanks = " \t\r";
+inline std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// In lower case; ASCII alone.
+inline std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return result;
+}
+
 [[noreturn]] void refuse_map(std::string where, std::string what, std::string why, std::string fix);
 /// The bytes of a file that a scene names; `what` it is, for messages. Refused if it is larger than
 /// the memory.
