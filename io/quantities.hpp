@@ -62,6 +62,8 @@ inline constexpr Quantity result_quantities[] = {
      "as jkr.in, from the largest attraction of a running mean over 2 ps, which leaves out the "
      "vibrations after an instability; needs output.series of 0.5 ps or less"},
     {"jkr.out_averaged", "meV/Å^2", per::area, "the same of the pull-off"},
+    {"jkr.zero_load", "meV/Å^2", per::area,
+     "work of adhesion by JKR from the binding energy at zero load, which needs no largest force"},
     {"contact_radius.zero_load", "Å", "", "√(contact area/π) at zero load (spheres)"},
     {"contact_radius.pull_off", "Å", "", "√(contact area/π) at the largest attraction"},
     {"sphere.jkr", "meV/Å^2", per::area,
@@ -71,6 +73,11 @@ inline constexpr Quantity result_quantities[] = {
     {"sphere.jkr_images", "meV/Å^2", per::area, "as sphere.jkr, with the periodic images"},
     {"sphere.maugis_images", "meV/Å^2", per::area,
      "as sphere.jkr_images, by the theory of Maugis and Dugdale"},
+    {"sphere.renormalised", "meV/Å^2", per::area,
+     "as sphere.maugis_images, of a smooth sphere with the work of adhesion and the largest "
+     "tension "
+     "that the renormalised theory leaves the rough interface"},
+    {"sphere.renormalised_parameter", "1", "", "its Maugis' λ"},
     {"sphere.note", "", "", "why one of these is missing"},
     {"hysteresis.loop", "eV", per::block, "area of the loop of force and mean height, -∮ F dz"},
     {"hysteresis.approach", "eV", per::block,

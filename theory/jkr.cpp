@@ -55,5 +55,13 @@ double work_from_pull_off(double pull_off_force, double radius) {
     return std::abs(pull_off_force) / (1.5 * std::numbers::pi * radius);
 }
 
+double work_from_binding_energy(double energy, double radius, double contact_modulus) {
+    const AdhesiveSphere s{radius, contact_modulus, 1};
+    check(s);
+    if (!(energy > 0)) return 0;
+    const double K = s.stiffness();
+    return std::pow(10 * energy * std::cbrt(K * K * radius), 0.6) / (6 * std::numbers::pi * radius);
+}
+
 } // namespace jkr
 } // namespace asperity::theory

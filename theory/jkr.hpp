@@ -36,6 +36,9 @@ namespace jkr {
 
 /// γ from a measured pull-off force, γ = |F|/(3πR/2): the paper's Eq. (6) turned round.
 [[nodiscard]] double work_from_pull_off(double pull_off_force, double radius);
+/// γ from the energy U > 0 that it takes to part a sphere without a load (JKR 1971),
+/// U = (6πγR)^{5/3} / (10 K^{2/3} R^{1/3}). It needs no largest force.
+[[nodiscard]] double work_from_binding_energy(double energy, double radius, double contact_modulus);
 
 } // namespace jkr
 } // namespace asperity::theory

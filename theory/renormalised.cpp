@@ -106,6 +106,10 @@ public:
 
     std::vector<double> u, phi;
     [[nodiscard]] double contact(std::size_t i) const { return observed_[i * columns_]; }
+    /// Values that run() computes: shells, points and observables.
+    [[nodiscard]] double work() const {
+        return static_cast<double>(shells_.q.size() * observed_.size());
+    }
 
 private:
     using Column = std::vector<double>;
@@ -464,6 +468,7 @@ RenormalisedState solve(const RoughInterface& rough, const RenormalisedOptions& 
         state.converged = error_now <= options.tolerance;
         if (level >= 2 && state.converged) break;
         if (level >= 3 && !(error_now <= 30 * options.useful)) break; // two more grids do not help
+        if (4 * flow.work() > options.most_work) break;
     }
     if (!(std::max(state.gamma_ratio_error, state.contact_error) <= options.useful))
         throw NoSolution(message("renormalised theory: on the finest grid tried the errors are ",

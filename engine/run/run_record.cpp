@@ -137,8 +137,8 @@ io::Result run_result(const Scene& scene, const Surface& surface, const Setup& s
     if (findings.zero_load) add_zero_load(*findings.zero_load, result);
     if (findings.states) add_states(*findings.states, result);
     if (findings.dissipated) add_dissipation(findings, scene, result);
-    add_sphere(scene, setup.flat, result);
     add_theory(scene, surface, setup.flat.work_of_adhesion, result);
+    add_sphere(scene, setup.flat, result);
     if (scene.choice) add_accuracy(*scene.choice, result);
     result.set("run.ranks", ranks);
     result.set("run.threads", omp_get_max_threads());

@@ -229,9 +229,10 @@ std::optional<io::FilePlace> RunSession::checkpoint_to_resume() {
 }
 
 void RunSession::open_recorder() {
-    const auto add = [this](io::Hdf5File& file) {
+    const auto add = [this, rough = ranks.root() ? rough_sphere(scene, surface, setup.flat)
+                                                 : std::nullopt](io::Hdf5File& file) {
         io::describe_origin(file, scene_toml(scene, false));
-        write_sphere_curves(file, scene, setup.flat);
+        write_sphere_curves(file, scene, setup.flat, rough);
     };
     recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
                       scene.without_time() ? DriveMode::quasistatic : DriveMode::dynamic,

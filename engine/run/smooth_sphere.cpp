@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/smooth_sphere.hpp"
 
+#include "engine/run/theory_case.hpp"
 #include "engine/units.hpp"
 #include "io/described.hpp"
 #include "theory/half_space.hpp"
@@ -23,6 +24,13 @@ theory::PeriodicSphere smooth_sphere(const Scene& scene, const FlatReference& fl
              flat.work_of_adhesion / units::milli_per_unit},
             scene.edge(),
             flat.separation};
+}
+
+/// The same of the work of adhesion (meV/Å²) and at the separation that roughness leaves.
+theory::PeriodicSphere roughened(theory::PeriodicSphere sphere, double gamma, double separation) {
+    sphere.sphere.work_of_adhesion = gamma / units::milli_per_unit;
+    sphere.separation = separation;
+    return sphere;
 }
 
 double largest_tension(const FlatReference& flat) {
@@ -55,6 +63,7 @@ std::vector<double> spaced(double from, double to, int count) {
 } // namespace
 
 std::vector<SphereCurve> sphere_curves(const Scene& scene, const FlatReference& flat,
+                                       const std::optional<RenormalisedNumbers>& rough,
                                        double largest_force) {
     const theory::PeriodicSphere sphere = smooth_sphere(scene, flat);
     theory::PeriodicSphere alone = sphere;
@@ -69,13 +78,36 @@ std::vector<SphereCurve> sphere_curves(const Scene& scene, const FlatReference& 
     for (const double x : spaced(-9.0, 5.0, 400))
         ratios.push_back(1.0 + std::exp(x));
     const std::string whose = "smooth sphere, ";
-    return {
+    std::vector<SphereCurve> curves = {
         curve("jkr", whose + "JKR", widest, radii,
               [&](double a) { return theory::jkr_at_radius(alone, a); }),
         curve("jkr_images", whose + "JKR with images", widest, radii,
               [&](double a) { return theory::jkr_at_radius(sphere, a); }),
         curve("maugis_images", whose + "Maugis-Dugdale with images", widest, ratios,
               [&](double m) { return theory::maugis_at_ratio(sphere, largest_tension(flat), m); })};
+    if (rough) {
+        const theory::PeriodicSphere left =
+            roughened(sphere, rough->gamma_eff, rough->separation.value_or(flat.separation));
+        curves.push_back(
+            curve("renormalised", "theory: Maugis-Dugdale with images and the renormalised law",
+                  widest, ratios, [&](double m) {
+                      return theory::maugis_at_ratio(left, rough->tension * units::gigapascal, m);
+                  }));
+    }
+    return curves;
+}
+
+std::optional<RenormalisedNumbers> rough_sphere(const Scene& scene, const Surface& surface,
+                                                const FlatReference& flat) {
+    if (!scene.surface.radius || !scene.theory.renormalised || !(surface.statistics.rms > 0.0))
+        return std::nullopt;
+    try {
+        const TheoryCase what = theory_case(scene, &surface, flat.work_of_adhesion);
+        auto numbers = solve_renormalised(*what.renormalised).numbers;
+        return numbers && numbers->gamma_eff > 0.0 ? numbers : std::nullopt;
+    } catch (const std::exception&) { // theory.note of the result has the reason
+        return std::nullopt;
+    }
 }
 
 void add_sphere(const Scene& scene, const FlatReference& flat, io::Result& result) {
@@ -83,10 +115,17 @@ void add_sphere(const Scene& scene, const FlatReference& flat, io::Result& resul
     if (const auto fraction = result.number("contact_fraction"))
         result.set("contact_radius.zero_load",
                    scene.edge() * std::sqrt(*fraction / std::numbers::pi));
+    const double R = *scene.surface.radius;
     const auto as_work = [&](double force) {
-        return units::milli_per_unit *
-               theory::jkr::work_from_pull_off(force, *scene.surface.radius);
+        return units::milli_per_unit * theory::jkr::work_from_pull_off(force, R);
     };
+    if (const auto binding = result.number("binding_energy")) {
+        const double energy = *binding / units::milli_per_unit * scene.edge() * scene.edge();
+        const double modulus =
+            theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson);
+        result.set("jkr.zero_load", units::milli_per_unit *
+                                        theory::jkr::work_from_binding_energy(energy, R, modulus));
+    }
     try {
         const theory::PeriodicSphere sphere = smooth_sphere(scene, flat);
         const double stress = largest_tension(flat);
@@ -95,17 +134,26 @@ void add_sphere(const Scene& scene, const FlatReference& flat, io::Result& resul
         result.set("sphere.jkr_images", as_work(theory::jkr_pull_off(sphere).contact.force));
         result.set("sphere.maugis_images",
                    as_work(theory::maugis_pull_off(sphere, stress).contact.force));
+        const auto gamma = result.number("theory.renormalised.gamma_eff");
+        const auto tension = result.number("theory.renormalised.tension");
+        if (!gamma || !tension || !(*gamma > 0.0 && *tension > 0.0)) return;
+        const theory::PeriodicSphere rough = roughened(sphere, *gamma, flat.separation);
+        const double left = *tension * units::gigapascal;
+        result.set("sphere.renormalised_parameter", theory::maugis_parameter(rough.sphere, left));
+        result.set("sphere.renormalised",
+                   as_work(theory::maugis_pull_off(rough, left).contact.force));
     } catch (const std::exception& error) { // a contact as wide as the box
         result.set("sphere.note", error.what());
     }
 }
 
-void write_sphere_curves(io::Hdf5File& file, const Scene& scene, const FlatReference& flat) {
+void write_sphere_curves(io::Hdf5File& file, const Scene& scene, const FlatReference& flat,
+                         const std::optional<RenormalisedNumbers>& rough) {
     if (!scene.surface.radius) return;
     const std::vector<double> force = file.read<double>("/series/force");
     if (force.size() < 2) return;
     const double largest = *std::max_element(force.begin(), force.end());
-    for (const SphereCurve& curve : sphere_curves(scene, flat, largest)) {
+    for (const SphereCurve& curve : sphere_curves(scene, flat, rough, largest)) {
         if (curve.height.empty()) continue;
         const std::string group = "/curves/" + curve.name;
         io::write_described(file, group + "/height", {curve.height.size()}, curve.height);

@@ -18,19 +18,19 @@ RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slo
 """Columns of a result whose path in result.json is that of a key of the scene."""
 RENAMED_BACK = {column: path for path, column in RENAMED.items()}
 OVER_FLAT = ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off", "work_of_adhesion.pairwise",
-             "jkr.in", "jkr.out", "jkr.in_averaged", "jkr.out_averaged", "sphere.maugis_images",
-             "states.first.binding_energy", "states.deepest.binding_energy")
+             "jkr.in", "jkr.out", "jkr.in_averaged", "jkr.out_averaged", "jkr.zero_load", "sphere.maugis_images",
+             "sphere.renormalised", "states.first.binding_energy", "states.deepest.binding_energy")
 """Energies of a result that also have a column of their ratio to the flat reference."""
 FIRST = ("delta_gamma", "binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off",
          "work_of_adhesion.pairwise", "contact_fraction", "pushed_fraction", "pull_off_force", "jkr.in", "jkr.out",
-         "jkr.in_averaged", "jkr.out_averaged", "sphere.maugis_images", "contact_radius.zero_load",
-         "contact_radius.pull_off", "hysteresis.loop", "hysteresis.approach", "hysteresis.pull_off", "realised_rms",
+         "jkr.in_averaged", "jkr.out_averaged", "jkr.zero_load", "sphere.maugis_images", "sphere.renormalised",
+         "contact_radius.zero_load", "contact_radius.pull_off", "hysteresis.loop", "hysteresis.approach", "hysteresis.pull_off", "realised_rms",
          "realised_rms_slope", "energy.residual", "run.wall_seconds")
 """Columns of results that come first; whatever else result.json holds follows."""
 THEORY_FIRST = ("delta_gamma", "gamma_eff", "gamma_eff_ratio", "contact_fraction", "gamma_full_contact",
                 "gamma_full_contact_ratio", "theta", "gamma_eff_ratio_error", "contact_fraction_error")
 OF_AREA = ("binding_energy_ratio", "work_of_adhesion.approach_ratio", "work_of_adhesion.pull_off_ratio",
-           "states.deepest.binding_energy_ratio", "contact_fraction", "zero_load.mean_height")
+           "work_of_adhesion.pairwise_ratio", "states.deepest.binding_energy_ratio", "contact_fraction", "zero_load.mean_height")
 """Columns over the nominal area, which means nothing for a sphere."""
 
 

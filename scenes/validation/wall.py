@@ -3,11 +3,11 @@
 # SPDX-License-Identifier: MIT
 """Problems with closed forms over a wall (interface.kind = "wall"): a table beside each closed form.
 
-    scenes/validation/wall.py westergaard | johnson | load | hertz | jkr | area [--out results/wall]
+    scenes/validation/wall.py westergaard | johnson | load | hertz | gfmd | jkr | area [--out results/wall]
 
 westergaard: contact of a wave without adhesion against pressure. johnson: the adhesive wave at zero load, for several ranges
 of the attraction, extrapolated. load: the same wave under pressures from near pull-off to beyond the jump into full contact. hertz:
-a paraboloid without adhesion, periodic images corrected for. jkr: force against height of an adhesive sphere, as the range
+a paraboloid without adhesion, periodic images corrected for. gfmd: the same by the measure of user-gfmd's tests. jkr: force against height of an adhesive sphere, as the range
 falls. area: contact area of self-affine surfaces against pressure without adhesion, extrapolated in the spacing.
 """
 import argparse
@@ -160,6 +160,28 @@ def hertz(runs: Runs) -> None:
                   f"{highest:9.4f} {p0:7.4f} {highest / p0 - 1:9.4f}")
 
 
+def gfmd(runs: Runs) -> None:
+    """user-gfmd's test TEST_Hertz_sc100_128x128: a cubic lattice of constant 1 with springs k = 1, so E* = 8/3, 128 x 128
+    sites, a hard sphere of R = 100 over the middle of four of them. Its measure is the sum over the sites of the squared difference
+    between force and Hertz's pressure for the same total force, which has to be below 0.01; the force is what an indentation of
+    about 2 comes to there."""
+    sites, radius, modulus = 128, 100.0, 8 / 3
+    x = np.arange(sites) + 0.5 - sites / 2
+    distance = np.hypot(x[:, None], x[None, :])
+    print("F       a       largest force  Hertz   sum of squared differences (user-gfmd: below 0.01)  over sum of squares")
+    for force in (20.0, 40.0, 80.0):
+        name, spacing = f"gfmd-{force:g}", 2.6
+        runs.state(name, runs.map("gfmd-cap", -(distance**2) / (2 * radius) * spacing) | {
+            "surface.spacing": spacing, "interface.adhesion": 0, "drive.load": force / sites**2 / modulus * E / GPA * 1e3})
+        with h5py.File(runs.out / name / "run.h5") as file:
+            found = file["fields/zero-load/pressure"][:] * GPA / E * modulus
+        total = found.sum()
+        a = (0.75 * total * radius / modulus) ** (1 / 3)
+        hertz = 1.5 * total / (math.pi * a * a) * np.sqrt(np.maximum(0, 1 - (distance / a) ** 2))
+        print(f"{total:6.2f} {a:7.3f} {found.max():11.4f} {hertz.max():10.4f} {((found - hertz) ** 2).sum():12.5f} "
+              f"{((found - hertz) ** 2).sum() / (hertz**2).sum():40.5f}")
+
+
 def jkr(runs: Runs) -> None:
     """A sphere of 300 Å in a box of 332.8 Å, w = 30 meV/Å², paths at a held mean height against JKR and Maugis-Dugdale with images."""
     print("range/Å  sites  λ (Maugis)  pull-off over (3/2)πwR  JKR     Maugis  rms of F - Maugis over pull-off, attached branch  from JKR")
@@ -217,7 +239,7 @@ def area(runs: Runs) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("problem", choices=["westergaard", "johnson", "load", "hertz", "jkr", "area"])
+    parser.add_argument("problem", choices=["westergaard", "johnson", "load", "hertz", "gfmd", "jkr", "area"])
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/wall"))
     parser.add_argument("--program", default=str(ROOT / "asperity"))
     arguments = parser.parse_args()

@@ -99,7 +99,7 @@ TEST(SphereCurves, AreThoseOfJkr) {
     io::Hdf5File written(file, io::Hdf5File::Mode::create);
     written.make_group("/series");
     written.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
-    write_sphere_curves(written, scene, flat);
+    write_sphere_curves(written, scene, flat, std::nullopt);
     written.close();
     const io::Hdf5File run(file, io::Hdf5File::Mode::read);
     // The deepest attraction of JKR: 3/2 pi gamma R.

@@ -224,11 +224,13 @@ TEST(Results, OfACurvedSceneHoldTheTheoryOfTheSmoothSphere) {
                       "trajectory = 20\n");
     expect_units_everywhere(run);
     ASSERT_EQ(run.file->members("/curves"),
-              (std::vector<std::string>{"jkr", "jkr_images", "maugis_images"}));
-    for (const char* name : {"jkr", "jkr_images", "maugis_images"}) {
+              (std::vector<std::string>{"jkr", "jkr_images", "maugis_images", "renormalised"}));
+    for (const char* name : {"jkr", "jkr_images", "maugis_images", "renormalised"}) {
         const std::string group = std::string("/curves/") + name;
-        EXPECT_NE(run.file->read_text_attribute(group, "label").find("smooth sphere"),
-                  std::string::npos);
+        EXPECT_NE(
+            run.file->read_text_attribute(group, "label")
+                .find(std::string(name) == "renormalised" ? "renormalised law" : "smooth sphere"),
+            std::string::npos);
         EXPECT_EQ(run.data(group + "/height", "Å").size(),
                   run.data(group + "/force", "eV/Å").size());
     }

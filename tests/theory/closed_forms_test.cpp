@@ -40,6 +40,25 @@ TEST(Jkr, PaperSphere) {
     EXPECT_NEAR(jkr::work_from_pull_off(jkr::pull_off(paper_sphere).force, 4410), 0.1, 1e-15);
 }
 
+TEST(Jkr, BindingEnergyIsTheWorkAlongTheCurve) {
+    // From a = 0, where force and approach are zero, to the contact without a load.
+    double energy = 0;
+    SphereState last{};
+    const double end = std::cbrt(6.0) * paper_sphere.radius_unit();
+    constexpr int steps = 20000; // even in the root of a, of which the approach is smooth
+    for (int i = 1; i <= steps; ++i) {
+        const double root = static_cast<double>(i) / steps;
+        const SphereState s = jkr::at_radius(paper_sphere, root * root * end);
+        energy -= 0.5 * (s.force + last.force) * (s.approach - last.approach);
+        last = s;
+    }
+    EXPECT_NEAR(last.force, 0, 1e-9 * paper_sphere.force_unit());
+    EXPECT_NEAR(jkr::work_from_binding_energy(energy, 4410, paper_sphere.contact_modulus), 0.1,
+                1e-7);
+    EXPECT_EQ(jkr::work_from_binding_energy(0, 4410, paper_sphere.contact_modulus), 0);
+    EXPECT_THROW((void)jkr::work_from_binding_energy(1, 0, 1), InvalidInput);
+}
+
 TEST(Jkr, AnEdgeCarriesTheWorkOfAdhesion) {
     // Griffith: K_I of the edge carries w. F_Hertz(a) - F = √(8πwE*a³).
     const double a = 300;

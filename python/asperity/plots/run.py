@@ -55,7 +55,7 @@ def separation(run: Result, ax: Axes) -> bool:
     unit, label = force_unit(run)
     for number, (words, x, y) in enumerate(run.curves):
         curve(ax, x, y / unit, words if "theory" in words else "theory: " + words,
-              colour=(GREY, YELLOW, YELLOW)[number % 3], line=DASHES[(4, 2, 3)[number % 3]], behind=True)
+              colour=(GREY, YELLOW, YELLOW, PINK)[number % 4], line=DASHES[(4, 2, 3, 1)[number % 4]], behind=True)
     _legs(ax, leg, height, force / unit)
     least, greatest = force.min(), force.max()
     felt = height[np.abs(force) > -1e-3 * least]  # beyond, nothing is felt

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 TITLES = {"gamma": "Binding energy", "area": "Contact area", "separation": "Mean separation",
           "radius": "Contact radius", "pull-off": "Pull-off force", "hysteresis": "Energy lost in the cycle",
+          "readings": "Readings of the work",
           "full-contact": "Binding energy, theory and full contact"}
 MOST_CURVES = len(COLOURS)
 
@@ -83,7 +84,14 @@ SIMULATED: dict[str, Spec] = {
         Trace("deepest state", "states.deepest.binding_energy_ratio", GREEN, "", "^", False,
               unless="states.first.binding_energy_ratio"),
         Trace("curved, in", "jkr.in_ratio", SKY, "", "D"),
-        Trace("curved, out", "jkr.out_ratio", YELLOW, "", "v", False)]),
+        Trace("curved, out", "jkr.out_ratio", YELLOW, "", "v", False),
+        Trace("curved, energy at zero load", "jkr.zero_load_ratio", PINK, "", "^"),
+        Trace("curved, renormalised law", "sphere.renormalised_ratio", GREY, DASHES[4], "")]),
+    "readings": (GAMMA, [THEORY, RENORMALISED], [
+        Trace("∫F dz, approach", "work_of_adhesion.approach_ratio", BLUE, "", "o"),
+        Trace("∫F dz, pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False),
+        Trace("atom by atom, both ways", "work_of_adhesion.pairwise_ratio", YELLOW, "", "D", False),
+        Trace("state at zero load", "binding_energy_ratio", GREEN, "", "^")]),
     "area": (CONTACT, AREA, [Trace("state at zero load", "contact_fraction", GREEN, "", "^")]),
     "separation": ("mean separation (Å)", [Trace("renormalised theory", "theory.renormalised.separation", PINK, DASHES[3])],
                    [Trace("state at zero load", "zero_load.mean_height", GREEN, "", "^")]),
@@ -167,6 +175,8 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     if not shared:
         return False
     y, lines, points = (SIMULATED if shared[0].simulated else OF_THEORY)[name]
+    if name == "readings" and not any(np.isfinite(points[0].values(s.table)).any() for s in shared):
+        return False  # of paths
     simulated = False
     used = {trace.colour for trace in lines}
     curves = shared[0].curves

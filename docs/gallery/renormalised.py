@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""States at zero load beside the paper's theory and the renormalised theory: python3 docs/gallery/renormalised.py
+
+Reads docs/data/renormalised.csv (sizes, roughnesses of the paper), parameters.csv, long-range.csv and finite-size.csv; writes
+theory-renormalised.svg and theory-sets.svg beside itself. Needs matplotlib (Debian: python3-matplotlib)."""
+import csv
+import pathlib
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+GALLERY = pathlib.Path(__file__).resolve().parent
+matplotlib.rcParams.update({"svg.hashsalt": "asperity", "font.size": 9, "axes.linewidth": 0.7, "legend.frameon": False,
+                            "xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True})
+SIMULATED, PAPER, RENORMALISED = "#009e73", "#4d4d4d", "#cc79a7"
+
+
+def rows(name):
+    with open(GALLERY.parent / "data" / name) as file:
+        return list(csv.DictReader(file))
+
+
+def means(table, keys):
+    """{values of the keys: {column: mean, column + "±": standard deviation}} over what else differs."""
+    groups = {}
+    for row in table:
+        groups.setdefault(tuple(row[k] for k in keys), []).append(row)
+    found = {}
+    for group, members in groups.items():
+        found[group] = {}
+        for column in ("binding_energy_ratio", "contact_fraction", "theory.gamma_eff_ratio", "theory.contact_fraction",
+                       "theory.renormalised.gamma_eff_ratio", "theory.renormalised.contact_fraction"):
+            values = np.array([float(m[column] or "nan") for m in members])
+            found[group][column], found[group][column + "±"] = values.mean(), values.std(ddof=1)
+    return found
+
+
+def save(figure, name):
+    figure.savefig(GALLERY / name, metadata={"Date": None})
+
+
+table = means(rows("renormalised.csv"), ["surface.rms"])
+rms = np.array([float(k[0]) for k in table])
+figure, axes = plt.subplots(1, 2, figsize=(8, 3.4), constrained_layout=True)
+for axis, simulated, theory, label in (
+        (axes[0], "binding_energy_ratio", "gamma_eff_ratio", "$γ_{eff}$ / Δγ"),
+        (axes[1], "contact_fraction", "contact_fraction", "contact fraction")):
+    column = lambda name: np.array([m[name] for m in table.values()])
+    axis.errorbar(rms, column(simulated), column(simulated + "±"), fmt="^", ms=5, color=SIMULATED, capsize=2,
+                  label="state at zero load, three surfaces")
+    axis.plot(rms, column("theory.renormalised." + theory), "--", color=RENORMALISED, label="renormalised theory")
+    axis.plot(rms, column("theory." + theory), ":", color=PAPER, label="paper's theory")
+    axis.set(xlabel="rms roughness, Å", ylabel=label, xlim=(0, 12.5), ylim=(-0.02, 1.03))
+axes[0].legend()
+save(figure, "theory-renormalised.svg")
+
+sets = means(rows("parameters.csv"), ["set", "interface", "rms"])
+figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), constrained_layout=True, sharex=True)
+
+
+def draw(points, marker, colour, label):
+    x = np.array([m["binding_energy_ratio"] for m in points])
+    spread = np.array([m["binding_energy_ratio±"] for m in points])
+    for axis, theory in ((axes[0], "theory.renormalised.gamma_eff_ratio"), (axes[1], "theory.gamma_eff_ratio")):
+        y = np.array([m[theory] for m in points])
+        axis.plot(x, y - x, marker, ms=4.5, color=colour, markerfacecolor="none", label=f"{label} ({len(x)})")
+
+
+for interface, marker, colour in (("friction", "o", "#0072b2"), ("frictionless", "s", "#e69f00"), ("wall", "D", "#009e73")):
+    draw([m for k, m in sets.items() if k[1] == interface], marker, colour,
+         {"friction": "sets, atoms", "frictionless": "sets, frictionless", "wall": "sets, wall"}[interface])
+draw(list(means(rows("long-range.csv"), ["variant", "surface.rms"]).values()), "x", "#d55e00", "reach of the potential")
+draw(list(means(rows("finite-size.csv"), ["variant", "surface.rms"]).values()), "+", "#cc79a7", "128 to 1024 sites")
+for axis, name in zip(axes, ("renormalised theory", "paper's theory")):
+    axis.axhspan(-0.03, 0.03, color="0.9", zorder=0)
+    axis.axhline(0, color="0.5", lw=0.6)
+    axis.set(xlabel="simulated $γ$ / Δγ, mean over the surfaces", ylabel=f"{name} less simulated")
+axes[0].set_ylim(-0.1, 0.1)
+axes[1].legend(fontsize=8)
+save(figure, "theory-sets.svg")

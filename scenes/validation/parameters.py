@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The renormalised theory against states at zero load over many sets of parameters (docs/theory.md).
+
+    scenes/validation/parameters.py [SET ...] [--out results/parameters]     # all: about ten minutes of one core
+
+Each set is parameters.toml with some keys changed, at its roughnesses, for its surfaces, over three interfaces: the atoms with lateral
+forces (friction), without (frictionless), and the substrate's atoms smeared over their layer (wall), where there is no registry
+and nothing depends on the slope, so that what is left of a deviation there is that of the flow of the potential. The theory is that
+of each surface's own spectrum. A state that is there already is not run again. parameters.csv has a row for each state; the
+table printed a row for each mean over the surfaces.
+
+The sets "drawn-1" to "drawn-10" were drawn at random once (uniform: Hurst exponent 0.4 to 1, ε 0.04 to 0.2 eV, E 40 to 150 GPa, ν 0.05 to
+0.45, r0 2.6 to 4.9 Å, rms slope 0.08 to 0.45; q0/q_L of 2, 3, 4, 5, 6, 8) and none was left out.
+"""
+import argparse
+import csv
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def drawn(hurst, epsilon, young, poisson, rolloff, r0, rms):
+    keys = {"surface.hurst": hurst, "interface.epsilon": epsilon, "block.young": young, "block.poisson": poisson,
+            "surface.rolloff": rolloff, "interface.r0": r0, "interface.cutoff": round(4 * r0, 2)}
+    return keys, [rms]
+
+
+SETS = {  # name: keys that differ from the scene, roughnesses in Å
+    "paper": ({}, [3, 4.5, 6]),
+    "nu-0.25": ({"block.poisson": 0.25}, [2.5, 4]),
+    "hurst-0.5": ({"surface.hurst": 0.5}, [1.5, 2.5]),
+    "hurst-1": ({"surface.hurst": 1}, [2.5, 4]),
+    "epsilon-0.05": ({"interface.epsilon": 0.05}, [1.5, 2.5]),
+    "epsilon-0.2": ({"interface.epsilon": 0.2}, [3, 5]),
+    "young-40": ({"block.young": 40}, [3, 5]),
+    "young-150": ({"block.young": 150}, [1.5, 2.5]),
+    "rolloff-1": ({"surface.rolloff": 1}, [3, 5]),
+    "rolloff-8": ({"surface.rolloff": 8}, [1.5, 2.5]),
+    "drawn-1": drawn(0.47, 0.12, 96, 0.39, 2, 4.63, 3.1),
+    "drawn-2": drawn(0.77, 0.107, 103, 0.39, 5, 4.33, 2.4),
+    "drawn-3": drawn(0.54, 0.138, 52, 0.38, 5, 2.63, 2.3),
+    "drawn-4": drawn(0.69, 0.09, 84, 0.19, 4, 4.45, 3.7),
+    "drawn-5": drawn(0.71, 0.052, 77, 0.27, 4, 3.26, 1.1),
+    "drawn-6": drawn(0.79, 0.155, 74, 0.39, 4, 3.44, 2.3),
+    "drawn-7": drawn(0.64, 0.134, 95, 0.1, 6, 4.45, 2.4),
+    "drawn-8": drawn(0.93, 0.104, 98, 0.39, 6, 4.73, 2.3),
+    "drawn-9": drawn(0.71, 0.044, 65, 0.1, 2, 4.81, 3.7),
+    "drawn-10": drawn(0.8, 0.155, 87, 0.11, 3, 4.55, 1.6),
+    "drawn-3-less-steep": (drawn(0.54, 0.138, 52, 0.38, 5, 2.63, 2.3)[0], [0.8, 1.2, 1.7]),
+}
+SURFACES = {"rolloff-1": range(1, 13)}  # few long waves: the surfaces differ
+INTERFACES = {"friction": {}, "frictionless": {"interface.frictionless": "true"},
+              "wall": {"interface.kind": "wall", "interface.law": "lennard-jones"}}
+
+
+def state(name: str, interface: str, rms: float, seed: int, place: pathlib.Path) -> dict:
+    """The row of one state; run where it is not there."""
+    where = place / f"{name}-{interface}" / f"rms={rms:g},seed={seed}"
+    if not (where / "result.json").exists():
+        settings = {**SETS[name][0], **INTERFACES[interface], "output.checkpoint": 0, "output.fields": "[]",
+                    "surface.rms": rms, "surface.seed": seed}
+        command = [str(ROOT / "asperity"), "run", str(ROOT / "scenes/validation/parameters.toml"), "--progress", "off",
+                   "--out", str(where), "--set", *(f"{k}={v}" for k, v in settings.items())]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            sys.exit(f"{' '.join(command)}\n{done.stderr}")
+    result = json.loads((where / "result.json").read_text())
+    flat, theory = result["delta_gamma"], result["theory"]
+    renormalised = theory["renormalised"]
+    return {"set": name, "interface": interface, "rms": rms, "seed": seed, "rms_slope": result["surface"]["rms_slope"],
+            "delta_gamma": flat, "binding_energy_ratio": result["binding_energy"] / flat,
+            "contact_fraction": result["contact_fraction"], "theory.gamma_eff_ratio": theory["gamma_eff"] / flat,
+            "theory.contact_fraction": theory["contact_fraction"],
+            "theory.renormalised.gamma_eff_ratio": renormalised["gamma_eff_ratio"],
+            "theory.renormalised.gamma_eff_error": renormalised["gamma_eff_error"],
+            "theory.renormalised.contact_fraction": renormalised["contact_fraction"]}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("sets", nargs="*", metavar="SET", help=f"of {', '.join(SETS)}")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/parameters"))
+    options = parser.parse_args()
+    if unknown := [s for s in options.sets if s not in SETS]:
+        parser.error(f"no set {', '.join(unknown)}: choose from {', '.join(SETS)}")
+    options.out.mkdir(parents=True, exist_ok=True)
+    found = []
+    print("| set | rms, Å | rms slope | surfaces | simulated | renormalised | difference (worst surface) | frictionless | wall "
+          "| paper's theory, difference | contact, simulated | renormalised |\n|" + "---|" * 12)
+    for name in options.sets or SETS:
+        for rms in SETS[name][1]:
+            of = {interface: [state(name, interface, rms, seed, options.out) for seed in SURFACES.get(name, (1, 2, 3))]
+                  for interface in INTERFACES}
+            found += [row for rows in of.values() for row in rows]
+            mean = {c: statistics.fmean(r[c] for r in of["friction"]) for c in of["friction"][0] if c not in ("set", "interface")}
+            off = {i: [r["theory.renormalised.gamma_eff_ratio"] - r["binding_energy_ratio"] for r in rows] for i, rows in of.items()}
+            differences = " | ".join(f"{statistics.fmean(o):.3f} ({max(o, key=abs):.3f})" for o in off.values())
+            print(f"| {name} | {rms:g} | {mean['rms_slope']:.2f} | {len(off['friction'])} | {mean['binding_energy_ratio']:.3f} "
+                  f"| {mean['theory.renormalised.gamma_eff_ratio']:.3f} | {differences} "
+                  f"| {mean['theory.gamma_eff_ratio'] - mean['binding_energy_ratio']:.3f} | {mean['contact_fraction']:.3f} "
+                  f"| {mean['theory.renormalised.contact_fraction']:.3f} |", flush=True)
+    with open(options.out / "parameters.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, list(found[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({k: v if isinstance(v, str) else f"{v:.6g}" for k, v in row.items()} for row in found)
+
+
+if __name__ == "__main__":
+    main()
