@@ -3,6 +3,9 @@
 #include "decomposition/communicator.hpp"
 
 #include <mpi.h>
+#if __has_include(<mpi-ext.h>)
+#include <mpi-ext.h> // Open MPI's own
+#endif
 
 #include <algorithm>
 #include <cstdlib>
@@ -19,6 +22,7 @@ public:
     virtual int rank() const { return 0; }
     virtual int size() const { return 1; }
     virtual int local_rank() const { return 0; }
+    virtual bool takes_device_memory() const { return false; }
     virtual void sum(std::span<double>) const {}
     virtual void sum(std::span<std::int64_t>) const {}
     virtual void max(std::span<double>) const {}
@@ -50,6 +54,13 @@ public:
     int rank() const override { return rank_; }
     int size() const override { return size_; }
     int local_rank() const override { return local_rank_; }
+    bool takes_device_memory() const override {
+#if defined(MPIX_CUDA_AWARE_SUPPORT)
+        return MPIX_Query_cuda_support() == 1;
+#else
+        return false;
+#endif
+    }
     void sum(std::span<double> v) const override {
         MPI_Allreduce(MPI_IN_PLACE, v.data(), count(v.size()), MPI_DOUBLE, MPI_SUM, comm_);
     }
@@ -121,6 +132,7 @@ Communicator::Communicator(std::shared_ptr<const Transport> transport)
 int Communicator::rank() const { return transport_->rank(); }
 int Communicator::size() const { return transport_->size(); }
 int Communicator::local_rank() const { return transport_->local_rank(); }
+bool Communicator::takes_device_memory() const { return transport_->takes_device_memory(); }
 void Communicator::sum(std::span<double> values) const { transport_->sum(values); }
 void Communicator::sum(std::span<std::int64_t> values) const { transport_->sum(values); }
 void Communicator::max(std::span<double> values) const { transport_->max(values); }

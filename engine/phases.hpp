@@ -56,6 +56,12 @@ public:
         Clock::time_point start_;
     };
     Timer time(Phase phase) { return Timer(*this, phase); }
+    /// A call that took so long, by another clock.
+    void add(Phase phase, double seconds) {
+        PhaseClock& clock = clocks_[static_cast<std::size_t>(phase)];
+        clock.seconds += seconds;
+        ++clock.calls;
+    }
     /// Does the work on the phase's clock.
     template <class Work>
     void during(Phase phase, const Work& work) {

@@ -20,19 +20,16 @@ ASPERITY_INLINE void store_wide(Pack<float> a, double* to) {
     widen_high(a).store(to + Real::width);
 }
 
-/// A sum in double, lane by lane, of terms of type T.
-template <class T>
-struct WideSum {
-    Real low{0.0};
-    ASPERITY_INLINE void add(Real term) { low = low + term; }
-    ASPERITY_INLINE double over_lanes() const { return total(low); }
-};
 template <>
-struct WideSum<float> {
+struct WideSum<Pack<float>> {
     Real low{0.0}, high{0.0};
     ASPERITY_INLINE void add(Pack<float> term) {
         low = low + widen_low(term);
         high = high + widen_high(term);
+    }
+    ASPERITY_INLINE void merge(const WideSum& other) {
+        low = low + other.low;
+        high = high + other.high;
     }
     ASPERITY_INLINE double over_lanes() const { return total(low + high); }
 };

@@ -187,7 +187,7 @@ struct CellSums {
     }
     ASPERITY_INLINE void finish(const PairTerms<Simd, T>& pair, int to, SiteTerms& terms) const {
         const auto over_lanes = [](V lanes) {
-            WideSum<T> sum;
+            WideSum<Pack<T>> sum;
             sum.add(lanes);
             return sum.over_lanes();
         };

@@ -202,6 +202,19 @@ struct Laterals {
     ASPERITY_INLINE V east2(int m) const { return east2_[m]; }
 };
 
+/// A sum in double, lane by lane, of terms of type V.
+template <class V>
+struct WideSum {
+    V low{0.0};
+    ASPERITY_INLINE void add(V term) { low = low + term; }
+    ASPERITY_INLINE void merge(const WideSum& other) { low = low + other.low; }
+    ASPERITY_INLINE double over_lanes() const { return total(low); }
+};
+template <>
+struct WideSum<Lane<float>> : WideSum<Lane<double>> {
+    ASPERITY_INLINE void add(Lane<float> term) { low = low + Lane<double>(term.r); }
+};
+
 /// Four pairs on their way from distance to force.
 template <class V>
 struct Quad {
@@ -319,6 +332,11 @@ sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F
 /// Force on a site, eV/Å, from the sums over its pairs: sum f (ux + cx) = ux sum f + sum f cx.
 struct SiteForce {
     double x, y, z;
+};
+/// What one site feels, with its energy, eV, and the nearest r^2, Å^2.
+struct SiteTotal {
+    SiteForce force;
+    double energy, nearest;
 };
 template <class F, class T>
 ASPERITY_INLINE SiteForce site_force(const PairTerms<F, T>& pair, double ux, double uy, double f,

@@ -55,6 +55,8 @@ inline constexpr int interface_block = 16;
 inline constexpr int interface_rings = 8;
 /// Most offsets along one half axis, (cutoff + margin) / a + 1 at most.
 inline constexpr int max_half_offsets = 64;
+/// Most rows of a substrate of any spacing within reach to either side.
+inline constexpr int max_rows = 2 * max_half_offsets;
 
 /// The block's side of the interface: one tile of its lowest layer.
 struct InterfaceSites {

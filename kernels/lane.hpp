@@ -110,6 +110,8 @@ ASPERITY_INLINE Lane<float> to_float(LaneInt32 a) { return static_cast<float>(a.
 
 /// The least of all lanes.
 ASPERITY_INLINE double lowest(Lane<double> a) { return a.r; }
+/// Their sum.
+ASPERITY_INLINE double total(Lane<double> a) { return a.r; }
 
 /// Values of a device's thread, as kernel texts ask for them.
 struct Scalar {

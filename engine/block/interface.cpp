@@ -89,7 +89,14 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
             substrate.sites, tile.sites));
     if (method_ != InterfaceMethod::reference) build_reach();
     if (method_ == InterfaceMethod::lattice) build_lattice();
-    if (method_ == InterfaceMethod::rows) build_rows();
+    if (method_ == InterfaceMethod::rows) {
+        if ((cutoff + margin_) / map_.spacing + 3.0 > max_rows)
+            throw std::invalid_argument(fmt::format(
+                "interface: a cutoff of {} Å reaches over more than {} rows of the substrate's "
+                "atoms, which are {} Å apart; choose a smaller cutoff or surface.lattice_ratio",
+                cutoff, max_rows - 3, map_.spacing));
+        build_rows();
+    }
     if (options.tail) {
         tail_ = {options.potential, 1.0 / (map_.spacing * map_.spacing)};
         mean_height_ = Field<double>(tile, 1);
@@ -265,9 +272,10 @@ Tile atoms_under(const Tile& tile, double spacing, int atoms, double widest) {
 
 } // namespace
 
-Interface::LatticeTables Interface::lattice_tables() const {
-    LatticeTables tables;
-    tables.substrate = lattice_;
+Interface::Tables Interface::tables() const {
+    Tables tables;
+    tables.lattice = lattice_;
+    tables.rows = rows_;
     if (options_.mixed)
         tables.fixed = &fixed_height_;
     else
@@ -281,35 +289,28 @@ Interface::LatticeTables Interface::lattice_tables() const {
     return tables;
 }
 
-Interface::TableSizes Interface::lattice_tables_for(const InterfaceOptions& options,
-                                                    const Tile& tile, double spacing) {
-    const LatticeReach reach(options.potential.cutoff + margin_for(spacing), spacing);
+Interface::TableSizes Interface::tables_for(const InterfaceOptions& options, const Tile& tile,
+                                            double spacing, int substrate_sites) {
+    const double widest = options.potential.cutoff + margin_for(spacing);
+    const LatticeReach reach(widest, spacing);
     const auto size = [](auto... n) { return (static_cast<std::size_t>(n) * ...); };
-    const int halo = reach.half_offsets + 1;
-    return {options.mixed ? Field<std::int32_t>::bytes_for(tile, 1, halo)
-                          : Field<double>::bytes_for(tile, 1, halo),
+    const bool same_lattice = substrate_sites == tile.sites;
+    const Tile under = same_lattice ? tile : atoms_under(tile, spacing, substrate_sites, widest);
+    const int halo = same_lattice ? reach.half_offsets + 1 : int{interface_block};
+    return {options.mixed ? 0 : Field<double>::bytes_for(under, 1, halo),
+            options.mixed || options.single_too ? Field<std::int32_t>::bytes_for(under, 1, halo)
+                                                : 0,
             options.tail ? Field<double>::bytes_for(tile, 1) : 0,
             size(blocks_in_row(tile), tile.ny, interface_rings) * sizeof(double),
-            size(reach.cut_count, reach.half_offsets) * sizeof(std::int32_t),
-            size(tile.sites, tile.sites) * sizeof(double)};
+            same_lattice ? size(reach.cut_count, reach.half_offsets) * sizeof(std::int32_t) : 0,
+            size(substrate_sites, substrate_sites) * sizeof(double)};
 }
 
 std::size_t Interface::bytes_for(const InterfaceOptions& options, const Tile& tile, double spacing,
                                  int substrate_sites) {
     if (options.wall) return Field<double>::bytes_for(tile, 1, 0);
-    const TableSizes lattice = lattice_tables_for(options, tile, spacing);
-    const auto atoms = static_cast<std::size_t>(substrate_sites);
-    std::size_t bytes = atoms * atoms * sizeof(double) + 2 * lattice.reach + lattice.mean_height;
-    const bool same_lattice = substrate_sites == tile.sites;
-    const double widest = options.potential.cutoff + margin_for(spacing);
-    const Tile under = same_lattice ? tile : atoms_under(tile, spacing, substrate_sites, widest);
-    const int halo =
-        same_lattice ? LatticeReach(widest, spacing).half_offsets + 1 : int{interface_block};
-    if (same_lattice) bytes += lattice.columns;
-    if (!options.mixed) bytes += Field<double>::bytes_for(under, 1, halo);
-    if (options.mixed || options.single_too)
-        bytes += Field<std::int32_t>::bytes_for(under, 1, halo);
-    return bytes;
+    const TableSizes size = tables_for(options, tile, spacing, substrate_sites);
+    return size.heights + size.fixed + size.mean_height + 2 * size.reach + size.columns + size.map;
 }
 
 std::size_t Interface::bytes_over_atoms(const InterfaceOptions& options, const Tile& tile,

@@ -100,9 +100,11 @@ public:
     /// height, where no better bound is known.
     double attraction_grows_down_to() const;
 
-    /// What the lattice sweep reads, for a device that keeps a copy. Views are of this object.
-    struct LatticeTables {
-        LatticeSubstrate substrate;
+    /// What the sweep over a lattice or rows reads, for a device that keeps a copy. Views are of
+    /// this object.
+    struct Tables {
+        LatticeSubstrate lattice;
+        RowSubstrate rows;
         const Field<double>* heights = nullptr;     ///< in double
         const Field<std::int32_t>* fixed = nullptr; ///< mixed
         std::span<const std::int32_t> columns;
@@ -110,16 +112,19 @@ public:
         const Field<double>* mean_height = nullptr; ///< with the tail
         TailCorrection tail;
     };
-    LatticeTables lattice_tables() const;
-    /// Their sizes in bytes, without making them.
+    Tables tables() const;
+    /// Their sizes in bytes over a substrate of N x N atoms, without making them.
     struct TableSizes {
-        std::size_t heights, mean_height, reach, columns, map; ///< reach: highest, and lowest
+        std::size_t heights, fixed, mean_height, reach, columns,
+            map; ///< reach: highest, and lowest
     };
-    static TableSizes lattice_tables_for(const InterfaceOptions& options, const Tile& tile,
-                                         double spacing);
+    static TableSizes tables_for(const InterfaceOptions& options, const Tile& tile, double spacing,
+                                 int substrate_sites);
 
     const Tile& tile() const { return tile_; }
     InterfaceMethod method() const { return method_; }
+    /// Atoms across the box, of a substrate that is a map.
+    int substrate_sites() const { return map_.sites; }
     const InterfaceOptions& options() const { return options_; }
     std::size_t bytes() const;
     /// What an interface over a substrate of N x N atoms would hold, without making it; and about

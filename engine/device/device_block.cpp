@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <type_traits>
 #include <utility>
 
 namespace asperity {
@@ -37,6 +39,12 @@ DeviceChoice own_device(DeviceChoice choice, const Communicator& ranks) {
 template <class T>
 std::size_t vector_bytes(const Tile& tile, int planes) {
     return 3 * rounded(Field<T>::bytes_for(tile, planes));
+}
+
+/// Where the storage of a field of this shape begins on the device.
+template <class T>
+T* begin_of(const VolumeView<T>& device, const Field<T>& host) {
+    return device.origin - (host.view().origin - host.storage().data());
 }
 
 /// Doubles that one side's message of an axis carries.
@@ -107,7 +115,7 @@ VectorVolume<T> DeviceBlock::place(const VectorField<T>& shape) {
 }
 
 std::size_t DeviceBlock::bytes_for(const BlockOptions& block, const ProcessGrid& grid,
-                                   const InterfaceOptions& interface) {
+                                   const InterfaceOptions& interface, int substrate_sites) {
     const auto shapes = level_shapes(block);
     std::size_t bytes = 0;
     for (const LevelShape& shape : shapes) {
@@ -116,29 +124,35 @@ std::size_t DeviceBlock::bytes_for(const BlockOptions& block, const ProcessGrid&
                  vector_bytes<double>(tile, shape.cells) + 2 * vector_bytes<double>(tile, 1);
     }
     bytes += rounded(shapes.size() * sizeof(DeviceLevel)) +
-             rounded(shapes.size() * sizeof(LevelKicks)) + rounded(2 * sizeof(PassSums));
-    bytes += 2 * rounded(longest_strip(grid, shapes) * sizeof(double));
+             rounded(shapes.size() * sizeof(LevelKicks)) + rounded(4 * sizeof(PassSums));
+    bytes += 4 * rounded(longest_strip(grid, shapes) * sizeof(double));
     const Interface::TableSizes sizes =
-        Interface::lattice_tables_for(interface, grid.tile(0), block.spacing);
-    for (std::size_t size :
-         {sizes.heights, sizes.mean_height, sizes.reach, sizes.reach, sizes.columns, sizes.map})
+        Interface::tables_for(interface, grid.tile(0), block.spacing, substrate_sites);
+    for (std::size_t size : {interface.mixed ? sizes.fixed : sizes.heights, sizes.mean_height,
+                             sizes.reach, sizes.reach, sizes.columns, sizes.map})
         bytes += rounded(size);
     return bytes;
 }
 
+template <class T>
+T* DeviceBlock::copy_of(std::span<const T> values) {
+    T* to = place<T>(values.size());
+    check(device_.upload(to, values.data(), values.size_bytes()), "a copy to it");
+    return to;
+}
+template <class T>
+VolumeView<T> DeviceBlock::copy_of(const Field<T>& field) {
+    const VolumeView<T> view = place(field);
+    check(device_.upload(begin_of(view, field), field.storage().data(), field.bytes()),
+          "a copy to it");
+    return view;
+}
+
 DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const Interface& interface)
     : choice_(own_device(choice, block.communicator())), device_(functions_of(choice)),
-      bytes_(bytes_for(block.options(), block.grid(), interface.options())) {
+      bytes_(bytes_for(block.options(), block.grid(), interface.options(),
+                       interface.substrate_sites())) {
     check(device_.allocate(choice_.index, bytes_, &memory_), "the allocation of its memory");
-    const auto upload = [&](auto* to, const auto* from, std::size_t count) {
-        check(device_.upload(to, from, count * sizeof *from), "a copy to it");
-    };
-    const auto copy_of = [&](const auto& values) { // of a span, on the device
-        using T = std::remove_cvref_t<decltype(values[0])>;
-        T* to = place<T>(values.size());
-        upload(to, values.data(), values.size());
-        return to;
-    };
 
     std::vector<DeviceLevel> levels;
     const auto& host = block.levels();
@@ -179,6 +193,7 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
         if (shared) {
             shared_level_ = static_cast<int>(l);
             shared_ = VectorField<double>(from.tile, 1);
+            shared_bytes_ = shared_.x.bytes();
         }
         level.in_line = l > 0 && !shared;
         level.counted = block.counts(from);
@@ -193,54 +208,78 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
         count(step_.faces, frame(1));
         count(step_.hanging, frame(halo_width));
     }
-    step_.levels = copy_of(levels);
-    kicks_ = place<LevelKicks>(levels.size());
-    step_.kicks = kicks_;
-    step_.sums = place<PassSums>(2);
-
-    // The interface's tables.
-    const Interface::LatticeTables tables = interface.lattice_tables();
-    step_.substrate = tables.substrate;
-    if (tables.fixed) {
-        const auto view = place(*tables.fixed);
-        upload(view.origin - (tables.fixed->view().origin - tables.fixed->storage().data()),
-               tables.fixed->storage().data(), tables.fixed->storage().size());
-        step_.substrate.heights.fixed = view[0];
-        step_.mixed = true;
-    } else {
-        const auto view = place(*tables.heights);
-        upload(view.origin - (tables.heights->view().origin - tables.heights->storage().data()),
-               tables.heights->storage().data(), tables.heights->storage().size());
-        step_.substrate.heights.height = view[0];
-    }
-    step_.substrate.columns = copy_of(tables.columns);
-    step_.substrate.reach.highest = copy_of(tables.highest);
-    step_.substrate.reach.lowest = copy_of(tables.lowest);
-    step_.substrate.map.height = copy_of(tables.map);
-    step_.potential = interface.options().potential;
-    if (tables.mean_height) {
-        const Field<double>& mean = *tables.mean_height;
-        const auto view = place(mean);
-        upload(view.origin - (mean.view().origin - mean.storage().data()), mean.storage().data(),
-               mean.storage().size());
-        step_.mean_height = view[0];
-        step_.tail = tables.tail;
-        step_.with_tail = true;
-    }
-    const Tile& tile = interface.tile();
+    step_.levels = copy_of(std::span<const DeviceLevel>(levels));
+    step_.kicks = kicks_ = place<LevelKicks>(levels.size());
+    step_.sums = all_sums_ = place<PassSums>(4);
+    take_tables(interface);
     step_.sites.force = levels_[0].incoming;
     step_.sites.spacing = block.options().spacing;
-    step_.sites.x0 = tile.x0;
-    step_.sites.y0 = tile.y0;
+    step_.sites.x0 = interface.tile().x0;
+    step_.sites.y0 = interface.tile().y0;
 
     halo_x_ = {true, strip_of(block, true), nullptr, nullptr, 0};
     halo_y_ = {false, strip_of(block, false), nullptr, nullptr, 0};
     const std::size_t strip = longest_strip(block.grid(), level_shapes(block.options()));
-    halo_x_.before = halo_y_.before = place<double>(strip);
-    halo_x_.after = halo_y_.after = place<double>(strip);
+    for (double** message : {&to_before_, &to_after_, &from_before_, &from_after_})
+        *message = place<double>(strip);
+    direct_ = device_.takes_mpi(block.communicator().takes_device_memory());
+
+    // Pinned memory, in the same way.
+    const std::size_t size = rounded(2 * sizeof(PassSums)) +
+                             rounded(levels.size() * sizeof(LevelKicks)) +
+                             4 * rounded(strip * sizeof(double)) + 3 * rounded(shared_bytes_);
+    check(device_.allocate_pinned(size, &pinned_.memory), "the allocation of the host's part");
+    std::byte* next = pinned_.memory;
+    const auto take = [&](auto*& region, std::size_t bytes) {
+        region = reinterpret_cast<std::remove_reference_t<decltype(region)>>(next);
+        next += rounded(bytes);
+    };
+    take(pinned_.sums, 2 * sizeof(PassSums));
+    take(pinned_.kicks, levels.size() * sizeof(LevelKicks));
+    for (double** message :
+         {&pinned_.to_before, &pinned_.to_after, &pinned_.from_before, &pinned_.from_after})
+        take(*message, strip * sizeof(double));
+    for (double*& component : pinned_.shared)
+        take(component, shared_bytes_);
+}
+
+void DeviceBlock::take_tables(const Interface& interface) {
+    const Interface::Tables tables = interface.tables();
+    SubstrateHeights heights;
+    heights.datum = tables.lattice.heights.datum;
+    step_.over_rows = interface.method() == InterfaceMethod::rows;
+    if (step_.over_rows) heights.datum = tables.rows.heights.datum;
+    step_.mixed = tables.fixed != nullptr;
+    if (step_.mixed)
+        heights.fixed = copy_of(*tables.fixed)[0];
+    else
+        heights.height = copy_of(*tables.heights)[0];
+    const double* highest = copy_of(tables.highest);
+    const double* lowest = copy_of(tables.lowest);
+    const double* map = copy_of(tables.map);
+    const auto fill = [&](auto& ground, const auto& host) {
+        ground = host;
+        ground.heights = heights;
+        ground.reach.highest = highest;
+        ground.reach.lowest = lowest;
+        ground.map.height = map;
+    };
+    if (step_.over_rows) {
+        fill(step_.rows, tables.rows);
+    } else {
+        fill(step_.lattice, tables.lattice);
+        step_.lattice.columns = copy_of(tables.columns);
+    }
+    step_.potential = interface.options().potential;
+    if (tables.mean_height) {
+        step_.mean_height = copy_of(*tables.mean_height)[0];
+        step_.tail = tables.tail;
+        step_.with_tail = true;
+    }
 }
 
 DeviceBlock::~DeviceBlock() {
+    if (pinned_.memory) device_.release_pinned(pinned_.memory);
     if (memory_) device_.release(memory_);
 }
 
@@ -253,15 +292,11 @@ void each_component(const Memory& memory, const VectorVolume<double>& u, const F
     visit(u.x, host.u.x), visit(u.y, host.u.y), visit(u.z, host.u.z);
     visit(memory.v.x, host.v.x), visit(memory.v.y, host.v.y), visit(memory.v.z, host.v.z);
 }
-/// Where the storage of a field of this shape begins on the device.
-template <class T>
-T* begin_of(const VolumeView<T>& device, const Field<T>& host) {
-    return device.origin - (host.view().origin - host.storage().data());
-}
 
 } // namespace
 
 void DeviceBlock::upload(const Block& block) {
+    launched_.reset();
     for (int buffer : {0, 1}) // the prescribed planes of both
         for (std::size_t l = 0; l < levels_.size(); ++l)
             each_component(
@@ -282,48 +317,55 @@ void DeviceBlock::download(Block& block) const {
             });
 }
 
-void DeviceBlock::begin(const Block& block, const StepParameters& step, double top,
-                        double reference_height) {
+void DeviceBlock::forces(const At& at) {
+    if (launched_ == at) return;
+    step_.observe = at.observe;
+    step_.top = at.top;
+    step_.sums = all_sums_ + 2 * (steps_ % 2);
+    step_.sites.displacement = VectorVolume<const double>(levels_[0].u[step_.now])[0];
+    step_.sites.reference_height = at.reference_height;
+    mark(begun);
+    check(device_.follow(step_), "the launch of hanging planes");
+    mark(followed);
+    check(device_.forces(step_), "the launch of forces");
+    mark(pushed);
+    launched_ = at;
+}
+
+void DeviceBlock::advance(const Block& block, const StepParameters& step,
+                          const std::optional<ThermalNoise>& noise) {
+    if (shared_level_ >= 0) share_restricted_forces(block);
     if (!kicks_known_ || !(step == kicked_with_)) {
-        std::vector<LevelKicks> kicks;
+        // Those before have arrived: the host has seen the sums of the step before.
+        LevelKicks* kicks = pinned_.kicks;
         step_.damped = false;
         for (const Block::Level& level : block.levels()) {
-            kicks.push_back(block.kicks(level, step));
-            step_.damped |= kicks.back().damped_from < level.shape.cells;
+            *kicks = block.kicks(level, step);
+            step_.damped |= kicks->damped_from < level.shape.cells;
+            ++kicks;
         }
-        check(device_.upload(kicks_, kicks.data(), kicks.size() * sizeof kicks[0]), "a copy to it");
+        check(device_.send(kicks_, pinned_.kicks, levels_.size() * sizeof *kicks), "a copy to it");
         kicked_with_ = step;
         kicks_known_ = true;
     }
-    step_.observe = step.observe;
     step_.dt = step.dt;
-    step_.top = top;
-    const VectorVolume<double>& u = levels_[0].u[step_.now];
-    step_.sites.displacement = u[0];
-    step_.sites.reference_height = reference_height;
-}
-
-void DeviceBlock::set_noise(const ThermalNoise& noise) {
-    step_.noise = noise;
-    step_.noisy = true;
-}
-
-void DeviceBlock::interpolate() { check(device_.follow(step_), "the launch of hanging planes"); }
-
-void DeviceBlock::forces(const Block& block) {
-    check(device_.forces(step_), "the launch of forces");
-    if (shared_level_ >= 0) share_restricted_forces(block);
-}
-
-void DeviceBlock::advance() {
+    step_.noisy = noise.has_value();
+    if (noise) step_.noise = *noise;
+    mark(resumed);
     check(device_.advance(step_), "the launch of the step");
+    mark(advanced);
+    check(device_.fetch_beside(pinned_.sums, step_.sums, 2 * sizeof(PassSums), sums_are_here),
+          "a copy from it");
     step_.now = 1 - step_.now;
+    exchange(block);
+    mark(exchanged);
+    ++steps_;
+    launched_.reset();
 }
 
-DeviceSums DeviceBlock::sums() const {
-    std::array<PassSums, 2> sums;
-    check(device_.download(sums.data(), step_.sums, sizeof sums), "a step");
-    const auto& [forces, moved] = sums;
+DeviceSums DeviceBlock::sums() {
+    check(device_.wait(sums_are_here), "a step");
+    const PassSums &forces = pinned_.sums[0], &moved = pinned_.sums[1];
     DeviceSums result;
     result.interface.force_z = forces.sum[ForceSum::interface_z];
     result.interface.energy = forces.sum[ForceSum::interface_energy];
@@ -340,6 +382,34 @@ DeviceSums DeviceBlock::sums() const {
     return result;
 }
 
+/// A mark of the step under way. Three steps have marks: the one launched ahead, the one whose sums
+/// are waited for, and the one before, which is booked.
+int DeviceBlock::number_of(StepMark mark, long long step) {
+    return static_cast<int>(step % 3) * marks_of_step + mark;
+}
+void DeviceBlock::mark(StepMark mark) {
+    check(device_.mark(number_of(mark, steps_)), "a mark in its queue");
+}
+
+void DeviceBlock::book(Phases& phases, bool all) {
+    if (all && booked_ < steps_) check(device_.wait(number_of(exchanged, steps_ - 1)), "a step");
+    // The sums of the last step say that the one before it has ended.
+    for (; booked_ < steps_ - (all ? 0 : 1); ++booked_) {
+        const auto add = [&](Phase phase, StepMark first, StepMark second) {
+            double seconds = 0.0;
+            check(device_.seconds_between(number_of(first, booked_), number_of(second, booked_),
+                                          seconds),
+                  "its clock");
+            phases.add(phase, seconds);
+        };
+        add(Phase::interpolate, begun, followed);
+        add(Phase::interface, followed, pushed);
+        add(Phase::sums, pushed, resumed);
+        add(Phase::advance, resumed, advanced);
+        add(Phase::exchange, advanced, exchanged);
+    }
+}
+
 /// Into the level that every rank holds, from all tiles of the level below.
 void DeviceBlock::share_restricted_forces(const Block& block) {
     const Block::Level& coarse = block.levels()[static_cast<std::size_t>(shared_level_)];
@@ -349,21 +419,28 @@ void DeviceBlock::share_restricted_forces(const Block& block) {
               step_, shared_level_, {nodes.x0, nodes.x0 + nodes.nx, nodes.y0, nodes.y0 + nodes.ny}),
           "the launch of a restriction");
     const VectorPlane<double>& incoming = levels_[static_cast<std::size_t>(shared_level_)].incoming;
-    const auto each = [&](const auto& copy) {
-        for (auto [device, host] : {std::pair{&incoming.x, &shared_.x},
-                                    {&incoming.y, &shared_.y},
-                                    {&incoming.z, &shared_.z}})
-            copy(device->origin - (host->view().origin - host->storage().data()), *host);
-    };
-    each([&](double* from, Field<double>& to) {
-        check(device_.download(to.storage().data(), from, to.bytes()), "a copy from it");
-    });
+    Field<double>* const host[] = {&shared_.x, &shared_.y, &shared_.z};
+    double* device[3];
+    for (int c = 0; c < 3; ++c) {
+        const PlaneView<double>& plane = c == 0 ? incoming.x : c == 1 ? incoming.y : incoming.z;
+        device[c] = plane.origin - (host[c]->view().origin - host[c]->storage().data());
+        check(device_.fetch(pinned_.shared[c], device[c], shared_bytes_), "a copy from it");
+    }
+    wait_for_messages();
+    for (int c = 0; c < 3; ++c)
+        std::memcpy(host[c]->storage().data(), pinned_.shared[c], shared_bytes_);
     const auto in = shared_.plane(0);
     const std::array planes = {in.x, in.y, in.z};
     gather_footprints(block.communicator(), grid, coarse.shape.level, planes);
-    each([&](double* to, Field<double>& from) {
-        check(device_.upload(to, from.storage().data(), from.bytes()), "a copy to it");
-    });
+    for (int c = 0; c < 3; ++c) {
+        std::memcpy(pinned_.shared[c], host[c]->storage().data(), shared_bytes_);
+        check(device_.send(device[c], pinned_.shared[c], shared_bytes_), "a copy to it");
+    }
+}
+
+void DeviceBlock::wait_for_messages() {
+    check(device_.mark(messages_are_here), "a mark in its queue");
+    check(device_.wait(messages_are_here), "a copy from it");
 }
 
 /// Along x, then along y, whose rows hold the halo just received.
@@ -377,21 +454,35 @@ void DeviceBlock::trade(const Block& block, bool along_x) {
     DeviceHalo& halo = along_x ? halo_x_ : halo_y_;
     const auto size = static_cast<std::size_t>(halo.strip.first[halo.strip.levels]);
     if (size == 0) return;
-    halo.buffer = step_.now;
-    for (auto* message : {&to_before_, &to_after_, &from_before_, &from_after_})
-        message->resize(size);
     const std::size_t bytes = size * sizeof(double);
+    halo.buffer = step_.now;
+    halo.before = to_before_;
+    halo.after = to_after_;
     check(device_.pack(step_, halo), "the launch that packs halos");
-    check(device_.download(to_before_.data(), halo.before, bytes), "a copy from it");
-    check(device_.download(to_after_.data(), halo.after, bytes), "a copy from it");
+    const auto strip = [&](double* device, double* pinned) {
+        return std::span(direct_ ? device : pinned, size);
+    };
     const ProcessGrid& grid = block.grid();
     const int before = along_x ? grid.neighbour(-1, 0) : grid.neighbour(0, -1);
     const int after = along_x ? grid.neighbour(1, 0) : grid.neighbour(0, 1);
-    const Message messages[] = {{before, after, 0, to_before_, from_after_},
-                                {after, before, 1, to_after_, from_before_}};
+    const Message messages[] = {{before, after, 0, strip(to_before_, pinned_.to_before),
+                                 strip(from_after_, pinned_.from_after)},
+                                {after, before, 1, strip(to_after_, pinned_.to_after),
+                                 strip(from_before_, pinned_.from_before)}};
+    if (!direct_) {
+        check(device_.fetch(pinned_.to_before, to_before_, bytes), "a copy from it");
+        check(device_.fetch(pinned_.to_after, to_after_, bytes), "a copy from it");
+    }
+    wait_for_messages();
+    if (direct_) check(device_.open_to_mpi(true), "opening its memory to MPI");
     block.communicator().exchange(messages);
-    check(device_.upload(halo.before, from_before_.data(), bytes), "a copy to it");
-    check(device_.upload(halo.after, from_after_.data(), bytes), "a copy to it");
+    if (direct_) check(device_.open_to_mpi(false), "closing its memory to MPI");
+    if (!direct_) {
+        check(device_.send(from_before_, pinned_.from_before, bytes), "a copy to it");
+        check(device_.send(from_after_, pinned_.from_after, bytes), "a copy to it");
+    }
+    halo.before = from_before_;
+    halo.after = from_after_;
     check(device_.unpack(step_, halo), "the launch that unpacks halos");
     halo_bytes_ += 2 * bytes;
 }

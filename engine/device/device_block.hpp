@@ -6,13 +6,21 @@
 // the only ways between the two. The bits are those of the host's step.
 //
 // Each rank has a device of its own. Halos, and the forces that go to a level which every rank
-// holds, are packed on the device, sent by MPI from the host's memory, and unpacked on the device.
+// holds, are packed on the device, sent by MPI from pinned memory of the host (from the device's
+// where MPI takes it), and unpacked on the device.
+//
+// Nothing of a step waits for the device but its sums and, between ranks, its messages. Both come
+// beside the launches: while the host looks at the sums of a step, the device is at the forces of
+// the next one.
 #pragma once
 
 #include "engine/block/block.hpp"
 #include "engine/block/interface.hpp"
+#include "engine/phases.hpp"
 #include "kernels/device/device.hpp"
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,22 +54,30 @@ public:
     void upload(const Block& block);
     void download(Block& block) const;
 
-    // One step in time, verb by verb. block: whose constants and ranks these are.
-    /// What the step is; top: displacement of the top plane at its start.
-    void begin(const Block& block, const StepParameters& step, double top, double reference_height);
-    /// In a scene with a temperature, after begin().
-    void set_noise(const ThermalNoise& noise);
-    void interpolate();
-    void forces(const Block& block);
-    void advance();
-    void exchange(const Block& block);
-    /// Waits for the launches.
-    DeviceSums sums() const;
+    /// What decides about the forces on the present displacements.
+    struct At {
+        double top = 0.0; ///< displacement of the top plane, Å
+        double reference_height = 0.0;
+        bool observe = false; ///< with energies and contacts
+        bool operator==(const At&) const = default;
+    };
+    // One step in time. block: whose constants and ranks these are.
+    /// Hanging planes and forces. Launched already if the last call since advance() was the same.
+    void forces(const At& at);
+    /// Everything else of the step, halos included. noise: in a scene with a temperature.
+    void advance(const Block& block, const StepParameters& step,
+                 const std::optional<ThermalNoise>& noise);
+    /// Of the last step; waits for them.
+    DeviceSums sums();
+
+    /// Adds the device's own times of all steps to the phases: those whose end the host has seen,
+    /// or all, for which it waits.
+    void book(Phases& phases, bool all);
 
     /// Of device memory: in use, and known before anything is allocated.
     std::size_t bytes() const { return used_; }
     static std::size_t bytes_for(const BlockOptions& block, const ProcessGrid& grid,
-                                 const InterfaceOptions& interface);
+                                 const InterfaceOptions& interface, int substrate_sites);
     /// Bytes copied to other ranks in the last step.
     std::size_t halo_bytes() const { return halo_bytes_; }
 
@@ -70,8 +86,17 @@ private:
         VectorVolume<double> u[2], v;
         VectorPlane<double> incoming, upper_force;
     };
+    /// Places in the queue.
+    enum StepMark { begun, followed, pushed, resumed, advanced, exchanged, marks_of_step };
+    enum { sums_are_here = 3 * marks_of_step, messages_are_here, all_marks };
+    static_assert(all_marks <= device_marks);
+    static int number_of(StepMark mark, long long step);
+    void mark(StepMark mark);
+    void wait_for_messages();
+    void exchange(const Block& block);
     void trade(const Block& block, bool along_x);
     void share_restricted_forces(const Block& block);
+    void take_tables(const Interface& interface);
     void check(const char* error, const char* doing) const;
     template <class T>
     T* place(std::size_t count);
@@ -79,6 +104,10 @@ private:
     VolumeView<T> place(const Field<T>& shape);
     template <class T>
     VectorVolume<T> place(const VectorField<T>& shape);
+    template <class T>
+    VolumeView<T> copy_of(const Field<T>& field);
+    template <class T>
+    T* copy_of(std::span<const T> values);
 
     DeviceChoice choice_;
     const DeviceFunctions& device_;
@@ -87,12 +116,31 @@ private:
     std::vector<LevelMemory> levels_;
     DeviceStep step_;
     LevelKicks* kicks_ = nullptr;
+    PassSums* all_sums_ = nullptr; ///< [2][2]: of even and of odd steps, forces and advance
     DeviceHalo halo_x_, halo_y_;
-    std::vector<double> to_before_, to_after_, from_before_, from_after_;
+    /// Halos on their way, in device memory: to and from the neighbours before and after.
+    double *to_before_ = nullptr, *to_after_ = nullptr, *from_before_ = nullptr,
+           *from_after_ = nullptr;
     int shared_level_ = -1; ///< whose incoming forces are put together over the ranks
     VectorField<double> shared_;
+    std::size_t shared_bytes_ = 0; ///< of a component
+
+    /// Memory of the host that the device copies from and to by itself.
+    struct Pinned {
+        std::byte* memory = nullptr;
+        PassSums* sums = nullptr; ///< of forces, of advance
+        LevelKicks* kicks = nullptr;
+        double *to_before = nullptr, *to_after = nullptr, *from_before = nullptr,
+               *from_after = nullptr;
+        double* shared[3] = {};
+    } pinned_;
+    bool direct_ = false; ///< MPI takes device memory
+
     StepParameters kicked_with_;
     bool kicks_known_ = false;
+    std::optional<At> launched_; ///< forces, since the last advance()
+    long long steps_ = 0;        ///< advanced
+    long long booked_ = 0;
     std::size_t halo_bytes_ = 0;
 };
 

@@ -95,8 +95,12 @@ public:
     std::size_t device_bytes() const { return device_ ? device_->bytes() : 0; }
     Interface& interface() { return interface_; }
     const Interface& interface() const { return interface_; }
-    Phases& phases() { return phases_; }
-    const Phases& phases() const { return phases_; }
+    /// With a device: by its clock, but for what is copied from and to the host's fields; `sums`
+    /// is its wait for the host.
+    const Phases& phases() const {
+        if (device_) device_->book(phases_, true);
+        return phases_;
+    }
     const Communicator& communicator() const { return block_.communicator(); }
 
     /// Of the last observed step: (work - change of energy - damped) over the largest of these
@@ -112,6 +116,7 @@ private:
     void step_on_processor(bool observe);
     void download() const;
     double velocity_of_top() const;
+    bool next_is_observed(bool observe);
     void begin_record(bool observe);
     void sweep_interface(bool observe);
     void advance_block(bool observe);
@@ -127,7 +132,9 @@ private:
     std::unique_ptr<DeviceBlock> device_;  ///< only if the scene asks for one
     mutable bool device_is_newer_ = false;
     bool host_is_newer_ = true;
-    Phases phases_;
+    long long observed_ = -1,
+              between_observed_ = 0; ///< the last such step, and since the one before
+    mutable Phases phases_;          ///< of a device, up to the last step but one
 
     double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
     long long step_ = 0;

@@ -335,9 +335,8 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
         device.kind != DeviceChoice::Kind::none)
         fmt::print(to, "device      {}, {} of its memory on each rank; rates are the processor's\n",
                    describe_device(device),
-                   memory_text(static_cast<double>(DeviceBlock::bytes_for(
-                       plan.setup.simulation.block, make_grid(scene, plan.setup, plan.ranks, 0),
-                       plan.setup.simulation.interface))));
+                   memory_text(device_memory_of(scene, plan.setup,
+                                                make_grid(scene, plan.setup, plan.ranks, 0))));
     fmt::print(to, "wall time   {}, without messages between machines; {}\n",
                time_text(plan.seconds), plan.rates);
     fmt::print(

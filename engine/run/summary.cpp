@@ -4,6 +4,7 @@
 
 #include "engine/run/states_record.hpp"
 #include "engine/scene/accuracy.hpp"
+#include "engine/setup/memory.hpp"
 #include "io/table.hpp"
 
 #include <fmt/format.h>
@@ -91,11 +92,9 @@ void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const 
     fmt::print(to, "  machine     {}, {} thread{} each, {:.0f} MB a rank\n", grid.describe(),
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6);
     if (setup.simulation.device.kind != DeviceChoice::Kind::none)
-        fmt::print(
-            to, "  device      {}, {:.0f} MB of its memory a rank\n",
-            describe_device(setup.simulation.device),
-            static_cast<double>(DeviceBlock::bytes_for(block, grid, setup.simulation.interface)) /
-                1e6);
+        fmt::print(to, "  device      {}, {:.0f} MB of its memory a rank\n",
+                   describe_device(setup.simulation.device),
+                   device_memory_of(scene, setup, grid) / 1e6);
     fmt::print(to, "  results     {}\n", directory);
     for (const std::string& note : setup.notes)
         fmt::print(to, "  note: {}\n", note);

@@ -208,12 +208,8 @@ std::vector<io::Problem> device_problems(const Scene& scene) {
                "take numerics.device = \"none\", or drive.mode = \"dynamic\" with an approach");
     if (scene.surface.kind == SurfaceKind::atoms)
         refuse("surface.kind = \"atoms\"",
-               "the device sums over a substrate of the block's own lattice",
+               "the device sums over a map of heights, and has no lists of cells of atoms anywhere",
                "take numerics.device = \"none\"");
-    if (scene.surface.lattice_ratio != 1.0)
-        refuse(fmt::format("surface.lattice_ratio = {:.6g}", scene.surface.lattice_ratio),
-               "the device sums over a substrate of the block's own lattice",
-               "take lattice_ratio = 1, or numerics.device = \"none\"");
     if (processor_level() < ProcessorLevel::v3)
         refuse(fmt::format("kernels of level {}", name(processor_level())),
                "a device fuses multiplications with additions, and these kernels do not: the same "

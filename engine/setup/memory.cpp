@@ -91,6 +91,12 @@ MemoryNeed& MemoryNeed::operator+=(const MemoryNeed& other) {
     return *this;
 }
 
+double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid) {
+    return static_cast<double>(
+        DeviceBlock::bytes_for(setup.simulation.block, grid, setup.simulation.interface,
+                               substrate_sites(scene.surface.sites, scene.surface.lattice_ratio)));
+}
+
 MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int rank,
                           int threads) {
     const auto on = [&](Effect effect) { return setup.effects.on(effect); };

@@ -30,6 +30,9 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
 /// Of all ranks together.
 MemoryNeed memory_of(const Scene& scene, const Setup& setup, int ranks, int threads);
 
+/// Of the device of a rank, where the scene has devices take its steps.
+double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid);
+
 /// Throws io::SceneError if a run of this scene does not fit into the memory of its machines: the
 /// ranks of each machine together are held against what is available there. Collective.
 void require_memory(const Scene& scene, const Communicator& ranks, int threads);

@@ -13,6 +13,10 @@
 // Between ranks come three more: restrict_to_shared (forces that go to a level that every rank
 // holds), pack and unpack (halos).
 //
+// Launches, send() and fetch() are queued: each begins when those before it are done, and the call
+// returns at once. The host memory they name must be pinned, and may be read or written again when
+// a mark() behind them has been waited for.
+//
 // Every function returns nullptr, or a text that says what went wrong.
 #pragma once
 
@@ -83,7 +87,9 @@ struct DeviceStep {
     ThermalNoise noise;
 
     InterfaceSites sites;
-    LatticeSubstrate substrate;
+    LatticeSubstrate lattice;
+    RowSubstrate rows; ///< in place of the lattice
+    bool over_rows = false;
     LennardJones potential;
     bool mixed = false;
     bool with_tail = false;
@@ -101,12 +107,37 @@ struct DeviceHalo {
     int buffer = 0;                             ///< which displacement array
 };
 
+/// Marks in the queue, by number.
+inline constexpr int device_marks = 32;
+
 struct DeviceFunctions {
     const char* (*describe)(int index, std::string& name, std::size_t& free_bytes);
+    /// Device memory; from then on this device is the one that all calls mean.
     const char* (*allocate)(int index, std::size_t bytes, std::byte** memory);
     void (*release)(std::byte* memory);
+    /// Memory of the host that send() and fetch() may name.
+    const char* (*allocate_pinned)(std::size_t bytes, std::byte** memory);
+    void (*release_pinned)(std::byte* memory);
+
+    // Copies of any memory, which wait for all that is queued.
     const char* (*upload)(void* to, const void* from, std::size_t bytes);
-    const char* (*download)(void* to, const void* from, std::size_t bytes); ///< waits for launches
+    const char* (*download)(void* to, const void* from, std::size_t bytes);
+
+    // Queued.
+    const char* (*send)(void* to, const void* from, std::size_t bytes);
+    const char* (*fetch)(void* to, const void* from, std::size_t bytes);
+    const char* (*mark)(int number);
+    /// Begins when the queue has come here, and goes on beside what is queued behind it; then its
+    /// mark is reached.
+    const char* (*fetch_beside)(void* to, const void* from, std::size_t bytes, int number);
+
+    const char* (*wait)(int number);
+    /// Between two marks that were reached.
+    const char* (*seconds_between)(int first, int second, double& seconds);
+    /// Whether an MPI that knows of CUDA can read and write this device's memory. It is opened
+    /// before a message and closed behind it.
+    bool (*takes_mpi)(bool mpi_knows_cuda);
+    const char* (*open_to_mpi)(bool open);
 
     const char* (*follow)(const DeviceStep& step);
     const char* (*forces)(const DeviceStep& step);
@@ -114,7 +145,15 @@ struct DeviceFunctions {
     const char* (*advance)(const DeviceStep& step);
     const char* (*pack)(const DeviceStep& step, const DeviceHalo& halo);
     const char* (*unpack)(const DeviceStep& step, const DeviceHalo& halo);
+
+    // What the device can do at best, for perf/device_bench.cpp (limits.hpp).
+    /// a = b + s c; a, b, c of n numbers.
+    const char* (*triad)(double* a, const double* b, const double* c, long long n);
+    /// So many threads, each rounds x fused_chains fused multiplications; out: one number each.
+    const char* (*fused_double)(double* out, long long threads, int rounds);
+    const char* (*fused_single)(float* out, long long threads, int rounds);
 };
+inline constexpr int fused_chains = 8;
 
 const DeviceFunctions& emulated_device();
 /// Null where the program was built without CUDA.
@@ -122,8 +161,18 @@ const DeviceFunctions* cuda_device();
 /// Devices that CUDA finds here.
 int cuda_device_count();
 
-/// Nodes of an emulated launch run one after the other: in their order (0), or in one of many
-/// others. A result that depends on the order has two threads at one number.
-void set_emulated_order(unsigned order);
+/// How the emulated device behaves; for tests.
+struct EmulatedSettings {
+    /// Nodes of a launch run one after the other: in their order (0), or in one of many others. A
+    /// result that depends on the order has two threads at one number.
+    unsigned order = 0;
+    /// What is queued is done at once, or as late as waits allow, with launches far ahead of copies
+    /// beside them. A result that differs has read, or written, too early.
+    bool at_once = false;
+    std::size_t memory = 0;    ///< bytes that it has; 0: the machine's
+    long long lost_after = -1; ///< so many more launches it is lost; negative: never
+    bool open_to_mpi = false;  ///< as a device whose memory MPI takes
+};
+EmulatedSettings& emulated_settings();
 
 } // namespace asperity

@@ -4,9 +4,10 @@
 // launch(): body(i, sums) for every i in [0, count), a thread each; with sums, theirs are added
 // into *total, which is exact in any order (exact_sum.hpp).
 //
-// The emulated device runs the bodies one after the other, in the host's process. Its memory is
-// pages of its own that can be read and written during a launch or a copy only: a host that reads
-// device memory stops at once, as it would with a device of its own memory.
+// The emulated device runs the bodies one after the other, in the host's process, when somebody
+// waits for them. Its memory is pages of its own that can be read and written during a launch or a
+// copy only: a host that reads device memory stops at once, as it would with a device of its own
+// memory.
 #pragma once
 
 #include "kernels/device/device.hpp"
@@ -31,6 +32,7 @@ ASPERITY_HOST_DEVICE inline void merge(PassSums& into, const PassSums& other) {
 namespace asperity::cuda {
 
 inline constexpr int threads_per_block = 128;
+inline cudaStream_t queue = nullptr; ///< of the launches
 
 /// All threads of a block; adds up within warps, then over the block, then once to the total.
 __device__ inline void reduce(PassSums& mine, PassSums* total) {
@@ -81,13 +83,15 @@ template <bool with_sums, class Body>
 const char* launch(const Body& body, long long count, PassSums* total) {
     if (count == 0) return nullptr;
     const auto blocks = static_cast<unsigned>((count + threads_per_block - 1) / threads_per_block);
-    run<with_sums><<<blocks, threads_per_block>>>(body, count, total);
+    run<with_sums><<<blocks, threads_per_block, 0, queue>>>(body, count, total);
     return text_of(cudaGetLastError());
 }
 
 } // namespace asperity::cuda
 
 #else
+
+#include <functional>
 
 namespace asperity::emulated {
 
@@ -103,14 +107,18 @@ public:
 /// Node number k of a launch over count of them, in the order asked for.
 long long node_in_order(long long k, long long count);
 
+/// Does the work now or later, as a device might.
+const char* enqueue(std::function<void()> work);
+
 template <bool with_sums, class Body>
 const char* launch(const Body& body, long long count, PassSums* total) {
-    const OpenMemory open;
-    PassSums sums;
-    for (long long k = 0; k < count; ++k)
-        body(node_in_order(k, count), sums);
-    if constexpr (with_sums) merge(*total, sums);
-    return nullptr;
+    return enqueue([=] {
+        const OpenMemory open;
+        PassSums sums;
+        for (long long k = 0; k < count; ++k)
+            body(node_in_order(k, count), sums);
+        if constexpr (with_sums) merge(*total, sums);
+    });
 }
 
 } // namespace asperity::emulated

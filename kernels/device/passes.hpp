@@ -11,6 +11,7 @@
 #include "kernels/device/launch.hpp"
 #include "kernels/elastic_column.hpp"
 #include "kernels/elastic_finite_cell.hpp"
+#include "kernels/interface_row.hpp"
 #include "kernels/interface_site.hpp"
 #include "kernels/kick.hpp"
 #include "kernels/pair_sum.hpp"
@@ -146,12 +147,64 @@ struct FiniteFaces {
     }
 };
 
-/// Sites of the interface and, at small strain, upper faces. T: precision of the pairs.
-template <class T, bool observe>
-struct Forces {
-    DeviceStep s;
+/// The pairs of a site, in precision T: over a substrate of the block's lattice, over rows.
+template <class T>
+struct PairsOverLattice {
+    using Precision = T;
+    LatticeSubstrate ground;
     PairTerms<Scalar, T> pair;
     Offsets<T> offsets;
+
+    explicit PairsOverLattice(const DeviceStep& s)
+        : ground(s.lattice), pair(s.potential), offsets(s.sites.spacing, s.lattice.half_offsets) {}
+
+    template <bool observe>
+    ASPERITY_INLINE SiteTotal sum(const InterfaceSites&, int x, int y,
+                                  const SiteBlock<Number, 1>& site, const Reach& reach) const {
+        const Columns all(ground, static_cast<int>(reach.from_rest * ground.cuts_per_length) + 1);
+        const Columns within(ground, static_cast<int>(reach.inside * ground.cuts_per_length));
+        const auto heights = SiteHeight<Scalar, T>::of(ground.heights);
+        const auto pairs = sum_lattice<Scalar, T, observe, true>(
+            SiteHeight<Scalar, T>(site.z), lengths<Scalar, T>(site.ux), lengths<Scalar, T>(site.uy),
+            all, within, heights.line(y) + x, heights.row, ground.half_offsets, offsets, pair);
+        SiteTotal total{site_force(pair, site.ux[0], site.uy[0], static_cast<double>(pairs.f.r),
+                                   static_cast<double>(pairs.f_cx.r),
+                                   static_cast<double>(pairs.f_cy.r),
+                                   static_cast<double>(pairs.f_z.r)),
+                        0.0, no_pair};
+        if constexpr (observe) {
+            total.energy = pair.energy_scale * static_cast<double>(pairs.energy.r);
+            total.nearest = pair.nearest(pairs.nearest.r);
+        }
+        return total;
+    }
+};
+
+template <class T>
+struct PairsOverRows {
+    using Precision = T;
+    RowSubstrate ground;
+    AtomRows<Scalar, T> rows;
+    PairTerms<Scalar, T> pair;
+
+    explicit PairsOverRows(const DeviceStep& s)
+        : ground(s.rows), rows(s.rows, s.potential), pair(rows.pair) {}
+
+    template <bool observe>
+    ASPERITY_INLINE SiteTotal sum(const InterfaceSites& sites, int x, int y,
+                                  const SiteBlock<Number, 1>& site, const Reach& reach) const {
+        return rows.template sum<observe, true, AsideOfOne<T>>(
+            (sites.x0 + x + 0.5) * sites.spacing + site.ux[0],
+            (sites.y0 + y + 0.5) * sites.spacing + site.uy[0], site.z[0],
+            ChordsOfOne<T>(rows, reach.from_site));
+    }
+};
+
+/// Sites of the interface and, at small strain, upper faces.
+template <class Pairs, bool observe>
+struct Forces {
+    DeviceStep s;
+    Pairs pairs;
 
     ASPERITY_HOST_DEVICE void operator()(long long i, PassSums& sums) const {
         const int nx = s.sites.displacement.x.nx;
@@ -164,40 +217,26 @@ struct Forces {
 
 private:
     ASPERITY_HOST_DEVICE void site(int x, int y, PassSums& sums) const {
-        const double datum = s.substrate.heights.datum;
+        using T = typename Pairs::Precision;
+        const auto& ground = pairs.ground;
+        const double datum = ground.heights.datum;
         const SiteBlock<Number, 1> site(s.sites, x, y, 1, datum, deepest<T>(s.potential.cutoff),
-                                        ceiling<T>, s.substrate.reach.offset_margin);
-        const Reach reach(s.substrate.reach, x, y, datum, site, pair.cutoff, pair.floor);
+                                        ceiling<T>, ground.reach.offset_margin);
+        const Reach reach(ground.reach, x, y, datum, site, pairs.pair.cutoff, pairs.pair.floor);
         const auto& u = s.sites.displacement;
-        SiteForce force = {0.0, 0.0, 0.0};
-        double energy = 0.0, nearest = no_pair;
+        SiteTotal total{{0.0, 0.0, 0.0}, 0.0, no_pair};
         if (site.beyond) {
-            const PairSum p = sum_of_pairs(s.substrate.map, s.potential,
+            const PairSum p = sum_of_pairs(ground.map, s.potential,
                                            (s.sites.x0 + x + 0.5) * s.sites.spacing + u.x(x, y),
                                            (s.sites.y0 + y + 0.5) * s.sites.spacing + u.y(x, y),
                                            s.sites.reference_height + u.z(x, y));
-            force = {p.force[0], p.force[1], p.force[2]};
-            energy = p.energy;
-            nearest = p.nearest_r2;
+            total = {{p.force[0], p.force[1], p.force[2]}, p.energy, p.nearest_r2};
         } else if (reach.from_rest > 0.0) {
-            const LatticeSubstrate& atoms = s.substrate;
-            const Columns all(atoms, static_cast<int>(reach.from_rest * atoms.cuts_per_length) + 1);
-            const Columns within(atoms, static_cast<int>(reach.inside * atoms.cuts_per_length));
-            const auto heights = SiteHeight<Scalar, T>::of(atoms.heights);
-            const auto pairs = sum_lattice<Scalar, T, observe, true>(
-                SiteHeight<Scalar, T>(site.z), lengths<Scalar, T>(site.ux),
-                lengths<Scalar, T>(site.uy), all, within, heights.line(y) + x, heights.row,
-                atoms.half_offsets, offsets, pair);
-            force = site_force(pair, site.ux[0], site.uy[0], static_cast<double>(pairs.f.r),
-                               static_cast<double>(pairs.f_cx.r), static_cast<double>(pairs.f_cy.r),
-                               static_cast<double>(pairs.f_z.r));
-            if constexpr (observe) {
-                energy = pair.energy_scale * static_cast<double>(pairs.energy.r);
-                nearest = pair.nearest(pairs.nearest.r);
-            }
+            total = pairs.template sum<observe>(s.sites, x, y, site, reach);
         }
+        SiteForce& force = total.force;
         sums.sum[ForceSum::interface_z].add(force.z);
-        if constexpr (observe) sums.sum[ForceSum::interface_energy].add(energy);
+        if constexpr (observe) sums.sum[ForceSum::interface_energy].add(total.energy);
         if (s.with_tail) {
             const double gap = s.sites.reference_height + u.z(x, y) - s.mean_height(x, y);
             const double tail = s.tail.force(gap);
@@ -210,9 +249,9 @@ private:
         s.sites.force.z(x, y) = force.z;
         sums.sum[ForceSum::lowest_z].add(u.z(x, y));
         if constexpr (observe) {
-            sums.count[ForceSum::in_contact] += nearest < pair.contact_r2 ? 1.0 : 0.0;
+            sums.count[ForceSum::in_contact] += total.nearest < pairs.pair.contact_r2 ? 1.0 : 0.0;
             sums.count[ForceSum::repulsive] += force.z > 0.0 ? 1.0 : 0.0;
-            sums.least = nearest < sums.least ? nearest : sums.least;
+            sums.least = total.nearest < sums.least ? total.nearest : sums.least;
         }
     }
 };
@@ -378,21 +417,22 @@ inline const char* follow(const DeviceStep& s) {
     return launch<false>(Follow{s}, s.hanging.first[s.hanging.levels], nullptr);
 }
 
-template <class T>
-const char* forces_in(const DeviceStep& s) {
-    const PairTerms<Scalar, T> pair(s.potential);
-    const Offsets<T> offsets(s.sites.spacing, s.substrate.half_offsets);
+template <class Pairs>
+const char* forces_of(const DeviceStep& s) {
+    const Pairs pairs(s);
     const long long faces = s.faces.first[s.faces.levels];
     if (s.finite)
         if (const char* error = launch<true>(FiniteFaces{s}, faces, s.sums)) return error;
     const long long nodes =
         static_cast<long long>(s.sites.displacement.x.nx) * s.sites.displacement.x.ny +
         (s.finite ? 0 : faces);
-    return s.observe ? launch<true>(Forces<T, true>{s, pair, offsets}, nodes, s.sums)
-                     : launch<true>(Forces<T, false>{s, pair, offsets}, nodes, s.sums);
+    return s.observe ? launch<true>(Forces<Pairs, true>{s, pairs}, nodes, s.sums)
+                     : launch<true>(Forces<Pairs, false>{s, pairs}, nodes, s.sums);
 }
 inline const char* forces(const DeviceStep& s) {
-    return s.mixed ? forces_in<float>(s) : forces_in<double>(s);
+    if (s.over_rows)
+        return s.mixed ? forces_of<PairsOverRows<float>>(s) : forces_of<PairsOverRows<double>>(s);
+    return s.mixed ? forces_of<PairsOverLattice<float>>(s) : forces_of<PairsOverLattice<double>>(s);
 }
 
 inline const char* restrict_to_shared(const DeviceStep& s, int coarse, Patch nodes) {

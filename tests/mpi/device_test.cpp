@@ -10,6 +10,7 @@
 #include "engine/device/device_block.hpp"
 #include "engine/dynamics/simulation.hpp"
 #include "engine/run/checkpoint.hpp"
+#include "io/error.hpp"
 #include "kernels/variant.hpp"
 #include "support/cases.hpp"
 #include "support/world.hpp"
@@ -42,6 +43,7 @@ struct Case {
     double temperature = 0.0;
     bool finite = false; ///< strain
     double poisson = 0.42;
+    double ratio = 1.0; ///< of the lattice constants
 };
 // Shallow and deep: as in same_bits_test, cut on one level and on all but the last.
 constexpr Case cases[] = {{"shallow", 32, 3, false, true, false, true},
@@ -54,11 +56,13 @@ constexpr Case cases[] = {{"shallow", 32, 3, false, true, false, true},
                           {"lattice", 6, 0, true, false, false, true},
                           {"deep", 62, 2, false, true, false, true, 300.0},
                           {"shallow", 32, 3, false, true, false, true, 0.0, true},
-                          {"lattice", 6, 0, true, false, false, false, 0.0, true, 0.25}};
+                          {"lattice", 6, 0, true, false, false, false, 0.0, true, 0.25},
+                          {"shallow", 32, 3, false, true, true, true, 0.0, false, 0.42, 1.6},
+                          {"deep", 62, 2, true, true, false, true, 0.0, false, 0.42, 0.7}};
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.stack << (c.mixed ? ", mixed" : ", double") << (c.damped ? ", damped" : "")
          << (c.tail ? ", tail" : "") << (c.temperature > 0.0 ? ", warm" : "")
-         << (c.finite ? ", finite strain" : "");
+         << (c.finite ? ", finite strain" : "") << (c.ratio != 1.0 ? ", rows" : "");
 }
 
 SimulationOptions options_of(const Case& c, bool on_device) {
@@ -80,10 +84,23 @@ SimulationOptions options_of(const Case& c, bool on_device) {
     return options;
 }
 
+/// The same heights, on a lattice of another spacing.
+Surface at_ratio(const Surface& from, double ratio) {
+    Surface to = from;
+    to.sites = substrate_sites(from.sites, ratio);
+    to.height.clear();
+    for (int j = 0; j < to.sites; ++j)
+        for (int i = 0; i < to.sites; ++i)
+            to.height.push_back(from.height[static_cast<std::size_t>(
+                j * from.sites / to.sites * from.sites + i * from.sites / to.sites)]);
+    return to;
+}
+
 Simulation make(const Case& c, const Communicator& ranks, bool on_device) {
     const SimulationOptions options = options_of(c, on_device);
-    return Simulation(options, test::reference_surface("c3_N32_T32_rms1.5"), ranks,
-                      test::grid_for(options.block, ranks));
+    Surface surface = test::reference_surface("c3_N32_T32_rms1.5");
+    if (c.ratio != 1.0) surface = at_ratio(surface, c.ratio);
+    return Simulation(options, surface, ranks, test::grid_for(options.block, ranks));
 }
 
 /// Every number of every record, as one; and the state.
@@ -117,11 +134,13 @@ void conclude(Simulation& s, Trace& trace) {
 }
 
 constexpr double height = 6.0;
+/// Atoms that do not stand below the hollows of the block's lattice are met earlier.
+double height_of(const Case& c) { return c.ratio == 1.0 ? height : height + 1.2; }
 constexpr int steps = 200;
 
 Trace run(const Case& c, const Communicator& ranks, bool on_device, int count = steps) {
     Simulation s = make(c, ranks, on_device);
-    s.start(height);
+    s.start(height_of(c));
     Trace trace;
     advance(s, count, trace);
     conclude(s, trace);
@@ -140,6 +159,15 @@ Trace on_processor(const Case& c) {
 }
 
 bool fuses() { return processor_level() >= ProcessorLevel::v3; }
+
+/// Settings of the emulated device for as long as it lives.
+class Emulated {
+public:
+    explicit Emulated(const EmulatedSettings& settings) { emulated_settings() = settings; }
+    ~Emulated() { emulated_settings() = {}; }
+    Emulated(const Emulated&) = delete;
+    Emulated& operator=(const Emulated&) = delete;
+};
 
 class Device : public testing::TestWithParam<Case> {};
 
@@ -208,10 +236,64 @@ TEST(Device, NoResultDependsOnTheOrderOfItsThreads) {
     if (!fuses() || world().size() > 1) return;
     const Trace expected = run(cases[0], world(), true, 60);
     for (unsigned order : {1u, 2u, 77u}) {
-        set_emulated_order(order);
+        const Emulated in_order({.order = order});
         EXPECT_EQ(run(cases[0], world(), true, 60), expected) << "order " << order;
     }
-    set_emulated_order(0);
+}
+
+// Late (all other tests) and at once: what lies between has the same bits if every read waits for
+// its write, and every write for the reads before it.
+TEST(Device, NoResultDependsOnWhenItsQueueIsWorkedOff) {
+    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
+    const Trace late = run(cases[3], world(), true, 60);
+    const Emulated at_once({.at_once = true});
+    EXPECT_EQ(run(cases[3], world(), true, 60), late);
+}
+
+TEST(Device, MpiMayTakeItsMemory) {
+    if (!fuses() || world().size() == 1) return;
+    const Trace by_way_of_the_host = run(cases[3], world(), true, 60);
+    const Emulated direct({.open_to_mpi = true});
+    EXPECT_EQ(run(cases[3], world(), true, 60), by_way_of_the_host);
+}
+
+TEST(Device, ThatIsLostOrTooSmallIsSaid) {
+    if (!fuses() || world().size() > 1) return;
+    const auto message = [](auto&& work) -> std::string {
+        try {
+            work();
+        } catch (const io::FileError& error) { // exit code 4
+            return error.what();
+        }
+        return "";
+    };
+    {
+        const Emulated small({.memory = 1 << 16});
+        const std::string text = message([] { make(cases[0], world(), true); });
+        EXPECT_NE(text.find("the allocation of its memory failed"), std::string::npos) << text;
+        EXPECT_NE(text.find("out of memory"), std::string::npos) << text;
+    }
+    Simulation s = make(cases[0], world(), true);
+    s.start(height);
+    Trace trace;
+    advance(s, 5, trace);
+    const Emulated lost({.lost_after = 7});
+    const std::string text = message([&] { advance(s, 5, trace); });
+    EXPECT_NE(text.find("the device is lost"), std::string::npos) << text;
+    EXPECT_NE(text.find("resume from the last checkpoint"), std::string::npos) << text;
+}
+
+TEST(Device, TimesEveryStepByItsOwnClock) {
+    if (!fuses()) return;
+    Simulation s = make(cases[3], world(), true);
+    s.start(height);
+    Trace trace;
+    advance(s, 25, trace);
+    for (Phase phase : {Phase::interpolate, Phase::interface, Phase::advance, Phase::sums})
+        EXPECT_EQ(s.phases()[phase].calls, 25) << static_cast<int>(phase);
+    EXPECT_GT(s.phases()[Phase::advance].seconds, 0.0);
+    advance(s, 5, trace);
+    EXPECT_EQ(s.phases()[Phase::advance].calls, 30) << "none twice";
 }
 
 TEST(Device, NeverTouchesTheFieldsOfTheHost) {
@@ -263,7 +345,7 @@ TEST(Device, TakesTheMemoryThatWasCounted) {
         const Simulation s = make(c, world(), true);
         EXPECT_EQ(s.device_bytes(),
                   DeviceBlock::bytes_for(options.block, test::grid_for(options.block, world()),
-                                         options.interface));
+                                         options.interface, s.interface().substrate_sites()));
         EXPECT_EQ(make(c, world(), false).device_bytes(), 0u) << "off: no byte";
     }
 }
