@@ -40,6 +40,24 @@ made $gallery/first-contact.png
 "$python" $gallery/contact_regions.py $place/fig6 $gallery/small-fig6.png
 made $gallery/small-fig6.png
 
+# States at zero load against both theories (half an hour of one core), spheres, and the readings of the work.
+data=docs/data
+./asperity sweep scenes/paper/fig2-equilibrium.toml --set theory.spectrum=realised --set drive.states=first \
+    --out $place/renormalised >$place/log.txt
+./asperity sweep scenes/paper/fig5-equilibrium.toml --out $place/fig5-equilibrium >$place/log.txt
+for study in renormalised fig5-equilibrium; do cp $place/$study/sweep.csv $data/$study.csv; done
+"$python" scenes/validation/parameters.py --out $place/parameters >$place/parameters.txt
+cp $place/parameters/parameters.csv $data
+made $data/renormalised.csv $data/fig5-equilibrium.csv $data/parameters.csv
+"$python" $gallery/renormalised.py
+"$python" $gallery/fig5.py >$place/fig5.txt
+./asperity sweep scenes/paper/small/fig2-quasistatic.toml --set surface.rms=0.5,1,1.5,2,3,4.5 --out $place/readings >$place/log.txt
+cp $place/readings/readings.svg $gallery/fig2-readings.svg
+./asperity sweep scenes/paper/small/fig5-quasistatic.toml --out $place/spheres >$place/log.txt
+"$python" $gallery/spheres.py $place/spheres $gallery/small-fig5-curves.svg
+made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-readings.svg $gallery/fig2-readings.svg \
+    $gallery/small-fig5-curves.svg
+
 if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then
     ./asperity run scenes/first-contact.toml --set drive.path=zero-load block.model=spectral surface.sites=96 \
         --progress off --out $place/maps >$place/log.txt

@@ -106,9 +106,10 @@ public:
 
     std::vector<double> u, phi;
     [[nodiscard]] double contact(std::size_t i) const { return observed_[i * columns_]; }
-    /// Values that run() computes: shells, points and observables.
+    /// About the values that run() computes: at each shell and point the observables, and φ as
+    /// often as Newton's method iterates.
     [[nodiscard]] double work() const {
-        return static_cast<double>(shells_.q.size() * observed_.size());
+        return static_cast<double>(shells_.q.size() * points_) * static_cast<double>(columns_ + 30);
     }
 
 private:

@@ -65,7 +65,7 @@ struct RenormalisedOptions {
     double tolerance = 1e-4;  ///< on γ_eff/Δγ and on the contact fraction
     double useful = 1e-2;     ///< no answer if one of these errors is larger on the finest grid
     int max_refinement = 3;   ///< halvings beyond the first two grids
-    double most_work = 2.5e8; ///< no grid of more shells x points x observables: ten seconds
+    double most_work = 3.5e8; ///< no grid of more values (shells, points, observables, iterations)
     int steps = 14;           ///< of the coarsest grid in ln q; others follow the rms
     double spacing =
         0.125; ///< of the coarsest grid at the minimum, over its distance to inflection

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """States at zero load beside the paper's theory and the renormalised theory: python3 docs/gallery/renormalised.py
 
-Reads docs/data/renormalised.csv (sizes, roughnesses of the paper), parameters.csv, long-range.csv and finite-size.csv; writes
+Reads docs/data/renormalised.csv (512 sites, the paper's roughnesses) and parameters.csv (scenes/validation/parameters.py); writes
 theory-renormalised.svg and theory-sets.svg beside itself. Needs matplotlib (Debian: python3-matplotlib)."""
 import csv
 import pathlib
@@ -73,8 +73,6 @@ def draw(points, marker, colour, label):
 for interface, marker, colour in (("friction", "o", "#0072b2"), ("frictionless", "s", "#e69f00"), ("wall", "D", "#009e73")):
     draw([m for k, m in sets.items() if k[1] == interface], marker, colour,
          {"friction": "sets, atoms", "frictionless": "sets, frictionless", "wall": "sets, wall"}[interface])
-draw(list(means(rows("long-range.csv"), ["variant", "surface.rms"]).values()), "x", "#d55e00", "reach of the potential")
-draw(list(means(rows("finite-size.csv"), ["variant", "surface.rms"]).values()), "+", "#cc79a7", "128 to 1024 sites")
 for axis, name in zip(axes, ("renormalised theory", "paper's theory")):
     axis.axhspan(-0.03, 0.03, color="0.9", zorder=0)
     axis.axhline(0, color="0.5", lw=0.6)

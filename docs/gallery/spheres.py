@@ -5,6 +5,7 @@ python3 docs/gallery/spheres.py SWEEP_DIRECTORY PICTURE.svg
 
 Of scenes/paper/small/fig5-quasistatic.toml. Needs h5py and matplotlib (Debian: python3-h5py python3-matplotlib)."""
 import json
+import pathlib
 import sys
 
 import h5py
@@ -17,7 +18,7 @@ directory, picture = sys.argv[1:3]
 matplotlib.rcParams.update({"svg.hashsalt": "asperity", "font.size": 9, "axes.linewidth": 0.7, "legend.frameon": False,
                             "xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True})
 NANONEWTON = 1.602176634  # of an eV/Å
-points = [p for p in json.load(open(directory + "/sweep.json"))["points"] if p["status"] == "done"]
+points = [p for p in json.load(open(directory + "/sweep.json"))["points"] if (pathlib.Path(directory) / p["directory"] / "result.json").exists()]
 figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4), constrained_layout=True)
 for axis, rms in zip(axes, (0, 3, 6)):
     chosen = [p for p in points if p["set"]["surface.rms"] == rms]

@@ -136,7 +136,7 @@ RenormalisedResult solve_renormalised(const RenormalisedCase& what) {
         if (const double slope = rough.spectrum.rms_slope(); slope > compared_slope)
             result.note += fmt::format(
                 "{}the theory is of second order in the slope and was compared with simulations up "
-                "to an rms slope of {} (0.03 Δγ low there); here it is {:.2f}",
+                "to an rms slope of {} (up to 0.06 Δγ low there); here it is {:.2f}",
                 result.note.empty() ? "renormalised theory: " : "; ", compared_slope, slope);
         result.numbers = n;
     } catch (const std::exception& error) {

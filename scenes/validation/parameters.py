@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """The renormalised theory against states at zero load over many sets of parameters (docs/theory.md).
 
-    scenes/validation/parameters.py [SET ...] [--out results/parameters]     # all: about ten minutes of one core
+    scenes/validation/parameters.py [SET ...] [--out results/parameters]     # all: a quarter of an hour of one core
 
 Each set is parameters.toml with some keys changed, at its roughnesses, for its surfaces, over three interfaces: the atoms with lateral
 forces (friction), without (frictionless), and the substrate's atoms smeared over their layer (wall), where there is no registry
@@ -42,6 +42,14 @@ SETS = {  # name: keys that differ from the scene, roughnesses in Å
     "young-150": ({"block.young": 150}, [1.5, 2.5]),
     "rolloff-1": ({"surface.rolloff": 1}, [3, 5]),
     "rolloff-8": ({"surface.rolloff": 8}, [1.5, 2.5]),
+    # The reach of the potential; the same work of flat surfaces (scenes/paper/long-range.sh).
+    "r0-2.46": ({"interface.r0": 2.46, "interface.cutoff": 9.84, "interface.epsilon": 0.1367232248}, [3, 4.5, 6]),
+    "r0-4.92": ({"interface.r0": 4.92, "interface.cutoff": 19.68, "interface.epsilon": 0.0499503807}, [3, 4.5, 6]),
+    # Sizes: by the paper's rule q0 = 3 q_L, and with q0 of 512 sites (scenes/paper/finite-size.sh).
+    "sites-128": ({"surface.sites": 128, "block.thickness": 128}, [1.5, 3]),
+    "sites-512": ({"surface.sites": 512, "block.thickness": 512}, [3, 6]),
+    "sites-256-same": ({"surface.rolloff": 1.5}, [3, 6]),
+    "sites-1024-same": ({"surface.sites": 1024, "block.thickness": 1024, "surface.rolloff": 6}, [3, 6]),
     "drawn-1": drawn(0.47, 0.12, 96, 0.39, 2, 4.63, 3.1),
     "drawn-2": drawn(0.77, 0.107, 103, 0.39, 5, 4.33, 2.4),
     "drawn-3": drawn(0.54, 0.138, 52, 0.38, 5, 2.63, 2.3),
@@ -57,6 +65,10 @@ SETS = {  # name: keys that differ from the scene, roughnesses in Å
 SURFACES = {"rolloff-1": range(1, 13)}  # few long waves: the surfaces differ
 INTERFACES = {"friction": {}, "frictionless": {"interface.frictionless": "true"},
               "wall": {"interface.kind": "wall", "interface.law": "lennard-jones"}}
+
+
+def interfaces(name: str) -> list[str]:
+    return ["friction"] if name.startswith("sites") else list(INTERFACES)
 
 
 def state(name: str, interface: str, rms: float, seed: int, place: pathlib.Path) -> dict:
@@ -96,11 +108,12 @@ def main() -> None:
     for name in options.sets or SETS:
         for rms in SETS[name][1]:
             of = {interface: [state(name, interface, rms, seed, options.out) for seed in SURFACES.get(name, (1, 2, 3))]
-                  for interface in INTERFACES}
+                  for interface in interfaces(name)}
             found += [row for rows in of.values() for row in rows]
             mean = {c: statistics.fmean(r[c] for r in of["friction"]) for c in of["friction"][0] if c not in ("set", "interface")}
             off = {i: [r["theory.renormalised.gamma_eff_ratio"] - r["binding_energy_ratio"] for r in rows] for i, rows in of.items()}
-            differences = " | ".join(f"{statistics.fmean(o):.3f} ({max(o, key=abs):.3f})" for o in off.values())
+            differences = " | ".join(f"{statistics.fmean(off[i]):.3f} ({max(off[i], key=abs):.3f})" if i in off else ""
+                                     for i in INTERFACES)
             print(f"| {name} | {rms:g} | {mean['rms_slope']:.2f} | {len(off['friction'])} | {mean['binding_energy_ratio']:.3f} "
                   f"| {mean['theory.renormalised.gamma_eff_ratio']:.3f} | {differences} "
                   f"| {mean['theory.gamma_eff_ratio'] - mean['binding_energy_ratio']:.3f} | {mean['contact_fraction']:.3f} "
