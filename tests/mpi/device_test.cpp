@@ -298,21 +298,32 @@ TEST(Device, TimesEveryStepByItsOwnClock) {
 
 TEST(Device, NeverTouchesTheFieldsOfTheHost) {
     if (!fuses() || world().size() > 1) return;
-    const auto end = [] { // in a process of its own, for the pages stay closed
-        Simulation s = make(cases[0], Communicator(), true);
+    const auto end = [] {         // in a process of its own, for the pages stay closed
+        const Case& c = cases[2]; // with all tables
+        Simulation s = make(c, Communicator(), true);
         s.start(height);
         Trace trace;
         advance(s, 1, trace);
         const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+        int closed = 0;
+        const auto close = [&](const auto& values) {
+            const auto at = reinterpret_cast<std::uintptr_t>(values.data());
+            const std::uintptr_t first = (at + page - 1) / page * page,
+                                 last = (at + values.size_bytes()) / page * page;
+            if (first >= last) return;
+            mprotect(reinterpret_cast<void*>(first), last - first, PROT_NONE);
+            ++closed;
+        };
         for (const auto& level : std::as_const(s).block().levels())
             for (const VectorField<double>* field : {&level.u, &level.v})
-                for (const Field<double>* f : {&field->x, &field->y, &field->z}) {
-                    const auto at = reinterpret_cast<std::uintptr_t>(f->storage().data());
-                    const std::uintptr_t first = (at + page - 1) / page * page,
-                                         last = (at + f->bytes()) / page * page;
-                    if (first < last)
-                        mprotect(reinterpret_cast<void*>(first), last - first, PROT_NONE);
-                }
+                for (const Field<double>* f : {&field->x, &field->y, &field->z})
+                    close(f->storage());
+        const Interface::Tables tables = s.interface().tables();
+        const int fields = closed;
+        close(tables.heights->storage());
+        close(tables.mean_height->storage());
+        close(tables.map);
+        if (fields < 6 || closed != fields + 3) _exit(1);
         advance(s, 20, trace);
         _exit(0);
     };
