@@ -485,6 +485,11 @@ RenormalisedState solve(const RoughInterface& rough, const RenormalisedOptions& 
             "hold at an rms slope of ", rough.spectrum.rms_slope(), "; choose less roughness"));
     state.gamma_eff = best.gamma;
     state.gamma_ratio = best.gamma / depth;
+    // Pressed to many times the work of adhesion: no digits below the tolerance of the value.
+    if (const double size = std::abs(state.gamma_ratio); size > 1) {
+        state.gamma_ratio_error = std::max(state.gamma_ratio_error, options.tolerance * size);
+        state.converged = state.converged && state.gamma_ratio_error <= options.tolerance;
+    }
     state.contact_fraction = std::clamp(best.contact, 0.0, 1.0);
     state.separation = best.separation;
     state.tension = best.tension;

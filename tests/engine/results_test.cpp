@@ -234,6 +234,14 @@ TEST(Results, OfACurvedSceneHoldTheTheoryOfTheSmoothSphere) {
         EXPECT_EQ(run.data(group + "/height", "Å").size(),
                   run.data(group + "/force", "eV/Å").size());
     }
+    // The rough sphere's law: the deepest point of its curve is its pull-off, and its
+    // tension is lower than the smooth one's.
+    const auto law = run.data("/curves/renormalised/force", "eV/Å");
+    const double least = -*std::min_element(law.begin(), law.end());
+    EXPECT_NEAR(least, 1.5 * std::numbers::pi * 300.0 * run.number("sphere.renormalised", "eV/Å^2"),
+                1e-3 * least);
+    EXPECT_LT(run.number("sphere.renormalised_parameter", "1"),
+              run.number("sphere.maugis_parameter", "1"));
     // JKR's pull-off force in closed form.
     const auto force = run.data("/curves/jkr/force", "eV/Å");
     const double strongest = -*std::min_element(force.begin(), force.end());
