@@ -12,11 +12,14 @@ small="--set surface.sites=32 block.thickness=32 theory.renormalised=false --pro
 "$asperity" surface "$source/scenes/first-contact.toml" --out map >/dev/null || fail "no surface"
 ln -s "$source/scenes" scenes
 cp map/heights.h5 heights.h5 # "your own surface"
+kernels=$("$asperity" info | sed -n 's/.*kernels for \([a-z0-9]*\).*/\1/p')
 
 count=0
 while IFS= read -r line; do
     wanted=0
     [[ $line =~ "# exit "([0-9]+) ]] && wanted=${BASH_REMATCH[1]}
+    # Devices are refused where the kernels do not fuse multiplications and additions.
+    [[ $line == *numerics.device=* && $kernels =~ ^(portable|v2)$ ]] && wanted=2
     command=${line%%#*}
     case $command in
     *" run scenes/atoms/"*) command="$command --set drive.max_steps=30 --progress off" ;; # as wide as its atoms
