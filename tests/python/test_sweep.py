@@ -290,11 +290,10 @@ def test_a_directory_has_one_sweep_at_a_time(place):
     words = ["sweep", "path.toml", "--set", "drive.velocity=30,40", "--progress", "off", "--out", "one"]
     child = subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words], stdout=subprocess.DEVNULL)
     wait_for((place / "one/velocity=30/run.journal").exists)
-    begun = time.monotonic()
+    child.send_signal(signal.SIGSTOP)  # it cannot end meanwhile, however slow the machine is
     for second in (words, ["run", "path.toml", "--out", "one"]):
         said = command(*second, expect=4)
         assert f"process {child.pid} on host {os.uname().nodename} has had it since 20" in said, said
-    assert time.monotonic() - begun < 10  # far less than the points take
     child.send_signal(signal.SIGKILL)
     child.wait()
     assert (place / "one/run.lock").exists()
