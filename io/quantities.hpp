@@ -75,8 +75,7 @@ inline constexpr Quantity result_quantities[] = {
      "as sphere.jkr_images, by the theory of Maugis and Dugdale"},
     {"sphere.renormalised", "meV/Å^2", per::area,
      "as sphere.maugis_images, of a smooth sphere with the work of adhesion and the largest "
-     "tension "
-     "that the renormalised theory leaves the rough interface"},
+     "tension that the renormalised theory leaves the rough interface"},
     {"sphere.renormalised_parameter", "1", "", "its Maugis' λ"},
     {"sphere.note", "", "", "why one of these is missing"},
     {"hysteresis.loop", "eV", per::block, "area of the loop of force and mean height, -∮ F dz"},

@@ -357,6 +357,9 @@ TEST(InterfaceOptionsCheck, SaysWhatIsWrong) {
     EXPECT_THROW(Interface(s, tile, a, o), std::invalid_argument);
     o.potential.cutoff = -1.0;
     EXPECT_THROW(Interface(s, tile, a, o), std::invalid_argument);
+    o.potential.cutoff = 35.0; // some 150 rows of atoms a tenth of a apart
+    EXPECT_THROW(Interface(rough(320, 32 * a, 0.0, 1), {0, 0, 32, 32, 32}, a, o),
+                 std::invalid_argument);
     EXPECT_THROW(Interface(rough(13, 8 * a, 0.0, 1), tile, a, with(InterfaceMethod::lattice)),
                  std::invalid_argument);
 }
