@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/block/interface.hpp"
 
+#include "engine/scene/sweep_limits.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
 
@@ -43,7 +44,7 @@ void for_atoms_around(const SubstrateMap& map, double x, double y, double reach,
 
 Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                      const InterfaceOptions& options)
-    : options_(options), tile_(tile), spacing_(spacing), margin_(2.0 * spacing) {
+    : options_(options), tile_(tile), spacing_(spacing), margin_(sideways_margin(spacing)) {
     if (static_cast<std::size_t>(substrate.sites) * static_cast<std::size_t>(substrate.sites) !=
         substrate.height.size())
         throw std::invalid_argument(
@@ -67,14 +68,15 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
         throw std::invalid_argument(fmt::format(
             "interface: epsilon = {} eV, r0 = {} Å and cutoff = {} Å must be positive numbers",
             options.potential.epsilon, options.potential.r0, cutoff));
-    if ((cutoff + margin_) / spacing + 2.0 > max_half_offsets)
+    const double between_atoms = tile.sites * spacing / substrate.sites;
+    if (const double most = largest_cutoff(spacing, between_atoms); cutoff > most)
         throw std::invalid_argument(fmt::format(
-            "interface: a cutoff of {} Å reaches over more than {} sites of {} Å; choose a smaller "
-            "cutoff "
-            "(4 r0 = {} Å keeps 98 % of the work of adhesion) and set interface.tail = true",
-            cutoff, max_half_offsets - 4, spacing, 4.0 * options.potential.r0));
+            "interface: a cutoff of {:.6g} Å is more than the {:.6g} Å that the tables hold for "
+            "sites {:.6g} Å and atoms {:.6g} Å apart; choose a smaller one (4 r0 = {:.6g} Å keeps "
+            "98 % of the work of adhesion) and set interface.tail = true",
+            cutoff, most, spacing, between_atoms, 4.0 * options.potential.r0));
     if (substrate.atoms.size() > 0) build_cells(substrate);
-    map_ = {map_height_.data(), substrate.sites, tile.sites * spacing / substrate.sites};
+    map_ = {map_height_.data(), substrate.sites, between_atoms};
     if (same_lattice) map_.spacing = spacing;
     method_ = options.method;
     if (method_ == InterfaceMethod::automatic)
@@ -89,14 +91,7 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
             substrate.sites, tile.sites));
     if (method_ != InterfaceMethod::reference) build_reach();
     if (method_ == InterfaceMethod::lattice) build_lattice();
-    if (method_ == InterfaceMethod::rows) {
-        if ((cutoff + margin_) / map_.spacing + 3.0 > max_rows)
-            throw std::invalid_argument(fmt::format(
-                "interface: a cutoff of {} Å reaches over more than {} rows of the substrate's "
-                "atoms, which are {} Å apart; choose a smaller cutoff or surface.lattice_ratio",
-                cutoff, max_rows - 3, map_.spacing));
-        build_rows();
-    }
+    if (method_ == InterfaceMethod::rows) build_rows();
     if (options.tail) {
         tail_ = {options.potential, 1.0 / (map_.spacing * map_.spacing)};
         mean_height_ = Field<double>(tile, 1);
@@ -252,8 +247,6 @@ struct LatticeReach {
           half_offsets(static_cast<int>(std::ceil(widest / spacing + 0.5))),
           cut_count(static_cast<int>(widest * cuts_per_length) + 2) {}
 };
-/// Sideways displacement that the tables allow for.
-double margin_for(double spacing) { return 2.0 * spacing; }
 int blocks_in_row(const Tile& tile) { return (tile.nx + interface_block - 1) / interface_block; }
 
 /// Atoms of a substrate of another spacing that lie within `widest` of a tile's sites.
@@ -291,7 +284,7 @@ Interface::Tables Interface::tables() const {
 
 Interface::TableSizes Interface::tables_for(const InterfaceOptions& options, const Tile& tile,
                                             double spacing, int substrate_sites) {
-    const double widest = options.potential.cutoff + margin_for(spacing);
+    const double widest = options.potential.cutoff + sideways_margin(spacing);
     const LatticeReach reach(widest, spacing);
     const auto size = [](auto... n) { return (static_cast<std::size_t>(n) * ...); };
     const bool same_lattice = substrate_sites == tile.sites;
@@ -318,7 +311,7 @@ std::size_t Interface::bytes_over_atoms(const InterfaceOptions& options, const T
     const auto sites = static_cast<std::size_t>(tile.sites);
     return sites * sites * sizeof(double) +
            SubstrateCells::bytes_for(atoms, tile,
-                                     cell_options(options, spacing, margin_for(spacing)));
+                                     cell_options(options, spacing, sideways_margin(spacing)));
 }
 
 /// The tile's heights with their halo, and how many offsets lie within each lateral distance.

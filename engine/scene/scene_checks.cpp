@@ -5,7 +5,7 @@
 // worth a note.
 #include "engine/scene/scene.hpp"
 
-#include "kernels/interface_sweep.hpp"
+#include "engine/scene/sweep_limits.hpp"
 #include "kernels/variant.hpp"
 
 #include <fmt/format.h>
@@ -82,6 +82,21 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                 surface.sites, surface.spacing, scene.edge()),
             fmt::format("take a cutoff of {:.6g} Å at most, or surface.sites = {:.0f} at least",
                         half, std::ceil(2.0 * interface.cutoff / surface.spacing))});
+    else if (!wall && surface.kind != SurfaceKind::atoms) {
+        const double between_atoms =
+            scene.edge() / substrate_sites(surface.sites, surface.lattice_ratio);
+        const double most = largest_cutoff(surface.spacing, between_atoms);
+        if (interface.cutoff > most)
+            problems.add(
+                "interface.cutoff",
+                fmt::format("= {:.6g} Å reaches over too many atoms", interface.cutoff),
+                fmt::format("with sites {:.6g} Å and atoms of the substrate {:.6g} Å apart it may "
+                            "be {:.6g} Å",
+                            surface.spacing, between_atoms, most),
+                fmt::format("take {:.6g} Å (4 r0) and interface.tail = true, or a smaller "
+                            "surface.lattice_ratio",
+                            4.0 * interface.r0));
+    }
     const double minimum = std::pow(2.0, 1.0 / 6.0) * interface.r0;
     if (interface.cutoff <= minimum && pairs)
         problems.add(

@@ -28,6 +28,10 @@ bad "wrong type" $'[surface]\nsites = "many"' \
 bad "negative rms" $'[surface]\nrms = -1.0' "scene.toml:2:7: surface.rms = -1" "allowed: 0 Å or more"
 bad "wrong unit" $'[surface]\nrms = "1 GPa"' "scene.toml:2:7" "a length is needed, and GPa is a pressure"
 bad "cutoff" $'[surface]\nsites = 8' "scene.toml:2:9: interface.cutoff = 13.12 Å is more than half the box"
+bad "cutoff over many sites" $'[surface]\nsites = 130\n[block]\nthickness = 4\n[interface]\ncutoff = 160' \
+    "scene.toml:6:10: interface.cutoff = 160 Å reaches over too many atoms" "it may be 156 Å"
+bad "cutoff over many rows" $'[surface]\nsites = 32\nlattice_ratio = 10\n[interface]\ncutoff = 35' \
+    "scene.toml:5:10: interface.cutoff = 35 Å reaches over too many atoms" "it may be 27.3 Å"
 bad "time step" $'[surface]\nsites = 32\n[drive]\ntimestep = 200.0' \
     "scene.toml:4:12: drive.timestep = 200 fs is over the stability limit"
 bad "missing map" $'[surface]\nkind = "file"\nfile = "gone.h5"' \

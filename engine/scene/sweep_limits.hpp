@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What the tables of the interface's sweeps hold (kernels/interface_sweep.hpp), in lengths.
+#pragma once
+
+#include "kernels/interface_sweep.hpp"
+
+#include <algorithm>
+
+namespace asperity {
+
+/// Sideways displacement of a site that the tables allow for, Å.
+inline double sideways_margin(double spacing) { return 2.0 * spacing; }
+
+/// The largest cutoff over a substrate of one layer, Å: by offsets between sites, which are
+/// `spacing` apart, and by rows of atoms, `between_atoms` apart.
+inline double largest_cutoff(double spacing, double between_atoms) {
+    return std::min((max_half_offsets - 2) * spacing, (max_rows - 3) * between_atoms) -
+           sideways_margin(spacing);
+}
+
+} // namespace asperity
