@@ -6,11 +6,14 @@
 #include "decomposition/communicator.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/units.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/quantities.hpp"
 #include "io/units.hpp"
 #include "support/scratch.hpp"
+#include "theory/half_space.hpp"
+#include "theory/periodic_sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -242,6 +245,14 @@ TEST(Results, OfACurvedSceneHoldTheTheoryOfTheSmoothSphere) {
                 1e-3 * least);
     EXPECT_LT(run.number("sphere.renormalised_parameter", "1"),
               run.number("sphere.maugis_parameter", "1"));
+    const auto& block = run.scene().block;
+    const theory::PeriodicSphere rough = {
+        {300.0, theory::contact_modulus(block.young * units::gigapascal, block.poisson),
+         run.number("theory.renormalised.gamma_eff", "eV/Å^2")},
+        run.scene().edge(),
+        0.0};
+    const double tension = run.number("theory.renormalised.tension", "GPa") * units::gigapascal;
+    EXPECT_NEAR(least, -theory::maugis_pull_off(rough, tension).contact.force, 1e-3 * least);
     // JKR's pull-off force in closed form.
     const auto force = run.data("/curves/jkr/force", "eV/Å");
     const double strongest = -*std::min_element(force.begin(), force.end());
