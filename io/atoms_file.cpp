@@ -26,10 +26,6 @@ constexpr double largest_coordinate = 1e7;
 /// Words of a line that are looked at.
 constexpr std::size_t most_words = 64;
 
-[[noreturn]] void refuse(std::string where, std::string what, std::string why, std::string fix) {
-    throw SceneError(Problem{std::move(where), std::move(what), std::move(why), std::move(fix)});
-}
-
 /// For messages: no more of it than fits a line.
 std::string shown(std::string_view word) {
     return word.size() <= 40 ? std::string(word) : std::string(word.substr(0, 40)) + "...";

@@ -4,9 +4,9 @@
 // The parts of H5MD 1.1 (nongnu.org/h5md) that a run of rough solids has: who wrote the file, and a
 // trajectory of particles.
 //
-//     /particles/trajectory/box               dimension 3, periodic in x and y; edges of each frame
-//     /particles/trajectory/position          value [frame][particle][3], step [frame], time
-//     [frame] /particles/trajectory/velocity          the same, where asked for
+//     /particles/trajectory/box          dimension 3, periodic in x and y; edges of each frame
+//     /particles/trajectory/position     value [frame][particle][3], step [frame], time [frame]
+//     /particles/trajectory/velocity     the same, where asked for
 //
 // All elements of a frame share their step and time; numbers are single precision, in Å, ps and
 // Å/ps (units as MDAnalysis reads them: "Angstrom", "ps"). Particles keep their order.

@@ -14,61 +14,42 @@ namespace {
 
 hid_t string_type() { return H5Tcopy(H5T_C_S1); }
 
-/// Opens the object, drops an old attribute of that name, makes the new one and writes it.
-bool put_attribute(hid_t file, const std::string& object, const std::string& name, hid_t type,
-                   hid_t space, const void* data) {
-    const Hdf5Handle owner(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose);
-    if (!owner.good()) return false;
-    const htri_t there = H5Aexists(owner, name.c_str());
-    if (there < 0 || (there > 0 && H5Adelete(owner, name.c_str()) < 0)) return false;
-    const Hdf5Handle attribute(
-        H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    return attribute.good() && H5Awrite(attribute, type, data) >= 0;
-}
-
-template <class T>
-bool put_numbers(hid_t file, const std::string& object, const std::string& name, const T* data,
-                 std::size_t count, bool scalar) {
-    const hsize_t extent = count;
-    const Hdf5Handle space(scalar ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr),
-                           H5Sclose);
-    return space.good() && put_attribute(file, object, name, hdf5_type<T>(), space, data);
-}
-
 } // namespace
+
+void Hdf5File::put_attribute(const std::string& object, const std::string& name, std::int64_t type,
+                             std::int64_t space, const void* data) {
+    const Hdf5Handle owner(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
+    const htri_t there = owner.good() ? H5Aexists(owner, name.c_str()) : -1;
+    const bool free = there == 0 || (there > 0 && H5Adelete(owner, name.c_str()) >= 0);
+    const Hdf5Handle attribute(
+        free ? H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT) : -1,
+        H5Aclose);
+    if (!attribute.good() || H5Awrite(attribute, type, data) < 0)
+        fail(object, "cannot take the attribute " + name);
+}
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name,
                                const std::string& value) {
     // Of variable length: such strings are text to Python, fixed ones are bytes.
     const Hdf5Handle type(string_type(), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
     const char* text = value.c_str();
-    if (!type.good() || !space.good() || H5Tset_size(type, H5T_VARIABLE) < 0 ||
-        H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
-        !put_attribute(id_, object, name, type, space, &text))
+    if (!type.good() || H5Tset_size(type, H5T_VARIABLE) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0)
         fail(object, "cannot take the attribute " + name);
+    put_attribute(object, name, type, space, &text);
 }
 
-void Hdf5File::write_attribute(const std::string& object, const std::string& name, double value) {
-    if (!put_numbers(id_, object, name, &value, 1, true))
-        fail(object, "cannot take the attribute " + name);
+template <class T>
+void Hdf5File::write_attribute(const std::string& object, const std::string& name, T value) {
+    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    put_attribute(object, name, hdf5_type<T>(), space, &value);
 }
 
+template <class T>
 void Hdf5File::write_attribute(const std::string& object, const std::string& name,
-                               std::int64_t value) {
-    if (!put_numbers(id_, object, name, &value, 1, true))
-        fail(object, "cannot take the attribute " + name);
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name,
-                               const std::vector<double>& value) {
-    if (!put_numbers(id_, object, name, value.data(), value.size(), false))
-        fail(object, "cannot take the attribute " + name);
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name,
-                               const std::vector<std::int64_t>& value) {
-    if (!put_numbers(id_, object, name, value.data(), value.size(), false))
-        fail(object, "cannot take the attribute " + name);
+                               const std::vector<T>& value) {
+    const hsize_t count = value.size();
+    const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+    put_attribute(object, name, hdf5_type<T>(), space, value.data());
 }
 
 void Hdf5File::write_text_list_attribute(const std::string& object, const std::string& name,
@@ -84,10 +65,10 @@ void Hdf5File::write_text_list_attribute(const std::string& object, const std::s
     const hsize_t count = value.size();
     const Hdf5Handle type(string_type(), H5Tclose),
         space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-    if (!type.good() || !space.good() || H5Tset_size(type, longest) < 0 ||
-        H5Tset_strpad(type, H5T_STR_NULLPAD) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
-        !put_attribute(id_, object, name, type, space, padded.data()))
+    if (!type.good() || H5Tset_size(type, longest) < 0 ||
+        H5Tset_strpad(type, H5T_STR_NULLPAD) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0)
         fail(object, "cannot take the attribute " + name);
+    put_attribute(object, name, type, space, padded.data());
 }
 
 bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
@@ -121,31 +102,25 @@ std::string Hdf5File::read_text_attribute(const std::string& object,
     return text;
 }
 
-namespace {
-
 template <class T>
-bool get_number(hid_t file, const std::string& object, const std::string& name, T& value) {
+T Hdf5File::read_attribute(const std::string& object, const std::string& name) const {
     const Hdf5Handle attribute(
-        H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    if (!attribute.good()) return false;
-    const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
-    return space.good() && H5Sget_simple_extent_npoints(space) == 1 &&
-           H5Aread(attribute, hdf5_type<T>(), &value) >= 0;
-}
-
-} // namespace
-
-double Hdf5File::read_number_attribute(const std::string& object, const std::string& name) const {
-    double value = 0.0;
-    if (!get_number(id_, object, name, value)) fail(object, "has no number as attribute " + name);
+        H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    const Hdf5Handle space(attribute.good() ? H5Aget_space(attribute) : -1, H5Sclose);
+    T value{};
+    if (!space.good() || H5Sget_simple_extent_npoints(space) != 1 ||
+        H5Aread(attribute, hdf5_type<T>(), &value) < 0)
+        fail(object, "has no number as attribute " + name);
     return value;
 }
 
-std::int64_t Hdf5File::read_integer_attribute(const std::string& object,
-                                              const std::string& name) const {
-    std::int64_t value = 0;
-    if (!get_number(id_, object, name, value)) fail(object, "has no number as attribute " + name);
-    return value;
-}
+#define ASPERITY_HDF5_TYPE(T)                                                                      \
+    template void Hdf5File::write_attribute<T>(const std::string&, const std::string&, T);         \
+    template void Hdf5File::write_attribute<T>(const std::string&, const std::string&,             \
+                                               const std::vector<T>&);                             \
+    template T Hdf5File::read_attribute<T>(const std::string&, const std::string&) const;
+ASPERITY_HDF5_TYPE(double)
+ASPERITY_HDF5_TYPE(std::int64_t)
+#undef ASPERITY_HDF5_TYPE
 
 } // namespace asperity::io

@@ -15,7 +15,6 @@
 #include <cstring>
 #include <functional>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include <fcntl.h>
@@ -133,17 +132,6 @@ Hdf5File::Hdf5File(Hdf5File&& other) noexcept
     : path_(std::move(other.path_)), storage_(std::move(other.storage_)), sealed_(other.sealed_),
       id_(std::exchange(other.id_, -1)) {}
 
-Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
-    if (this != &other) {
-        if (id_ >= 0) H5Fclose(id_);
-        path_ = std::move(other.path_);
-        storage_ = std::move(other.storage_);
-        sealed_ = other.sealed_;
-        id_ = std::exchange(other.id_, -1);
-    }
-    return *this;
-}
-
 void Hdf5File::fail(const std::string& object, const std::string& what) const {
     check_disk();
     throw FileError(path_, object.empty() ? what : object + " " + what, cause(),
@@ -176,31 +164,31 @@ bool Hdf5File::exists(const std::string& object) const {
     }
 }
 
-bool Hdf5File::is_dataset(const std::string& object) const {
-    if (!exists(object)) return false;
+int Hdf5File::kind(const std::string& object) const {
+    if (!exists(object)) return H5I_BADID;
     const Hdf5Handle handle(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
     if (!handle.good()) fail(object, "cannot be opened");
-    return H5Iget_type(handle) == H5I_DATASET;
+    return H5Iget_type(handle);
 }
 
-bool Hdf5File::is_group(const std::string& object) const {
-    if (!exists(object)) return false;
-    const Hdf5Handle handle(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
-    return handle.good() && H5Iget_type(handle) == H5I_GROUP;
+bool Hdf5File::is_dataset(const std::string& object) const { return kind(object) == H5I_DATASET; }
+
+bool Hdf5File::is_group(const std::string& object) const { return kind(object) == H5I_GROUP; }
+
+Hdf5Handle Hdf5File::open(const std::string& dataset) const {
+    const hid_t set = H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT);
+    if (set < 0) fail(dataset, "is not a data set");
+    return {set, H5Dclose};
 }
 
 bool Hdf5File::holds_numbers(const std::string& dataset) const {
-    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good()) fail(dataset, "is not a data set");
-    const Hdf5Handle type(H5Dget_type(set), H5Tclose);
+    const Hdf5Handle set = open(dataset), type(H5Dget_type(set), H5Tclose);
     const H5T_class_t kind = type.good() ? H5Tget_class(type) : H5T_NO_CLASS;
     return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
 
 std::uint64_t Hdf5File::stored_bytes(const std::string& dataset) const {
-    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good()) fail(dataset, "is not a data set");
-    return H5Dget_storage_size(set);
+    return H5Dget_storage_size(open(dataset));
 }
 
 void Hdf5File::make_group(const std::string& group) {
@@ -225,23 +213,28 @@ std::vector<std::string> Hdf5File::members(const std::string& group) const {
     return names;
 }
 
-template <class T>
-void Hdf5File::make_dataset(const std::string& dataset, const Shape& shape) {
+void Hdf5File::create(const std::string& dataset, std::int64_t type, std::int64_t space,
+                      const Shape& chunk) {
     if (const std::size_t slash = dataset.rfind('/'); slash != std::string::npos && slash > 0)
         make_group(dataset.substr(0, slash));
-    const std::vector<hsize_t> extent = extents(shape);
-    const Hdf5Handle space(
-        shape.empty() ? H5Screate(H5S_SCALAR)
-                      : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
-        H5Sclose);
     const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const int rank = static_cast<int>(chunk.size());
     // No times in the file: the same data are the same bytes.
-    if (!layout.good() || H5Pset_obj_track_times(layout, false) < 0)
+    if (!layout.good() || H5Pset_obj_track_times(layout, false) < 0 ||
+        (rank > 0 && H5Pset_chunk(layout, rank, extents(chunk).data()) < 0))
         fail(dataset, "cannot be made");
     const Hdf5Handle set(
-        H5Dcreate2(id_, dataset.c_str(), hdf5_type<T>(), space, H5P_DEFAULT, layout, H5P_DEFAULT),
-        H5Dclose);
-    if (!space.good() || !set.good()) fail(dataset, "cannot be made");
+        H5Dcreate2(id_, dataset.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT), H5Dclose);
+    if (!set.good()) fail(dataset, "cannot be made");
+}
+
+template <class T>
+void Hdf5File::make_dataset(const std::string& dataset, const Shape& shape) {
+    const int rank = static_cast<int>(shape.size());
+    const Hdf5Handle space(rank == 0 ? H5Screate(H5S_SCALAR)
+                                     : H5Screate_simple(rank, extents(shape).data(), nullptr),
+                           H5Sclose);
+    create(dataset, hdf5_type<T>(), space, {});
 }
 
 template <class T>
@@ -251,9 +244,8 @@ void Hdf5File::write(const std::string& dataset, const Shape& shape, std::span<c
                         fmt::format("{} values for a shape of {}", data.size(), volume(shape)),
                         "this is a mistake in the program");
     make_dataset<T>(dataset, shape);
-    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good() || (!data.empty() && H5Dwrite(set, hdf5_type<T>(), H5S_ALL, H5S_ALL,
-                                                  H5P_DEFAULT, data.data()) < 0))
+    if (!data.empty() &&
+        H5Dwrite(open(dataset), hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
         fail(dataset, "cannot be written");
     check_disk();
 }
@@ -282,9 +274,8 @@ bool transfer(hid_t set, hid_t type, const Hdf5File::Shape& offset, const Hdf5Fi
 template <class T>
 void Hdf5File::write_slab(const std::string& dataset, const Shape& offset, const Shape& count,
                           std::span<const T> data) {
-    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good() || offset.size() != count.size() || data.size() != volume(count) ||
-        !transfer(set, hdf5_type<T>(), offset, count, nullptr, data.data()))
+    if (offset.size() != count.size() || data.size() != volume(count) ||
+        !transfer(open(dataset), hdf5_type<T>(), offset, count, nullptr, data.data()))
         fail(dataset, fmt::format("does not take a block of {} at {}", count, offset));
     check_disk();
 }
@@ -292,18 +283,16 @@ void Hdf5File::write_slab(const std::string& dataset, const Shape& offset, const
 template <class T>
 void Hdf5File::read_slab(const std::string& dataset, const Shape& offset, const Shape& count,
                          std::span<T> data) const {
-    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good() || offset.size() != count.size() || data.size() != volume(count) ||
-        !transfer(set, hdf5_type<T>(), offset, count, data.data(), nullptr))
+    if (offset.size() != count.size() || data.size() != volume(count) ||
+        !transfer(open(dataset), hdf5_type<T>(), offset, count, data.data(), nullptr))
         fail(dataset, fmt::format("does not give a block of {} at {}", count, offset));
 }
 
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& dataset) const {
     std::vector<T> data(volume(shape(dataset)));
-    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good() || (!data.empty() && H5Dread(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                                 data.data()) < 0))
+    if (!data.empty() &&
+        H5Dread(open(dataset), hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
         fail(dataset, "cannot be read");
     return data;
 }
@@ -312,9 +301,7 @@ Hdf5File::Shape Hdf5File::shape(const std::string& dataset) const {
     if (!exists(dataset))
         throw FileError(path_, "has no data set " + dataset,
                         "the file was written by something else", "check the file");
-    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good()) fail(dataset, "is not a data set");
-    const Hdf5Handle space(H5Dget_space(set), H5Sclose);
+    const Hdf5Handle space(H5Dget_space(open(dataset)), H5Sclose);
     const int rank = space.good() ? H5Sget_simple_extent_ndims(space) : -1;
     if (rank < 0) fail(dataset, "has no shape");
     std::vector<hsize_t> extent(static_cast<std::size_t>(rank));
@@ -325,25 +312,16 @@ Hdf5File::Shape Hdf5File::shape(const std::string& dataset) const {
 
 template <class T>
 void Hdf5File::make_series(const std::string& dataset, const Shape& row) {
-    if (const std::size_t slash = dataset.rfind('/'); slash != std::string::npos && slash > 0)
-        make_group(dataset.substr(0, slash));
-    std::vector<hsize_t> extent = {0}, most = {H5S_UNLIMITED}, chunk;
-    for (const std::uint64_t n : row)
-        extent.push_back(n), most.push_back(n);
+    std::vector<hsize_t> extent = {0}, most = {H5S_UNLIMITED};
+    extent.insert(extent.end(), row.begin(), row.end());
+    most.insert(most.end(), row.begin(), row.end());
     // About 8 kB a chunk for plain series, at least one row for others.
     const std::uint64_t bytes = std::max<std::uint64_t>(1, volume(row) * sizeof(T));
-    chunk = extent;
-    chunk[0] = std::max<hsize_t>(1, 8192 / bytes);
-    const int rank = static_cast<int>(extent.size());
-    const Hdf5Handle space(H5Screate_simple(rank, extent.data(), most.data()), H5Sclose);
-    const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    if (!space.good() || !layout.good() || H5Pset_chunk(layout, rank, chunk.data()) < 0 ||
-        H5Pset_obj_track_times(layout, false) < 0)
-        fail(dataset, "cannot be made as a series");
-    const Hdf5Handle set(
-        H5Dcreate2(id_, dataset.c_str(), hdf5_type<T>(), space, H5P_DEFAULT, layout, H5P_DEFAULT),
-        H5Dclose);
-    if (!set.good()) fail(dataset, "cannot be made as a series");
+    Shape chunk(extent.begin(), extent.end());
+    chunk[0] = std::max<std::uint64_t>(1, 8192 / bytes);
+    const Hdf5Handle space(
+        H5Screate_simple(static_cast<int>(extent.size()), extent.data(), most.data()), H5Sclose);
+    create(dataset, hdf5_type<T>(), space, chunk);
 }
 
 template <class T>
@@ -351,8 +329,8 @@ void Hdf5File::append(const std::string& dataset, std::span<const T> rows) {
     if (rows.empty()) return;
     Shape now = shape(dataset);
     const std::uint64_t row = volume(Shape(now.begin() + (now.empty() ? 0 : 1), now.end()));
-    const Hdf5Handle set(H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.good() || now.empty() || row == 0 || rows.size() % row != 0)
+    const Hdf5Handle set = open(dataset);
+    if (now.empty() || row == 0 || rows.size() % row != 0)
         fail(dataset, "does not take these rows");
     Shape offset(now.size(), 0), count = now;
     offset[0] = now[0];

@@ -24,6 +24,8 @@
 
 namespace asperity::io {
 
+class Hdf5Handle;
+
 class Hdf5File {
 public:
     using Shape = std::vector<std::uint64_t>;
@@ -34,7 +36,6 @@ public:
     Hdf5File(const FilePlace& place, Mode mode);
     ~Hdf5File();
     Hdf5File(Hdf5File&& other) noexcept;
-    Hdf5File& operator=(Hdf5File&& other) noexcept;
 
     const std::string& path() const { return path_; }
     /// Whether the file ends in a digest (which was right, or the file would not be open).
@@ -60,18 +61,19 @@ public:
     void write_attribute(const std::string& object, const std::string& name, const char* value) {
         write_attribute(object, name, std::string(value));
     }
-    void write_attribute(const std::string& object, const std::string& name, double value);
-    void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
+    /// T: double or std::int64_t.
+    template <class T>
+    void write_attribute(const std::string& object, const std::string& name, T value);
+    template <class T>
     void write_attribute(const std::string& object, const std::string& name,
-                         const std::vector<double>& value);
-    void write_attribute(const std::string& object, const std::string& name,
-                         const std::vector<std::int64_t>& value);
+                         const std::vector<T>& value);
     void write_text_list_attribute(const std::string& object, const std::string& name,
                                    const std::vector<std::string>& value);
     bool has_attribute(const std::string& object, const std::string& name) const;
     std::string read_text_attribute(const std::string& object, const std::string& name) const;
-    double read_number_attribute(const std::string& object, const std::string& name) const;
-    std::int64_t read_integer_attribute(const std::string& object, const std::string& name) const;
+    /// T: double or std::int64_t.
+    template <class T>
+    T read_attribute(const std::string& object, const std::string& name) const;
 
     /// T: double, float, std::int64_t, std::int32_t or std::uint8_t, in all that follows.
     /// Makes a data set of this shape and writes it; it must not be there yet.
@@ -106,6 +108,15 @@ public:
 private:
     class Storage;
     void open_to_read();
+    /// The kind of object that this is (H5I_type_t); not there: none.
+    int kind(const std::string& object) const;
+    Hdf5Handle open(const std::string& dataset) const;
+    /// Makes a data set, and the groups above it; chunk: {} where its size is fixed.
+    void create(const std::string& dataset, std::int64_t type, std::int64_t space,
+                const Shape& chunk);
+    /// Drops an old attribute of that name, makes the new one and writes it.
+    void put_attribute(const std::string& object, const std::string& name, std::int64_t type,
+                       std::int64_t space, const void* data);
     [[noreturn]] void fail(const std::string& object, const std::string& what) const;
     /// Throws FileError if the disk has refused anything so far.
     void check_disk() const;

@@ -33,7 +33,7 @@ void treat_missing(MapFile& map, bool fill, std::vector<std::string>& notes) {
                                     [](double h) { return std::isnan(h); });
     const auto at = static_cast<std::size_t>(first - map.heights.begin());
     if (!fill)
-        refuse_map(map.first_missing,
+        refuse(map.first_missing,
                    fmt::format("the height in row {}, column {} is {}", at / map.columns + 1,
                                at % map.columns + 1, map.first_missing_text),
                    fmt::format("an atom needs a place; {} of {} points have none", map.missing,
@@ -42,7 +42,7 @@ void treat_missing(MapFile& map, bool fill, std::vector<std::string>& notes) {
                    "surface.file_missing = \"fill\"");
     const double part = static_cast<double>(map.missing) / static_cast<double>(map.heights.size());
     if (part > 0.5)
-        refuse_map(map.source, "most of the height map is missing",
+        refuse(map.source, "most of the height map is missing",
                    fmt::format("{} of {} points have no height", map.missing, map.heights.size()),
                    "measure it again, or cut out a piece that is whole");
     fill_missing(map.heights, map.rows, map.columns);
@@ -54,7 +54,7 @@ void treat_missing(MapFile& map, bool fill, std::vector<std::string>& notes) {
 /// The edge of the square that the map is, or is cut to, Å.
 std::optional<double> make_square(MapFile& map, bool crop, std::vector<std::string>& notes) {
     if (!crop && map.rows != map.columns)
-        refuse_map(map.source, "the height map is not square",
+        refuse(map.source, "the height map is not square",
                    fmt::format("it has {} rows and {} columns, and the periodic box is square",
                                map.rows, map.columns),
                    "cut a square out of it before, or take the middle with "
@@ -64,7 +64,7 @@ std::optional<double> make_square(MapFile& map, bool crop, std::vector<std::stri
         pixel = *map.width / static_cast<double>(map.columns);
         const double other = *map.height / static_cast<double>(map.rows);
         if (std::abs(other - *pixel) > 1e-3 * *pixel)
-            refuse_map(map.source, fmt::format("is {:g} x {:g} Å wide", *map.width, *map.height),
+            refuse(map.source, fmt::format("is {:g} x {:g} Å wide", *map.width, *map.height),
                        fmt::format("its pixels of {:g} x {:g} Å are not square, and the periodic "
                                    "box is",
                                    *pixel, other),

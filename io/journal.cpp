@@ -25,26 +25,13 @@ struct Head {
     std::uint64_t size; ///< of the payload, bytes
 };
 
-/// Calls take with the first bytes of the file, part by part. False: there are fewer.
-bool read_first(int fd, std::uint64_t bytes, const std::function<void(Journal::Bytes)>& take) {
-    std::vector<std::byte> buffer(std::size_t{1} << 20);
-    for (std::uint64_t at = 0; at < bytes;) {
-        const std::span<std::byte> part(buffer.data(),
-                                        std::min<std::uint64_t>(buffer.size(), bytes - at));
-        if (read_some(fd, part, at) != static_cast<std::ptrdiff_t>(part.size())) return false;
-        take(part);
-        at += part.size();
-    }
-    return true;
-}
-
 } // namespace
 
 bool Journal::holds(const Directory& directory, const std::string& name, const Mark& mark) {
     const Descriptor file = directory.open(name, O_RDONLY);
     if (!file) return false;
     Digest digest;
-    return read_first(file.get(), mark.bytes, [&](Bytes part) { digest.update(part); }) &&
+    return read_parts(file.get(), mark.bytes, [&](Bytes part) { digest.update(part); }) &&
            digest.value() == mark.digest;
 }
 
@@ -52,7 +39,7 @@ void Journal::copy(const Directory& from, const Directory& to, const std::string
                    const Mark& mark) {
     const Descriptor source = from.open(name, O_RDONLY);
     OutputFile target({to, name});
-    if (!source || !read_first(source.get(), mark.bytes, [&](Bytes part) { target.write(part); }))
+    if (!source || !read_parts(source.get(), mark.bytes, [&](Bytes part) { target.write(part); }))
         throw FileError(from / name, "cannot be copied", std::strerror(errno),
                         "keep a checkpoint and its run.journal in one directory");
     target.commit();
@@ -63,7 +50,7 @@ Journal::Journal(const Directory& directory, std::string name, std::uint64_t byt
       file_(directory.open(name_, O_RDWR | O_CREAT | O_NOFOLLOW)), bytes_(bytes) {
     if (!file_ || ::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0)
         fail("cannot be written");
-    if (!read_first(file_.get(), bytes, [&](Bytes part) { digest_.update(part); }))
+    if (!read_parts(file_.get(), bytes, [&](Bytes part) { digest_.update(part); }))
         fail("cannot be read");
 }
 
@@ -116,7 +103,7 @@ bool Journal::in_place() const {
 
 void Journal::move_to(const Directory& directory) {
     OutputFile copy({directory, name_});
-    if (!read_first(file_.get(), bytes_, [&](Bytes part) { copy.write(part); }))
+    if (!read_parts(file_.get(), bytes_, [&](Bytes part) { copy.write(part); }))
         fail("cannot be read back");
     copy.commit();
     path_ = directory / name_;

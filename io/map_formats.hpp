@@ -44,7 +44,7 @@ inline std::string lower(std::string_view text) {
     return result;
 }
 
-[[noreturn]] void refuse_map(std::string where, std::string what, std::string why, std::string fix);
+[[noreturn]] void refuse(std::string where, std::string what, std::string why, std::string fix);
 /// The bytes of a file that a scene names; `what` it is, for messages. Refused if it is larger than
 /// the memory.
 std::string file_contents(const std::string& file, const char* what);

@@ -31,17 +31,16 @@ constexpr std::size_t most_members = 10000;        ///< of a group, that are loo
 std::string find_dataset(const Hdf5File& file, const std::string& named) {
     if (!named.empty()) {
         if (!file.is_dataset(named))
-            refuse_map(file.path(), "has no data set " + named,
-                       "the file was opened and searched for it",
-                       "`h5ls -r FILE` lists what it has");
+            refuse(file.path(), "has no data set " + named,
+                   "the file was opened and searched for it", "`h5ls -r FILE` lists what it has");
         return named;
     }
     std::vector<std::string> found;
     std::size_t looked = 0;
     const auto look = [&](const std::string& path) {
         if (++looked > most_members)
-            refuse_map(file.path(), "holds too many data sets to look through", "",
-                       fmt::format("say which is the map: file = \"{}:/NAME\"", file.path()));
+            refuse(file.path(), "holds too many data sets to look through", "",
+                   fmt::format("say which is the map: file = \"{}:/NAME\"", file.path()));
         if (!file.is_dataset(path)) return false;
         if (file.shape(path).size() == 2) found.push_back(path);
         return true;
@@ -52,12 +51,12 @@ std::string find_dataset(const Hdf5File& file, const std::string& named) {
             look("/" + name + "/" + member);
     }
     if (found.empty())
-        refuse_map(file.path(), "holds no height map", "none of its data sets has two dimensions",
-                   "name a file that has one");
+        refuse(file.path(), "holds no height map", "none of its data sets has two dimensions",
+               "name a file that has one");
     if (found.size() > 1)
-        refuse_map(file.path(), "holds more than one height map",
-                   fmt::format("{} and {} both have two dimensions", found[0], found[1]),
-                   fmt::format("say which: file = \"{}:{}\"", file.path(), found[0]));
+        refuse(file.path(), "holds more than one height map",
+               fmt::format("{} and {} both have two dimensions", found[0], found[1]),
+               fmt::format("say which: file = \"{}:{}\"", file.path(), found[0]));
     return found.front();
 }
 
@@ -65,25 +64,24 @@ std::string find_dataset(const Hdf5File& file, const std::string& named) {
 void check_dataset(const Hdf5File& file, const std::string& dataset, const std::string& source,
                    const Hdf5File::Shape& shape) {
     if (shape.size() != 2)
-        refuse_map(source, "is no height map",
-                   fmt::format("it has {} dimensions, a map has 2", shape.size()),
-                   "name another data set");
+        refuse(source, "is no height map",
+               fmt::format("it has {} dimensions, a map has 2", shape.size()),
+               "name another data set");
     if (shape[0] == 0 || shape[1] == 0) return; // "is empty"
     if (!file.holds_numbers(dataset))
-        refuse_map(source, "is no height map", "its values are no numbers",
-                   "name another data set");
+        refuse(source, "is no height map", "its values are no numbers", "name another data set");
     const std::uint64_t stored = file.stored_bytes(dataset);
     if (stored == 0 || shape[0] / largest_compression > stored / shape[1])
-        refuse_map(source, "the height map is not whole",
-                   fmt::format("{} x {} values are declared, and {} bytes are stored", shape[0],
-                               shape[1], stored),
-                   "write it again");
+        refuse(source, "the height map is not whole",
+               fmt::format("{} x {} values are declared, and {} bytes are stored", shape[0],
+                           shape[1], stored),
+               "write it again");
     const double needed = 3.0 * 8.0 * static_cast<double>(shape[0]) * static_cast<double>(shape[1]);
     if (needed > available_memory().bytes)
-        refuse_map(source, "the height map is larger than the memory",
-                   fmt::format("{} x {} values need {:.3g} GB, and {:.3g} GB are free", shape[0],
-                               shape[1], needed / 1e9, available_memory().bytes / 1e9),
-                   "cut a piece out of it before");
+        refuse(source, "the height map is larger than the memory",
+               fmt::format("{} x {} values need {:.3g} GB, and {:.3g} GB are free", shape[0],
+                           shape[1], needed / 1e9, available_memory().bytes / 1e9),
+               "cut a piece out of it before");
 }
 
 Json header_of(const RawMap& map) {
@@ -133,13 +131,13 @@ RawMap read_map_hdf5_here(const std::string& path, const std::string& named) {
         map.file_unit = file.read_text_attribute(dataset, "unit");
     if (file.has_attribute(dataset, "size_x")) {
         // Sizes are in the file's own unit, whatever the scene says of the heights.
-        const double x = file.read_number_attribute(dataset, "size_x");
+        const double x = file.read_attribute<double>(dataset, "size_x");
         const double y = file.has_attribute(dataset, "size_y")
-                             ? file.read_number_attribute(dataset, "size_y")
+                             ? file.read_attribute<double>(dataset, "size_y")
                              : x;
         if (!(x > 0.0) || !(y > 0.0) || !std::isfinite(x) || !std::isfinite(y))
-            refuse_map(map.source, fmt::format("is {} x {} wide", x, y),
-                       "a size is a number above zero", "correct its attributes size_x and size_y");
+            refuse(map.source, fmt::format("is {} x {} wide", x, y),
+                   "a size is a number above zero", "correct its attributes size_x and size_y");
         map.width = x;
         map.height = y;
         map.size_in_unit = !map.file_unit;
@@ -195,10 +193,10 @@ RawMap read_map_hdf5(const std::string& file, const std::string& dataset) {
     const std::string ended = in_child_process(seconds, work, take);
     if (!refused.what.empty()) throw SceneError(refused);
     if (!ended.empty() || !whole)
-        refuse_map(file, "the height map cannot be read",
-                   "the HDF5 library ended " + (ended.empty() ? "early" : ended) +
-                       " while it read the file, which must be damaged",
-                   "write the map again, for example as text or .npy");
+        refuse(file, "the height map cannot be read",
+               "the HDF5 library ended " + (ended.empty() ? "early" : ended) +
+                   " while it read the file, which must be damaged",
+               "write the map again, for example as text or .npy");
     return map;
 }
 

@@ -61,8 +61,8 @@ Reader reader_of(std::string_view type) {
 
 RawMap read_map_numpy(std::string_view bytes, const std::string& file) {
     const auto damaged = [&](const std::string& why) {
-        refuse_map(file, "the height map cannot be read", why,
-                   "save it again: numpy.save(\"heights.npy\", heights)");
+        refuse(file, "the height map cannot be read", why,
+               "save it again: numpy.save(\"heights.npy\", heights)");
     };
     if (bytes.size() < 12) damaged("the file is cut short");
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
@@ -96,8 +96,8 @@ RawMap read_map_numpy(std::string_view bytes, const std::string& file) {
         }
     }
     if (count != 2)
-        refuse_map(file, "is no height map",
-                   fmt::format("it has {} dimensions, a map has 2", count), "name another file");
+        refuse(file, "is no height map", fmt::format("it has {} dimensions, a map has 2", count),
+               "name another file");
     const std::size_t size = static_cast<std::size_t>(type[3] - '0');
     RawMap map;
     map.format = "NumPy";

@@ -55,8 +55,8 @@ Text split(std::string_view text, const std::string& file) {
         std::string_view whole = text.substr(at, end - at);
         at = end + 1;
         if (const std::size_t nul = whole.find('\0'); nul != std::string_view::npos)
-            refuse_map(result.where(line, nul + 1), "the height map is no text",
-                       "it holds a zero byte", "name a text file, or give it its own ending");
+            refuse(result.where(line, nul + 1), "the height map is no text", "it holds a zero byte",
+                   "name a text file, or give it its own ending");
         const std::size_t hash = whole.find('#');
         if (hash != std::string_view::npos) {
             std::string_view comment = whole.substr(hash + 1);
@@ -108,10 +108,9 @@ void judge_commas(Text& text) {
     }
     if (!comma || (!other && !blank)) return; // one comma a line: two columns
     if (!other || point)
-        refuse_map(text.where(comma->number),
-                   "the commas may be decimal points or separate numbers",
-                   "there are blanks between numbers as well, and commas inside",
-                   "write decimal points, or separate the numbers by tabs or semicolons");
+        refuse(text.where(comma->number), "the commas may be decimal points or separate numbers",
+               "there are blanks between numbers as well, and commas inside",
+               "write decimal points, or separate the numbers by tabs or semicolons");
     text.decimal_comma = true;
     text.separators = "\t\r ;";
 }
@@ -134,10 +133,10 @@ void numbers(const Text& text, const Line& line, const Take& take) {
         std::optional<double> value = number(plain);
         if (!value && (lower(word) == "bad" || lower(word) == "void")) value = nan;
         if (!value)
-            refuse_map(text.where(line.number, at + 1),
-                       fmt::format("'{}' is no height", word.substr(0, 40)),
-                       "a map is a matrix of numbers, one row a line",
-                       "take headings out of the file, or put a # before them");
+            refuse(text.where(line.number, at + 1),
+                   fmt::format("'{}' is no height", word.substr(0, 40)),
+                   "a map is a matrix of numbers, one row a line",
+                   "take headings out of the file, or put a # before them");
         take(*value, at + 1, word);
         at = end;
     }
@@ -168,12 +167,12 @@ std::optional<double> size_in(const Text& text, RawMap& map, const std::string& 
         trimmed(end == std::string::npos ? "" : std::string_view(written).substr(end)));
     if (unit.empty() && otherwise) unit = *otherwise;
     if (unit.empty())
-        refuse_map(text.file, fmt::format("the header '{}: {}' has no unit", key, written),
-                   "a length without a unit may be anything",
-                   "write the unit behind it, or take the line out and set surface.file_size");
+        refuse(text.file, fmt::format("the header '{}: {}' has no unit", key, written),
+               "a length without a unit may be anything",
+               "write the unit behind it, or take the line out and set surface.file_size");
     if (!std::isfinite(*value) || !(*value > 0.0))
-        refuse_map(text.file, fmt::format("the header '{}: {}' is no size", key, written),
-                   "it is not above zero", "correct the header");
+        refuse(text.file, fmt::format("the header '{}: {}' is no size", key, written),
+               "it is not above zero", "correct the header");
     map.size_in_unit = false;
     return *value * length_unit(unit, text.file);
 }
@@ -183,10 +182,9 @@ void check_points(const Text& text, const std::string& key, std::size_t there) {
     if (entry == text.header.end()) return;
     const std::optional<double> told = number(entry->second);
     if (told && *told != static_cast<double>(there))
-        refuse_map(
-            text.file, "the height map is not whole",
-            fmt::format("its header says {} = {}, and {} are there", key, entry->second, there),
-            "export it again");
+        refuse(text.file, "the height map is not whole",
+               fmt::format("its header says {} = {}, and {} are there", key, entry->second, there),
+               "export it again");
 }
 
 void read_header(const Text& text, RawMap& map) {
@@ -205,8 +203,8 @@ void read_header(const Text& text, RawMap& map) {
     if (const auto scale = value("bit2nm"); scale && !map.file_unit) {
         const std::optional<double> factor = number(*scale);
         if (!factor || !std::isfinite(*factor) || *factor == 0.0)
-            refuse_map(text.file, fmt::format("the header 'Bit2nm = {}' is no factor", *scale), "",
-                       "correct the header");
+            refuse(text.file, fmt::format("the header 'Bit2nm = {}' is no factor", *scale), "",
+                   "correct the header");
         map.file_unit = "nm";
         map.file_scale = *factor;
     }
@@ -232,10 +230,10 @@ RawMap read_matrix(const Text& text) {
         if (columns == 0) continue; // separators only
         if (map.rows == 0) map.columns = columns, first_line = line.number;
         if (columns != map.columns)
-            refuse_map(text.where(line.number), "the rows of the map are not of one length",
-                       fmt::format("this line has {} numbers, line {} has {}", columns, first_line,
-                                   map.columns),
-                       "give every row as many numbers");
+            refuse(text.where(line.number), "the rows of the map are not of one length",
+                   fmt::format("this line has {} numbers, line {} has {}", columns, first_line,
+                               map.columns),
+                   "give every row as many numbers");
         ++map.rows;
     }
     read_header(text, map);
@@ -253,13 +251,13 @@ std::vector<double> axis(const Text& text, std::vector<double> places, char name
     for (std::size_t i = 0; i < distinct.size(); ++i)
         if (std::abs(distinct[i] - (distinct.front() + static_cast<double>(i) * pixel)) >
             0.01 * pixel)
-            refuse_map(text.file, "the points of the map are on no grid",
-                       fmt::format("{} = {} is no whole number of pixels of {:.6g} from {}", name,
-                                   distinct[i], pixel, distinct.front()),
-                       "interpolate them onto a grid before");
+            refuse(text.file, "the points of the map are on no grid",
+                   fmt::format("{} = {} is no whole number of pixels of {:.6g} from {}", name,
+                               distinct[i], pixel, distinct.front()),
+                   "interpolate them onto a grid before");
     if (distinct.size() < 2)
-        refuse_map(text.file, "the height map has one row",
-                   fmt::format("all its points have {} = {}", name, distinct.front()), "");
+        refuse(text.file, "the height map has one row",
+               fmt::format("all its points have {} = {}", name, distinct.front()), "");
     return distinct;
 }
 
@@ -272,17 +270,17 @@ RawMap read_xyz(const Text& text) {
         std::size_t count = 0;
         numbers(text, line, [&](double value, std::size_t column, std::string_view word) {
             if (count < 2 && !std::isfinite(value))
-                refuse_map(text.where(line.number, column), fmt::format("'{}' is no place", word),
-                           "x and y of a point are needed", "take the line out");
+                refuse(text.where(line.number, column), fmt::format("'{}' is no place", word),
+                       "x and y of a point are needed", "take the line out");
             if (count == 2) note_missing(text, map, value, line, column, word);
             (count == 0 ? x : count == 1 ? y : z).push_back(value);
             ++count;
         });
         if (count == 0) continue;
         if (count != 3)
-            refuse_map(text.where(line.number), "the line is no point of a map",
-                       fmt::format("it has {} numbers, and x, y and z are needed", count),
-                       "a matrix of heights must not be called .xyz");
+            refuse(text.where(line.number), "the line is no point of a map",
+                   fmt::format("it has {} numbers, and x, y and z are needed", count),
+                   "a matrix of heights must not be called .xyz");
         from.push_back(&line);
     }
     if (z.empty()) return map;
@@ -290,10 +288,10 @@ RawMap read_xyz(const Text& text) {
     map.columns = columns.size();
     map.rows = rows.size();
     if (map.columns * map.rows > 4 * z.size()) // before allocating: a cloud, not a grid
-        refuse_map(text.file, "the points of the map are on no grid",
-                   fmt::format("{} points have {} different x and {} different y", z.size(),
-                               map.columns, map.rows),
-                   "interpolate them onto a grid before");
+        refuse(text.file, "the points of the map are on no grid",
+               fmt::format("{} points have {} different x and {} different y", z.size(),
+                           map.columns, map.rows),
+               "interpolate them onto a grid before");
     const double dx = (columns.back() - columns.front()) / static_cast<double>(map.columns - 1),
                  dy = (rows.back() - rows.front()) / static_cast<double>(map.rows - 1);
     map.heights.assign(map.columns * map.rows, nan);
@@ -302,8 +300,8 @@ RawMap read_xyz(const Text& text) {
         const auto c = static_cast<std::size_t>(std::lround((x[i] - columns.front()) / dx)),
                    r = static_cast<std::size_t>(std::lround((y[i] - rows.front()) / dy));
         if (seen[r * map.columns + c])
-            refuse_map(text.where(from[i]->number), "the point is in the map already",
-                       fmt::format("x = {}, y = {} stands twice", x[i], y[i]), "take one out");
+            refuse(text.where(from[i]->number), "the point is in the map already",
+                   fmt::format("x = {}, y = {} stands twice", x[i], y[i]), "take one out");
         seen[r * map.columns + c] = true;
         map.heights[r * map.columns + c] = z[i];
     }
@@ -331,8 +329,8 @@ RawMap read_esri(const Text& text) {
         const std::size_t blank = std::min(line.find_first_of(blanks), line.size());
         const std::optional<double> value = number(trimmed(line.substr(blank)));
         if (!value || !std::isfinite(*value) || header.size() > 16)
-            refuse_map(text.where(text.lines[first].number), "the line is no header of a grid",
-                       "a name and a number are needed", "export the grid again");
+            refuse(text.where(text.lines[first].number), "the line is no header of a grid",
+                   "a name and a number are needed", "export the grid again");
         header[lower(line.substr(0, blank))] = *value;
     }
     Text data = text;
@@ -342,7 +340,7 @@ RawMap read_esri(const Text& text) {
     map.format = "ESRI grid";
     for (const auto& [key, there] : {std::pair("ncols", map.columns), std::pair("nrows", map.rows)})
         if (header.contains(key) && header[key] != static_cast<double>(there))
-            refuse_map(
+            refuse(
                 text.file, "the height map is not whole",
                 fmt::format("its header says {} = {}, and {} are there", key, header[key], there),
                 "export the grid again");
@@ -358,8 +356,8 @@ RawMap read_esri(const Text& text) {
     const auto pixel = [&](const char* own) {
         const double size = header.contains(own) ? header[own] : header["cellsize"];
         if (!(size > 0.0))
-            refuse_map(text.file, "the grid has no pixel size", "cellsize is not above zero",
-                       "export the grid again");
+            refuse(text.file, "the grid has no pixel size", "cellsize is not above zero",
+                   "export the grid again");
         return size;
     };
     map.width = pixel("dx") * static_cast<double>(map.columns);

@@ -29,19 +29,6 @@ struct SealBytes {
 };
 static_assert(sizeof(SealBytes) == 32);
 
-/// Digest of the first bytes of a file; false: they cannot be read.
-bool digest_of(int fd, std::uint64_t length, Digest& digest) {
-    std::vector<std::byte> buffer(std::size_t{1} << 20);
-    for (std::uint64_t at = 0; at < length;) {
-        const std::span<std::byte> part(buffer.data(),
-                                        std::min<std::uint64_t>(buffer.size(), length - at));
-        if (read_some(fd, part, at) != static_cast<std::ptrdiff_t>(part.size())) return false;
-        digest.update(part);
-        at += part.size();
-    }
-    return true;
-}
-
 std::uint64_t size_of(int fd) {
     struct stat status {};
     return ::fstat(fd, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
@@ -75,6 +62,19 @@ std::ptrdiff_t read_some(int fd, std::span<std::byte> bytes, std::uint64_t offse
     return done;
 }
 
+bool read_parts(int fd, std::uint64_t length,
+                const std::function<void(std::span<const std::byte>)>& take) {
+    std::vector<std::byte> buffer(std::size_t{1} << 20);
+    for (std::uint64_t at = 0; at < length;) {
+        const std::span<std::byte> part(buffer.data(),
+                                        std::min<std::uint64_t>(buffer.size(), length - at));
+        if (read_some(fd, part, at) != static_cast<std::ptrdiff_t>(part.size())) return false;
+        take(part);
+        at += part.size();
+    }
+    return true;
+}
+
 Seal check_seal(int fd) {
     const std::uint64_t size = size_of(fd);
     SealBytes end{};
@@ -84,7 +84,8 @@ Seal check_seal(int fd) {
         std::memcmp(end.name, seal_name, sizeof end.name) != 0)
         return Seal::none;
     Digest digest;
-    const bool whole = end.length == size - sizeof end && digest_of(fd, end.length, digest) &&
+    const bool whole = end.length == size - sizeof end &&
+                       read_parts(fd, end.length, [&](auto part) { digest.update(part); }) &&
                        digest.value() == end.digest;
     return whole ? Seal::whole : Seal::broken;
 }
@@ -114,7 +115,8 @@ void OutputFile::seal() {
     std::memcpy(end.name, seal_name, sizeof end.name);
     end.length = size_of(fd());
     Digest digest;
-    if (!digest_of(fd(), end.length, digest)) fail("cannot be read back");
+    if (!read_parts(fd(), end.length, [&](auto part) { digest.update(part); }))
+        fail("cannot be read back");
     end.digest = digest.value();
     write(std::as_bytes(std::span(&end, 1)));
 }

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -56,6 +57,10 @@ void write_whole(const FilePlace& place, const std::string& text);
 bool write_all(int fd, std::span<const std::byte> bytes, std::uint64_t offset);
 /// Bytes of the file from this offset; fewer at its end; -1: errno says why.
 std::ptrdiff_t read_some(int fd, std::span<std::byte> bytes, std::uint64_t offset);
+
+/// Calls take with the first bytes of the file, part by part. False: there are fewer.
+bool read_parts(int fd, std::uint64_t length,
+                const std::function<void(std::span<const std::byte>)>& take);
 
 /// What the end of a file says of it.
 enum class Seal { none, whole, broken };

@@ -81,12 +81,8 @@ void Result::set_scene(Json scene, Json units) {
 }
 
 std::optional<double> Result::number(Key key) const {
-    std::string pointer = "/" + std::string(key.quantity->name);
-    std::replace(pointer.begin(), pointer.end(), '.', '/');
-    const Json::json_pointer at(pointer);
-    if (!values_->contains(at)) return std::nullopt;
-    const Json& value = values_->at(at);
-    return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+    const Json* value = find(*values_, key.quantity->name);
+    return value && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
 }
 
 Json Result::json() const {

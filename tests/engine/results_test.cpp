@@ -184,7 +184,7 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
     EXPECT_EQ(run.number("contact_fraction", "1"), mean(run.data(state + "contact", "1")));
     EXPECT_NE(run.number("contact_fraction", "1"), run.number("pushed_fraction", "1"));
     EXPECT_NEAR(run.number("zero_load.mean_height", "Å"),
-                run.file->read_number_attribute("/fields/zero-load", "reference_height") +
+                run.file->read_attribute<double>("/fields/zero-load", "reference_height") +
                     mean(run.data(state + "u_z", "Å")),
                 1e-9);
     EXPECT_NEAR(area * gpa * mean(pressure), 0.0, 1e-2);
