@@ -35,20 +35,6 @@ auto with_scene_errors(const F& work) {
     }
 }
 
-theory::AreaFactor area_factor_of(AreaFactor reading) {
-    switch (reading) {
-    case AreaFactor::gaussian:
-        return theory::AreaFactor::gaussian;
-    case AreaFactor::small_slope:
-        return theory::AreaFactor::small_slope;
-    case AreaFactor::none:
-        return theory::AreaFactor::none;
-    case AreaFactor::lattice:
-        return theory::AreaFactor::lattice;
-    }
-    return theory::AreaFactor::gaussian;
-}
-
 /// The power law of the scene, from q_L up to q1 or to what the grid holds of it.
 Spectrum target_of(const Scene& scene, TheoryCase& out) {
     const auto& s = scene.surface;
@@ -169,7 +155,7 @@ TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional
         out.contact.work_of_adhesion = out.delta_gamma / units::milli_per_unit;
         out.contact.pressure = scene.drive.load * units::megapascal;
         out.contact.beta = scene.theory.beta;
-        out.contact.area_factor = area_factor_of(scene.theory.area_factor);
+        out.contact.area_factor = scene.theory.area_factor;
         if (scene.theory.area_factor == AreaFactor::lattice)
             out.contact.tilt_cost = flat_interface(scene).tilt_cost(!scene.interface.frictionless);
         theory::check(out.contact);

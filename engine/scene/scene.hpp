@@ -11,6 +11,7 @@
 
 #include "engine/scene/surface.hpp"
 #include "io/scene_reader.hpp"
+#include "theory/area_factor.hpp"
 
 #include <optional>
 #include <string>
@@ -32,7 +33,7 @@ enum class DriveMode { dynamic, quasistatic };
 enum class Hold { top, mean_height };
 enum class States { first, all };
 enum class PathPart { approach, pull_off, zero_load };
-enum class AreaFactor { gaussian, small_slope, none, lattice };
+using theory::AreaFactor;
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
 /// numerics.device where it is no number.

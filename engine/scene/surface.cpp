@@ -30,31 +30,6 @@ void require(bool holds, const std::string& message) {
     if (!holds) throw std::invalid_argument("surface: " + message);
 }
 
-void check(const SurfaceOptions& o) {
-    require(o.sites >= 1,
-            fmt::format("sites = {} leaves no atom in the box; use at least 1", o.sites));
-    require(o.length > 0.0 && std::isfinite(o.length),
-            fmt::format("a box of {} Å has no area; give a positive length", o.length));
-    require(o.rms >= 0.0 && std::isfinite(o.rms),
-            fmt::format("rms = {} Å is no roughness; give a number >= 0", o.rms));
-    if (o.kind == SurfaceKind::self_affine) {
-        require(o.hurst >= 0.0 && o.hurst <= 1.0,
-                fmt::format("hurst = {} is outside [0, 1]; the paper has 0.8", o.hurst));
-        require(o.rolloff > 0.0 && std::isfinite(o.rolloff),
-                fmt::format("rolloff = {} (q0 / q_L) must be a positive number", o.rolloff));
-        require(o.cutoff >= 1.0,
-                fmt::format("cutoff = {} (q1 / q_L) is below 1: no wave of the box is "
-                            "that long; use at least 1",
-                            o.cutoff));
-    }
-    const double corner = o.length / std::sqrt(2.0);
-    require(o.radius == 0.0 || o.radius >= corner,
-            fmt::format(
-                "radius = {} Å is smaller than half the box's diagonal ({:.1f} Å), so the cap does "
-                "not cover the box; use a larger radius or a smaller box",
-                o.radius, corner));
-}
-
 /// Largest wavevector of the grid's spectrum, in q_L.
 double clipped_cutoff(const SurfaceOptions& o) { return std::min(o.cutoff, 0.5 * o.sites); }
 
@@ -171,7 +146,6 @@ int substrate_sites(int block_sites, double lattice_ratio) {
 }
 
 Surface make_surface(const SurfaceOptions& o) {
-    check(o);
     require(o.kind != SurfaceKind::file,
             "a measured surface is made from its heights (surface_from_heights), not from options");
     Surface s;
@@ -217,7 +191,6 @@ int sites_of_map(const SurfaceOptions& o) {
 }
 
 Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int nx, int ny) {
-    check(o);
     require(nx >= 1 && ny >= 1 &&
                 h.size() == static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny),
             fmt::format("the height map has {} values, not {} x {}; give a full matrix", h.size(),
