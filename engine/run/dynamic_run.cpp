@@ -3,8 +3,6 @@
 //
 // The parts of the path one after the other in time: steps until the drive has come to its end;
 // when the approach has ended, a copy of the block is relaxed under zero load.
-#include "engine/run/dynamic_run.hpp"
-
 #include "decomposition/global_largest.hpp"
 #include "engine/equilibrium/equilibrium.hpp"
 #include "engine/run/checkpoint.hpp"

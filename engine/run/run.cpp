@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run.hpp"
 
-#include "engine/run/dynamic_run.hpp"
-#include "engine/run/equilibrium_run.hpp"
+#include "engine/run/run_session.hpp"
 #include "engine/setup/effects.hpp"
 #include "engine/setup/memory.hpp"
 #include "io/error.hpp"

@@ -159,4 +159,12 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// As run(), which checks the scene and chooses.
+
+/// Approach and pull-off at the velocity of the drive.
+int run_in_time(const Scene& scene, const RunOptions& options, const Communicator& communicator);
+/// A quasi-static path, or straight to the relaxed state under zero load.
+int run_equilibrium(const Scene& scene, const RunOptions& options,
+                    const Communicator& communicator);
+
 } // namespace asperity
