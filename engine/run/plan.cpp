@@ -154,7 +154,6 @@ public:
         const double node_steps = share_ * steps_ * nodes_, site_steps = share_ * steps_ * sites_;
         cost(Effect::inertia) = {need_.motion, node_steps * rates_.node + site_steps * rates_.rest};
         cost(Effect::lateral).bytes = 2.0 * (need_.block + need_.motion) / 3.0;
-        if (on(Effect::damping)) cost(Effect::damping).seconds = node_steps * rates_.damping;
         if (on(Effect::temperature)) cost(Effect::temperature).seconds = node_steps * rates_.noise;
         const double rows = steps_ / static_cast<double>(scene_.output.series);
         cost(Effect::observation) = {need_.snapshot, share_ * rows * nodes_ * rates_.observation};
@@ -341,9 +340,9 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
                time_text(plan.seconds), plan.rates);
     fmt::print(
         to,
-        "Coarse levels, lateral displacements and the time of finite strain are parts of inertia "
-        "or relaxation;\nthe time that skipping saves is already left out of the interface's "
-        "line. Nothing was run or written.\n");
+        "Damping, coarse levels, lateral displacements and the time of finite strain are parts of "
+        "inertia or\nrelaxation; the time that skipping saves is already left out of the "
+        "interface's line. Nothing was run or written.\n");
 }
 
 } // namespace asperity

@@ -132,19 +132,6 @@ void measure_steps(const Piece& piece, Rates& rates) {
     rates.rest = (best[3] + best[4] + best[5]) / sites;
     const double observed = shortest(0.04, [&] { simulation.step(true); });
     rates.observation = std::max(0.0, observed - plain) / nodes;
-    if (piece.options.damping == 0.0) return;
-    Piece free = piece;
-    free.options.damping = free.options.temperature = 0.0;
-    Simulation undamped(free.options, free.surface, alone, grid);
-    undamped.start(undamped.interface().start_height());
-    double least = 1e300;
-    shortest(0.04, [&] {
-        const double before = undamped.phases()[Phase::advance].seconds;
-        undamped.step(false);
-        least = std::min(least, undamped.phases()[Phase::advance].seconds - before);
-    });
-    rates.damping = std::clamp(rates.node - least / nodes, 0.0, rates.node);
-    rates.node -= rates.damping;
 }
 
 /// What forces at finite strain take more than those at small strain.

@@ -15,8 +15,7 @@ namespace asperity {
 
 /// Seconds of this process with all its threads.
 struct Rates {
-    double node = 0.0;        ///< a node's step: forces, kick, drift
-    double damping = 0.0;     ///< what damping adds to it
+    double node = 0.0;        ///< a node's step: forces, kick, drift, damping
     double finite = 0.0;      ///< what finite strain adds to a node's forces
     double noise = 0.0;       ///< of a node and step
     double far = 0.0;         ///< a site out of reach
