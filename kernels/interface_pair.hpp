@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Pairs, as both sweeps of the interface take them (interface_lattice.hpp, interface_rows.cpp): one
+// Pairs, as both sweeps of the interface take them (interface_lattice.cpp, interface_rows.cpp): one
 // text for packs and for the threads of a device. F is the family of values (Simd, Scalar), T the
 // precision of the pairs, double or float.
 //

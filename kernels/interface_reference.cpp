@@ -33,14 +33,7 @@ PairSum pair_sum(const SubstrateAtoms& atoms, const LennardJones& potential, dou
             for (double m = std::ceil((x - reach - atoms.x[i]) / edge);
                  m <= std::floor((x + reach - atoms.x[i]) / edge); ++m) {
                 const double dx = x - (atoms.x[i] + m * edge), dy = y - (atoms.y[i] + n * edge);
-                const double r2 = dx * dx + dy * dy + dz * dz;
-                if (r2 >= potential.r2_cut()) continue;
-                const double f = potential.force_over_distance(r2);
-                sum.force[0] += f * dx;
-                sum.force[1] += f * dy;
-                sum.force[2] += f * dz;
-                sum.energy += potential.energy(r2);
-                if (r2 < sum.nearest_r2) sum.nearest_r2 = r2;
+                portable::add_pair(potential, dx, dy, dz, sum);
             }
     }
     return sum;

@@ -17,6 +17,18 @@ ASPERITY_HOST_DEVICE inline int fold(long i, int n) {
     return static_cast<int>(r < 0 ? r + n : r);
 }
 
+ASPERITY_HOST_DEVICE inline void add_pair(const LennardJones& potential, double dx, double dy,
+                                          double dz, PairSum& sum) {
+    const double r2 = dx * dx + dy * dy + dz * dz;
+    if (r2 >= potential.r2_cut()) return;
+    const double f = potential.force_over_distance(r2);
+    sum.force[0] += f * dx;
+    sum.force[1] += f * dy;
+    sum.force[2] += f * dz;
+    sum.energy += potential.energy(r2);
+    if (r2 < sum.nearest_r2) sum.nearest_r2 = r2;
+}
+
 /// pair_sum() of interface_sweep.hpp.
 ASPERITY_HOST_DEVICE inline PairSum
 sum_of_pairs(const SubstrateMap& map, const LennardJones& potential, double x, double y, double z) {
@@ -42,15 +54,7 @@ sum_of_pairs(const SubstrateMap& map, const LennardJones& potential, double x, d
             map.height + static_cast<std::ptrdiff_t>(fold(j, map.sites)) * map.sites;
         for (long i = i_first; i <= i_last; ++i) {
             const double dx = x - static_cast<double>(i) * b;
-            const double dz = z - row[fold(i, map.sites)];
-            const double r2 = dx * dx + dy * dy + dz * dz;
-            if (r2 >= potential.r2_cut()) continue;
-            const double f = potential.force_over_distance(r2);
-            sum.force[0] += f * dx;
-            sum.force[1] += f * dy;
-            sum.force[2] += f * dz;
-            sum.energy += potential.energy(r2);
-            if (r2 < sum.nearest_r2) sum.nearest_r2 = r2;
+            add_pair(potential, dx, dy, z - row[fold(i, map.sites)], sum);
         }
     }
     return sum;

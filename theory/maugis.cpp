@@ -61,19 +61,6 @@ maugis::Reduced on_curve(double lambda, double s) {
     return {m, a * a * a - lambda * a * a * (s + m * m * phi), a, a * a - 4.0 / 3 * lambda * a * s};
 }
 
-maugis::Reduced reduced_pull_off(double lambda) {
-    // Once on a coarse net, for the bracket, then Brent.
-    const auto force = [&](double x) { return on_curve(lambda, std::exp(x)).force; };
-    double best = 0, lowest = 1e300;
-    for (double x = -25; x <= 25; x += 0.1)
-        if (const double F = force(x); F < lowest) {
-            lowest = F;
-            best = x;
-        }
-    const auto minimum = boost::math::tools::brent_find_minima(force, best - 0.2, best + 0.2, 50);
-    return on_curve(lambda, std::exp(minimum.first));
-}
-
 SphereState with_units(const AdhesiveSphere& s, const maugis::Reduced& r) {
     return {r.force * s.force_unit(), r.radius * s.radius_unit(), r.approach * s.approach_unit()};
 }
@@ -101,7 +88,20 @@ Reduced at_ratio(double lambda, double m) {
 
 Reduced pull_off(double lambda) {
     check_lambda(lambda);
-    return reduced_pull_off(lambda);
+    // Once on a coarse net, for the bracket, then Brent.
+    const auto force = [&](double x) { return on_curve(lambda, std::exp(x)).force; };
+    double best = 0, lowest = 1e300;
+    for (double x = -25; x <= 25; x += 0.1)
+        if (const double F = force(x); F < lowest) {
+            lowest = F;
+            best = x;
+        }
+    const auto minimum = boost::math::tools::brent_find_minima(force, best - 0.2, best + 0.2, 50);
+    return on_curve(lambda, std::exp(minimum.first));
+}
+
+SphereState at_ratio(const AdhesiveSphere& sphere, double lambda, double m) {
+    return with_units(sphere, at_ratio(lambda, m));
 }
 
 SphereState pull_off(const AdhesiveSphere& sphere, double lambda) {

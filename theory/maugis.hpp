@@ -26,7 +26,8 @@ struct Reduced {
 /// Smallest force on the curve: pull-off under a controlled load.
 [[nodiscard]] Reduced pull_off(double lambda);
 
-/// The same with dimensions.
+// The same with dimensions.
+[[nodiscard]] SphereState at_ratio(const AdhesiveSphere& sphere, double lambda, double m);
 [[nodiscard]] SphereState pull_off(const AdhesiveSphere& sphere, double lambda);
 
 } // namespace maugis

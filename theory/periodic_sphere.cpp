@@ -70,10 +70,7 @@ double maugis_parameter(const AdhesiveSphere& s, double stress) {
 
 PeriodicState maugis_at_ratio(const PeriodicSphere& p, double stress, double m) {
     return with_height(p, consistent(p, [&](const AdhesiveSphere& s) {
-                           const maugis::Reduced r =
-                               maugis::at_ratio(maugis_parameter(s, stress), m);
-                           return SphereState{r.force * s.force_unit(), r.radius * s.radius_unit(),
-                                              r.approach * s.approach_unit()};
+                           return maugis::at_ratio(s, maugis_parameter(s, stress), m);
                        }));
 }
 

@@ -460,9 +460,6 @@ RenormalisedState solve(const RoughInterface& rough, const RenormalisedOptions& 
         const auto error = [&](double Point::*value) { return std::abs(now.*value - best.*value); };
         state.gamma_ratio_error = error(&Point::gamma) / depth;
         state.contact_error = error(&Point::contact);
-        state.separation_error = error(&Point::separation);
-        state.tension_error = error(&Point::tension);
-        state.grids = level + 1;
         coarse = point;
         best = now;
         const double error_now = std::max(state.gamma_ratio_error, state.contact_error);

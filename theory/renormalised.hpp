@@ -8,9 +8,9 @@
 // from the finest to the coarsest. A shell of height variance dh² = 2π q C(q) dq is answered by the
 // block with the wave that minimises the energy to second order, and what is left is a new φ:
 //     dφ/dh² = ½ [ S + 2D - (S + D)² / (S + φ″) ],
-//     dχ/dh² = ½ [ (S + D) / (S + φ″) ]² χ″          any area observable, V of each ring of atoms
-//     too D_q(u) = Σ_R V_uu (1 - J0(qR)) - gain,         zero for a wall gain   = max over |v| <= u
-//     q of κ v - ½ K v²,  κ = Σ_R V_Ru J1(qR), K = S_xx + φ_tt
+//     dχ/dh² = ½ [ (S + D) / (S + φ″) ]² χ″,       χ: any area observable, and V of each ring R
+//     D_q(u) = Σ_R V_uu (1 - J0(qR)) - gain,       zero for a wall
+//     gain   = max over |v| <= uq of κ v - ½ K v², κ = Σ_R V_Ru J1(qR), K = S_xx + φ_tt
 // S: stiffness of the block's surface for a wave; without friction 1 / (S⁻¹)_zz and no gain, with
 // it S_zz - S_xz² / (S_xx + max(φ_tt, 0)). At the end, at the load p,
 //     p = -φ′(u),  γ_eff = -φ(u),  contact fraction = χ(u),  largest tension = max φ′.
@@ -78,9 +78,7 @@ struct RenormalisedState {
     double separation = 0;                           ///< u, of the mean planes [length]
     double tension = 0;                              ///< max φ′ [stress]
     double gamma_ratio_error = 0, contact_error = 0; ///< estimated, see above
-    double separation_error = 0, tension_error = 0;
-    bool converged = true; ///< both of the first two errors within the tolerance
-    int grids = 0;
+    bool converged = true;                           ///< both errors within the tolerance
 };
 
 /// InvalidInput for what makes no sense; NoSolution for a pull beyond the tension that is borne,
