@@ -6,8 +6,6 @@ import os
 
 import machine
 
-COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#999999")
-
 
 def _number(x):
     """Three digits."""
@@ -136,90 +134,53 @@ def markdown(table):
 # --- plots -----------------------------------------------------------------------------------------------------
 
 
-def _svg(width, height, title, body):
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="12">\n'
-            f'<title>{title}</title>\n<rect width="{width}" height="{height}" fill="white"/>\n'
-            f'<text x="12" y="20" font-size="14">{title}</text>\n' + "\n".join(body) + "\n</svg>\n")
+def limits_plot(results, plt):
+    """Each kernel's share of the limits, in percent."""
+    rows = [r for g in results["kernels"] for r in g["rows"] if "of fused" in r or "of stream" in r]
+    figure, ax = plt.subplots(figsize=(7.2, 1.0 + 0.22 * len(rows)), layout="constrained")
+    for shift, key, label in ((-0.2, "of fused", "of the fused multiply-add loop"), (0.2, "of stream", "of the memory's stream")):
+        there = [i for i, r in enumerate(rows) if key in r]
+        ax.barh([i + shift for i in there], [100.0 * rows[i][key] for i in there], 0.4, label=label)
+    ax.set_yticks(range(len(rows)), [r["label"] for r in rows])
+    ax.invert_yaxis()
+    ax.set_xlabel("share of the limit measured in the same run, %")
+    ax.legend()
+    return figure
 
 
-def _text(x, y, words, anchor="start", colour="#222"):
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" fill="{colour}">{words}</text>'
-
-
-def _bar(x, y, width, height, colour):
-    return f'<rect x="{x:.1f}" y="{y:.1f}" width="{max(0.0, width):.1f}" height="{height}" fill="{colour}"/>'
-
-
-def limits_plot(results):
-    """Each kernel's share of the nearer of its limits."""
-    rows = [(g["rows"], r) for g in results["kernels"] for r in g["rows"] if "of fused" in r or "of stream" in r]
-    body, y, left, scale = [], 46, 280, 3.6
-    for mark in (0, 25, 50, 75, 100):
-        x = left + scale * mark
-        body.append(f'<line x1="{x}" y1="34" x2="{x}" y2="{46 + 20 * len(rows)}" stroke="#ccc"/>')
-        body.append(_text(x, 46 + 20 * len(rows) + 14, f"{mark} %", "middle"))
-    for _, r in rows:
-        shares = [(r[k], c) for k, c in (("of fused", COLOURS[0]), ("of stream", COLOURS[1])) if k in r]
-        body.append(_text(left - 8, y + 9, r["label"], "end"))
-        for i, (share, colour) in enumerate(shares):
-            body.append(_bar(left, y + 6.5 * i - (3 if len(shares) > 1 else 0), 100 * scale * share, 6 if len(shares) > 1 else 12, colour))
-        y += 20
-    y += 34
-    body += [_bar(left, y - 10, 12, 12, COLOURS[0]), _text(left + 18, y, "of the fused multiply-add loop"),
-             _bar(left + 210, y - 10, 12, 12, COLOURS[1]), _text(left + 228, y, "of the memory's stream")]
-    return _svg(left + 100 * scale + 40, y + 14, "Share of the limit measured in the same run", body)
-
-
-def phases_plot(strong, phases):
+def phases_plot(strong, phases, plt):
     """Stacked bars: where a step's time goes on one and two cores."""
     largest = max(e["sites"] for e in strong)
     chosen = [e for e in strong if e["sites"] == largest]
-    top = max(e["seconds"] for e in chosen)
-    body, y, left, width = [], 40, 160, 460
-    for e in chosen:
-        body.append(_text(left - 8, y + 15, f"{e['place']}, {e['ranks']} x {e['threads']}", "end"))
-        x = left
-        for p, colour in zip(phases, COLOURS):
-            wide = width * e["phases"].get(p, 0.0) / top
-            body.append(_bar(x, y, wide, 20, colour))
-            x += wide
-        body.append(_text(x + 6, y + 15, f"{1e3 * e['seconds']:.2f} ms"))
-        y += 28
-    x = left
-    for p, colour in zip(phases, COLOURS):
-        body += [_bar(x, y + 6, 12, 12, colour), _text(x + 16, y + 16, p)]
-        x += 90
-    return _svg(left + width + 90, y + 34, f"A step at {largest} sites and layers, by ranks x threads", body)
+    figure, ax = plt.subplots(figsize=(7.2, 1.2 + 0.3 * len(chosen)), layout="constrained")
+    done = [0.0] * len(chosen)
+    for p in phases:
+        times = [1e3 * e["phases"].get(p, 0.0) for e in chosen]
+        ax.barh(range(len(chosen)), times, left=done, label=p)
+        done = [a + b for a, b in zip(done, times)]
+    ax.set_yticks(range(len(chosen)), [f"{e['place']}, {e['ranks']} x {e['threads']}" for e in chosen])
+    ax.invert_yaxis()
+    ax.set_xlabel(f"ms a step at {largest} sites and layers, by ranks x threads")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.4, 1.0), ncol=3)
+    return figure
 
 
-def predicted_plot(larger, network):
+def predicted_plot(larger, network, plt):
     """Steps a second against ranks, both kinds of messages."""
-    left, bottom, width, height = 70, 330, 430, 280
+    figure, ax = plt.subplots(figsize=(6.0, 4.4), layout="constrained")
+    for number, n in enumerate(sorted({e["sites"] for e in larger})):
+        for kind, line in (("measured", "-"), ("network", "--")):
+            points = [e for e in larger if e["sites"] == n and e["messages"] == kind]
+            ax.loglog([e["ranks"] for e in points], [1.0 / e["seconds"] for e in points], line, color=f"C{number}",
+                      label=f"N = {n}" if kind == "measured" else None)
     ranks = sorted({e["ranks"] for e in larger})
-    speeds = [1.0 / e["seconds"] for e in larger]
-    low, high = math.floor(math.log10(min(speeds))), math.ceil(math.log10(max(speeds)))
-    def place(r, speed):
-        return (left + width * math.log(r / ranks[0]) / math.log(ranks[-1] / ranks[0]),
-                bottom - height * (math.log10(speed) - low) / (high - low))
-    body = []
-    for d in range(low, high + 1):
-        _, y = place(ranks[0], 10.0 ** d)
-        body += [f'<line x1="{left}" y1="{y:.1f}" x2="{left + width}" y2="{y:.1f}" stroke="#ccc"/>',
-                 _text(left - 6, y + 4, f"{10.0 ** d:g}", "end")]
-    for r in ranks:
-        body.append(_text(place(r, 10.0 ** low)[0], bottom + 18, str(r), "middle"))
-    body += [_text(left + width / 2, bottom + 38, "ranks of one thread", "middle"), _text(12, 40, "steps/s")]
-    for n, colour in zip(sorted({e["sites"] for e in larger}), COLOURS):
-        for kind, dash in (("measured", ""), ("network", ' stroke-dasharray="5 4"')):
-            points = [place(e["ranks"], 1.0 / e["seconds"]) for e in larger if e["sites"] == n and e["messages"] == kind]
-            line = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-            body.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="1.8"{dash}/>')
-            if kind == "measured":
-                body.append(_text(points[-1][0] + 8, points[-1][1] + 4, f"N = {n}", colour=colour))
-    body += [_text(left, bottom + 58, "solid: messages as measured within this machine"),
-             _text(left, bottom + 74, f"dashed: an assumed network of {1e6 * network['latency']:g} µs and "
-                   f"{1e-9 * network['bandwidth']:g} GB/s a rank")]
-    return _svg(left + width + 90, bottom + 88, "Larger machines, predicted", body)
+    ax.set_xticks(ranks, map(str, ranks))
+    ax.minorticks_off()
+    ax.set_xlabel("ranks of one thread; solid: messages as measured within this machine\n"
+                  f"dashed: an assumed network of {1e6 * network['latency']:g} µs and {1e-9 * network['bandwidth']:g} GB/s a rank")
+    ax.set_ylabel("steps/s, predicted")
+    ax.legend()
+    return figure
 
 
 # --- the page --------------------------------------------------------------------------------------------------
@@ -230,10 +191,15 @@ def write(results, baseline, phases, folder):
     plots = os.path.join(folder, "gallery", "perf")
     os.makedirs(plots, exist_ok=True)
     scaling, m = results["scaling"], results["machine"]
-    for name, svg in (("limits", limits_plot(results)), ("phases", phases_plot(scaling["strong"], phases)),
-                      ("larger", predicted_plot(scaling["larger"], scaling["network"]))):
-        with open(os.path.join(plots, name + ".svg"), "w") as file:
-            file.write(svg)
+    import matplotlib  # only the page needs it
+
+    matplotlib.use("svg")
+    import matplotlib.pyplot as plt
+
+    matplotlib.rcParams.update({"font.size": 9, "svg.hashsalt": "asperity"})
+    for name, figure in (("limits", limits_plot(results, plt)), ("phases", phases_plot(scaling["strong"], phases, plt)),
+                         ("larger", predicted_plot(scaling["larger"], scaling["network"], plt))):
+        figure.savefig(os.path.join(plots, name + ".svg"), metadata={"Date": None})
     all_tables = tables(results, baseline, phases)
     first = next(i for i, t in enumerate(all_tables) if t["title"].startswith("Two cores"))
     c = scaling["coefficients"]

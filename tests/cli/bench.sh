@@ -7,16 +7,15 @@
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
-for needed in python3 mpirun; do
-    if ! command -v $needed >/dev/null; then
-        echo "$needed is not installed: the benchmarks are not run"
-        exit 77
-    fi
-done
+python=${ASPERITY_PYTHON:-/usr/bin/python3}
+if ! command -v mpirun >/dev/null || ! "$python" -c 'import matplotlib'; then
+    echo "mpirun or matplotlib is not installed: the benchmarks are not run"
+    exit 77
+fi
 bench() { # CODE ARGUMENTS...
     local code=$1
     shift
-    out=$(python3 "$source/perf/suite.py" --build "$(dirname "$asperity")/.." "$@" 2>&1)
+    out=$("$python" "$source/perf/suite.py" --build "$(dirname "$asperity")/.." "$@" 2>&1)
     local got=$?
     [ $got -eq "$code" ] || fail "exit code $got instead of $code: bench $*
 $out"
