@@ -14,6 +14,7 @@ place=results/regenerate
 mkdir -p $place
 gallery=docs/gallery
 python=${ASPERITY_PYTHON:-/usr/bin/python3} # whose packages the script asperity installs
+export PYTHONPATH=python
 made=""
 made() { made="$made $*"; echo "made: $*"; }
 
