@@ -57,7 +57,7 @@ std::string Table::text(bool with_colours) const {
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const std::string pad(static_cast<std::size_t>(width[i] - visible_width(cells[i])),
                                   ' ');
-            text += (i > 0 ? "  " : "  ") + (left_[i] ? cells[i] + pad : pad + cells[i]);
+            text += "  " + (left_[i] ? cells[i] + pad : pad + cells[i]);
         }
         text.erase(text.find_last_not_of(' ') + 1);
         return text;
