@@ -85,11 +85,10 @@ void check_dataset(const Hdf5File& file, const std::string& dataset, const std::
 }
 
 Json header_of(const RawMap& map) {
-    Json header;
-    header["rows"] = map.rows;
-    header["columns"] = map.columns;
-    header["source"] = map.source;
-    header["origin"] = map.origin;
+    Json header = {{"rows", map.rows},
+                   {"columns", map.columns},
+                   {"source", map.source},
+                   {"origin", map.origin}};
     if (map.width) header["width"] = *map.width;
     if (map.height) header["height"] = *map.height;
     if (map.file_unit) header["unit"] = *map.file_unit;
@@ -97,12 +96,10 @@ Json header_of(const RawMap& map) {
 }
 
 Json header_of(const Problem& problem) {
-    Json header;
-    header["where"] = problem.where;
-    header["what"] = problem.what;
-    header["why"] = problem.why;
-    header["fix"] = problem.fix;
-    return header;
+    return {{"where", problem.where},
+            {"what", problem.what},
+            {"why", problem.why},
+            {"fix", problem.fix}};
 }
 
 bool send(int pipe, const Json& header) {
