@@ -9,6 +9,8 @@
 #include "engine/setup/setup.hpp"
 #include "io/result.hpp"
 
+#include <string>
+
 namespace asperity {
 
 /// A result with the scene's name, keys and their units.
@@ -19,6 +21,9 @@ io::Result surface_result(const Scene& scene, const Surface& surface);
 /// findings, theory, ranks and threads.
 io::Result run_result(const Scene& scene, const Surface& surface, const Setup& setup,
                       const Findings& findings, int ranks);
+
+/// What the search for all states at zero load may have missed, in words.
+std::string states_missed(const StateList& states);
 
 /// Energies of the last observed step or point.
 void add_energies(const StepRecord& now, io::Result& result);

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/summary.hpp"
 
-#include "engine/run/states_record.hpp"
+#include "engine/run/run_record.hpp"
 #include "engine/scene/accuracy.hpp"
 #include "engine/setup/memory.hpp"
+#include "engine/units.hpp"
 #include "io/table.hpp"
 
 #include <fmt/format.h>
@@ -61,6 +62,29 @@ std::string named(const std::string& name, io::Key key) {
     if (unit == "1") return name;
     if (const std::size_t at = unit.find("^2"); at != std::string::npos) unit.replace(at, 2, "²");
     return name + ", " + unit;
+}
+
+/// All states at zero load.
+void print_states(std::FILE* to, const StateList& states) {
+    const ZeroLoad& deepest = states.deepest().numbers;
+    fmt::print(to, "  {} stable state{} passed inwards down to a mean height of {:.2f} Å{}\n",
+               states.all.size(), states.all.size() == 1 ? "" : "s", states.innermost,
+               states.all.size() == 1 ? "." : ":");
+    if (states.all.size() > 1) {
+        for (const StateList::State& state : states.all) {
+            const ZeroLoad& z = state.numbers;
+            fmt::print(to, "    {:8.3f} meV/Å² at {:.2f} Å, contact {:.4f}", z.binding_energy,
+                       z.mean_height, z.contact_fraction);
+            if (state.barrier)
+                fmt::print(to, "; {:.3g} MPa to the next", *state.barrier / units::megapascal);
+            fmt::print(to, "\n");
+        }
+        fmt::print(to,
+                   "  A slow approach ends in the first. The binding energy of the pair of "
+                   "surfaces is the deepest's,\n  {:.3f} meV/Å².\n",
+                   deepest.binding_energy);
+    }
+    fmt::print(to, "  May be missed: {}.\n", states_missed(states));
 }
 
 } // namespace
