@@ -34,17 +34,17 @@ void treat_missing(MapFile& map, bool fill, std::vector<std::string>& notes) {
     const auto at = static_cast<std::size_t>(first - map.heights.begin());
     if (!fill)
         refuse(map.first_missing,
-                   fmt::format("the height in row {}, column {} is {}", at / map.columns + 1,
-                               at % map.columns + 1, map.first_missing_text),
-                   fmt::format("an atom needs a place; {} of {} points have none", map.missing,
-                               map.heights.size()),
-                   "fill the holes of the map before, or let them be filled with "
-                   "surface.file_missing = \"fill\"");
+               fmt::format("the height in row {}, column {} is {}", at / map.columns + 1,
+                           at % map.columns + 1, map.first_missing_text),
+               fmt::format("an atom needs a place; {} of {} points have none", map.missing,
+                           map.heights.size()),
+               "fill the holes of the map before, or let them be filled with "
+               "surface.file_missing = \"fill\"");
     const double part = static_cast<double>(map.missing) / static_cast<double>(map.heights.size());
     if (part > 0.5)
         refuse(map.source, "most of the height map is missing",
-                   fmt::format("{} of {} points have no height", map.missing, map.heights.size()),
-                   "measure it again, or cut out a piece that is whole");
+               fmt::format("{} of {} points have no height", map.missing, map.heights.size()),
+               "measure it again, or cut out a piece that is whole");
     fill_missing(map.heights, map.rows, map.columns);
     notes.push_back(fmt::format("{} points of the map ({:.2g} %) had no height: filled by "
                                 "Laplace's equation",
@@ -55,20 +55,20 @@ void treat_missing(MapFile& map, bool fill, std::vector<std::string>& notes) {
 std::optional<double> make_square(MapFile& map, bool crop, std::vector<std::string>& notes) {
     if (!crop && map.rows != map.columns)
         refuse(map.source, "the height map is not square",
-                   fmt::format("it has {} rows and {} columns, and the periodic box is square",
-                               map.rows, map.columns),
-                   "cut a square out of it before, or take the middle with "
-                   "surface.file_crop = \"middle\"");
+               fmt::format("it has {} rows and {} columns, and the periodic box is square",
+                           map.rows, map.columns),
+               "cut a square out of it before, or take the middle with "
+               "surface.file_crop = \"middle\"");
     std::optional<double> pixel;
     if (map.width && map.height) {
         pixel = *map.width / static_cast<double>(map.columns);
         const double other = *map.height / static_cast<double>(map.rows);
         if (std::abs(other - *pixel) > 1e-3 * *pixel)
             refuse(map.source, fmt::format("is {:g} x {:g} Å wide", *map.width, *map.height),
-                       fmt::format("its pixels of {:g} x {:g} Å are not square, and the periodic "
-                                   "box is",
-                                   *pixel, other),
-                       "resample it to square pixels before");
+                   fmt::format("its pixels of {:g} x {:g} Å are not square, and the periodic "
+                               "box is",
+                               *pixel, other),
+                   "resample it to square pixels before");
         if (std::abs(other - *pixel) > 1e-6 * *pixel)
             notes.push_back(
                 fmt::format("the pixels of {:.7g} x {:.7g} Å are taken as square", *pixel, other));
