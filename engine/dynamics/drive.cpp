@@ -20,8 +20,8 @@ std::string_view name(Leg leg) {
     return "done";
 }
 
-bool out_of_reach(double top, double force, double strongest) {
-    return top >= 0.0 && std::abs(force) <= 1e-6 * strongest;
+bool out_of_reach(double top, double force, double strongest, double at_start) {
+    return top >= 0.0 && std::abs(force) <= std::max(1e-6 * strongest, std::abs(at_start));
 }
 
 Drive::Drive(const DriveOptions& options)

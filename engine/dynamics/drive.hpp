@@ -26,10 +26,10 @@ struct DriveOptions {
 };
 
 /// Whether a pull-off has come to its end: the top plane is back where the approach started or
-/// beyond (top, Å), where a relaxed block would be out of reach, and the force is small beside the
-/// strongest attraction met (eV/Å). The force alone is not enough: it passes through zero on the
-/// way out of compression.
-bool out_of_reach(double top, double force, double strongest);
+/// beyond (top, Å), and the force is no larger than it was there, or small beside the strongest
+/// attraction met (eV/Å). The force alone is not enough: it passes through zero on the way out of
+/// compression.
+bool out_of_reach(double top, double force, double strongest, double at_start = 0.0);
 
 class Drive {
 public:

@@ -4,6 +4,7 @@
 // The parts of the path one after the other in time: steps until the drive has come to its end;
 // when the approach has ended, a copy of the block is relaxed under zero load.
 #include "decomposition/global_largest.hpp"
+#include "engine/dynamics/approach_start.hpp"
 #include "engine/equilibrium/equilibrium.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "engine/run/run_record.hpp"
@@ -37,7 +38,7 @@ public:
     int carry_out() {
         const std::size_t bytes = simulation_.block().bytes() + simulation_.interface().bytes();
         const auto work = [&] {
-            if (!resume()) simulation_.start(simulation_.interface().start_height());
+            if (!resume()) start();
             integrate();
             run_.write_kept_fields(simulation_.interface());
         };
@@ -45,6 +46,14 @@ public:
     }
 
 private:
+    /// A warm block starts where nothing is in reach: the way down is what warms it.
+    void start() {
+        start_.height = simulation_.interface().start_height();
+        if (scene_.drive.temperature == 0.0)
+            start_ = approach_start(simulation_.block(), simulation_.interface());
+        simulation_.start(start_.height);
+    }
+
     /// The loop over time: step, guard, record, tell the drive; a leg that has ended is concluded
     /// one step later.
     void integrate() {
@@ -93,7 +102,7 @@ private:
         attraction = std::max(attraction, -now.force);
         const double strongest =
             std::max(run_.findings.attraction_in, run_.findings.attraction_out);
-        const bool gone = out_of_reach(now.top, now.force, strongest);
+        const bool gone = out_of_reach(now.top, now.force, strongest, start_.force);
         if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
         if (leg == Leg::approach) run_.findings.contact_made = now.time;
         return leg;
@@ -116,12 +125,14 @@ private:
 
     /// What a leg has shown. False: stopped on the way to it.
     bool conclude(Leg leg) {
-        const double area = scene_.edge() * scene_.edge();
+        // Beyond the first and the last step the block comes and goes rigidly.
+        const double area = scene_.edge() * scene_.edge(), per_area = units::milli_per_unit / area;
         if (leg == Leg::pull_off) {
-            run_.findings.pull_off = -units::milli_per_unit * simulation_.ledger().pull_off / area;
+            run_.findings.pull_off =
+                -per_area * (simulation_.ledger().pull_off + simulation_.now().interface_energy);
             return true;
         }
-        run_.findings.approach = units::milli_per_unit * simulation_.ledger().approach / area;
+        run_.findings.approach = per_area * (simulation_.ledger().approach - start_.energy);
         // The relaxation works on a copy: a run that is stopped in it starts it again from here.
         run_.save_if_on(state_writer());
         run_.progress.say("contact is made; relaxing a copy of this state under zero load");
@@ -259,12 +270,13 @@ private:
         };
         leg("ended", ended_);
         leg("concluding", concluding_);
+        start_.visit(v);
     }
 
     io::Progress::State progress_state(const StepRecord& now) const {
         return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force),
                 simulation_.steps(), now.time,
-                run_.way_done(simulation_.leg(), now.top, simulation_.interface().start_height())};
+                run_.way_done(simulation_.leg(), now.top, simulation_.reference_height())};
     }
 
     /// Steps and energies.
@@ -278,6 +290,7 @@ private:
     RunSession run_;
     const Scene& scene_;
     Simulation simulation_;
+    ApproachStart start_;
     std::optional<Leg> ended_;      ///< the leg that the last step ended
     std::optional<Leg> concluding_; ///< the leg that ended the step before
     std::vector<std::pair<double, std::string>> delayed_fields_ = scene_.delayed_fields();

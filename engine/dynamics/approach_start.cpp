@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/dynamics/approach_start.hpp"
+
+#include "decomposition/global_sum.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace asperity {
+
+namespace {
+
+struct Height {
+    ApproachStart at;
+    double yielded; ///< energy, eV
+};
+
+/// By the block under the forces of the last sweep.
+double yielded(Block& block, double force) {
+    if (force == 0.0) return 0.0;
+    const PlaneView<double> f = block.interface_force().z;
+    ExactSum squares;
+    for (int y = 0; y < f.ny; ++y)
+        for (int x = 0; x < f.nx; ++x)
+            squares.add(f(x, y) * f(x, y));
+    const double sum = global_sum(block.communicator(), squares);
+    const BlockOptions& o = block.options();
+    const double radius = o.spacing * std::abs(force) / std::sqrt(sum * std::numbers::pi);
+    const double edge = o.sites * o.spacing, modulus = o.lame() + 2.0 * o.shear_modulus();
+    const double compliance = 1.0 / (2.0 * o.contact_modulus() * radius) +
+                              o.thickness * o.spacing / (modulus * edge * edge);
+    return 0.5 * force * force * compliance;
+}
+
+} // namespace
+
+ApproachStart approach_start(Block& block, const Interface& interface) {
+    const double top = interface.start_height();
+    const double stride = reach_of(interface.options()) / 100.0;
+    std::vector<Height> way;
+    double deepest = 0.0;
+    // Down to where the block is pressed, or as deep as the highest atom.
+    for (int n = 0; n <= 100; ++n) {
+        const double height = top - n * stride;
+        const InterfaceSums sums =
+            interface.sweep(block.lowest_layer(), block.interface_force(), height, true);
+        const auto [energy, force] =
+            global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
+        if (force > 0.0) break;
+        deepest = std::min(deepest, energy);
+        way.push_back({{height, energy, force}, yielded(block, force)});
+    }
+    ApproachStart start{top, 0.0, 0.0};
+    for (const Height& here : way) {
+        if (here.yielded > -share_at_start * deepest || deepest == 0.0) break;
+        start = here.at;
+    }
+    return start;
+}
+
+} // namespace asperity

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Where a path in time starts (engine/dynamics/approach_start.hpp): the block would hardly have
+// yielded there, and the works are those of the whole path.
+#include "engine/dynamics/approach_start.hpp"
+
+#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/run/run.hpp"
+#include "engine/units.hpp"
+#include "io/error.hpp"
+#include "io/json.hpp"
+#include "support/scratch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace asperity {
+namespace {
+
+struct Case {
+    Scene scene;
+    Setup setup;
+    Communicator ranks;
+    ProcessGrid grid;
+    Surface surface;
+    Interface interface;
+    Block block;
+
+    explicit Case(const std::string& text)
+        : scene(read_scene_text(text, "start.toml")), setup(make_setup(scene, 1)),
+          grid(make_grid(scene, setup, 1, 0)), surface(scene_surface(scene)),
+          interface(surface, grid.tile(0), scene.surface.spacing, setup.simulation.interface),
+          block(setup.simulation.block, ranks, grid) {}
+};
+
+const std::string rough = "[surface]\nsites = 32\nrms = 0.7\n";
+
+TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
+    for (const std::string& text : {rough, rough + "seed = 3\n[interface]\ntail = true\n",
+                                    std::string("[surface]\nsites = 48\nrms = 1\nradius = 300\n"),
+                                    std::string("[surface]\nkind = \"flat\"\nsites = 16\n")}) {
+        SCOPED_TRACE(text);
+        Case c(text);
+        const ApproachStart start = approach_start(c.block, c.interface);
+        EXPECT_LT(start.height, c.interface.start_height());
+        EXPECT_LT(start.energy, 0.0);
+        EXPECT_LT(start.force, 0.0);
+        // The deepest energy of the rigid block, in finer steps.
+        double deepest = 0.0;
+        for (double height = start.height;; height -= 0.01) {
+            const InterfaceSums sums =
+                c.interface.sweep(c.block.lowest_layer(), c.block.interface_force(), height, true);
+            if (sums.force_z.value() > 0.0) break;
+            deepest = std::min(deepest, sums.energy.value());
+        }
+        // What the real block gains where the top plane stays.
+        const auto relaxed = at_rest(Block(c.setup.simulation.block, c.ranks, c.grid));
+        RelaxOptions options;
+        options.tolerance = 1e-10;
+        Phases phases;
+        const RelaxedState state =
+            relaxed->relax(c.interface, start.height, Constraint::top(0.0), options, phases);
+        ASSERT_TRUE(state.converged);
+        const double gained = start.energy - state.interface_energy - state.elastic_energy;
+        EXPECT_GT(gained, 0.0);
+        EXPECT_LE(gained, -share_at_start * deepest);
+        // and the start is not much further out than it must be
+        EXPECT_GE(gained, -0.05 * share_at_start * deepest);
+    }
+}
+
+TEST(ApproachStart, IsOutOfReachWhereNothingAttracts) {
+    Case c(rough + "[interface]\nepsilon = 1e-9\n");
+    InterfaceOptions none = c.setup.simulation.interface;
+    none.potential.epsilon = 0.0;
+    const Interface nothing(c.surface, c.grid.tile(0), c.scene.surface.spacing, none);
+    const ApproachStart start = approach_start(c.block, nothing);
+    EXPECT_EQ(start.height, nothing.start_height());
+    EXPECT_EQ(start.energy, 0.0);
+    EXPECT_EQ(start.force, 0.0);
+}
+
+io::Json result_of(const Scene& scene, const std::string& out) {
+    RunOptions options;
+    options.out = out;
+    options.progress = io::ProgressMode::off;
+    EXPECT_EQ(run(scene, options, Communicator()), io::exit_code::done);
+    std::ifstream stream(options.out + "/result.json");
+    const std::string json{std::istreambuf_iterator<char>(stream), {}};
+    return io::parse_json(json, "result.json");
+}
+
+TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
+    const io::Scratch scratch;
+    Case c(rough + "[drive]\nvelocity = 10\ndamping = 0.2\ntimestep = 20\n");
+    const io::Json result = result_of(c.scene, scratch / "run");
+    Simulation s(c.setup.simulation, c.surface, c.ranks, c.grid);
+    s.start(c.interface.start_height());
+    double strongest = 0.0;
+    while (!s.drive().done()) {
+        const StepRecord& now = s.step(true);
+        strongest = std::max(strongest, -now.force);
+        s.drive().observe(now.time, now.force, out_of_reach(now.top, now.force, strongest));
+        ASSERT_LT(s.steps(), 100000);
+    }
+    const double per_area = units::milli_per_unit / std::pow(c.scene.edge(), 2);
+    const double approach = io::find(result, "work_of_adhesion.approach")->get<double>(),
+                 pull_off = io::find(result, "work_of_adhesion.pull_off")->get<double>();
+    EXPECT_NEAR(approach, per_area * s.ledger().approach, 1e-5 * approach);
+    EXPECT_NEAR(pull_off, -per_area * s.ledger().pull_off, 1e-4 * pull_off);
+    EXPECT_LT(io::find(result, "run.steps")->get<double>(), 0.9 * static_cast<double>(s.steps()));
+}
+
+TEST(ApproachStart, AWarmBlockStartsOutOfReach) {
+    const io::Scratch scratch;
+    const std::string once = rough + "[drive]\ndamping = 1\ntimestep = 10\nmax_steps = 1\n"
+                                     "path = [\"approach\"]\n";
+    for (const double temperature : {0.0, 300.0}) {
+        Case c(once + "temperature = " + std::to_string(temperature) + "\n");
+        const io::Json result = result_of(c.scene, scratch / std::to_string(temperature));
+        const double energy = io::find(result, "energy.interface")->get<double>();
+        EXPECT_EQ(energy == 0.0, temperature > 0.0) << temperature;
+    }
+}
+
+} // namespace
+} // namespace asperity
