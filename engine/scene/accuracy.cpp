@@ -60,6 +60,11 @@ Option option_of(const calibration::Row& row, bool whole_path) {
     return option;
 }
 
+bool stays_stable(const Scene& scene, const calibration::Row& row) {
+    return row.dial != Dial::timestep || scene.surface.sites <= calibration::most_sites ||
+           row.value <= calibration::longest_timestep_of_more;
+}
+
 /// What each dial may be set to in this scene.
 std::vector<std::vector<Option>> options_of(const Scene& scene, std::vector<std::string>& kept) {
     const auto open = [&](const char* key) {
@@ -71,7 +76,8 @@ std::vector<std::vector<Option>> options_of(const Scene& scene, std::vector<std:
     const auto rows = [&](Dial dial) {
         std::vector<Option> list;
         for (const calibration::Row& row : calibration::rows)
-            if (row.dial == dial) list.push_back(option_of(row, in_time));
+            if (row.dial == dial && stays_stable(scene, row))
+                list.push_back(option_of(row, in_time));
         return list;
     };
     std::vector<std::vector<Option>> dials;
@@ -225,7 +231,7 @@ std::optional<LongerStep> longer_timestep(const Scene& scene) {
     if (scene.without_time() || !outside.list().empty()) return std::nullopt;
     LongerStep longest = {0.0, 0.0};
     for (const calibration::Row& row : calibration::rows)
-        if (row.dial == Dial::timestep && row.value > longest.timestep)
+        if (row.dial == Dial::timestep && row.value > longest.timestep && stays_stable(scene, row))
             longest = {row.value, row.path};
     if (2.0 * scene.drive.timestep >= longest.timestep) return std::nullopt;
     return longest;

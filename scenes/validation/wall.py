@@ -45,7 +45,7 @@ class Runs:
         """The relaxed state of a scene over a wall; a run that is there already is read."""
         place = self.out / name
         if not (place / "result.json").exists():
-            settings = {"drive.path": "zero-load", "block.model": "spectral", "interface.kind": "wall", "theory.renormalised": "false",
+            settings = {"numerics.precision": "double", "drive.path": "zero-load", "block.model": "spectral", "interface.kind": "wall", "theory.renormalised": "false",
                         "output.checkpoint": 0, "drive.tolerance": 1e-6, **keys}
             settings.setdefault("block.thickness", settings["surface.sites"])
             command = [self.program, "run", str(ROOT / "scenes/paper/flat-3A.toml"), "--progress", "off", "--out", str(place),

@@ -317,8 +317,10 @@ TEST(Scene, ScenesThatComeWithAsperity) {
     EXPECT_EQ(first.surface.rms, 1.5);
     EXPECT_EQ(first.block.model, BlockModel::multiscale);
     Scene flat = read_scene(scenes + "paper/flat-3A.toml");
-    EXPECT_EQ(flat.drive.timestep, 40.0);
+    EXPECT_EQ(flat.drive.timestep, 50.0);
+    EXPECT_EQ(flat.numerics.precision, Precision::mixed);
     flat.drive.timestep = Scene{}.drive.timestep; // the rest is the defaults, spelt out
+    flat.numerics.precision = Scene{}.numerics.precision;
     EXPECT_EQ(scene_toml(flat, false), scene_toml(Scene{}, false));
 }
 

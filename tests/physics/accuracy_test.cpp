@@ -103,6 +103,19 @@ TEST(HeldOut, StatesAtZeroLoad) {
                         {"block.model=lattice", "drive.tolerance=1e-5"}, "0.1%", Question::state);
 }
 
+TEST(Choice, StepsAreNoLongerThanWhatIsStableInWideBoxes) {
+    const auto step = [](const char* sites) {
+        const Scene scene = read_scene_text("[numerics]\naccuracy = \"2%\"\n", "s.toml",
+                                            {std::string("surface.sites=") + sites});
+        return scene.drive.timestep;
+    };
+    EXPECT_EQ(step("128"), 60.0);
+    EXPECT_EQ(step("512"), 40.0);
+    const Scene wide = read_scene_text("[drive]\ntimestep = 15\n", "s.toml");
+    ASSERT_TRUE(longer_timestep(wide));
+    EXPECT_EQ(longer_timestep(wide)->timestep, 40.0);
+}
+
 TEST(Choice, LeavesAloneWhatTheSceneSays) {
     const std::string text = "[numerics]\naccuracy = \"1%\"\n";
     const Scene free = read_scene_text(text, "s.toml");
