@@ -30,7 +30,8 @@ bool Continuation::predicts(double at) const {
     return at_ != before_at_ && std::abs((at - at_) / (at_ - before_at_)) * moved_ <= furthest;
 }
 
-RelaxedState Continuation::relax_at(double at, bool predicted, const Report& report) {
+RelaxedState Continuation::relax_at(double at, bool predicted, const Report& report,
+                                    const ForceWindow& window) {
     const auto arrays = block_.state();
     last_.restore(arrays);
     RelaxOptions options;
@@ -39,6 +40,7 @@ RelaxedState Continuation::relax_at(double at, bool predicted, const Report& rep
     options.tolerance = options_.tolerance;
     options.site_stiffness = options_.site_stiffness;
     options.report = report;
+    options.force_window = window;
     const RelaxedState state =
         block_.relax(interface_, options_.reference_height, constraint(at), options, phases_);
     iterations_ += state.iterations;

@@ -40,10 +40,11 @@ public:
     /// Whether a prediction is possible.
     bool predicts(double at) const;
     /// Relaxes from the last point with the coordinate there, or from the prediction, which must be
-    /// possible: that may end without an equilibrium where none is close. report as in
+    /// possible: that may end without an equilibrium where none is close. report and window as in
     /// RelaxOptions. Collective.
     using Report = std::function<bool(long long, double)>;
-    RelaxedState relax_at(double at, bool predicted, const Report& report);
+    RelaxedState relax_at(double at, bool predicted, const Report& report,
+                          const ForceWindow& window = {});
     /// Towards the last point from where the block is: this share of the way.
     void retreat(double share) { last_.extrapolate(-share, block_.state()); }
 

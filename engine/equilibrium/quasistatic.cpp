@@ -73,17 +73,19 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     }
     const double aim = attracted_ ? options_.load : std::max(options_.load, 0.0);
     for (;;) {
-        if (ahead_.known != 0.0) close_in(leg, aim);
+        const bool all_the_way = close_in();
         const double top = record_.top + direction * length_;
         predicts_ = predicts_ && points_.predicts(top);
         const long long iterations = points_.iterations();
-        const RelaxedState state = points_.relax_at(top, predicts_, options_.report);
+        const bool last_try = length_ <= smallest_step();
+        const RelaxedState state =
+            points_.relax_at(top, predicts_, options_.report,
+                             all_the_way || last_try ? ForceWindow{} : acceptable_force(top));
         if (state.interrupted) {
             put_back();
             points_.set_iterations(iterations);
             return Outcome::interrupted;
         }
-        const bool last_try = length_ <= smallest_step();
         if (!state.converged && !predicts_ && last_try)
             throw io::PhysicsError(
                 fmt::format("no equilibrium was found with the {} displaced by {:.6g} Å",
@@ -107,10 +109,9 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
             break;
         }
         // What looks like an instability after a prediction is looked at again without.
-        if (std::exchange(predicts_, false)) continue;
-        if (state.converged && !step.excess) {
-            ahead_ = {1.0, top, state};
-        }
+        if (std::exchange(predicts_, false) && !state.jumped) continue;
+        if (state.jumped) ahead_ = {1.0, top, state.force};
+        if (state.converged && !step.excess) ahead_ = {1.0, top, state.top_force};
         length_ *= 0.5;
         predicts_ = reversible_;
     }
@@ -134,22 +135,32 @@ bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
     return record_.force <= aim + slack && state.force > aim + slack;
 }
 
-/// The next step goes half of the way to the state ahead; or all of it, once the work of such a
-/// step is known well enough. It is then relaxed from the last point like any other, for a fall
-/// from further away may have ended on another branch than the path takes.
-void QuasistaticPath::close_in(Leg leg, double aim) {
+/// The next step goes half of the way to the place ahead; or all of it, once the work of such a
+/// step is known well enough: then true.
+bool QuasistaticPath::close_in() {
+    if (ahead_.known == 0.0) return false;
     const double way = std::abs(ahead_.top - record_.top);
-    const StepCheck step = check(ahead_.state, ahead_.top);
-    const bool loaded = leg == Leg::approach && passes_load(ahead_.state, aim);
-    if (loaded || step.excess) {
-        ahead_.known = 0.0;
-    } else if (step.accepted || way <= smallest_step()) {
-        length_ = way;
-        predicts_ = false;
-        ahead_.known = 0.0;
-    } else {
+    if (way > smallest_step() && !work_is_known(ahead_.top, ahead_.force)) {
         length_ = std::min(length_, 0.5 * way);
+        return false;
     }
+    length_ = way;
+    predicts_ = false;
+    ahead_.known = 0.0;
+    return true;
+}
+
+/// As check() has it where energy is missing.
+bool QuasistaticPath::work_is_known(double top, double force) const {
+    const double step = std::abs(top - record_.top);
+    return trail_.to(top, force).error <= options_.tolerance * sites_ * step ||
+           0.5 * step * std::abs(force - record_.top_force) <= allowed_uncertainty();
+}
+
+/// A force outside is too far from a smooth continuation for a step to this place; a half more than
+/// that, for a fall may come back a little.
+ForceWindow QuasistaticPath::acceptable_force(double top) const {
+    return {trail_.continued(top), 1.5 * 2.0 * allowed_uncertainty() / std::abs(top - record_.top)};
 }
 
 QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, double top) const {
@@ -176,7 +187,7 @@ QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, dou
     if (!v.smooth) {
         v.work = -trail_.trapezium(top, state.top_force);
         uncertain = 0.5 * step * std::abs(state.top_force - record_.top_force);
-        v.accepted = uncertain <= options_.tolerance * sites_ * options_.step;
+        v.accepted = uncertain <= allowed_uncertainty();
     }
     if (v.work - gained > std::max(uncertain, allowed)) v.dissipated = v.work - gained;
     v.gap = v.work - gained - v.dissipated;

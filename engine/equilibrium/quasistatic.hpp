@@ -17,13 +17,14 @@
 //   accepted  if nothing is missing;
 //   accepted, and what is missing counted as dissipated, if the work is known to be right: the
 //             force is smooth, or its jump times the step is too small to matter;
-//   halved    otherwise, and tried again from the last point. The energies of the state that was
-//             found are kept: they tell how close the last point has to come to it.
+//   halved    otherwise, and tried again from the last point. Where that was and the force there
+//             are kept: they tell how close the last point has to come.
 //
 // So an instability ends up between two points so close that its place and its energy are known,
 // while many small instabilities that leave the force smooth are counted without looking for each.
-// As long as a state further on is kept, steps go half of the way to it; the surface has to be
-// followed through the instability itself once, and again only where a step ends beyond it.
+// As long as a place further on is kept, steps go half of the way to it. A relaxation whose force
+// jumps further than a step of its length may have it (spectral block) is given up on its way
+// through the instability: its step would be halved anyway.
 // "Nothing" is drive.tolerance for each site and Å of the step: errors of the energy are then
 // bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
 //
@@ -112,25 +113,26 @@ private:
     struct LegError {
         double gap = 0.0, squares = 0.0; ///< eV, eV^2
     };
-    /// A relaxed state further on: its energies and forces, by which steps close in on it. Between
-    /// the last point and it the block becomes unstable, or the force is not smooth enough to tell.
+    /// A place further on, and the force there, by which steps close in on it. Between the last
+    /// point and it the block becomes unstable, or the force is not smooth enough to tell.
     struct Ahead {
-        double known = 0.0, top = 0.0;
-        RelaxedState state;
-        template <class Visitor>
-        void visit(Visitor& v);
+        double known = 0.0, top = 0.0, force = 0.0;
     };
     const LegError& error(Leg leg) const {
         return leg == Leg::approach ? approach_error_ : pull_off_error_;
     }
     StepCheck check(const RelaxedState& state, double top) const;
     bool passes_load(const RelaxedState& state, double aim) const;
-    void close_in(Leg leg, double aim);
+    bool close_in();
+    bool work_is_known(double top, double force) const;
+    ForceWindow acceptable_force(double top) const;
     void accept(const RelaxedState& state, double top, const StepCheck& step, Leg leg);
     Instability describe(const RelaxedState& state, double energy, Leg leg) const;
     void set_record(const RelaxedState& state, double top);
     void first_point(double top);
     double smallest_step() const { return options_.step * 0x1p-16; }
+    /// Of the work of a step with an instability, eV.
+    double allowed_uncertainty() const { return options_.tolerance * sites_ * options_.step; }
 
     Equilibrium& block_;
     Interface& interface_;
@@ -155,16 +157,6 @@ private:
 };
 
 template <class Visitor>
-void QuasistaticPath::Ahead::visit(Visitor& v) {
-    v("ahead", known);
-    v("ahead.top", top);
-    v("ahead.interface_energy", state.interface_energy);
-    v("ahead.elastic_energy", state.elastic_energy);
-    v("ahead.force", state.force);
-    v("ahead.top_force", state.top_force);
-}
-
-template <class Visitor>
 void QuasistaticPath::visit(Visitor& v) {
     v("point", record_.step);
     v("top", record_.top);
@@ -184,7 +176,9 @@ void QuasistaticPath::visit(Visitor& v) {
     v("predicts", predicts_);
     v("closing_in", closing_in_);
     v("length", length_);
-    ahead_.visit(v);
+    v("ahead", ahead_.known);
+    v("ahead.top", ahead_.top);
+    v("ahead.force", ahead_.force);
     v("direction", direction_);
     trail_.visit(v);
     v("attracted", attracted_);

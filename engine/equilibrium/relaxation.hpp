@@ -27,6 +27,7 @@
 #include "engine/phases.hpp"
 
 #include <functional>
+#include <limits>
 
 namespace asperity {
 
@@ -37,12 +38,19 @@ enum class Start {
     predicted, ///< a guess at an equilibrium: where none is close, there is no point in going on
 };
 
+/// Where the interface's force is worth having at the end, eV/Å.
+struct ForceWindow {
+    double expected = 0.0;
+    double furthest = std::numeric_limits<double>::infinity(); ///< from the one expected
+};
+
 struct RelaxOptions {
     Start start = Start::anywhere; ///< waves only
     double tolerance = 1e-4;       ///< largest residual force on a node, eV/Å
     double max_move = 0.2;         ///< Å an iteration
     double site_stiffness = 2.2;   ///< of the interface, for each site, eV/Å^2: waves only
     long long max_iterations = 200000;
+    ForceWindow force_window; ///< given up where the force stays outside: waves only
     /// Called now and then, on all ranks, with the iteration and the residual. True: stop here.
     std::function<bool(long long, double)> report;
 };
@@ -50,6 +58,7 @@ struct RelaxOptions {
 struct RelaxedState {
     bool converged = false;
     bool interrupted = false; ///< report() asked for it
+    bool jumped = false;      ///< given up: the force, set, stayed outside its window
     long long iterations = 0;
     double residual = 0.0;         ///< eV/Å
     double interface_energy = 0.0; ///< U_LJ, eV

@@ -177,6 +177,10 @@ RelaxedState follow(Descent& descent, SpectralBlock& block, const RelaxOptions& 
     constexpr long long long_enough = 3000;
     double smallest = std::numeric_limits<double>::infinity();
     long long found_at = 0;
+    // The first moves take the force out of its window too, but not for long.
+    constexpr long long settled = 20, look = 5;
+    const ForceWindow& window = options.force_window;
+    bool outside = false;
     for (;; ++state.iterations) {
         state.residual = descent.residual();
         if (state.residual < 0.5 * smallest) {
@@ -194,6 +198,13 @@ RelaxedState follow(Descent& descent, SpectralBlock& block, const RelaxOptions& 
             if (over || state.interrupted || state.converged) break;
         }
         if (!descent.step()) return state;
+        if (!std::isfinite(window.furthest) || state.iterations < settled ||
+            state.iterations % look != 0)
+            continue;
+        state.force = global_sum(block.communicator(), descent.sums().force_z);
+        const bool still = outside;
+        outside = std::abs(state.force - window.expected) > window.furthest;
+        if ((state.jumped = still && outside)) return state;
     }
     const InterfaceSums& sums = descent.sums();
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});

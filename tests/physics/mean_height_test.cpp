@@ -340,6 +340,44 @@ TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
     expect_in(lost[1], lost[0], least, 5e-3);
 }
 
+TEST(MeanHeight, FallsThatTakeTheForceTooFarAreGivenUp) {
+    // A relaxation that ends far from the force expected is given up before its end; one whose
+    // force is only near the edge of its window for its first moves is not.
+    Case c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25), true);
+    QuasistaticPath path = path_of(c, 2e-4);
+    path.start();
+    StepRecord before = path.now();
+    while (path.dissipation().events == 0) {
+        before = path.now();
+        ASSERT_EQ(path.advance(Leg::approach), QuasistaticPath::Outcome::point);
+    }
+    const double after = path.now().top;
+    const auto fall = [&](const ForceWindow& window) {
+        c.block->set_uniform(before.top);
+        relax_at(c, before.top, 1e-6);
+        RelaxOptions o;
+        o.start = Start::near;
+        o.force_window = window;
+        Phases phases;
+        return c.block->relax(c.interface, c.interface.start_height(),
+                              {Constraint::Of::mean_height, after}, o, phases);
+    };
+    const RelaxedState whole = fall({});
+    ASSERT_TRUE(whole.converged);
+    const double jump = std::abs(whole.force - before.force);
+    ASSERT_GT(jump, 1.0);
+    const RelaxedState wide = fall({before.force, 1.5 * jump});
+    EXPECT_TRUE(wide.converged);
+    EXPECT_FALSE(wide.jumped);
+    EXPECT_EQ(wide.force, whole.force);
+    EXPECT_EQ(wide.iterations, whole.iterations);
+    const RelaxedState narrow = fall({before.force, 0.2 * jump});
+    EXPECT_TRUE(narrow.jumped);
+    EXPECT_FALSE(narrow.converged);
+    EXPECT_LT(narrow.iterations, whole.iterations);
+    EXPECT_GT(std::abs(narrow.force - before.force), 0.2 * jump);
+}
+
 TEST(MeanHeight, WorkIsThatOfATighterPath) {
     // In nearly full contact a relaxation from too far before an instability ends in a state that
     // the path does not reach, and the path misses instabilities on the way. On this surface the
