@@ -115,8 +115,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         length_ *= 0.5;
         predicts_ = reversible_;
     }
-    const double slack = 0.25 * options_.tolerance * sites_; // what points are relaxed to
     if (leg == Leg::approach) {
+        const double slack = this->slack(record_.in_contact);
         attracted_ = attracted_ || record_.force < std::min(options_.load, 0.0) - slack;
         const bool back = attracted_ && record_.force >= options_.load;
         const bool there =
@@ -128,10 +128,20 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     return apart ? Outcome::apart : Outcome::point;
 }
 
+/// What the force of a point may be wrong by, eV/Å: a quarter of the tolerance, which points are
+/// relaxed to, for each site that counts. Under a prescribed top plane that is each site; at a
+/// prescribed mean height the others' residuals cannot add up to a force, only those of sites that
+/// the substrate holds move it.
+double QuasistaticPath::slack(std::int64_t in_contact) const {
+    const bool all = options_.along == Constraint::Of::top;
+    const double count = all ? sites_ : std::max(static_cast<double>(in_contact), 1.0);
+    return 0.25 * options_.tolerance * count;
+}
+
 /// On the approach, with the last point still on the other side of it. Also where the attraction
 /// was too weak to be told from the slack.
 bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
-    const double slack = 0.25 * options_.tolerance * sites_;
+    const double slack = this->slack(state.in_contact);
     return record_.force <= aim + slack && state.force > aim + slack;
 }
 

@@ -40,6 +40,7 @@
 #include "engine/equilibrium/force_trail.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 namespace asperity {
@@ -122,6 +123,7 @@ private:
         return leg == Leg::approach ? approach_error_ : pull_off_error_;
     }
     StepCheck check(const RelaxedState& state, double top) const;
+    double slack(std::int64_t in_contact) const;
     bool passes_load(const RelaxedState& state, double aim) const;
     bool close_in();
     bool work_is_known(double top, double force) const;

@@ -462,6 +462,27 @@ TEST(MeanHeight, LandsWhereTheAttractionIsLostInTheTolerance) {
     EXPECT_LT(std::abs(path.now().force), 0.26 * tolerance * c.sites());
 }
 
+TEST(MeanHeight, EndsInTheFirstStateHoweverWeaklyItBinds) {
+    // Very rough: the attraction of a few summits, less than a quarter of the tolerance for each
+    // site of the surface. The path ends where a relaxation without a path does.
+    constexpr double tolerance = 1e-2;
+    Case c(test::paper_block(32, 32, 0), test::reference_surface("c3_N32_T32_rms1.5", 6.0), true);
+    QuasistaticPath path = path_of(c, tolerance);
+    path.start();
+    const auto in = follow(path, Leg::approach);
+    double strongest = 0.0;
+    for (const StepRecord& r : in)
+        strongest = std::max(strongest, -r.force);
+    EXPECT_LT(strongest, 0.25 * tolerance * c.sites());
+    const double ended = energy(path.now()), force = path.now().force;
+    const RelaxedState state = let_go(c);
+    ASSERT_TRUE(state.converged);
+    const double least = state.interface_energy + state.elastic_energy;
+    EXPECT_LT(least, 0.0);
+    EXPECT_NEAR(ended, least, 0.02 * std::abs(least));
+    EXPECT_LT(std::abs(force), 0.1 * strongest);
+}
+
 TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     // Where a relaxation with the top plane free has ended, under a load and the block pressed
     // together by it, the path holds the layer where it is.
