@@ -448,10 +448,11 @@ TEST(MeanHeight, EndsAtItsLoadWhereTheForceFallsWithTheHeight) {
 }
 
 TEST(MeanHeight, LandsWhereTheAttractionIsLostInTheTolerance) {
-    // Very rough: less attraction than a quarter of the tolerance for each site.
+    // Under a prescribed top plane. Very rough: less attraction than a quarter of the tolerance for
+    // each site.
     constexpr double tolerance = 2e-2;
     Case c(test::paper_block(16, 16, 0), test::reference_surface("c1_N16_T16_rms0.5", 20.0), true);
-    QuasistaticPath path = path_of(c, tolerance);
+    QuasistaticPath path = c.path(tolerance);
     path.start();
     const auto in = follow(path, Leg::approach);
     double strongest = 0.0;
