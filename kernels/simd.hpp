@@ -57,6 +57,9 @@ struct Pack {
     static constexpr int width = register_bytes / static_cast<int>(sizeof(T));
     using Register = typename RegisterOf<T>::type;
     using Mask = typename RegisterOf<T>::mask;
+    /// As it lies in memory. g++ 12 takes a register of AVX2 that is filled by memcpy through the
+    /// stack, where a compiler barrier keeps it (load_once).
+    typedef T Unaligned __attribute__((vector_size(register_bytes), aligned(sizeof(T)), may_alias));
 
     Register r;
 
@@ -65,9 +68,7 @@ struct Pack {
     ASPERITY_INLINE Pack(T value) : r(value - Register{}) {} // value - 0 is value, bit for bit
 
     static ASPERITY_INLINE Pack load(const T* from) {
-        Pack p;
-        std::memcpy(&p.r, from, sizeof(Register));
-        return p;
+        return Pack(static_cast<Register>(*reinterpret_cast<const Unaligned*>(from)));
     }
     /// Like load, for what is needed twice: the compiler shall not read it twice.
     static ASPERITY_INLINE Pack load_once(const T* from) {
