@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <vector>
@@ -21,10 +22,11 @@ using namespace asperity;
 
 namespace {
 
-/// Seconds of one call, the least over trials of many calls each.
+/// Seconds of one call, the least over trials of many calls each; a trial takes a few milliseconds.
 template <class Call>
-double least(const Communicator& ranks, int calls, const Call& call) {
+double least(const Communicator& ranks, const Call& call) {
     double best = 1e300;
+    int calls = 4;
     for (int trial = 0; trial < 20; ++trial) {
         ranks.barrier();
         const auto start = std::chrono::steady_clock::now();
@@ -32,6 +34,9 @@ double least(const Communicator& ranks, int calls, const Call& call) {
             call();
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         best = std::min(best, took.count() / calls);
+        std::array<double, 1> longest = {best}; // all ranks call as often
+        ranks.max(longest);
+        calls = static_cast<int>(std::clamp(4e-3 / longest[0], 4.0, 200.0));
     }
     return best;
 }
@@ -47,14 +52,13 @@ int main(int argc, char** argv) {
     }
     const int other = 1 - ranks.rank();
     nlohmann::json swaps = nlohmann::json::array(), pings = swaps;
-    for (std::size_t bytes = 8; bytes <= (std::size_t{4} << 20); bytes *= 8) {
+    for (std::size_t bytes = 8; bytes <= (std::size_t{4} << 20); bytes *= 2) {
         std::vector<double> out(bytes / sizeof(double), 1.0), in(out.size()), out2 = out, in2 = in;
-        const int calls = static_cast<int>(std::clamp<std::size_t>((1 << 22) / bytes, 4, 200));
         // There and back: half of it is one message.
         const Message there[] = {{other, other, 0, out, {}}}, back[] = {{other, other, 0, {}, in}};
         const Message both[] = {{other, other, 0, out, in}, {other, other, 1, out2, in2}};
-        const double swap = least(ranks, calls, [&] { ranks.exchange(both); });
-        const double ping = least(ranks, calls, [&] {
+        const double swap = least(ranks, [&] { ranks.exchange(both); });
+        const double ping = least(ranks, [&] {
             ranks.exchange(ranks.root() ? there : back);
             ranks.exchange(ranks.root() ? back : there);
         });
@@ -63,7 +67,7 @@ int main(int argc, char** argv) {
     }
     // The nine exact sums of a step, in one reduction (Simulation::update_energy_balance).
     std::vector<double> bins(9 * ExactSum::bins, 0.0);
-    const double sum = least(ranks, 200, [&] { ranks.sum(bins); });
+    const double sum = least(ranks, [&] { ranks.sum(bins); });
     const nlohmann::json result = {{"ping", pings}, {"swap", swaps}, {"sum", sum}};
     if (ranks.root()) std::printf("%s\n", result.dump(1).c_str());
     return 0;

@@ -63,16 +63,22 @@ def tables(results, baseline, phases):
     return out
 
 
+def study_tables(scaling, phases):
+    """Those of the scaling study that were measured."""
+    return [t for t in _scaling_tables(scaling, {}, phases) if not t["title"].startswith("Larger")]
+
+
 def _scaling_tables(scaling, limits, phases):
     out = []
     stream = ", ".join(f"{_number(rate)} GB/s on {name[8:]}" for name, rate in limits.items() if name.startswith("stream"))
+    stream = f" Stream: {stream}." if stream else ""
     def cells(e):
         return [f"{e['sites']}", e["place"], f"{e['ranks']} x {e['threads']}", _number(1e3 * e["seconds"])] + \
             [_number(1e3 * e["phases"].get(p, 0.0)) for p in phases] + \
             [_percent(e["communication"]), f"{e['efficiency']:.2f}"]
     header = ["sites", "place", "ranks x threads", "ms/step", *phases, "exchange and sums", "efficiency"]
     out.append(_table("Two cores on the same block",
-                      f"Phases in ms a step, of rank 0; waiting for the other rank is part of exchange and sums. Stream: {stream}.",
+                      f"Phases in ms a step, of rank 0; waiting for the other rank is part of exchange and sums.{stream}",
                       header, [cells(e) for e in scaling["strong"]]))
     out.append(_table("Two cores on a block twice as large",
                       f"{scaling['weak'][0]['layers']} layers; efficiency by node.",
@@ -83,7 +89,8 @@ def _scaling_tables(scaling, limits, phases):
                       f"{_number(1e6 * m['sum'])} µs.",
                       ["bytes", "one way, µs", "GB/s", "swap, µs"],
                       [[str(p["bytes"]), _number(1e6 * p["seconds"]), _number(1e-9 * p["bytes"] / p["seconds"]),
-                        _number(1e6 * s["seconds"])] for p, s in zip(m["ping"], m["swap"])]))
+                        _number(1e6 * s["seconds"])] for p, s in zip(m["ping"], m["swap"])
+                       if math.log2(p["bytes"]) % 3 == 0]))
     out.append(_table("The model compared with two ranks",
                       "In contact. The model uses measurements on one core and of the messages, and no run on two ranks.",
                       ["sites", "ms/step", "model", "model / measured", "communication, ms", "model", "halo, kB a step", "model"],

@@ -105,21 +105,30 @@ class Model:
                 "sums": doublings * self.sum}
 
 
-def study(folder, quick):
-    """Strong and weak scaling on two cores, the messages, the model and its check."""
+# Sizes of a study: strong, on one core alone, weak (one core, two cores: twice the sites; layers); seconds, repeats.
+STUDIES = {"tiny": ((32,), (32, 64), (32, 46, 32), 0.05, 1),
+           "short": ((64, 128), (32, 64, 128), (64, 92, 64), 0.1, 2),
+           "full": ((256, 512), (64, 128, 256, 512), (272, 384, 256), 1.0, 3)}
+
+
+def study(folder, which):
+    """Strong and weak scaling on two cores, the messages, the model and its check. Ends the program if the
+    records of a step differ between ranks or threads."""
     if not shutil.which("mpirun"):
         sys.exit("bench: the scaling study needs mpirun\n    fix: apt-get install openmpi-bin")
-    strong = (32,) if quick else (256, 512)
-    single = (32, 64) if quick else (64, 128, 256, 512)
-    weak = (32, 46, 32) if quick else (272, 384, 256)  # one core, two cores: twice the sites; layers
+    strong, single, weak, seconds, repeats = STUDIES[which]
     layouts = ((1, 1), (1, 2), (2, 1))
     cases = [(place, n, n, *layout) for n in strong for place in ("contact", "away") for layout in layouts]
     cases += [("contact", n, n, 1, 1) for n in single if n not in strong]
     cases += [("contact", weak[0] if r * t == 1 else weak[1], weak[2], r, t) for r, t in layouts]
-    best = {}
-    for _ in range(1 if quick else 3):
+    best, records = {}, {}
+    for _ in range(repeats):
         for case in cases:
-            result = step(folder, *case, seconds=0.05 if quick else 1.0)
+            result = step(folder, *case, seconds=seconds)
+            record = records.setdefault(case[:3], result["sixth_step"])
+            if result["sixth_step"] != record:
+                sys.exit(f"bench: {case[3]} ranks of {case[4]} threads give other numbers than one: "
+                         f"{result['sixth_step']} instead of {record} ({case[0]}, {case[1]} sites, {case[2]} layers)")
             if case not in best or result["seconds"] < best[case]["seconds"]:
                 best[case] = result
     messages = _run([os.path.join(folder, "message_bench")], 1, 2)

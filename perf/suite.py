@@ -167,6 +167,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default=os.path.join(SOURCE, "build", "release"), help=argparse.SUPPRESS)
     parser.add_argument("--scaling", action="store_true", help="the scaling study and its model, too (2 minutes more)")
+    parser.add_argument("--study", action="store_true", help="nothing but a short scaling study (a quarter of a minute)")
     parser.add_argument("--page", nargs="?", const=os.path.join(SOURCE, "docs"), metavar="DIR",
                         help="write performance.md and its plots there (default: docs); runs all of it")
     parser.add_argument("--out", metavar="FILE", help="JSON with all numbers (default: bench.json in the build)")
@@ -177,6 +178,12 @@ def main():
     if args.quick and args.save_baseline:
         parser.error("--quick measures nothing that could be a baseline")
 
+    if args.study:
+        watch = machine.Watch()
+        for table in page.study_tables(scaling.study(programs(args), "short"), PHASES):
+            say(page.terminal(table))
+        say(machine.words(watch.report()))
+        return
     if args.earlier:
         with open(args.earlier) as file:
             results = json.load(file)
@@ -192,7 +199,7 @@ def main():
                    "quick": args.quick, "limits": limits, "kernels": groups, "steps": steps(folder, args.quick)}
         if args.scaling or args.page:
             say("Scaling ...")
-            results["scaling"] = scaling.study(folder, args.quick)
+            results["scaling"] = scaling.study(folder, "tiny" if args.quick else "full")
         results["load"] = watch.report()
         out = args.out or os.path.join(args.build, "perf", "bench.json")
         with open(out, "w") as file:
