@@ -23,6 +23,8 @@ namespace {
 
 /// Coordinates beyond are no solid (1 mm), and lose the digits that forces need, Å.
 constexpr double largest_coordinate = 1e7;
+/// Types of atoms in a file.
+constexpr std::size_t most_types = 64;
 /// Words of a line that are looked at.
 constexpr std::size_t most_words = 64;
 
@@ -108,21 +110,26 @@ struct RawAtoms {
     std::string format;
     double low[3] = {0.0, 0.0, 0.0}, width[3] = {0.0, 0.0, 0.0}; ///< width[2] = 0: not known
     std::vector<double> position[3];
-    std::string type;
+    std::vector<std::string> types;
+    std::vector<std::int32_t> type;
 
     void reserve(std::size_t count, const std::string_view& text) {
         // Ten bytes an atom at least: what a header announces is no reason to allocate.
         for (auto& axis : position)
             axis.reserve(std::min(count, text.size() / 10));
+        type.reserve(std::min(count, text.size() / 10));
     }
     void add(const Lines& lines, std::string_view of_type, const std::string_view* words) {
-        if (position[0].empty()) type = of_type;
-        if (of_type != type)
-            refuse(lines.where(), "the atoms of the substrate are of several types",
-                   fmt::format("'{}' here, '{}' before; a scene has one pair potential, "
-                               "interface.epsilon and r0",
-                               shown(of_type), shown(type)),
-                   "give all atoms the same type in the file if they are to act alike");
+        const auto known = std::find(types.begin(), types.end(), of_type);
+        type.push_back(static_cast<std::int32_t>(known - types.begin()));
+        if (known == types.end()) {
+            if (types.size() == most_types)
+                refuse(lines.where(), "the atoms of the substrate are of too many types",
+                       fmt::format("'{}' is number {}, and {} can be read", shown(of_type),
+                                   types.size() + 1, most_types),
+                       "give atoms that act alike the same type");
+            types.emplace_back(of_type);
+        }
         for (std::size_t k = 0; k < 3; ++k)
             position[k].push_back(lines.coordinate(words[k]));
     }
@@ -456,6 +463,7 @@ AtomsFile folded(const std::string& file, RawAtoms raw) {
     }
     AtomsFile atoms;
     atoms.format = std::move(raw.format);
+    atoms.types = std::move(raw.types);
     atoms.type = std::move(raw.type);
     atoms.width_x = raw.width[0];
     atoms.width_y = raw.width[1];

@@ -10,12 +10,13 @@
 // over. Extended XYZ: one frame, Lattice="..." and Properties with pos:R:3 (species:S:1:pos:R:3
 // where it has none); Origin and pbc where given.
 //
-// The box must be orthogonal; lengths are in Å. Atoms of several types are refused: a scene has one
-// pair potential. So is every file from which a wrong number could follow: counts that differ,
-// numbers that are none, atoms that stand twice. The error names file, line and remedy.
+// The box must be orthogonal; lengths are in Å. Refused is every file from which a wrong number
+// could follow: counts that differ, numbers that are none, atoms that stand twice. The error names
+// file, line and remedy.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +25,8 @@ namespace asperity::io {
 
 struct AtomsFile {
     std::string format;               ///< "LAMMPS data (atomic)", "extended XYZ"
-    std::string type;                 ///< of all atoms, as the file names it; may be empty
+    std::vector<std::string> types;   ///< as the file names them, in the order of their first atoms
+    std::vector<std::int32_t> type;   ///< of each atom: which of `types`
     double width_x = 0, width_y = 0;  ///< of the periodic box, Å
     std::vector<double> x, y, z;      ///< Å; x and y from the box's lower corner, in [0, width)
     std::vector<std::string> notes{}; ///< what was folded back, one sentence each

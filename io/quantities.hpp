@@ -227,7 +227,9 @@ inline constexpr Quantity run_quantities[] = {
     {"fields/*/pressure", "GPa", "a² of a site", "normal force on a site; repulsion is positive"},
     {"fields/*/distance", "Å", "",
      "distance of a site and the nearest atom; infinite out of reach"},
-    {"fields/*/contact", "1", "", "1 where that is less than the inflection of the potential"},
+    {"fields/*/contact", "1", "",
+     "1 where that is less than the inflection of the potential; with interface.pairs, where an "
+     "atom is nearer than that of its type"},
     {"fields/*/u_x", "Å", "", "displacement of a site"},
     {"fields/*/u_y", "Å", "", "displacement of a site"},
     {"fields/*/u_z", "Å", "", "displacement of a site"},
@@ -238,6 +240,8 @@ inline constexpr Quantity run_quantities[] = {
      "heights of the atoms of the substrate, [y][x]; of atoms anywhere, those of the topmost one "
      "near each site"},
     {"substrate/atoms", "Å", "", "of atoms anywhere, their positions, [atom][x, y, z]"},
+    {"substrate/type", "1", "",
+     "of atoms anywhere with interface.pairs, the entry there of each atom, [atom], from 1"},
     {"substrate/spectrum_q", "1/Å", "", "wavevectors of the bins of the spectrum"},
     {"substrate/spectrum", "Å^4", "", "C(q) of the surface, averaged over rings"},
     {"substrate/spectrum_target", "Å^4", "", "C(q) that the scene asks for"},

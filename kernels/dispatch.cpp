@@ -15,7 +15,7 @@
     extern const TransferKernels transfer_kernels;                                                 \
     extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;                        \
     extern const InterfaceKernels::Sweeps<RowSubstrate> row_sweeps;                                \
-    extern const InterfaceKernels::Sweeps<CellSubstrate> cell_sweeps;                              \
+    extern const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps;                   \
     extern const InterfaceKernels::AllWalls walls;                                                 \
     extern const RowKernels row_kernels;                                                           \
     }

@@ -38,8 +38,10 @@ struct WideSum<Pack<float>> {
 struct SiteTerms {
     alignas(64) double x[interface_block], y[interface_block], z[interface_block];
     alignas(64) double energy[interface_block], nearest[interface_block];
+    std::uint32_t in_contact = 0; ///< a bit for each site
 
     void clear() {
+        in_contact = 0;
         for (int i = 0; i < interface_block; ++i) {
             x[i] = y[i] = z[i] = energy[i] = 0.0;
             nearest[i] = no_pair;
@@ -54,8 +56,8 @@ struct Totals {
     double closest_r2 = no_pair;
 
     template <bool observe>
-    ASPERITY_INLINE void take(const InterfaceSites& sites, double contact_r2, const SiteTerms& s,
-                              int x, int y, int count) {
+    ASPERITY_INLINE void take(const InterfaceSites& sites, const SiteTerms& s, int x, int y,
+                              int count) {
         for (int lane = 0; lane < count; lane += Real::width) {
             const int here = count - lane < Real::width ? count - lane : Real::width;
             Real z = Real::load(s.z + lane);
@@ -74,11 +76,16 @@ struct Totals {
                 if (sites.nearest_r2.origin)
                     nearest.store_first(sites.nearest_r2.line(y) + x + lane, here);
                 for (int i = 0; i < here; ++i) {
-                    in_contact += nearest[i] < contact_r2;
                     repulsive += z[i] > 0.0;
                     closest_r2 = nearest[i] < closest_r2 ? nearest[i] : closest_r2;
                 }
             }
+        }
+        if constexpr (observe) {
+            in_contact += __builtin_popcount(s.in_contact);
+            if (sites.in_contact.origin)
+                for (int i = 0; i < count; ++i)
+                    sites.in_contact(x + i, y) = s.in_contact >> i & 1u;
         }
     }
     /// The same for sites with nothing in reach: zeros, which change no sum.
@@ -89,6 +96,7 @@ struct Totals {
             sites.force.y(i, y) = 0.0;
             sites.force.z(i, y) = 0.0;
             if (observe && sites.nearest_r2.origin) sites.nearest_r2(i, y) = no_pair;
+            if (observe && sites.in_contact.origin) sites.in_contact(i, y) = 0;
         }
     }
     void give(InterfaceSums& sums) const {
@@ -105,8 +113,8 @@ struct Totals {
 };
 
 /// Replaces the sites that the tables do not cover by the reference loop.
-template <class Judge>
-void sum_beyond(const InterfaceSites& sites, const Judge& judge, const LennardJones& lj,
+template <class Judge, class Potential>
+void sum_beyond(const InterfaceSites& sites, const Judge& judge, const Potential& lj,
                 unsigned beyond, int x, int y, int count, SiteTerms& s) {
     const auto& u = sites.displacement;
     for (int i = 0; i < count; ++i) {
@@ -120,13 +128,17 @@ void sum_beyond(const InterfaceSites& sites, const Judge& judge, const LennardJo
         s.z[i] = p.force[2];
         s.energy[i] = p.energy;
         s.nearest[i] = p.nearest_r2;
+        s.in_contact = (s.in_contact & ~(1u << i)) | (unsigned{p.in_contact} << i);
     }
 }
 
 /// What sweep_blocks() asks of a substrate: the height that heights are counted from, the largest
-/// sideways displacement its tables allow for, what the reference loop takes, and its reach.
+/// sideways displacement its tables allow for, what the reference loop takes, its reach, and
+/// whether its atoms may be of several types. Then sum() says which sites are in contact; else the
+/// nearest atom does.
 template <class Heights>
 struct Ground {
+    static constexpr bool of_types = false;
     const Heights& from;
     double datum() const { return from.heights.datum; }
     double margin() const { return from.reach.offset_margin; }
@@ -140,10 +152,10 @@ struct Ground {
 
 /// The sweep over rows [row_begin, row_end), a block of sites at a time; sum(site, reach, x, y,
 /// count, terms) is what differs between substrates.
-template <class T, bool observe, class Substrate, class SumOfPairs>
+template <class T, bool observe, class Substrate, class Potential, class Pair, class SumOfPairs>
 ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& substrate,
-                                  const LennardJones& lj, const PairTerms<Simd, T>& pair,
-                                  int row_begin, int row_end, InterfaceSums& sums, SumOfPairs sum) {
+                                  const Potential& lj, const Pair& pair, int row_begin, int row_end,
+                                  InterfaceSums& sums, SumOfPairs sum) {
     const Ground<Substrate> ground{substrate};
     const double datum = ground.datum();
     const int nx = sites.displacement.x.nx;
@@ -161,12 +173,17 @@ ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& 
             SiteTerms terms;
             if (reach.from_rest > 0.0) {
                 sum(site, reach, x, y, count, terms);
+                if constexpr (observe && !Ground<Substrate>::of_types) {
+                    terms.in_contact = 0;
+                    for (int i = 0; i < count; ++i)
+                        terms.in_contact |= unsigned{terms.nearest[i] < pair.contact_r2} << i;
+                }
                 totals.in_reach += count;
             } else {
                 terms.clear();
             }
             if (site.beyond) sum_beyond(sites, ground.judge(), lj, site.beyond, x, y, count, terms);
-            totals.take<observe>(sites, pair.contact_r2, terms, x, y, count);
+            totals.take<observe>(sites, terms, x, y, count);
         }
     totals.give(sums);
 }

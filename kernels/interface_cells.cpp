@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The sweep over substrate atoms anywhere, in cells of sixteen; compiled once for each x86-64 level
-// (variant.hpp).
+// (variant.hpp). Cells hold atoms of one type; the types are summed one after the other.
 //
 // A block of sites has a list of the cells that any of its sites may reach. Those whose bounds are
 // within the cutoff of the block are gathered, up to 64 at a time. Each site compares its position
@@ -21,6 +21,7 @@ namespace asperity::ASPERITY_VARIANT {
 
 template <>
 struct Ground<CellSubstrate> {
+    static constexpr bool of_types = true;
     const CellSubstrate& from;
     double datum() const { return from.datum; }
     double margin() const { return from.offset_margin; }
@@ -28,12 +29,11 @@ struct Ground<CellSubstrate> {
     struct Some {
         double from_rest; ///< negative: nothing is in reach
     };
-    template <class T>
     ASPERITY_INLINE Some reach(int x, int y, const BlockOfSites& site,
-                               const PairTerms<Simd, T>& pair) const {
+                               const PairTable& pairs) const {
         const double highest =
             from.highest[static_cast<std::ptrdiff_t>(y) * from.blocks + x / interface_block];
-        return {pair.cutoff - (site.lowest_z - highest)};
+        return {pairs.cutoff - (site.lowest_z - highest)};
     }
 };
 
@@ -185,67 +185,84 @@ struct CellSums {
             }
         }
     }
-    ASPERITY_INLINE void finish(const PairTerms<Simd, T>& pair, int to, SiteTerms& terms) const {
+    /// Adds them to those of the types before, if there are any.
+    ASPERITY_INLINE void finish(const PairTerms<Simd, T>& pair, bool first, int to,
+                                SiteTerms& terms) const {
         const auto over_lanes = [](V lanes) {
             WideSum<Pack<T>> sum;
             sum.add(lanes);
             return sum.over_lanes();
         };
         const double scale = pair.force_scale * length_unit<T>;
-        terms.x[to] = scale * over_lanes(x);
-        terms.y[to] = scale * over_lanes(y);
-        terms.z[to] = scale * over_lanes(z);
+        const auto give = [&](double* sum, double mine) {
+            sum[to] = first ? mine : sum[to] + mine;
+        };
+        give(terms.x, scale * over_lanes(x));
+        give(terms.y, scale * over_lanes(y));
+        give(terms.z, scale * over_lanes(z));
         if constexpr (observe) {
-            terms.energy[to] = pair.energy_scale * over_lanes(energy);
+            give(terms.energy, pair.energy_scale * over_lanes(energy));
             T least = nearest[0];
             for (int i = 1; i < V::width; ++i)
                 least = nearest[i] < least ? nearest[i] : least;
-            terms.nearest[to] = pair.nearest(least);
+            const double r2 = pair.nearest(least);
+            if (first || r2 < terms.nearest[to]) terms.nearest[to] = r2;
+            terms.in_contact |= unsigned{r2 < pair.contact_r2} << to;
         }
     }
 };
 
+/// The cells of one type, images [next, end), over a block of sites.
 template <class T, bool observe>
-void cell_sweep(const InterfaceSites& sites, const CellSubstrate& atoms, const LennardJones& lj,
-                int row_begin, int row_end, InterfaceSums& sums) {
-    const PairTerms<Simd, T> pair(lj);
+ASPERITY_INLINE void sum_type(const InterfaceSites& sites, const CellSubstrate& atoms,
+                              const PairTerms<Simd, T>& pair, std::int64_t next, std::int64_t end,
+                              bool first, const BlockOfSites& site, int x, int y, int count,
+                              SiteTerms& terms) {
     const double a = sites.spacing, reach = pair.cutoff + cell_slack;
+    const double at_x = (sites.x0 + x + 0.5) * a, at_y = (sites.y0 + y + 0.5) * a;
+    const double least[3] = {at_x - site.sideways, at_y - site.sideways, site.lowest_z};
+    const double greatest[3] = {at_x + (count - 1) * a + site.sideways, at_y + site.sideways,
+                                site.highest_z};
+    CellSums<T, observe> sum[interface_block];
+    for (int i = 0; i < count; ++i)
+        sum[i].clear(pair);
+    NearCells<T> near;
+    while (next < end) {
+        next = near.gather(atoms, next, end, least, greatest, reach);
+        for (int i = 0; i < count; ++i) {
+            const double px = (sites.x0 + x + i + 0.5) * a + site.ux[i];
+            std::uint64_t bits = near.within(px, at_y + site.uy[i], site.z[i], reach);
+            CellSums<T, observe> mine = sum[i];
+            for (; bits; bits &= bits - 1)
+                mine.add_cell(pair, {atoms, near, __builtin_ctzll(bits)});
+            sum[i] = mine;
+        }
+    }
+    for (int i = 0; i < count; ++i)
+        sum[i].finish(pair, first, i, terms);
+}
+
+template <class T, bool observe>
+void cell_sweep(const InterfaceSites& sites, const CellSubstrate& atoms, const PairTable& pairs,
+                int row_begin, int row_end, InterfaceSums& sums) {
     sweep_blocks<T, observe>(
-        sites, atoms, lj, pair, row_begin, row_end, sums,
+        sites, atoms, pairs, pairs, row_begin, row_end, sums,
         [&](const BlockOfSites& site, const auto&, int x, int y, int count, SiteTerms& terms)
             __attribute__((always_inline)) {
                 const std::ptrdiff_t block =
                     static_cast<std::ptrdiff_t>(y) * atoms.blocks + x / interface_block;
-                const double at_x = (sites.x0 + x + 0.5) * a, at_y = (sites.y0 + y + 0.5) * a;
-                const double least[3] = {at_x - site.sideways, at_y - site.sideways, site.lowest_z};
-                const double greatest[3] = {at_x + (count - 1) * a + site.sideways,
-                                            at_y + site.sideways, site.highest_z};
-                CellSums<T, observe> sum[interface_block];
-                for (int i = 0; i < count; ++i)
-                    sum[i].clear(pair);
-                NearCells<T> near;
-                std::int64_t next = atoms.first[block];
-                const std::int64_t end = atoms.first[block + 1];
-                while (next < end) {
-                    next = near.gather(atoms, next, end, least, greatest, reach);
-                    for (int i = 0; i < count; ++i) {
-                        const double px = (sites.x0 + x + i + 0.5) * a + site.ux[i];
-                        std::uint64_t bits = near.within(px, at_y + site.uy[i], site.z[i], reach);
-                        CellSums<T, observe> mine = sum[i];
-                        for (; bits; bits &= bits - 1)
-                            mine.add_cell(pair, {atoms, near, __builtin_ctzll(bits)});
-                        sum[i] = mine;
-                    }
+                for (int type = 0; type < pairs.types; ++type) {
+                    const std::int64_t* list = atoms.first + block * pairs.types + type;
+                    sum_type<T, observe>(sites, atoms, PairTerms<Simd, T>(pairs.of[type]), list[0],
+                                         list[1], type == 0, site, x, y, count, terms);
                 }
-                for (int i = 0; i < count; ++i)
-                    sum[i].finish(pair, i, terms);
             });
 }
 
 } // namespace
 
-extern const InterfaceKernels::Sweeps<CellSubstrate> cell_sweeps;
-const InterfaceKernels::Sweeps<CellSubstrate> cell_sweeps = {
+extern const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps;
+const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps = {
     {cell_sweep<double, false>, cell_sweep<double, true>},
     {cell_sweep<float, false>, cell_sweep<float, true>}};
 

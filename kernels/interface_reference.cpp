@@ -15,39 +15,47 @@ namespace asperity {
 
 PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double x, double y,
                  double z) {
-    return portable::sum_of_pairs(map, potential, x, y, z);
+    PairSum sum = portable::sum_of_pairs(map, potential, x, y, z);
+    sum.in_contact = sum.nearest_r2 < potential.contact_distance() * potential.contact_distance();
+    return sum;
 }
 
-PairSum pair_sum(const SubstrateAtoms& atoms, const LennardJones& potential, double x, double y,
+PairSum pair_sum(const SubstrateAtoms& atoms, const PairTable& pairs, double x, double y,
                  double z) {
     PairSum sum;
     if (!(std::fabs(x) + std::fabs(y) + std::fabs(z) < 1e9)) {
         sum.force[0] = sum.force[1] = sum.force[2] = sum.energy = std::nan("");
         return sum;
     }
-    const double reach = potential.cutoff, edge = atoms.edge;
+    const double edge = atoms.edge;
     for (std::int64_t i = 0; i < atoms.count; ++i) {
+        const LennardJones& potential = pairs.of[atoms.type ? atoms.type[i] : 0];
+        const double reach = potential.cutoff, contact = potential.contact_distance();
         const double dz = z - atoms.z[i];
+        PairSum of_atom;
         for (double n = std::ceil((y - reach - atoms.y[i]) / edge);
              n <= std::floor((y + reach - atoms.y[i]) / edge); ++n)
             for (double m = std::ceil((x - reach - atoms.x[i]) / edge);
                  m <= std::floor((x + reach - atoms.x[i]) / edge); ++m) {
                 const double dx = x - (atoms.x[i] + m * edge), dy = y - (atoms.y[i] + n * edge);
-                portable::add_pair(potential, dx, dy, dz, sum);
+                portable::add_pair(potential, dx, dy, dz, of_atom);
             }
+        for (int k = 0; k < 3; ++k)
+            sum.force[k] += of_atom.force[k];
+        sum.energy += of_atom.energy;
+        sum.nearest_r2 = std::fmin(sum.nearest_r2, of_atom.nearest_r2);
+        sum.in_contact |= of_atom.nearest_r2 < contact * contact;
     }
     return sum;
 }
 
 namespace {
 
-template <class Substrate>
+template <class Substrate, class Potential>
 void sweep_one_by_one(const InterfaceSites& sites, const Substrate& substrate,
-                      const LennardJones& potential, int row_begin, int row_end,
-                      InterfaceSums& sums) {
+                      const Potential& potential, int row_begin, int row_end, InterfaceSums& sums) {
     const auto& u = sites.displacement;
     const double a = sites.spacing;
-    const double contact = potential.contact_distance();
     for (int y = row_begin; y < row_end; ++y)
         for (int x = 0; x < u.x.nx; ++x) {
             const PairSum site =
@@ -57,9 +65,10 @@ void sweep_one_by_one(const InterfaceSites& sites, const Substrate& substrate,
             sites.force.y(x, y) = site.force[1];
             sites.force.z(x, y) = site.force[2];
             if (sites.nearest_r2.origin) sites.nearest_r2(x, y) = site.nearest_r2;
+            if (sites.in_contact.origin) sites.in_contact(x, y) = site.in_contact;
             sums.force_z.add(site.force[2]);
             sums.energy.add(site.energy);
-            sums.in_contact += site.nearest_r2 < contact * contact;
+            sums.in_contact += site.in_contact;
             sums.repulsive += site.force[2] > 0.0;
             sums.in_reach += 1;
             if (site.nearest_r2 < sums.closest_r2) sums.closest_r2 = site.nearest_r2;
@@ -74,9 +83,8 @@ void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
     sweep_one_by_one(sites, map, potential, row_begin, row_end, sums);
 }
 void reference_sweep(const InterfaceSites& sites, const SubstrateAtoms& atoms,
-                     const LennardJones& potential, int row_begin, int row_end,
-                     InterfaceSums& sums) {
-    sweep_one_by_one(sites, atoms, potential, row_begin, row_end, sums);
+                     const PairTable& pairs, int row_begin, int row_end, InterfaceSums& sums) {
+    sweep_one_by_one(sites, atoms, pairs, row_begin, row_end, sums);
 }
 
 void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,

@@ -68,6 +68,9 @@ struct InterfaceSites {
     int y0 = 0;
     PlaneView<double> nearest_r2{}; ///< out where given and observed: squared distance to the
                                     ///< nearest atom in reach (no_pair if there is none), Å^2
+    /// out where given and observed: 1 where a site is closer than contact_distance to some atom,
+    /// or than contact_gap to the wall.
+    PlaneView<std::uint8_t> in_contact{};
 };
 
 /// Squared distance reported where no atom is in reach.
@@ -146,11 +149,25 @@ struct RowSubstrate {
     SubstrateMap map;
 };
 
+/// The potentials of the block's atoms with those of the substrate, by the type of the latter.
+struct PairTable {
+    const LennardJones* of = nullptr; ///< [type]
+    int types = 0;
+    double cutoff = 0.0; ///< the largest, Å
+
+    PairTable(const LennardJones* table, int count) : of(table), types(count) {
+        for (int t = 0; t < count; ++t)
+            cutoff = table[t].cutoff > cutoff ? table[t].cutoff : cutoff;
+    }
+    PairTable(const LennardJones& of_all) : PairTable(&of_all, 1) {}
+};
+
 /// Substrate atoms anywhere, periodic in x and y: what the reference loop needs.
 struct SubstrateAtoms {
     const double* x = nullptr; ///< Å, in the box
     const double* y = nullptr;
     const double* z = nullptr;
+    const std::int32_t* type = nullptr; ///< row of the PairTable; none: all are of the first
     std::int64_t count = 0;
     double edge = 0.0; ///< of the box, Å
 };
@@ -166,8 +183,9 @@ struct CellImage {
     std::int16_t x, y;
 };
 
-/// Atoms anywhere in cells of cell_atoms, [cell * cell_atoms + atom]. Heights are over the datum.
-/// A cell that is not full is filled with atoms so low that no site reaches them.
+/// Atoms anywhere in cells of cell_atoms, [cell * cell_atoms + atom]; those of a cell are of one
+/// type. Heights are over the datum. A cell that is not full is filled with atoms so low that no
+/// site reaches them.
 struct CellSubstrate {
     const double *x = nullptr, *y = nullptr, *z = nullptr; ///< Å; or, mixed,
     const std::int32_t *fixed_x = nullptr, *fixed_y = nullptr,
@@ -175,12 +193,12 @@ struct CellSubstrate {
     /// [bound * cells + cell], Å: least x, greatest x, least y, greatest y, least z, greatest z.
     const double* bounds = nullptr;
     std::int64_t cells = 0;
-    /// The cells within the cutoff and the margin of a block of sites, sideways: images[k], k from
-    /// first[b] to first[b + 1] with b = y * blocks + x / interface_block; in ascending order of
-    /// (y, x, cell).
+    /// The cells of a type within its cutoff and the margin of a block of sites, sideways:
+    /// images[k], k from first[i] to first[i + 1] with i = b * types + type, b = y * blocks + x /
+    /// interface_block and the types of the PairTable; in ascending order of (y, x, cell).
     const CellImage* images = nullptr;
     const std::int64_t* first = nullptr;
-    const double* highest = nullptr; ///< [b]: atom of these cells, over the datum, Å
+    const double* highest = nullptr; ///< [b]: atom of all these cells, over the datum, Å
     int blocks = 0;                  ///< in a row
     double datum = 0.0;              ///< height of the highest atom, Å
     double offset_margin = 0.0;      ///< largest sideways displacement the lists allow for, Å
@@ -192,23 +210,22 @@ struct PairSum {
     double force[3] = {0.0, 0.0, 0.0}; ///< eV/Å
     double energy = 0.0;               ///< eV
     double nearest_r2 = no_pair;       ///< Å^2
+    bool in_contact = false;           ///< closer than contact_distance to some atom
 };
 
 /// The reference: the sum over every substrate atom (periodic images included) within the cutoff of
 /// a site at (x, y, z), by rows of atoms. Not-a-number where the position is none.
 PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double x, double y,
                  double z);
-/// The same over atoms anywhere, one after the other.
-PairSum pair_sum(const SubstrateAtoms& atoms, const LennardJones& potential, double x, double y,
-                 double z);
+/// The same over atoms anywhere, one after the other, each by the potential of its type.
+PairSum pair_sum(const SubstrateAtoms& atoms, const PairTable& pairs, double x, double y, double z);
 
 /// The reference sweep: pair_sum for each site of rows [row_begin, row_end).
 void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
                      const LennardJones& potential, int row_begin, int row_end,
                      InterfaceSums& sums);
 void reference_sweep(const InterfaceSites& sites, const SubstrateAtoms& atoms,
-                     const LennardJones& potential, int row_begin, int row_end,
-                     InterfaceSums& sums);
+                     const PairTable& pairs, int row_begin, int row_end, InterfaceSums& sums);
 
 /// Continuum correction for the pairs beyond the cutoff (scene: interface.tail).
 ///
@@ -288,17 +305,17 @@ struct WallSums {
 /// The sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile
 /// and overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
 struct InterfaceKernels {
-    template <class Substrate>
-    using Sweep = void (*)(const InterfaceSites&, const Substrate&, const LennardJones&,
-                           int row_begin, int row_end, InterfaceSums&);
-    template <class Substrate>
+    template <class Substrate, class Potential>
+    using Sweep = void (*)(const InterfaceSites&, const Substrate&, const Potential&, int row_begin,
+                           int row_end, InterfaceSums&);
+    template <class Substrate, class Potential = LennardJones>
     struct Sweeps {
-        Sweep<Substrate> plain[2];    ///< in double; [observe]
-        Sweep<Substrate> in_mixed[2]; ///< pairs in single precision
+        Sweep<Substrate, Potential> plain[2];    ///< in double; [observe]
+        Sweep<Substrate, Potential> in_mixed[2]; ///< pairs in single precision
     };
     Sweeps<LatticeSubstrate> lattice;
     Sweeps<RowSubstrate> rows;
-    Sweeps<CellSubstrate> cells;
+    Sweeps<CellSubstrate, PairTable> cells;
 
     /// Over a wall, in double; [observe]. nearest_r2: the square of the gap, 0 where it is
     /// negative.

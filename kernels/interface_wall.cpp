@@ -37,10 +37,10 @@ void wall_sweep(const InterfaceSites& sites, const WallSubstrate<Law>& wall, int
             if constexpr (observe)
                 for (int i = 0; i < count; ++i) {
                     const double gap = terms.nearest[i], open = gap > 0.0 ? gap : 0.0;
-                    totals.in_contact += gap < law.contact_gap();
+                    terms.in_contact |= unsigned{gap < law.contact_gap()} << i;
                     terms.nearest[i] = open * open;
                 }
-            totals.take<observe>(sites, 0.0, terms, x, y, count);
+            totals.take<observe>(sites, terms, x, y, count);
             totals.in_reach += count;
         }
     }

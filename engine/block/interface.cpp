@@ -63,11 +63,18 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
         return;
     }
     map_height_ = substrate.height;
-    const double cutoff = options.potential.cutoff;
-    if (!(cutoff > 0.0) || !(options.potential.r0 > 0.0) || !(options.potential.epsilon >= 0.0))
-        throw std::invalid_argument(fmt::format(
-            "interface: epsilon = {} eV, r0 = {} Å and cutoff = {} Å must be positive numbers",
-            options.potential.epsilon, options.potential.r0, cutoff));
+    const bool anywhere = substrate.atoms.size() > 0;
+    if (!options.by_type.empty() && !anywhere)
+        throw std::invalid_argument(
+            "interface: pairs by type need a substrate of atoms anywhere, which have types");
+    const PairTable pairs = options_.pairs();
+    for (int type = 0; type < pairs.types; ++type)
+        if (const LennardJones& pair = pairs.of[type];
+            !(pair.cutoff > 0.0) || !(pair.r0 > 0.0) || !(pair.epsilon >= 0.0))
+            throw std::invalid_argument(fmt::format(
+                "interface: epsilon = {} eV, r0 = {} Å and cutoff = {} Å must be positive numbers",
+                pair.epsilon, pair.r0, pair.cutoff));
+    const double cutoff = pairs.cutoff;
     const double between_atoms = tile.sites * spacing / substrate.sites;
     if (const double most = largest_cutoff(spacing, between_atoms); cutoff > most)
         throw std::invalid_argument(fmt::format(
@@ -75,7 +82,7 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
             "sites {:.6g} Å and atoms {:.6g} Å apart; choose a smaller one (4 r0 = {:.6g} Å keeps "
             "98 % of the work of adhesion) and set interface.tail = true",
             cutoff, most, spacing, between_atoms, 4.0 * options.potential.r0));
-    if (substrate.atoms.size() > 0) build_cells(substrate);
+    if (anywhere) build_cells(substrate);
     map_ = {map_height_.data(), substrate.sites, between_atoms};
     if (same_lattice) map_.spacing = spacing;
     method_ = options.method;
@@ -124,8 +131,12 @@ void Interface::build_wall(const Surface& substrate) {
 namespace {
 
 CellOptions cell_options(const InterfaceOptions& options, double spacing, double margin) {
+    std::vector<double> cutoffs;
+    const PairTable pairs = options.pairs();
+    for (int type = 0; type < pairs.types; ++type)
+        cutoffs.push_back(pairs.of[type].cutoff);
     return {spacing,
-            options.potential.cutoff,
+            std::move(cutoffs),
             margin,
             !options.mixed,
             options.mixed || options.single_too,
@@ -135,7 +146,7 @@ CellOptions cell_options(const InterfaceOptions& options, double spacing, double
 } // namespace
 
 void Interface::build_cells(const Surface& substrate) {
-    const double cutoff = options_.potential.cutoff;
+    const double cutoff = options_.pairs().cutoff;
     const bool others =
         options_.method == InterfaceMethod::lattice || options_.method == InterfaceMethod::rows;
     if (options_.tail || others || cutoff > largest_cell_cutoff)
@@ -366,6 +377,7 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe, 
     const auto cells = pick(interface_kernels().cells);
     const CellSubstrate in_cells = cells_ ? cells_->view() : CellSubstrate{};
     const LennardJones& potential = options_.potential;
+    const PairTable pairs = options_.pairs();
     InterfaceSums total;
 #pragma omp parallel
     {
@@ -388,11 +400,11 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, bool observe, 
                 rows(sites, rows_, potential, y, y + 1, mine);
                 break;
             case InterfaceMethod::cells:
-                cells(sites, in_cells, potential, y, y + 1, mine);
+                cells(sites, in_cells, pairs, y, y + 1, mine);
                 break;
             default:
                 if (cells_)
-                    reference_sweep(sites, in_cells.atoms, potential, y, y + 1, mine);
+                    reference_sweep(sites, in_cells.atoms, pairs, y, y + 1, mine);
                 else
                     reference_sweep(sites, map_, potential, y, y + 1, mine);
             }
@@ -440,23 +452,21 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
                               double reference_height) const {
     VectorField<double> force(tile_, 1);
     Field<double> nearest(tile_, 1);
-    InterfaceSites sites{displacement, force.plane(0), spacing_,        reference_height,
-                         tile_.x0,     tile_.y0,       nearest.plane(0)};
-    sweep_sites(sites, true, options_.mixed);
-
     InterfaceMaps maps;
     maps.nx = tile_.nx;
     maps.ny = tile_.ny;
     const std::size_t count =
         static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
-    maps.contact.reserve(count);
+    maps.contact.resize(count);
+    const InterfaceSites sites{
+        displacement,     force.plane(0),
+        spacing_,         reference_height,
+        tile_.x0,         tile_.y0,
+        nearest.plane(0), {maps.contact.data(), tile_.nx, tile_.nx, tile_.ny}};
+    sweep_sites(sites, true, options_.mixed);
     maps.distance.reserve(count);
     maps.gap.reserve(count);
     maps.pressure.reserve(count);
-    const double contact =
-        options_.wall
-            ? std::visit([](const auto& law) { return law.contact_gap(); }, *options_.wall)
-            : options_.potential.contact_distance();
     const double to_gpa = 1.0 / (units::gigapascal * spacing_ * spacing_);
     for (int y = 0; y < tile_.ny; ++y)
         for (int x = 0; x < tile_.nx; ++x) {
@@ -466,8 +476,6 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
             maps.pressure.push_back(sites.force.z(x, y) * to_gpa);
             maps.gap.push_back(reference_height + displacement.z(x, y) -
                                height_below(displacement, x, y));
-            maps.contact.push_back(options_.wall ? maps.gap.back() < contact
-                                                 : r2 < contact * contact);
         }
     return maps;
 }
@@ -477,7 +485,7 @@ double reach_of(const InterfaceOptions& options) {
         const double reach = std::visit([](const auto& law) { return law.reach(); }, *options.wall);
         if (std::isfinite(reach)) return reach;
     }
-    return (options.tail ? 4.0 : 1.0) * options.potential.cutoff;
+    return (options.tail ? 4.0 : 1.0) * options.pairs().cutoff;
 }
 
 double Interface::start_height() const { return highest_ + reach_of(options_); }

@@ -39,12 +39,19 @@ enum class InterfaceMethod { automatic, reference, lattice, rows, cells, wall };
 struct InterfaceOptions {
     std::optional<WallLaw> wall = {}; ///< in place of atoms; a smeared layer is that of `potential`
     LennardJones potential;
+    /// Of atoms anywhere, by AtomPositions::type; empty: `potential` for all.
+    std::vector<LennardJones> by_type = {};
     bool tail = false; ///< continuum correction beyond the cutoff
     bool mixed =
         false; ///< pairs in single precision, sums in double; the reference is in double only
     bool single_too = false; ///< a double sweep may now and then be asked for in mixed precision
     InterfaceMethod method = InterfaceMethod::automatic;
     bool skip = true; ///< false: visit all offsets or atoms everywhere (same bits; for tests)
+
+    PairTable pairs() const {
+        if (by_type.empty()) return potential;
+        return {by_type.data(), static_cast<int>(by_type.size())};
+    }
 };
 
 /// Contacts over all tiles.

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/block/substrate_cells.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace asperity {
@@ -41,12 +44,29 @@ struct SubstrateCells::Tree {
     std::vector<std::int64_t> order;      ///< atoms, cell by cell
     std::vector<std::int64_t> cell_begin; ///< in the order
     std::vector<Node> nodes;
+    std::vector<std::int32_t> roots; ///< of each type; -1: it has no atoms
 
-    Tree(const AtomPositions& of, double over) : atoms(of), datum(over), order(of.size()) {
+    Tree(const AtomPositions& of, double over, std::size_t types)
+        : atoms(of), datum(over), order(of.size()) {
         std::iota(order.begin(), order.end(), std::int64_t{0});
-        const auto count = static_cast<std::int64_t>(order.size());
-        halve(0, count);
-        cell_begin.push_back(count);
+        std::vector<std::int64_t> count(types, 0);
+        if (of.type.empty()) {
+            count[0] = static_cast<std::int64_t>(order.size());
+        } else {
+            const auto type = [&](std::int64_t atom) {
+                return static_cast<std::size_t>(of.type[static_cast<std::size_t>(atom)]);
+            };
+            for (const std::int64_t atom : order)
+                ++count[type(atom)];
+            std::stable_sort(order.begin(), order.end(),
+                             [&](std::int64_t a, std::int64_t b) { return type(a) < type(b); });
+        }
+        std::int64_t first = 0;
+        for (const std::int64_t atoms_of_type : count) {
+            roots.push_back(atoms_of_type > 0 ? halve(first, first + atoms_of_type) : -1);
+            first += atoms_of_type;
+        }
+        cell_begin.push_back(first);
     }
     std::size_t cells() const { return cell_begin.size() - 1; }
     double at(int axis, std::int64_t atom) const {
@@ -95,7 +115,14 @@ struct SubstrateCells::Tree {
 SubstrateCells::SubstrateCells(AtomPositions atoms, const Tile& tile, const CellOptions& options)
     : atoms_(std::move(atoms)), edge_(tile.sites * options.spacing),
       datum_(*std::max_element(atoms_.z.begin(), atoms_.z.end())), margin_(options.margin) {
-    const Tree tree(atoms_, datum_);
+    const auto types = static_cast<std::int32_t>(options.cutoffs.size());
+    if (!(atoms_.type.empty() || atoms_.type.size() == atoms_.size()) ||
+        std::any_of(atoms_.type.begin(), atoms_.type.end(),
+                    [&](std::int32_t type) { return type < 0 || type >= types; }))
+        throw std::invalid_argument(
+            fmt::format("cells of substrate atoms: {} atoms have {} types, and {} have a cutoff",
+                        atoms_.size(), atoms_.type.size(), types));
+    const Tree tree(atoms_, datum_, options.cutoffs.size());
     fill(tree, options);
     list(tree, tile, options);
 }
@@ -136,10 +163,9 @@ void SubstrateCells::fill(const Tree& tree, const CellOptions& options) {
 }
 
 void SubstrateCells::list(const Tree& tree, const Tile& tile, const CellOptions& options) {
-    const double widest = options.cutoff + options.margin + slack, a = options.spacing;
+    const double a = options.spacing;
     blocks_ = static_cast<int>(blocks_of(tile));
     block_first_.push_back(0);
-    const int images = static_cast<int>(std::ceil(widest / edge_)) + 1;
     std::vector<std::int32_t> open;
     for (int y = 0; y < tile.ny; ++y)
         for (int block = 0; block < blocks_; ++block) {
@@ -148,29 +174,37 @@ void SubstrateCells::list(const Tree& tree, const Tile& tile, const CellOptions&
             const double right = (tile.x0 + last + 0.5) * a;
             const double site_y = (tile.y0 + y + 0.5) * a;
             double highest = std::numeric_limits<double>::lowest();
-            for (int j = -images; j <= images; ++j)
-                for (int i = -images; i <= images; ++i) {
-                    // Depth first, left before right: cells in ascending order.
-                    open.assign(1, 0);
-                    while (!open.empty()) {
-                        const Tree::Node& node = tree.nodes[static_cast<std::size_t>(open.back())];
-                        open.pop_back();
-                        const double dx = std::max({node.low[0] + i * edge_ - right,
-                                                    left - node.high[0] - i * edge_, 0.0});
-                        const double dy = std::max({node.low[1] + j * edge_ - site_y,
-                                                    site_y - node.high[1] - j * edge_, 0.0});
-                        if (dx * dx + dy * dy >= widest * widest) continue;
-                        if (node.cell < 0) {
-                            open.push_back(node.right);
-                            open.push_back(node.left);
-                            continue;
+            const auto list_type = [&](std::int32_t root, double widest) {
+                const int images = static_cast<int>(std::ceil(widest / edge_)) + 1;
+                for (int j = -images; j <= images; ++j)
+                    for (int i = -images; i <= images; ++i) {
+                        // Depth first, left before right: cells in ascending order.
+                        open.assign(1, root);
+                        while (!open.empty()) {
+                            const Tree::Node& node =
+                                tree.nodes[static_cast<std::size_t>(open.back())];
+                            open.pop_back();
+                            const double dx = std::max({node.low[0] + i * edge_ - right,
+                                                        left - node.high[0] - i * edge_, 0.0});
+                            const double dy = std::max({node.low[1] + j * edge_ - site_y,
+                                                        site_y - node.high[1] - j * edge_, 0.0});
+                            if (dx * dx + dy * dy >= widest * widest) continue;
+                            if (node.cell < 0) {
+                                open.push_back(node.right);
+                                open.push_back(node.left);
+                                continue;
+                            }
+                            images_.push_back({node.cell, static_cast<std::int16_t>(i),
+                                               static_cast<std::int16_t>(j)});
+                            highest = std::max(highest, node.high[2]);
                         }
-                        images_.push_back({node.cell, static_cast<std::int16_t>(i),
-                                           static_cast<std::int16_t>(j)});
-                        highest = std::max(highest, node.high[2]);
                     }
-                }
-            block_first_.push_back(static_cast<std::int64_t>(images_.size()));
+            };
+            for (std::size_t type = 0; type < tree.roots.size(); ++type) {
+                if (tree.roots[type] >= 0)
+                    list_type(tree.roots[type], options.cutoffs[type] + options.margin + slack);
+                block_first_.push_back(static_cast<std::int64_t>(images_.size()));
+            }
             block_highest_.push_back(options.skip ? highest : std::numeric_limits<double>::max());
         }
     images_.shrink_to_fit();
@@ -197,34 +231,41 @@ CellSubstrate SubstrateCells::view() const {
 }
 
 SubstrateAtoms SubstrateCells::atoms() const {
-    return {atoms_.x.data(), atoms_.y.data(), atoms_.z.data(),
-            static_cast<std::int64_t>(atoms_.size()), edge_};
+    return {atoms_.x.data(),
+            atoms_.y.data(),
+            atoms_.z.data(),
+            atoms_.type.empty() ? nullptr : atoms_.type.data(),
+            static_cast<std::int64_t>(atoms_.size()),
+            edge_};
 }
 
 std::size_t SubstrateCells::bytes() const {
     const auto size = [](const auto&... vectors) {
         return ((vectors.size() * sizeof(vectors[0])) + ...);
     };
-    return size(atoms_.x, atoms_.y, atoms_.z, cell_x_, cell_y_, cell_z_, fixed_x_, fixed_y_,
-                fixed_z_, bounds_, block_highest_, images_, block_first_);
+    return size(atoms_.x, atoms_.y, atoms_.z, atoms_.type, cell_x_, cell_y_, cell_z_, fixed_x_,
+                fixed_y_, fixed_z_, bounds_, block_highest_, images_, block_first_);
 }
 
 std::size_t SubstrateCells::bytes_for(std::size_t atoms, const Tile& tile,
                                       const CellOptions& options) {
     const auto count = static_cast<double>(atoms);
-    const double cells = std::ceil(count / cell_atoms);
+    const auto types = static_cast<double>(options.cutoffs.size());
+    const double cells = std::ceil(count / cell_atoms) + types - 1.0;
     const double a = options.spacing, edge = tile.sites * a;
     const double blocks = static_cast<double>(blocks_of(tile)) * tile.ny;
     // Cells that a disk of the widest reach, moved along a block of sites, touches: those of a
-    // layer, or about four spacings wide.
-    const double reach = options.cutoff + options.margin, along = (interface_block - 1) * a;
-    const double cell = std::max(4.0 * a, edge / std::sqrt(cells));
+    // layer, or about four spacings wide; wider where types share it.
+    const double widest = *std::max_element(options.cutoffs.begin(), options.cutoffs.end());
+    const double reach = widest + options.margin, along = (interface_block - 1) * a;
+    const double cell = std::sqrt(types) * std::max(4.0 * a, edge / std::sqrt(cells));
     const double area = (std::numbers::pi * reach + 2.0 * along) * reach +
                         cell * (along + 4.0 * reach) + cell * cell;
     const double listed = blocks * std::ceil(area * cells / (edge * edge));
     const double slot = (options.in_double ? 24.0 : 0.0) + (options.in_mixed ? 12.0 : 0.0);
-    return static_cast<std::size_t>(24.0 * count + cells * (cell_atoms * slot + 48.0) +
-                                    16.0 * blocks + 8.0 + sizeof(CellImage) * listed);
+    return static_cast<std::size_t>(
+        (types > 1.0 ? 28.0 : 24.0) * count + cells * (cell_atoms * slot + 48.0) +
+        8.0 * (types + 1.0) * blocks + 8.0 + sizeof(CellImage) * listed);
 }
 
 } // namespace asperity

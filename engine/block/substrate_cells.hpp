@@ -4,7 +4,8 @@
 // Substrate atoms anywhere, in the cells that the sweep over cells reads
 // (kernels/interface_sweep.hpp).
 //
-// Atoms are halved along the longest edge of their bounds, at a multiple of cell_atoms, until
+// Atoms of each type have cells of their own, so that the pairs of a cell have one potential. They
+// are halved along the longest edge of their bounds, at a multiple of cell_atoms, until
 // cell_atoms or fewer are left: cells of any solid are compact and full. Ties go by the number of
 // the atom, so every rank makes the same cells in the same order. The substrate is rigid: cells and
 // the lists of cells near each block of sites are made once.
@@ -23,7 +24,7 @@ namespace asperity {
 /// What the cells are made for.
 struct CellOptions {
     double spacing = 2.6;                    ///< of the sites, Å
-    double cutoff = 13.12;                   ///< Å, largest_cell_cutoff at most
+    std::vector<double> cutoffs = {13.12};   ///< [type], Å, largest_cell_cutoff at most
     double margin = 5.2;                     ///< sideways displacement that the lists allow for, Å
     bool in_double = true, in_mixed = false; ///< sweeps that will read them
     bool skip = true; ///< false: no block of sites is passed over (same bits; for tests)
@@ -31,7 +32,8 @@ struct CellOptions {
 
 class SubstrateCells {
 public:
-    /// For the sites of a tile; the box is tile.sites spacings wide.
+    /// For the sites of a tile; the box is tile.sites spacings wide. Throws std::invalid_argument
+    /// where an atom's type has no cutoff.
     SubstrateCells(AtomPositions atoms, const Tile& tile, const CellOptions& options);
 
     /// What the sweep reads, and the reference; of this object's arrays.

@@ -146,7 +146,7 @@ double height_of_strongest_attraction(Equilibrium& block, const Interface& inter
 RelaxOptions relax_options(const Scene& scene, const Setup& setup) {
     RelaxOptions options;
     options.tolerance = scene.drive.tolerance;
-    options.site_stiffness = setup.flat.stiffness * scene.surface.spacing * scene.surface.spacing;
+    options.site_stiffness = setup.site_stiffness;
     return options;
 }
 

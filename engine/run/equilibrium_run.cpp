@@ -293,7 +293,7 @@ private:
         o.load = run_.setup.simulation.drive.load_force;
         o.reference_height = interface_.start_height();
         o.area = scene_.edge() * scene_.edge();
-        o.largest_tension = units::gigapascal * run_.setup.flat.largest_tension;
+        o.largest_tension = units::gigapascal * run_.setup.largest_tension;
         o.report = [this](long long iteration, double residual) {
             if (run_.progress.due())
                 run_.progress.update(

@@ -61,8 +61,8 @@ ExpectedPath expected_path(const Setup& setup, double start) {
     if (!drive.pull_off) return path;
     // Elongation of the block when it separates, at half the largest tension.
     const double modulus = block.lame() + 2.0 * block.shear_modulus();
-    const double stretch = 0.5 * setup.flat.largest_tension * units::gigapascal * block.thickness *
-                           block.spacing / modulus;
+    const double stretch =
+        0.5 * setup.largest_tension * units::gigapascal * block.thickness * block.spacing / modulus;
     path.pull_off = std::max(path.approach, stretch);
     path.turn = drive.ramp;
     return path;

@@ -34,7 +34,7 @@ Piece cut_out(const Scene& scene, const Setup& setup, const Surface& surface) {
     piece.options = setup.simulation;
     BlockOptions& block = piece.options.block;
     const int needed = static_cast<int>(
-        std::ceil(2.0 * setup.simulation.interface.potential.cutoff / block.spacing));
+        std::ceil(2.0 * setup.simulation.interface.pairs().cutoff / block.spacing));
     int sites = 128;
     while (sites < needed)
         sites *= 2;
@@ -60,6 +60,7 @@ Piece cut_out(const Scene& scene, const Setup& setup, const Surface& surface) {
         piece.surface.atoms.x.push_back(surface.atoms.x[i]);
         piece.surface.atoms.y.push_back(surface.atoms.y[i]);
         piece.surface.atoms.z.push_back(surface.atoms.z[i]);
+        if (!surface.atoms.type.empty()) piece.surface.atoms.type.push_back(surface.atoms.type[i]);
     }
     return piece;
 }
@@ -164,7 +165,7 @@ void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& pie
         *state, own, *std::min_element(piece.surface.height.begin(), piece.surface.height.end()),
         alone);
     RelaxOptions options;
-    options.site_stiffness = setup.flat.stiffness * block.spacing * block.spacing;
+    options.site_stiffness = setup.site_stiffness;
     options.max_iterations = 10;
     options.tolerance = 1e-300;
     Phases phases;

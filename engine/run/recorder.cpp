@@ -95,6 +95,12 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
             places.insert(places.end(),
                           {surface.atoms.x[i], surface.atoms.y[i], surface.atoms.z[i]});
         io::write_described(file, "/substrate/atoms", {count, 3}, places);
+        if (!surface.atoms.type.empty()) {
+            std::vector<std::int32_t> entry = surface.atoms.type;
+            for (std::int32_t& number : entry)
+                ++number;
+            io::write_described(file, "/substrate/type", {count}, entry);
+        }
     }
     io::write_described_attribute(file, "/substrate", "edge", surface.length);
     std::vector<double> q, realised, target;

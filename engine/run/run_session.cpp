@@ -51,6 +51,7 @@ std::string physics_of(const Scene& scene, const Surface& surface) {
         for (const auto* values :
              {&surface.height, &surface.atoms.x, &surface.atoms.y, &surface.atoms.z})
             digest.update(std::as_bytes(std::span(*values)));
+        digest.update(std::as_bytes(std::span(surface.atoms.type)));
         part["surface"]["content"] = digest.value();
     }
     return io::json_text(part);

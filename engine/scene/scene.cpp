@@ -105,6 +105,11 @@ io::Schema bind(Scene& scene) {
     schema.number("r0", interface.r0, "Å", positive(), "distance of zero energy");
     schema.number("cutoff", interface.cutoff, "Å", positive(),
                   "no interaction beyond; half the box at most");
+    schema.list(
+        "pairs", interface.pairs, {},
+        "of a substrate of atoms from a file, by type: [\"Au 0.1 3.28\", \"C 0.02 3.1 10\"] "
+        "with epsilon, r0 and, if it is not that above, the cutoff; units may follow. []: "
+        "epsilon, r0 and cutoff above, for atoms of one type");
     schema.boolean("tail", interface.tail, "continuum correction beyond the cutoff");
     schema.boolean("frictionless", interface.frictionless,
                    "spectral block: no lateral tractions, normal displacements only");

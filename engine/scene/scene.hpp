@@ -11,6 +11,7 @@
 
 #include "engine/scene/surface.hpp"
 #include "io/scene_reader.hpp"
+#include "kernels/lennard_jones.hpp"
 #include "theory/area_factor.hpp"
 
 #include <optional>
@@ -90,9 +91,10 @@ struct Scene {
 
     struct Interface {
         InterfaceKind kind = InterfaceKind::atoms;
-        double epsilon = 0.100; ///< eV
-        double r0 = 3.28;       ///< Å
-        double cutoff = 13.12;  ///< Å
+        double epsilon = 0.100;         ///< eV
+        double r0 = 3.28;               ///< Å
+        double cutoff = 13.12;          ///< Å
+        std::vector<std::string> pairs; ///< of atoms from a file, by type; typed_pairs() reads them
         bool tail = false;
         bool frictionless = false; ///< spectral block: normal displacements only; after reading:
                                    ///< true over a wall
@@ -177,6 +179,14 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
 /// The same from a text in memory; file is the name shown in messages.
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides = {});
+
+/// A type of the substrate's atoms, as interface.pairs names it, and its potential (eV, Å).
+struct TypedPair {
+    std::string type;
+    LennardJones potential;
+};
+/// Those of the scene; what is wrong with them is added to the list.
+std::vector<TypedPair> typed_pairs(const Scene& scene, io::Problems& problems);
 
 /// Contradictions between keys, added to the list.
 void check_scene(const Scene& scene, io::Problems& problems);

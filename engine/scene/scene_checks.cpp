@@ -41,6 +41,7 @@ void check_atoms(const Scene& scene, io::Problems& problems) {
         refuse_number("interface.cutoff", interface.cutoff,
                       "the cells of atoms hold for cutoffs up to 100 Å",
                       "take a cutoff of 100 Å or less");
+    typed_pairs(scene, problems);
     if (surface.rms_given)
         refuse_number("surface.rms", surface.rms, as_they_are, "leave it out, and scale the file");
     if (surface.radius)
@@ -123,7 +124,13 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                         scene.edge() * std::numbers::sqrt2 / 2.0),
             "give a larger radius or fewer sites");
 
-    if (surface.kind == SurfaceKind::atoms) check_atoms(scene, problems);
+    if (surface.kind == SurfaceKind::atoms)
+        check_atoms(scene, problems);
+    else if (!interface.pairs.empty())
+        problems.add("interface.pairs", "= [...] without a substrate of atoms from a file",
+                     "the atoms of other substrates are of one type, with interface.epsilon, r0 "
+                     "and cutoff",
+                     "leave it out, or take surface.kind = \"atoms\"");
 
     if (wall && scene.block.model != BlockModel::spectral)
         problems.add(

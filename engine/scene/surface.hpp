@@ -60,6 +60,8 @@ struct SurfaceStatistics {
 /// Atoms anywhere, Å.
 struct AtomPositions {
     std::vector<double> x, y, z;
+    std::vector<std::int32_t>
+        type{}; ///< counted from 0 in the scene's pairs; empty: all are of one
     std::size_t size() const { return x.size(); }
 };
 

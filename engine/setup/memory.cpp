@@ -34,7 +34,8 @@ std::size_t atoms_of(const Scene& scene) {
 }
 
 double surface_bytes(const Scene& scene) {
-    return 8.0 * heights_of(scene) + 24.0 * static_cast<double>(atoms_of(scene));
+    const double atom = scene.interface.pairs.empty() ? 24.0 : 28.0;
+    return 8.0 * heights_of(scene) + atom * static_cast<double>(atoms_of(scene));
 }
 
 /// The surface, the waves that heights are made from and measured by (make_surface, measure), and

@@ -21,6 +21,46 @@ namespace asperity {
 
 namespace {
 
+std::string shown(const std::string& type) {
+    return type.size() <= 20 ? type : type.substr(0, 20) + "...";
+}
+
+/// "2 types: Au (300 atoms), C (255)".
+std::string types_of(const io::AtomsFile& file) {
+    std::vector<std::size_t> count(file.types.size(), 0);
+    for (const std::int32_t type : file.type)
+        ++count[static_cast<std::size_t>(type)];
+    std::string text = fmt::format("{} types: ", count.size());
+    for (std::size_t t = 0; t < count.size(); ++t)
+        text += fmt::format("{}{} ({}{})", t ? ", " : "", shown(file.types[t]), count[t],
+                            t ? "" : " atoms");
+    return text;
+}
+
+/// For each type of the file its row of interface.pairs.
+std::vector<std::int32_t> rows_of(const Scene& scene, const io::AtomsFile& file) {
+    io::Problems problems = scene.problems();
+    const std::vector<TypedPair> pairs = typed_pairs(scene, problems);
+    std::vector<std::int32_t> rows;
+    for (const std::string& type : file.types) {
+        const auto row = std::find_if(pairs.begin(), pairs.end(),
+                                      [&](const TypedPair& p) { return p.type == type; });
+        if (row == pairs.end())
+            throw std::invalid_argument(
+                pairs.empty()
+                    ? fmt::format("the atoms in {} are of {}; give each type its potential, for "
+                                  "example interface.pairs = [\"{} 0.1 3.28\", \"{} 0.05 3\"] with "
+                                  "epsilon in eV and r0 in Å, or one type to all",
+                                  scene.surface.file, types_of(file), shown(file.types[0]),
+                                  shown(file.types[1]))
+                    : fmt::format("interface.pairs has no type '{}', and the atoms in {} are of "
+                                  "{}; give it a potential there",
+                                  shown(type), scene.surface.file, types_of(file)));
+        rows.push_back(static_cast<std::int32_t>(row - pairs.begin()));
+    }
+    return rows;
+}
+
 /// The atoms of the scene's file, whose periodic box must be the block's.
 Surface atoms_of_file(const Scene& scene, const SurfaceOptions& options) {
     const auto& s = scene.surface;
@@ -42,12 +82,21 @@ Surface atoms_of_file(const Scene& scene, const SurfaceOptions& options) {
                 : std::string("repeat or cut the atoms to the block's square box")));
     }
     const std::size_t count = file.x.size();
-    Surface surface =
-        surface_from_atoms(options, {std::move(file.x), std::move(file.y), std::move(file.z)});
-    surface.notes.insert(
-        surface.notes.begin(),
-        fmt::format("{}: {} atoms{}, {}", std::filesystem::path(s.file).filename().string(), count,
-                    file.type.empty() ? "" : fmt::format(" of type {}", file.type), file.format));
+    std::vector<std::int32_t> type;
+    if (file.types.size() > 1 || !scene.interface.pairs.empty()) {
+        const std::vector<std::int32_t> rows = rows_of(scene, file);
+        for (const std::int32_t t : file.type)
+            type.push_back(rows[static_cast<std::size_t>(t)]);
+    }
+    Surface surface = surface_from_atoms(
+        options, {std::move(file.x), std::move(file.y), std::move(file.z), std::move(type)});
+    surface.notes.insert(surface.notes.begin(),
+                         fmt::format("{}: {} atoms{}, {}",
+                                     std::filesystem::path(s.file).filename().string(), count,
+                                     file.types.size() > 1   ? " of " + types_of(file)
+                                     : file.types[0].empty() ? ""
+                                                             : " of type " + shown(file.types[0]),
+                                     file.format));
     surface.notes.insert(surface.notes.begin() + 1, file.notes.begin(), file.notes.end());
     return surface;
 }
@@ -127,6 +176,11 @@ InterfaceOptions interface_options(const Scene& scene) {
     const double a = scene.surface.spacing, site = a * a;
     InterfaceOptions options;
     options.potential = {i.epsilon, i.r0, i.cutoff};
+    if (!i.pairs.empty()) {
+        io::Problems problems = scene.problems();
+        for (const TypedPair& pair : typed_pairs(scene, problems))
+            options.by_type.push_back(pair.potential);
+    }
     options.tail = i.tail;
     options.mixed = scene.numerics.precision == Precision::mixed;
     options.single_too = scene.block.model == BlockModel::spectral && !options.mixed;
@@ -166,14 +220,28 @@ Setup make_setup(const Scene& scene, int ranks) {
     InterfaceOptions& interface = setup.simulation.interface;
     interface = interface_options(scene);
     if (scene.surface.kind == SurfaceKind::atoms)
-        setup.notes.push_back("delta_gamma is that of one flat layer of the block's lattice, a "
-                              "unit of measure: the substrate has atoms of its own, and no theory "
-                              "applies to it");
+        setup.notes.push_back(fmt::format(
+            "delta_gamma is that of one flat layer of the block's lattice{}, a unit of measure: "
+            "the substrate has atoms of its own, and no theory applies to it",
+            interface.by_type.empty() ? "" : " with interface.epsilon, r0 and cutoff"));
     const int substrate = substrate_sites(block.sites, scene.surface.lattice_ratio);
     try {
         setup.flat = flat_reference(interface, block.spacing, block.sites, substrate);
     } catch (const std::invalid_argument& e) {
         problems.add("interface.epsilon", std::string(": ") + e.what());
+    }
+    setup.site_stiffness = setup.flat.stiffness * block.spacing * block.spacing;
+    setup.largest_tension = setup.flat.largest_tension;
+    for (const LennardJones& pair : interface.by_type) {
+        InterfaceOptions layer = interface;
+        layer.potential = pair;
+        try {
+            const FlatReference flat = flat_reference(layer, block.spacing, block.sites, substrate);
+            setup.site_stiffness =
+                std::max(setup.site_stiffness, flat.stiffness * block.spacing * block.spacing);
+            setup.largest_tension = std::max(setup.largest_tension, flat.largest_tension);
+        } catch (const std::invalid_argument&) { // a flat layer of this type does not bind
+        }
     }
 
     if (on(Effect::device)) setup.simulation.device = device_of(scene);
@@ -194,8 +262,7 @@ Setup make_setup(const Scene& scene, int ranks) {
     if (on(Effect::temperature)) setup.simulation.temperature = scene.drive.temperature;
     setup.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
 
-    const double site_stiffness = setup.flat.stiffness * block.spacing * block.spacing;
-    setup.longest_timestep = 2.0 / block.highest_frequency(site_stiffness);
+    setup.longest_timestep = 2.0 / block.highest_frequency(setup.site_stiffness);
     if (on(Effect::inertia) && scene.drive.timestep >= setup.longest_timestep)
         problems.add(
             "drive.timestep",

@@ -28,7 +28,10 @@ InterfaceOptions interface_options(const Scene& scene);
 struct Setup {
     Effects effects; ///< that the scene calls for; what follows is built from it
     SimulationOptions simulation;
-    FlatReference flat;            ///< flat on flat, same cutoff and lattices
+    FlatReference flat; ///< flat on flat, same cutoff and lattices
+    /// Bounds: of that, and of flat layers of each type of atoms (interface.pairs).
+    double site_stiffness = 0.0;   ///< eV/Å^2
+    double largest_tension = 0.0;  ///< GPa
     double longest_timestep = 0.0; ///< stability limit 2/omega_max at the bottom of the well, fs
     std::vector<LevelShape> levels;
     std::vector<std::string> notes; ///< worth knowing, not wrong

@@ -298,7 +298,7 @@ class Substrate(Group):
     """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4), atoms [atom, 3] (Å) where
     they stand anywhere, else None."""
 
-    lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms")
+    lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms", "type")
 
     def __init__(self, file: RunFile):
         super().__init__(file, "/substrate")

@@ -68,6 +68,28 @@ rm stepped.data
 sed '0,/^3 1 5.5467/s//3 1 5.5468/' "$source/scenes/atoms/stepped.data" >stepped.data
 expect 2 run stepped.toml --out parts --resume auto "${fast[@]}" drive.mode=dynamic
 
+# Nor over atoms of other types. Every other atom is of type 2.
+typed() { awk -v odd="$1" '/^[0-9]+ 1 / && NF == 5 { $2 = $1 % 2 == odd ? 2 : 1 } { sub("^1 atom types", "2 atom types"); print }' \
+    "$source/scenes/atoms/stepped.data" >stepped.data; }
+typed 1
+expect 2 check stepped.toml
+says "are of 2 types: 2 (278 atoms), 1 (277)"
+says "interface.pairs"
+expect 2 check stepped.toml --set 'interface.pairs=["1 0.1 3.28"]'
+says "has no type '2'"
+pairs=('interface.pairs=["1 100 meV 3.28", "2 0.03 3.0 10"]')
+expect 0 check stepped.toml --set "${pairs[@]}"
+says "a unit of measure"
+expect 0 run stepped.toml --out types "${fast[@]}" "${pairs[@]}" drive.mode=dynamic
+expect 0 run stepped.toml --out types-parts "${fast[@]}" "${pairs[@]}" drive.mode=dynamic drive.max_steps=25
+typed 0
+expect 2 run stepped.toml --out types-parts --resume auto "${fast[@]}" "${pairs[@]}" drive.mode=dynamic
+typed 1
+expect 0 run stepped.toml --out types-parts --resume auto "${fast[@]}" "${pairs[@]}" drive.mode=dynamic
+[ "$(found types)" = "$(found types-parts)" ] || fail "$(diff <(found types) <(found types-parts))"
+awk -v a="$(number types approach)" -v b="$(number whole-dynamic approach)" 'BEGIN { exit !(a != "" && a < b) }' ||
+    fail "a weaker type attracts as much: $(number types approach), $(number whole-dynamic approach)"
+
 # Nor over another map.
 map() { awk -v bump="$1" 'BEGIN { for (y = 0; y < 16; ++y) { for (x = 0; x < 16; ++x) printf "%g ", (x == 3 && y == 5 ? bump : 0); print "" } }' >map.txt; }
 printf '[surface]\nkind = "file"\nfile = "map.txt"\nfile_unit = "Å"\nsites = 16\n' >map.toml

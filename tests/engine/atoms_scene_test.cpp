@@ -173,18 +173,95 @@ TEST(AtomsScene, RefusesAnotherBoxAndAtomsThatStandTwice) {
     }
 }
 
+/// The surface's atoms, those at even places of another type.
+std::string as_xyz_of_two(const Surface& surface) {
+    std::string text = as_xyz(surface);
+    std::size_t at = 0;
+    for (int i = 0; (at = text.find("Au", at)) != std::string::npos; ++i, ++at)
+        if (i % 2 == 0) text.replace(at, 2, "C");
+    return text;
+}
+
+TEST(AtomsScene, HasPairsByType) {
+    const io::Scratch scratch;
+    const Surface made = scene_surface(scene_of({}));
+    const std::string two = scratch.write("two.xyz", as_xyz_of_two(made));
+    const auto over_two = [&](const std::string& pairs) {
+        return scene_over(two, {"interface.cutoff=12", "interface.pairs=" + pairs});
+    };
+    const Scene scene = over_two("['Au 0.1 3.28 13', 'Zn 1 3.3', 'C 20 meV 0.3 nm']");
+    const std::vector<LennardJones> table = interface_options(scene).by_type;
+    ASSERT_EQ(table.size(), 3u);
+    EXPECT_EQ(table[0].cutoff, 13.0);
+    EXPECT_EQ(table[2].epsilon, 0.02);
+    EXPECT_EQ(table[2].r0, 3.0);
+    EXPECT_EQ(table[2].cutoff, 12.0);
+    const Surface surface = scene_surface(scene);
+    ASSERT_EQ(surface.atoms.type.size(), 256u);
+    for (std::size_t i = 0; i < 256; ++i)
+        ASSERT_EQ(surface.atoms.type[i], i % 2 == 0 ? 2 : 0);
+    EXPECT_NE(surface.notes[0].find("2 types: C (128 atoms), Au (128)"), std::string::npos)
+        << surface.notes[0];
+    // The strongest of the flat layers bounds the time step: that of zinc, of no atom, too.
+    const auto setup = make_setup(scene, 1);
+    const auto weak = make_setup(over_two("['Au 0.1 3.28', 'C 0.02 3']"), 1);
+    EXPECT_GT(setup.site_stiffness, 5.0 * weak.site_stiffness);
+    EXPECT_LT(setup.longest_timestep, weak.longest_timestep);
+    EXPECT_EQ(setup.flat.stiffness, weak.flat.stiffness) << "a unit of measure";
+    EXPECT_EQ(refusal([&] { examine(scene, 1); }), "");
+
+    for (const auto& [pairs, said] : std::vector<std::pair<std::string, std::string>>{
+             {"[]", "are of 2 types: C (128 atoms), Au (128)"},
+             {"['Au 0.1 3.28']", "has no type 'C'"},
+             {"['Au 0.1 3.28', 'Ca 0.1 3.28']", "has no type 'C'"},
+             {"['Au 0.1 3.28', 'C 0.1 3.28', 'Au 0.2 3']", "stands there already"},
+             {"['Au 0.1', 'C 0.1 3.28']", "two or three numbers are needed, and 1"},
+             {"['Au 0.1 3.28 13 1', 'C 0.1 3.28']", "and 4"},
+             {"['']", "is no pair"},
+             {"['Au -0.1 3.28', 'C 0.1 3.28']", "whose epsilon is '-0.1'"},
+             {"['Au 0.1 0', 'C 0.1 3.28']", "whose r0 is '0'"},
+             {"['Au 0.1 nan', 'C 0.1 3.28']", "\"Au 0.1 nan\""},
+             {"['Au 0.1 nm 3.28', 'C 0.1 3.28']", "whose epsilon is '0.1 nm'"},
+             {"['Au 0.1 3.28 21', 'C 0.1 3.28']", "cutoff is above 20.8"},
+             {"['Au 0.1 3.28 3.5', 'C 0.1 3 3.2']", "no attraction"}}) {
+        const std::string what = refusal([&, p = pairs] { examine(over_two(p), 1); });
+        EXPECT_NE(what.find(said), std::string::npos) << pairs << "\n" << what;
+    }
+    const std::string map = refusal([] { scene_of({"interface.pairs=['Au 0.1 3.28']"}); });
+    EXPECT_NE(map.find("interface.pairs"), std::string::npos) << map;
+}
+
+TEST(AtomsScene, OfOneTypeWithItsPairIsTheSameRun) {
+    const io::Scratch scratch;
+    const std::string file = scratch.write("a.xyz", as_xyz(scene_surface(scene_of({}))));
+    const Scene keys = scene_over(file, {"interface.epsilon=0.08", "interface.r0=3.1"});
+    const Scene pairs = scene_over(
+        file, {"interface.epsilon=0.08", "interface.r0=3.1", "interface.pairs=['Au 0.08 3.1']"});
+    EXPECT_EQ(path_over(keys, scene_surface(keys)), path_over(pairs, scene_surface(pairs)));
+    // The type decides, not the keys.
+    const Scene others = scene_over(file, {"interface.pairs=['Au 0.08 3.1']"});
+    EXPECT_EQ(path_over(keys, scene_surface(keys)), path_over(others, scene_surface(others)));
+    const std::string two = scratch.write("two.xyz", as_xyz_of_two(scene_surface(scene_of({}))));
+    const Scene mixed = scene_over(two, {"interface.pairs=['Au 0.08 3.1', 'C 0.02 3']"});
+    EXPECT_NE(path_over(keys, scene_surface(keys)), path_over(mixed, scene_surface(mixed)));
+}
+
 TEST(AtomsScene, CountsItsMemoryAndHasNoTheory) {
     const io::Scratch scratch;
     for (const char* ratio : {"surface.lattice_ratio=1", "surface.lattice_ratio=2.3"})
         for (const char* precision : {"numerics.precision=double", "numerics.precision=mixed"}) {
             const Surface made = scene_surface(scene_of({ratio, "surface.sites=48"}));
-            const Scene scene =
-                scene_over(scratch.write("a.xyz", as_xyz(made)), {"surface.sites=48", precision});
+            const bool typed = precision == std::string("numerics.precision=mixed");
+            const Scene scene = scene_over(
+                scratch.write("a.xyz", typed ? as_xyz_of_two(made) : as_xyz(made)),
+                {"surface.sites=48", precision,
+                 typed ? "interface.pairs=['C 0.1 3.28', 'Au 0.1 3']" : "interface.pairs=[]"});
             const auto setup = make_setup(scene, 1);
             const MemoryNeed need = memory_of_rank(scene, setup, 1, 0, 1);
             const Surface surface = scene_surface(scene);
             EXPECT_EQ(need.surface,
-                      8.0 * static_cast<double>(surface.height.size() + 3 * surface.atoms.size()));
+                      8.0 * static_cast<double>(surface.height.size() + 3 * surface.atoms.size()) +
+                          4.0 * static_cast<double>(surface.atoms.type.size()));
             const Interface interface(surface, make_grid(scene, setup, 1, 0).tile(0), 2.6,
                                       setup.simulation.interface);
             EXPECT_GE(need.interface, static_cast<double>(interface.bytes())) << ratio;

@@ -66,6 +66,7 @@ TEST(Scene, DefaultsAreThePapers) {
         {"interface.epsilon", "0.1"},
         {"interface.r0", "3.28"},
         {"interface.cutoff", "13.12"},
+        {"interface.pairs", "[]"},
         {"interface.tail", "false"},
         {"interface.frictionless", "false"},
         {"interface.law", "\"exponential\""},

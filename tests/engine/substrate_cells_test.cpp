@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -26,19 +27,29 @@ double scatter(double n) {
     return s - std::floor(s);
 }
 
-/// Three rough layers without any lattice, and a step of 4 Å at half the box.
+const LennardJones potential{};
+/// Of several types: weaker and narrower, of no atom, stronger and wider.
+const LennardJones by_type[] = {potential, {0.03, 2.6, 9.0}, {5.0, 3.0, 13.0}, {0.2, 3.8, 12.5}};
+
+/// Three rough layers without any lattice, and a step of 4 Å at half the box; of one type or of
+/// several.
 struct Solid {
     AtomPositions atoms;
-    Solid() {
-        auto& [x, y, z] = atoms;
+    PairTable pairs;
+    explicit Solid(bool typed = false) : pairs(typed ? PairTable(by_type, 4) : potential) {
+        auto& [x, y, z, type] = atoms;
         for (int i = 0; i < 1500; ++i) {
             x.push_back(sites * a * scatter(3 * i));
             y.push_back(sites * a * scatter(3 * i + 1));
             z.push_back(-7.0 * scatter(3 * i + 2) - (x.back() < 0.5 * sites * a ? 4.0 : 0.0));
+            if (typed) type.push_back(std::array{0, 3, 1, 0, 3}[static_cast<std::size_t>(i % 5)]);
         }
     }
     SubstrateCells cells(const Tile& tile, bool mixed, bool skip = true) const {
-        return {atoms, tile, CellOptions{a, 13.12, 2.0 * a, !mixed, mixed, skip}};
+        std::vector<double> cutoffs;
+        for (int t = 0; t < pairs.types; ++t)
+            cutoffs.push_back(pairs.of[t].cutoff);
+        return {atoms, tile, CellOptions{a, cutoffs, 2.0 * a, !mixed, mixed, skip}};
     }
 };
 
@@ -76,36 +87,35 @@ Swept swept(const Tile& tile, const VectorField<double>& u, double height, Sweep
 }
 
 const Tile whole{0, 0, sites, sites, sites};
-const LennardJones potential{};
-
-Swept by_cells(const SubstrateCells& cells, const Tile& tile, const VectorField<double>& u,
-               double height, bool mixed) {
+Swept by_cells(const SubstrateCells& cells, const PairTable& pairs, const Tile& tile,
+               const VectorField<double>& u, double height, bool mixed) {
     const auto& kernels = interface_kernels().cells;
     return swept(tile, u, height, [&](const InterfaceSites& at, InterfaceSums& sums) {
-        (mixed ? kernels.in_mixed : kernels.plain)[1](at, cells.view(), potential, 0, tile.ny,
-                                                      sums);
+        (mixed ? kernels.in_mixed : kernels.plain)[1](at, cells.view(), pairs, 0, tile.ny, sums);
     });
 }
 
-Swept by_reference(const SubstrateCells& cells, const VectorField<double>& u, double height) {
+Swept by_reference(const SubstrateCells& cells, const PairTable& pairs,
+                   const VectorField<double>& u, double height) {
     return swept(whole, u, height, [&](const InterfaceSites& at, InterfaceSums& sums) {
-        reference_sweep(at, cells.atoms(), potential, 0, sites, sums);
+        reference_sweep(at, cells.atoms(), pairs, 0, sites, sums);
     });
 }
 
 } // namespace
 
 TEST(SubstrateCells, AgreeWithTheReference) {
-    const Solid solid;
-    for (bool mixed : {false, true}) {
+    for (const auto& [typed, mixed] :
+         {std::pair{false, false}, {false, true}, {true, false}, {true, true}}) {
+        const Solid solid(typed);
         const SubstrateCells cells = solid.cells(whole, mixed);
         // In contact, about to leave, partly out of reach, and almost; one with sites beyond the
         // margin.
         for (const auto& [height, size] :
              {std::pair{2.5, 0.3}, {8.0, 1.0}, {12.0, 0.3}, {13.6, 1.0}, {3.0, 6.0}}) {
             const auto u = displaced(whole, size);
-            const Swept judge = by_reference(cells, u, height),
-                        mine = by_cells(cells, whole, u, height, mixed);
+            const Swept judge = by_reference(cells, solid.pairs, u, height),
+                        mine = by_cells(cells, solid.pairs, whole, u, height, mixed);
             double largest = 0.0;
             for (double f : judge.force)
                 largest = std::max(largest, std::abs(f));
@@ -123,20 +133,25 @@ TEST(SubstrateCells, AgreeWithTheReference) {
     }
 }
 
-TEST(SubstrateCells, ForceIsMinusTheGradientOfTheEnergy) {
-    const SubstrateCells cells = Solid().cells(whole, false);
+class GradientOverCells : public testing::TestWithParam<bool> {};
+
+TEST_P(GradientOverCells, IsMinusTheForce) {
+    const Solid solid(GetParam());
+    const SubstrateCells cells = solid.cells(whole, false);
     const double height = 2.5, h = 1e-4;
     auto u = displaced(whole, 0.3);
-    const Swept here = by_cells(cells, whole, u, height, false);
+    const Swept here = by_cells(cells, solid.pairs, whole, u, height, false);
     for (int part = 0; part < 3; ++part)
         for (int site : {0, 17, 200, sites * sites - 1}) {
             const auto v = u.plane(0);
             double& moved = (part == 0 ? v.x : part == 1 ? v.y : v.z)(site % sites, site / sites);
             const double rest = moved;
             moved = rest + h;
-            const double up = by_cells(cells, whole, u, height, false).sums.energy.value();
+            const double up =
+                by_cells(cells, solid.pairs, whole, u, height, false).sums.energy.value();
             moved = rest - h;
-            const double down = by_cells(cells, whole, u, height, false).sums.energy.value();
+            const double down =
+                by_cells(cells, solid.pairs, whole, u, height, false).sums.energy.value();
             moved = rest;
             const double f = here.force[static_cast<std::size_t>(3 * site + part)];
             // The force steps by V'(r_c), about 1e-4 eV/Å, where an atom crosses the cutoff.
@@ -145,20 +160,24 @@ TEST(SubstrateCells, ForceIsMinusTheGradientOfTheEnergy) {
         }
 }
 
+INSTANTIATE_TEST_SUITE_P(SubstrateCells, GradientOverCells, testing::Bool(),
+                         [](const auto& one) { return one.param ? "SeveralTypes" : "OneType"; });
+
 TEST(SubstrateCells, SameBitsOnAnyTile) {
-    const Solid solid;
-    for (bool mixed : {false, true})
+    for (const auto& [typed, mixed] :
+         {std::pair{false, false}, {false, true}, {true, false}, {true, true}})
         for (double height : {2.5, 11.0, 13.6}) { // the last one: a few sites are in reach
-            const Swept all =
-                by_cells(solid.cells(whole, mixed), whole, displaced(whole, 1.0), height, mixed);
-            const Swept unskipped = by_cells(solid.cells(whole, mixed, false), whole,
+            const Solid solid(typed);
+            const Swept all = by_cells(solid.cells(whole, mixed), solid.pairs, whole,
+                                       displaced(whole, 1.0), height, mixed);
+            const Swept unskipped = by_cells(solid.cells(whole, mixed, false), solid.pairs, whole,
                                              displaced(whole, 1.0), height, mixed);
             EXPECT_EQ(all.force, unskipped.force);
             InterfaceSums sums;
             for (const Tile& tile : {Tile{0, 0, 7, sites, sites}, Tile{7, 0, sites - 7, 11, sites},
                                      Tile{7, 11, sites - 7, sites - 11, sites}}) {
-                const Swept part =
-                    by_cells(solid.cells(tile, mixed), tile, displaced(tile, 1.0), height, mixed);
+                const Swept part = by_cells(solid.cells(tile, mixed), solid.pairs, tile,
+                                            displaced(tile, 1.0), height, mixed);
                 std::size_t i = 0;
                 for (int y = 0; y < tile.ny; ++y)
                     for (int x = 0; x < 3 * tile.nx; ++x, ++i)
@@ -262,4 +281,73 @@ TEST(SubstrateCells, OfASteppedTwoLayerSolidAgreeWithTheReference) {
     top.atoms.z.resize(top.atoms.x.size());
     EXPECT_LT(over(solid, {}, 2.6, 0.0).sums.energy.value(),
               1.2 * over(top, {}, 2.6, 0.0).sums.energy.value());
+}
+
+TEST(SubstrateCells, OfSeveralTypesAddUpToThoseOfEach) {
+    const Solid solid(true);
+    const auto u = displaced(whole, 0.3);
+    for (double height : {2.5, 8.0}) {
+        const SubstrateCells cells = solid.cells(whole, false);
+        const Swept mine = by_cells(cells, solid.pairs, whole, u, height, false);
+        const Swept judge = by_reference(cells, solid.pairs, u, height);
+        std::vector<double> sum(mine.force.size(), 0.0);
+        double energy = 0.0, closest = no_pair, largest = 0.0;
+        for (int type = 0; type < 4; ++type) {
+            Solid part;
+            part.pairs = by_type[type];
+            part.atoms = {};
+            for (std::size_t i = 0; i < solid.atoms.size(); ++i) {
+                if (solid.atoms.type[i] != type) continue;
+                part.atoms.x.push_back(solid.atoms.x[i]);
+                part.atoms.y.push_back(solid.atoms.y[i]);
+                part.atoms.z.push_back(solid.atoms.z[i]);
+            }
+            if (part.atoms.size() == 0) continue;
+            const Swept alone = by_reference(part.cells(whole, false), part.pairs, u, height);
+            EXPECT_GT(std::abs(alone.sums.energy.value()), 1e-3) << type;
+            EXPECT_LE(alone.sums.in_contact, mine.sums.in_contact);
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                sum[i] += alone.force[i];
+            energy += alone.sums.energy.value();
+            closest = std::min(closest, alone.sums.closest_r2);
+        }
+        for (double f : sum)
+            largest = std::max(largest, std::abs(f));
+        for (const Swept* all : {&mine, &judge}) {
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                ASSERT_NEAR(all->force[i], sum[i], 1e-12 * (largest + std::abs(sum[i]))) << i;
+            EXPECT_NEAR(all->sums.energy.value(), energy, 1e-11 * std::abs(energy));
+            EXPECT_NEAR(all->sums.closest_r2, closest, 1e-9);
+        }
+    }
+}
+
+TEST(SubstrateCells, ASiteIsInContactByTheTypeOfTheAtom) {
+    // One atom of each kind below two sites at the same distance, between their two inflections.
+    Surface two;
+    two.sites = sites;
+    two.length = sites * a;
+    two.height.assign(sites * sites, 0.0);
+    two.atoms = {{0.5 * a, 12.5 * a}, {0.5 * a, 12.5 * a}, {0.0, 0.0}, {0, 1}};
+    InterfaceOptions options;
+    options.by_type = {{0.1, 3.28, 13.12}, {0.1, 2.6, 9.0}};
+    const double height =
+        0.5 * (options.by_type[0].contact_distance() + options.by_type[1].contact_distance());
+    for (auto method : {InterfaceMethod::cells, InterfaceMethod::reference}) {
+        options.method = method;
+        const Interface interface(two, whole, a, options);
+        const VectorField<double> u(whole, 1);
+        const InterfaceMaps maps = interface.maps(u.plane(0), height);
+        EXPECT_EQ(maps.contact[0], 1);
+        EXPECT_EQ(maps.contact[12 * sites + 12], 0);
+        EXPECT_EQ(std::count(maps.contact.begin(), maps.contact.end(), 1), 1);
+        EXPECT_NEAR(maps.distance[0], height, 1e-12);
+        EXPECT_NEAR(maps.distance[12 * sites + 12], height, 1e-12);
+    }
+    EXPECT_NEAR(Interface(two, whole, a, options).start_height(), 13.12, 1e-12);
+    // A type without a potential, and types where atoms have none.
+    two.atoms.type = {0, 2};
+    EXPECT_THROW(Interface(two, whole, a, options), std::invalid_argument);
+    two.atoms = {};
+    EXPECT_THROW(Interface(two, whole, a, options), std::invalid_argument);
 }

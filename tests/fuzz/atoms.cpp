@@ -14,11 +14,14 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
             io::read_atoms_text(bytes, data[0] & 1 ? "fuzz.xyz" : "fuzz.data");
         // What is not refused is a substrate: finite, whole, inside of its box.
         const std::size_t count = atoms.x.size();
-        if (count < 1 || atoms.y.size() != count || atoms.z.size() != count) std::abort();
+        if (count < 1 || atoms.y.size() != count || atoms.z.size() != count ||
+            atoms.type.size() != count)
+            std::abort();
         if (!(atoms.width_x > 0.0) || !(atoms.width_y > 0.0)) std::abort();
         for (std::size_t i = 0; i < count; ++i)
             if (!(atoms.x[i] >= 0.0 && atoms.x[i] < atoms.width_x && atoms.y[i] >= 0.0 &&
-                  atoms.y[i] < atoms.width_y && std::isfinite(atoms.z[i])))
+                  atoms.y[i] < atoms.width_y && std::isfinite(atoms.z[i]) &&
+                  static_cast<std::size_t>(atoms.type[i]) < atoms.types.size()))
                 std::abort();
     });
     return 0;

@@ -74,7 +74,8 @@ TEST(AtomsFile, ReadsEveryAtomStyle) {
                  {" # atomic", " 1", "\r"}};
     for (const auto& c : cases)
         expect_the_atoms(lammps(c.style, c.before, "", c.after), "solid.data");
-    EXPECT_EQ(read_atoms_text(lammps(" # full", " 7 Au 0", ""), "solid.data").type, "Au");
+    EXPECT_EQ(read_atoms_text(lammps(" # full", " 7 Au 0", ""), "solid.data").types,
+              std::vector<std::string>{"Au"});
     EXPECT_EQ(read_atoms_text(lammps("", " 1", ""), "solid.data").format, "LAMMPS data (atomic)");
 }
 
@@ -87,6 +88,29 @@ TEST(AtomsFile, ReadsExtendedXyz) {
             " 0.5"),
         "solid.xyz");
     expect_the_atoms(xyz(std::string("a {word} energy=-1.0 ") + lattice) + "\n\n", "solid.XYZ");
+}
+
+TEST(AtomsFile, KeepsTypesAsTheyAreNamed) {
+    const auto types = [](const std::string& text, const char* file) {
+        const AtomsFile atoms = read_atoms_text(text, file);
+        return std::pair(atoms.types, atoms.type);
+    };
+    using Types = std::pair<std::vector<std::string>, std::vector<std::int32_t>>;
+    const std::string data = replaced(lammps("", " 2", ""), "\n2 2 10.75", "\n2 1 10.75");
+    EXPECT_EQ(types(data, "solid.data"), (Types{{"2", "1"}, {0, 1, 0}}));
+    const std::string frame = replaced(xyz(lattice), "Au 11", "C 11");
+    EXPECT_EQ(types(frame, "solid.xyz"), (Types{{"Au", "C"}, {0, 0, 1}}));
+    EXPECT_EQ(types(xyz(std::string(lattice) + " Properties=pos:R:3", ""), "solid.xyz"),
+              (Types{{""}, {0, 0, 0}}));
+    std::string many = "65\nLattice=\"10 0 0 0 12 0 0 0 3\"\n";
+    for (int i = 0; i < 65; ++i)
+        many += fmt::format("X{} 0 0 0\n", i);
+    try {
+        read_atoms_text(many, "solid.xyz");
+        ADD_FAILURE() << "65 types";
+    } catch (const SceneError& error) {
+        EXPECT_NE(format(error.problems().front()).find("too many types"), std::string::npos);
+    }
 }
 
 TEST(AtomsFile, SaysWhatItFoldedBack) {
@@ -144,7 +168,6 @@ TEST(AtomsFile, RefusesWhatCouldBecomeAWrongNumber) {
     data("any title", "title, units = lj", "units of style 'lj'");
     data("any title", "ITEM: TIMESTEP", "LAMMPS dump");
     data("\n2 1 10.75", "\n1 1 10.75", "atom 1 stands twice");
-    data("\n2 1 10.75", "\n2 2 10.75", "of several types");
     data("\n2 1 10.75", "\n2 1.5 10.75", "is no type of an atom");
     data("\n2 1 10.75", "\n2.5 1 10.75", "is no number of an atom");
     data("\n2 1 10.75", "\n2 1 0 10.75", "has 6 columns");
@@ -171,7 +194,6 @@ TEST(AtomsFile, RefusesWhatCouldBecomeAWrongNumber) {
     for (int i = 0; i < 100; ++i)
         many += fmt::format(" key{}=1", i);
     extended(lattice, many, "too many properties");
-    extended("Au 10.75", "Ag 10.75", "of several types");
     extended("Au 10.75", "10.75", "has 3 columns");
     for (const char* file : {"solid.data", "solid.xyz"}) {
         EXPECT_NE(refusal("", file), "") << file;
@@ -219,6 +241,9 @@ TEST(AtomsFile, OfAnyBytesIsRefusedOrWhole) {
                 ASSERT_GT(count, 0u);
                 ASSERT_EQ(atoms.y.size(), count);
                 ASSERT_EQ(atoms.z.size(), count);
+                ASSERT_EQ(atoms.type.size(), count);
+                for (const std::int32_t type : atoms.type)
+                    ASSERT_LT(static_cast<std::size_t>(type), atoms.types.size()) << text;
                 ASSERT_TRUE(atoms.width_x > 0.0 && atoms.width_y > 0.0) << text;
                 for (std::size_t i = 0; i < count; ++i) {
                     ASSERT_TRUE(atoms.x[i] >= 0.0 && atoms.x[i] < atoms.width_x) << text;

@@ -35,6 +35,7 @@ struct Stack {
     double temperature;
     bool finite = false; ///< strain
     bool atoms = false;  ///< a substrate of atoms anywhere
+    bool types = false;  ///< of two types
 };
 constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"deep", 62, 2, 0.0},
@@ -42,12 +43,23 @@ constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"lattice", 6, 0, 0.0},
                             {"finite", 32, 3, 0.0, true},
                             {"finite lattice", 6, 0, 0.0, true},
-                            {"atoms", 32, 3, 0.0, false, true}};
+                            {"atoms", 32, 3, 0.0, false, true},
+                            {"types", 32, 3, 0.0, false, true, true}};
 void PrintTo(const Stack& s, std::ostream* out) { *out << s.name; }
 
 Surface surface_of(const Stack& stack, const char* name) {
-    const Surface surface = test::reference_surface(name);
-    return stack.atoms ? test::disordered(surface) : surface;
+    Surface surface = test::reference_surface(name);
+    if (stack.atoms) surface = test::disordered(surface);
+    if (stack.types)
+        for (std::size_t i = 0; i < surface.atoms.size(); ++i)
+            surface.atoms.type.push_back(i % 3 == 0);
+    return surface;
+}
+
+InterfaceOptions interface_of(const Stack& stack) {
+    InterfaceOptions options = test::paper_interface();
+    if (stack.types) options.by_type = {options.potential, {0.05, 3.0, 10.0}};
+    return options;
 }
 
 BlockOptions block_of(const Stack& stack) {
@@ -59,7 +71,7 @@ BlockOptions block_of(const Stack& stack) {
 SimulationOptions options_of(const Stack& stack) {
     SimulationOptions options;
     options.block = block_of(stack);
-    options.interface = test::paper_interface();
+    options.interface = interface_of(stack);
     options.drive.velocity = 1e-3; // 100 m/s: into contact within 300 steps
     options.drive.ramp = 500.0;
     options.damping = 1e-3;
@@ -103,7 +115,7 @@ Trace run(const Stack& stack, const Communicator& ranks) {
 }
 
 Trace relaxation(const Stack& stack, const Communicator& ranks) {
-    const auto r = test::relax_from_attraction(block_of(stack), test::paper_interface(),
+    const auto r = test::relax_from_attraction(block_of(stack), interface_of(stack),
                                                surface_of(stack, "c4_N32_T16_rms3"), 1e-3, ranks);
     Trace trace;
     trace.numbers = {r.binding_energy,
