@@ -60,6 +60,10 @@ void advance(benchmark::State& state, CellStrain strain, const LevelCell& cell, 
             elastic_kernels(strain).advance(level, {kick, kick, kick, layers}, 1e-3,
                                             {y, y + band, 0, n}, scratch.view(), sums);
     count(state, static_cast<double>(n) * n * layers, 1);
+    const ArithmeticLimit limit =
+        arithmetic_limit(strain == CellStrain::small ? Timed::node : Timed::finite, false);
+    state.counters["arithmetic"] = limit.all;
+    state.counters["slow"] = limit.slow;
 }
 void kick_and_drift(benchmark::State& state) {
     advance(state, CellStrain::small, {2.6, {0.441, 0.117}}, state.range(1) != 0);

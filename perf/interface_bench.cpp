@@ -7,10 +7,8 @@
 // rough one in partial contact. One thread.
 //
 //   s/pair         time by pairs within the cutoff, so lanes spent on others show
-//   limit          what the multiplications of a pair (fused or not) take in a loop of nothing but
-//                  fused ones, measured in the same run (limits.hpp)
-//   share          limit / (s/pair)
-//   div_limit      the same in a loop that holds a pair's part of a division, too; div_share
+//   arithmetic     what a force's operations take where none waits for another, and slow: its
+//                  divisions alone; both measured in the same run (limits.hpp)
 //   GFLOP/s        of a pair's force (the energies of an observed sweep are not counted)
 #include "engine/block/interface.hpp"
 #include "kernels/variant.hpp"
@@ -32,77 +30,9 @@ namespace {
 constexpr double a = 2.6;
 constexpr int n = 128;
 
-/// Of four pairs in the force-only lattice sweep: 4 for r^2, 6 about two shared divisions, 16 for
-/// the force, 4 for its z component, 1 for the lateral ones. The sweep over rows takes one more,
-/// the one over cells 15; its shares are of the same limit.
-constexpr int multiplications = 31;
-constexpr int divisions = 2;
-/// Of these multiplications 13 are fused with an addition; 16 more additions stand alone.
-constexpr double flops = (multiplications + 13 + 16 + divisions) / 4.0;
-
-/// One function for each processor level and precision: the seconds that the multiplications of
-/// four pairs take with their divisions, in independent chains on the level's registers.
-#if defined(__x86_64__)
-#define ASPERITY_LIMIT(NAME, TARGET, REAL, BYTES)                                                  \
-    __attribute__((target(TARGET), noinline)) double NAME() {                                      \
-        typedef REAL Register __attribute__((vector_size(BYTES)));                                 \
-        constexpr int rounds = 2000;                                                               \
-        Register chain[10], quotient[divisions];                                                   \
-        Register one = Register{} + REAL(1);                                                       \
-        for (Register & c : chain)                                                                 \
-            c = one;                                                                               \
-        for (Register & q : quotient)                                                              \
-            q = one;                                                                               \
-        asm volatile("" : "+v"(one));                                                              \
-        const auto begin = std::chrono::steady_clock::now();                                       \
-        for (int r = 0; r < rounds; ++r) {                                                         \
-            for (Register & q : quotient) {                                                        \
-                q = one / q;                                                                       \
-                asm volatile("" : "+v"(q));                                                        \
-            }                                                                                      \
-            _Pragma("GCC unroll 31") for (int k = 0; k < multiplications; ++k) {                   \
-                chain[k % 10] = chain[k % 10] * one;                                               \
-                asm volatile("" : "+v"(chain[k % 10]));                                            \
-            }                                                                                      \
-        }                                                                                          \
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;       \
-        return took.count() / rounds / (BYTES / sizeof(REAL));                                     \
-    }
-ASPERITY_LIMIT(double_v2, "arch=x86-64-v2", double, 16)
-ASPERITY_LIMIT(double_v3, "arch=x86-64-v3", double, 32)
-ASPERITY_LIMIT(double_v4, "arch=x86-64-v4", double, 64)
-ASPERITY_LIMIT(float_v2, "arch=x86-64-v2", float, 16)
-ASPERITY_LIMIT(float_v3, "arch=x86-64-v3", float, 32)
-ASPERITY_LIMIT(float_v4, "arch=x86-64-v4", float, 64)
-#endif
-
-/// Seconds for one pair's multiplications.
-double limit(bool mixed) { return 1e-9 * 2.0 * multiplications / 4.0 / fused_rate(mixed); }
-
-/// And with its divisions, the best of many trials; 0 where no loop has been written.
-double limit_with_division(bool mixed) {
-#if defined(__x86_64__)
-    double best = 1.0;
-    for (int trial = 0; trial < 50; ++trial) {
-        double four = 0.0;
-        switch (processor_level()) {
-        case ProcessorLevel::v4:
-            four = mixed ? float_v4() : double_v4();
-            break;
-        case ProcessorLevel::v3:
-            four = mixed ? float_v3() : double_v3();
-            break;
-        default:
-            four = mixed ? float_v2() : double_v2();
-        }
-        best = std::min(best, four / 4.0);
-    }
-    return best;
-#else
-    static_cast<void>(mixed);
-    return 0.0;
-#endif
-}
+/// Of a pair in the force-only lattice sweep: 31 multiplications in four pairs, 13 of them fused
+/// with an addition, 16 more additions and two divisions. The other sweeps are counted alike.
+constexpr double flops = (31 + 13 + 16 + 2) / 4.0;
 
 Surface nearly_flat(int sites) {
     Surface s;
@@ -162,28 +92,31 @@ double time_sweeps(benchmark::State& state, const Surface& substrate,
 }
 
 /// In contact over a nearly flat substrate of so many sites.
-void contact(benchmark::State& state, int sites, bool atoms_anywhere) {
+void contact(benchmark::State& state, int sites, bool atoms_anywhere, Timed kernel) {
     constexpr double height = 3.11;
     const bool mixed = state.range(0), observe = state.range(1);
     InterfaceOptions options;
     options.mixed = mixed;
     const double pairs = pairs_in_reach(n * a / sites, options.potential.cutoff, height);
-    const double product = limit(mixed), with_division = limit_with_division(mixed);
     const Surface map = nearly_flat(sites);
     const double pair =
         time_sweeps(state, atoms_anywhere ? as_atoms(map) : map, options, height, observe) / pairs;
     state.counters["s/pair"] = pair;
-    state.counters["limit"] = product;
-    state.counters["share"] = product / pair;
-    state.counters["div_limit"] = with_division;
-    state.counters["div_share"] = with_division / pair;
+    const ArithmeticLimit limit = arithmetic_limit(kernel, mixed);
+    state.counters["arithmetic"] = limit.all;
+    state.counters["slow"] = limit.slow;
     state.counters["GFLOP/s"] = 1e-9 * flops / pair;
+    state.counters["of_fused"] = 1e-9 * flops / pair / fused_rate(mixed);
     state.counters["fused_GFLOP/s"] = fused_rate(mixed);
 }
 
-void lattice(benchmark::State& state) { contact(state, n, false); }
-void rows(benchmark::State& state) { contact(state, substrate_sites(n, 1.618), false); }
-void cells(benchmark::State& state) { contact(state, substrate_sites(n, 1.618), true); }
+void lattice(benchmark::State& state) { contact(state, n, false, Timed::lattice); }
+void rows(benchmark::State& state) {
+    contact(state, substrate_sites(n, 1.618), false, Timed::rows);
+}
+void cells(benchmark::State& state) {
+    contact(state, substrate_sites(n, 1.618), true, Timed::cells);
+}
 
 void out_of_reach(benchmark::State& state) { time_sweeps(state, nearly_flat(n), {}, 14.0, false); }
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <map>
+#include <utility>
 
 namespace asperity {
 
@@ -77,6 +79,132 @@ double fused_rate(bool single) {
     }
 #endif
     return best;
+}
+
+namespace {
+
+// Counted in the kernels' texts. Not counted: the comparison of a masked pair with the cutoff, and
+// what a row or a block of sites takes beside its pairs and nodes.
+constexpr Operations counted[] = {
+    {31, 16, 0, 2, 0, 4}, // interface_site.hpp
+    {16, 7, 0, 1, 0, 2},  // interface_row.hpp
+    {23, 6, 0, 1, 0, 2},  // interface_cells.cpp
+    {42, 43, 0, 0, 6, 1}, // elastic_column.hpp; 33 of the multiplications are fused
+    // elastic_finite_cell.hpp: nine springs with an inverse root each, which is a root and a
+    // division, or five more multiplications where AVX-512 has a first guess of it.
+    {69, 96, 9, 9, 12, 1},
+    {114, 96, 9, 0, 12, 1},
+};
+
+/// Whether an operation of a kind is due in step k of so many, spread evenly.
+constexpr bool due(int k, int many, int steps) { return (k + 1) * many / steps > k * many / steps; }
+
+/// One function for each processor level and precision: seconds for a register of a kernel's
+/// operations, in chains that depend on themselves alone; slow: its roots and divisions only.
+#if defined(__x86_64__)
+#define ASPERITY_ON(i, variable, text, by)                                                         \
+    case i:                                                                                        \
+        asm volatile(text : "+v"(variable) : "v"(by));                                             \
+        break;
+#define ASPERITY_MIX(NAME, TARGET, REAL, BYTES, MULTIPLY, ADD, DIVIDE, ROOT, SHIFT)                \
+    template <int kernel, bool slow>                                                               \
+    __attribute__((target(TARGET), noinline)) double NAME() {                                      \
+        typedef REAL Register __attribute__((vector_size(BYTES)));                                 \
+        constexpr Operations n = counted[kernel];                                                  \
+        constexpr int fast = n.multiplications + n.additions, rare = n.roots + n.divisions;        \
+        constexpr int steps = slow ? (rare > 0 ? rare : 1) : fast, rounds = 400;                   \
+        Register one = Register{} + REAL(1), none = Register{}, other;                             \
+        Register a = one, b = one, c = one, d = one, e = one, f = one; /* multiplied */            \
+        Register v = one, w = one, x = one, y = one, z = one;          /* added to */              \
+        asm volatile("" : "+v"(one), "+v"(none));                                                  \
+        const auto begin = std::chrono::steady_clock::now();                                       \
+        for (int round = 0; round < rounds; ++round) {                                             \
+            _Pragma("GCC unroll 256") for (int k = 0; k < steps; ++k) {                            \
+                if (due(k, n.roots, steps)) asm volatile(ROOT : "=v"(other) : "v"(one));           \
+                if (due(k, n.divisions, steps)) asm volatile(DIVIDE : "=&v"(other) : "v"(one));    \
+                if (slow) continue;                                                                \
+                if (due(k, n.shifts, steps)) asm volatile(SHIFT : "=&v"(other) : "v"(one));        \
+                if (due(k, n.multiplications, steps)) switch (k * n.multiplications / steps % 6) { \
+                        ASPERITY_ON(0, a, MULTIPLY, one)                                           \
+                        ASPERITY_ON(1, b, MULTIPLY, one)                                           \
+                        ASPERITY_ON(2, c, MULTIPLY, one)                                           \
+                        ASPERITY_ON(3, d, MULTIPLY, one)                                           \
+                        ASPERITY_ON(4, e, MULTIPLY, one)                                           \
+                        ASPERITY_ON(5, f, MULTIPLY, one)                                           \
+                    }                                                                              \
+                if (due(k, n.additions, steps)) switch (k * n.additions / steps % 5) {             \
+                        ASPERITY_ON(0, v, ADD, none)                                               \
+                        ASPERITY_ON(1, w, ADD, none)                                               \
+                        ASPERITY_ON(2, x, ADD, none)                                               \
+                        ASPERITY_ON(3, y, ADD, none)                                               \
+                        ASPERITY_ON(4, z, ADD, none)                                               \
+                    }                                                                              \
+            }                                                                                      \
+        }                                                                                          \
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;       \
+        return slow && rare == 0 ? 0.0 : took.count() / rounds / (BYTES / sizeof(REAL));           \
+    }
+ASPERITY_MIX(mix_double_v2, "arch=x86-64-v2", double, 16, "mulpd %1, %0", "addpd %1, %0",
+             "movapd %1, %0\n\tdivpd %1, %0", "sqrtpd %1, %0", "movapd %1, %0\n\tshufpd $1, %1, %0")
+ASPERITY_MIX(mix_double_v3, "arch=x86-64-v3", double, 32, "vmulpd %1, %0, %0", "vaddpd %1, %0, %0",
+             "vdivpd %1, %1, %0", "vsqrtpd %1, %0",
+             "vperm2f128 $0x21, %1, %1, %0\n\tvshufpd $5, %0, %1, %0")
+ASPERITY_MIX(mix_double_v4, "arch=x86-64-v4", double, 64, "vmulpd %1, %0, %0", "vaddpd %1, %0, %0",
+             "vdivpd %1, %1, %0", "vrsqrt14pd %1, %0", "valignq $1, %1, %1, %0")
+ASPERITY_MIX(mix_float_v2, "arch=x86-64-v2", float, 16, "mulps %1, %0", "addps %1, %0",
+             "movaps %1, %0\n\tdivps %1, %0", "sqrtps %1, %0", "")
+ASPERITY_MIX(mix_float_v3, "arch=x86-64-v3", float, 32, "vmulps %1, %0, %0", "vaddps %1, %0, %0",
+             "vdivps %1, %1, %0", "vsqrtps %1, %0", "")
+ASPERITY_MIX(mix_float_v4, "arch=x86-64-v4", float, 64, "vmulps %1, %0, %0", "vaddps %1, %0, %0",
+             "vdivps %1, %1, %0", "vrsqrt14ps %1, %0", "")
+
+template <int kernel, bool slow>
+double mix(bool single) {
+    double best = 1.0;
+    for (int trial = 0; trial < 60; ++trial) {
+        double took = 0.0;
+        switch (processor_level()) {
+        case ProcessorLevel::v4:
+            took = single ? mix_float_v4<kernel, slow>() : mix_double_v4<kernel, slow>();
+            break;
+        case ProcessorLevel::v3:
+            took = single ? mix_float_v3<kernel, slow>() : mix_double_v3<kernel, slow>();
+            break;
+        default:
+            took = single ? mix_float_v2<kernel, slow>() : mix_double_v2<kernel, slow>();
+        }
+        best = std::min(best, took / counted[kernel].items);
+    }
+    return best;
+}
+template <int kernel>
+ArithmeticLimit measure(bool single) {
+    return {mix<kernel, false>(single), mix<kernel, true>(single)};
+}
+#endif
+
+} // namespace
+
+ArithmeticLimit arithmetic_limit([[maybe_unused]] Timed kernel, [[maybe_unused]] bool single) {
+#if defined(__x86_64__)
+    static std::map<std::pair<Timed, bool>, ArithmeticLimit> known;
+    ArithmeticLimit& limit = known[{kernel, single}];
+    if (limit.all > 0.0) return limit;
+    const bool guess = processor_level() == ProcessorLevel::v4;
+    switch (kernel) {
+    case Timed::lattice:
+        return limit = measure<0>(single);
+    case Timed::rows:
+        return limit = measure<1>(single);
+    case Timed::cells:
+        return limit = measure<2>(single);
+    case Timed::node:
+        return limit = measure<3>(single);
+    case Timed::finite:
+        return limit = guess ? measure<5>(single) : measure<4>(single);
+    }
+#endif
+    return {0.0, 0.0};
 }
 
 } // namespace asperity

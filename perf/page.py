@@ -43,12 +43,17 @@ def tables(results, baseline, phases):
     out.append(_table("Limits of this machine",
                       "A loop of fused multiply-adds in registers, and a stream triad a = b + s c from memory.",
                       ["loop", "rate", ""], rows))
-    units = ("GB/s", "of stream", "GFLOP/s", "of fused")
+    units = ("GB/s", "of stream", "GFLOP/s", "of fused", "limit", "of limit", "bound")
+    names = {"limit": "limit, ns"}
+    def cell(r, u):
+        if u not in r:
+            return ""
+        return r[u] if u == "bound" else _percent(r[u]) if u.startswith("of") else _number(r[u])
     for group in results["kernels"]:
         used = [u for u in units if any(u in r for r in group["rows"])]
-        header = ["kernel", f"ns/{group['item']}", f"M {group['item']}s/s"] + used + compare
+        header = ["kernel", f"ns/{group['item']}", f"M {group['item']}s/s"] + [names.get(u, u) for u in used] + compare
         rows = [[r["label"], _number(r["ns"]), _number(r["rate"])] +
-                [_percent(r[u]) if u.startswith("of") else _number(r[u]) for u in used] +
+                [cell(r, u) for u in used] +
                 against(r["ns"], r["key"]) for r in group["rows"]]
         out.append(_table(group["question"], group["note"], header, rows))
     threads = results["steps"][0]["threads"]
@@ -223,8 +228,12 @@ Measured on {results['date']} with the program of commit {results.get('commit', 
 
 Every time is the shortest of repeats that alternate with each other; every share is of a limit measured
 in the same run. *Of fused* is the share of a loop of fused multiply-adds, *of stream* that of a stream
-triad on as many threads. A kernel is close to the limit of the machine if one of the two is close to
-100 % (in cache the stream of memory is no limit). *Against baseline* is a speed relative to
+triad on as many threads. *Limit* is what this processor takes at best for an item, and *bound* names
+what sets it: the kernel's own multiplications, additions, divisions and shifts in a loop in which none
+waits for another and nothing is loaded (arithmetic; division where divisions and roots alone take as
+long), or u and v read and written once at the stream's rate (memory). What a kernel takes beyond it goes
+into loads and stores, waiting for results, lanes beyond the cutoff, and what a row or block of sites
+takes once. *Against baseline* is a speed relative to
 `perf/baselines/` for the same processor, marked where it differs by more than 10 %. Times taken while
 other programs run are not reliable.
 

@@ -25,11 +25,15 @@ bench 0 --quick --page page --out numbers.json
 says "lattice, double, forces"
 says "other programs used"
 python3 - <<'END' || fail "what was written is not well formed"
-import json, math, re, xml.dom.minidom
+import json, math, os, re, xml.dom.minidom
 r = json.load(open("numbers.json"))
 times = [x["ns"] for g in r["kernels"] for x in g["rows"]] + [s["seconds"] for s in r["steps"]]
 times += [e["seconds"] for kind in ("strong", "weak", "larger") for e in r["scaling"][kind]]
 assert len(times) > 40 and all(math.isfinite(t) and t > 0 for t in times), times
+# Kernels whose operations are counted have a limit, and what sets it.
+bounds = {x["key"]: x["bound"] for g in r["kernels"] for x in g["rows"] if x.get("limit", 0) > 0}
+assert set(bounds.values()) <= {"arithmetic", "division", "memory"}, bounds
+assert os.uname().machine != "x86_64" or sum(k.endswith("observed:0") for k in bounds) == 6, bounds
 # What the model counts is what the halos sent.
 for c in r["scaling"]["check"]:
     assert c["halo_bytes"] == c["predicted_halo_bytes"] > 0, c
