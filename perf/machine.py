@@ -56,3 +56,8 @@ def words(load):
     if load["trusted"]:
         return f"The machine was quiet: {used}."
     return f"The machine was busy, do not trust these numbers: {used}."
+
+
+def short(machine):
+    """A processor in a table's head."""
+    return f"{machine['processor']} {machine['family']}/{machine['model']}, {machine['kernels']}"

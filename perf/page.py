@@ -119,6 +119,20 @@ def _scaling_tables(scaling, limits, phases):
     return out
 
 
+def processors_table(results, baselines):
+    """The kernels' and steps' times on every processor with a baseline; None for fewer than two."""
+    if len(baselines) < 2:
+        return None
+    labels = [(r["key"], f"{r['label']}, ns/{g['item']}", 1.0) for g in results["kernels"] for r in g["rows"]]
+    labels += [(s["key"], f"step: {s['label']}, ms", 1e-6) for s in results["steps"]]
+    rows = [[label] + [_number(b["ns"][key] * unit) if key in b["ns"] else "" for b in baselines]
+            for key, label, unit in labels]
+    return _table("Processors with a baseline",
+                  "From `perf/baselines/`; each measured on its own, with two threads where a step takes two: " +
+                  "; ".join(f"{machine.short(b['machine'])} on {b['date']}, commit {b['commit']}" for b in baselines) + ".",
+                  ["kernel"] + [machine.short(b["machine"]) for b in baselines], rows)
+
+
 def baseline_words(baseline):
     """What the numbers are compared with."""
     if not baseline:
@@ -198,8 +212,8 @@ def predicted_plot(larger, network, plt):
 # --- the page --------------------------------------------------------------------------------------------------
 
 
-def write(results, baseline, phases, folder):
-    """performance.md in the folder, its plots in gallery/perf there."""
+def write(results, baseline, baselines, phases, folder):
+    """performance.md in the folder, its plots in gallery/perf there; baselines: of all processors."""
     plots = os.path.join(folder, "gallery", "perf")
     os.makedirs(plots, exist_ok=True)
     scaling, m = results["scaling"], results["machine"]
@@ -246,7 +260,8 @@ other programs run are not reliable.
 ## Kernels and steps
 
 """
-    text += "\n".join(markdown(t) for t in all_tables[:first])
+    compared = processors_table(results, baselines)
+    text += "\n".join(markdown(t) for t in all_tables[:first] + ([compared] if compared else []))
     text += """
 ## Scaling
 

@@ -240,7 +240,11 @@ def main():
     if args.page:
         if "scaling" not in results:
             sys.exit("bench: --page needs the scaling study; this JSON was made without --scaling")
-        page.write(results, baseline, PHASES, args.page)
+        every = []
+        for name in sorted(os.listdir(os.path.dirname(stored))):
+            with open(os.path.join(os.path.dirname(stored), name)) as file:
+                every.append(json.load(file))
+        page.write(results, baseline, every, PHASES, args.page)
         say(f"Page: {os.path.join(args.page, 'performance.md')}")
     if not args.earlier:
         say(f"Numbers: {out}")
