@@ -4,9 +4,10 @@
 // What does a message cost? Two ranks play ping-pong with messages of many sizes, swap messages
 // both ways at once, as the exchange of halos does, and add up the numbers of a step.
 //
-//     mpirun -n 2 build/release/perf/message_bench
+//     mpirun -n 2 build/release/perf/message_bench [BYTES ...]
 //
-// Prints JSON: seconds, the least of many trials.
+// Sizes are the powers of two from 8 bytes to 4 MB, and those asked for. Prints JSON: seconds, the
+// least of many trials.
 #include "decomposition/communicator.hpp"
 #include "kernels/exact_sum.hpp"
 
@@ -16,27 +17,31 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <set>
 #include <vector>
 
 using namespace asperity;
 
 namespace {
 
-/// Seconds of one call, the least over trials of many calls each; a trial takes a few milliseconds.
+/// Seconds of one call, the least over up to twenty trials of many calls each; a trial takes a few
+/// milliseconds, all of them a third of a second where calls are not longer.
 template <class Call>
 double least(const Communicator& ranks, const Call& call) {
-    double best = 1e300;
+    double best = 1e300, spent = 0.0;
     int calls = 4;
-    for (int trial = 0; trial < 20; ++trial) {
+    for (int trial = 0; trial < 20 && spent < 0.3; ++trial) {
         ranks.barrier();
         const auto start = std::chrono::steady_clock::now();
         for (int n = 0; n < calls; ++n)
             call();
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        best = std::min(best, took.count() / calls);
-        std::array<double, 1> longest = {best}; // all ranks call as often
+        std::array<double, 1> longest = {took.count()}; // all ranks decide alike
         ranks.max(longest);
-        calls = static_cast<int>(std::clamp(4e-3 / longest[0], 4.0, 200.0));
+        best = std::min(best, longest[0] / calls);
+        spent += longest[0];
+        calls = static_cast<int>(std::clamp(4e-3 / best, 4.0, 200.0));
     }
     return best;
 }
@@ -47,12 +52,17 @@ int main(int argc, char** argv) {
     ParallelSession session(argc, argv);
     const Communicator& ranks = session.world();
     if (ranks.size() != 2) {
-        if (ranks.root()) std::fprintf(stderr, "usage: mpirun -n 2 message_bench\n");
+        if (ranks.root()) std::fprintf(stderr, "usage: mpirun -n 2 message_bench [BYTES ...]\n");
         return 2;
     }
     const int other = 1 - ranks.rank();
     nlohmann::json swaps = nlohmann::json::array(), pings = swaps;
-    for (std::size_t bytes = 8; bytes <= (std::size_t{4} << 20); bytes *= 2) {
+    std::set<std::size_t> sizes;
+    for (std::size_t bytes = 8; bytes <= (std::size_t{4} << 20); bytes *= 2)
+        sizes.insert(bytes);
+    for (int i = 1; i < argc; ++i)
+        sizes.insert(std::strtoul(argv[i], nullptr, 10));
+    for (const std::size_t bytes : sizes) {
         std::vector<double> out(bytes / sizeof(double), 1.0), in(out.size()), out2 = out, in2 = in;
         // There and back: half of it is one message.
         const Message there[] = {{other, other, 0, out, {}}}, back[] = {{other, other, 0, {}, in}};

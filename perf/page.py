@@ -5,6 +5,7 @@ import math
 import os
 
 import machine
+import scaling as study
 
 
 def _number(x):
@@ -16,7 +17,7 @@ def _number(x):
 
 
 def _percent(x):
-    return f"{100.0 * x:.0f} %"
+    return "-" if math.isnan(x) else f"{100.0 * x:.0f} %"
 
 
 def _against(time, known):
@@ -95,7 +96,7 @@ def _scaling_tables(scaling, limits, phases):
                       ["bytes", "one way, µs", "GB/s", "swap, µs"],
                       [[str(p["bytes"]), _number(1e6 * p["seconds"]), _number(1e-9 * p["bytes"] / p["seconds"]),
                         _number(1e6 * s["seconds"])] for p, s in zip(m["ping"], m["swap"])
-                       if math.log2(p["bytes"]) % 3 == 0]))
+                       if math.log2(p["bytes"]) % 3.0 == 0.0]))
     out.append(_table("The model compared with two ranks",
                       "In contact. The model uses measurements on one core and of the messages, and no run on two ranks.",
                       ["sites", "ms/step", "model", "model / measured", "communication, ms", "model", "halo, kB a step", "model"],
@@ -108,14 +109,16 @@ def _scaling_tables(scaling, limits, phases):
     rows = [[str(n), str(r), _number(1.0 / by[n, r, "measured"]["seconds"]), f"{by[n, r, 'measured']['efficiency']:.2f}",
              _percent(by[n, r, "measured"]["communication"]), _number(1.0 / by[n, r, "network"]["seconds"]),
              f"{by[n, r, 'network']['efficiency']:.2f}", _percent(by[n, r, "network"]["communication"]),
-             _percent(by[n, r, "measured"]["held"])]
+             _percent(by[n, r, "measured"]["held"]), _percent(by[n, r, "network"].get("shared", math.nan))]
             for n, r, kind in by if kind == "measured"]
     out.append(_table("Larger machines, predicted",
                       "In contact, as many layers as sites, ranks of one thread. First with messages as measured here, then over a "
                       f"network of {1e6 * network['latency']:g} µs and {1e-9 * network['bandwidth']:g} GB/s a rank (assumed, "
-                      "not measured). Held by all: share of a rank's nodes that every rank computes alike.",
+                      "not measured; messages over 64 kB wait for two more latencies). Held by all: share of a rank's nodes that "
+                      f"every rank computes alike. If shared: steps/s gained over this network if {study.SHARED_AMONG} ranks "
+                      "together held these nodes, for two more swaps a step.",
                       ["sites", "ranks", "steps/s", "efficiency", "communication", "network: steps/s", "efficiency",
-                       "communication", "held by all"], rows))
+                       "communication", "held by all", "if shared"], rows))
     return out
 
 
@@ -131,6 +134,20 @@ def processors_table(results, baselines):
                   "From `perf/baselines/`; each measured on its own, with two threads where a step takes two: " +
                   "; ".join(f"{machine.short(b['machine'])} on {b['date']}, commit {b['commit']}" for b in baselines) + ".",
                   ["kernel"] + [machine.short(b["machine"]) for b in baselines], rows)
+
+
+def network_table(rows):
+    """Two hosts: measured, and by the model."""
+    def cells(r):
+        name = f"{r['microseconds']} µs, {r['gigabits']:g} Gbit/s" if r["microseconds"] else "veth"
+        c = r["measured_communication"], r["predicted_communication"]
+        return [name, _number(1e6 * r["latency"]), _number(1e6 * r["sum"]), str(r["sites"]),
+                _number(1e3 * r["measured"]), _number(1e3 * r["predicted"]), f"{r['predicted'] / r['measured']:.2f}",
+                _number(1e3 * c[0]), _number(1e3 * c[1]), f"{c[1] / c[0]:.2f}"]
+    return _table("Two hosts over TCP",
+                  "In contact, one rank a host. The model uses steps of one rank and the messages between these hosts.",
+                  ["network", "short message, µs", "reduction, µs", "sites", "ms/step", "model", "model / measured",
+                   "communication, ms", "model", "model / measured"], [cells(r) for r in rows])
 
 
 def baseline_words(baseline):

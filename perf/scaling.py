@@ -21,9 +21,14 @@ import shutil
 import subprocess
 import sys
 
+import hosts
+
 PREDICTED_SITES, PREDICTED_RANKS = (512, 2048, 8192), (1, 4, 16, 64, 256, 1024)
-# A network, assumed, not measured here: seconds, bytes a second for each rank.
-NETWORK = {"latency": 2e-6, "bandwidth": 5e9}
+# What if ranks shared the levels that each of them holds now (Model.predict)?
+SHARED_AMONG = 16
+# A network, assumed, not measured here: seconds, bytes a second for each rank. Messages longer than `eager` bytes
+# wait for the receiver, there and back: two latencies more. The limit is Open MPI's over TCP; networks() shows it.
+NETWORK = {"latency": 2e-6, "bandwidth": 5e9, "eager": 65536.0}
 
 
 def _run(command, threads, ranks=1):
@@ -40,10 +45,14 @@ def _run(command, threads, ranks=1):
     return json.loads(run.stdout)
 
 
+def _step_bench(folder, place, sites, thickness, seconds, precision="double"):
+    return [os.path.join(folder, "step_bench"), place, str(seconds), f"surface.sites={sites}",
+            f"block.thickness={thickness}", f"numerics.precision={precision}"]
+
+
 def step(folder, place, sites, thickness, ranks, threads, seconds, precision="double"):
     """A measured step (step_bench)."""
-    return _run([os.path.join(folder, "step_bench"), place, str(seconds), f"surface.sites={sites}",
-                 f"block.thickness={thickness}", f"numerics.precision={precision}"], threads, ranks)
+    return _run(_step_bench(folder, place, sites, thickness, seconds, precision), threads, ranks)
 
 
 def volumes(folder, cases):
@@ -85,13 +94,16 @@ class Model:
         other.__dict__.update(self.__dict__)
         latency, per_byte = NETWORK["latency"], 1.0 / NETWORK["bandwidth"]
         # Two messages leave and two arrive; the link goes both ways at once.
-        other.swap = [(0.0, latency), (1e6, latency + 2e6 * per_byte)]
+        eager = NETWORK["eager"]
+        other.swap = [(bytes, waits * latency + 2.0 * bytes * per_byte)
+                      for bytes, waits in ((0.0, 1), (eager, 1), (eager + 1.0, 3), (1e6, 3))]
         other.latency = other.sum = latency
         other.gathered = per_byte
         return other
 
-    def predict(self, v):
-        """Seconds of the parts of a step."""
+    def predict(self, v, among=1):
+        """Seconds of the parts of a step. among: as if that many ranks together, and not each of them, held the
+        levels that are not cut, for another swap in x and in y with a rank that holds the next part."""
         # Beyond the largest block measured everything takes what it takes there.
         size = min(math.log(v["nodes"]), self.cost["node"][-1][0])
         t = {name: _between(points, size) for name, points in self.cost.items()}
@@ -100,7 +112,10 @@ class Model:
         messages = sum(_between(self.swap, v[way]) for way in "xy" if v[way] > 0.0)
         if v["gathered"] > 0.0:
             messages += doublings * self.latency + v["gathered"] * self.gathered
-        return {"work": v["nodes"] * t["node"] + v["sites"] * t["site"] + v["hanging"] * t["hanging"],
+        nodes = v["nodes"] - v["held"] * (1.0 - 1.0 / among)
+        if among > 1 and v["held"] > 0.0:
+            messages += 2.0 * _between(self.swap, v["held_side"] / math.sqrt(among))
+        return {"work": nodes * t["node"] + v["sites"] * t["site"] + v["hanging"] * t["hanging"],
                 "copies": (v["wrapped"] + 2.0 * sent) * t["byte"], "messages": messages,
                 "sums": doublings * self.sum}
 
@@ -162,9 +177,11 @@ def study(folder, which):
             for r in PREDICTED_RANKS[1:]:
                 parts = m.predict(volume[(n, n, r)])
                 total = sum(parts.values())
+                shared = sum(m.predict(volume[(n, n, r)], SHARED_AMONG).values())
                 larger.append({"sites": n, "ranks": r, "messages": kind, "seconds": total,
                                "efficiency": alone / (r * total), "communication": 1.0 - parts["work"] / total,
-                               "held": volume[(n, n, r)]["held"] / volume[(n, n, r)]["nodes"]})
+                               "held": volume[(n, n, r)]["held"] / volume[(n, n, r)]["nodes"],
+                               "shared": total / shared - 1.0})
     return {"strong": [entry(c, (*c[:3], 1, 1)) for c in cases[:len(strong) * 6]],
             "weak": [entry(c, ("contact", weak[0], weak[2], 1, 1)) for c in cases[-3:]],
             "messages": messages, "network": NETWORK, "check": check, "larger": larger,
@@ -172,3 +189,47 @@ def study(folder, which):
                              "ns": {name: [1e9 * t for _, t in points] for name, points in model.cost.items()},
                              "us a reduction": 1e6 * model.sum, "us a short message": 1e6 * model.latency,
                              "GB/s of a long message": 1e-9 / model.gathered}}
+
+
+# Networks between two hosts (hosts.py): microseconds one way, Gbit/s; first a veth pair as it is.
+NETWORKS = ((None, None), (20, 1.0), (100, 1.0), (500, 1.0))
+
+
+def networks(folder, repeats=4):
+    """Steps of two ranks on two hosts over TCP, and the model with the messages measured over the same network."""
+    single, sizes = (32, 64, 128, 256), (64, 128, 256)
+    volume = volumes(folder, [(n, n, r) for n in single for r in (1, 2)])
+    alone = {}
+    for n in single * repeats:
+        s = step(folder, "contact", n, n, 1, 1, 0.5)
+        alone[n] = min(s, alone.get(n, s), key=lambda result: result["seconds"])
+    rows = []
+    for microseconds, gigabits in NETWORKS:
+        wire = os.path.join(folder, "wire") if microseconds else None
+        with hosts.Hosts(2, microseconds or 0, gigabits or 0, wire) as two:
+            def run(command):
+                done = two.mpirun(command, timeout=300)
+                if done.returncode != 0:
+                    sys.exit(f"bench: {' '.join(command)} failed on two hosts:\n{done.stderr}")
+                return json.loads(done.stdout)
+            message_bench = [os.path.join(folder, "message_bench")] + [f"{volume[(n, n, 2)]['y']:.0f}" for n in sizes]
+            messages, best = run(message_bench), {}
+            for _ in range(repeats):
+                again = run(message_bench)
+                for kind in ("ping", "swap"):
+                    messages[kind] = [min(pair, key=lambda m: m["seconds"]) for pair in zip(messages[kind], again[kind])]
+                messages["sum"] = min(messages["sum"], again["sum"])
+                for n in sizes:
+                    s = run(_step_bench(folder, "contact", n, n, 1.0))
+                    best[n] = min(s, best.get(n, s), key=lambda result: result["seconds"])
+        model = Model(alone, lambda n: volume[(n, n, 1)], messages)
+        for n in sizes:
+            if best[n]["sixth_step"] != alone[n]["sixth_step"]:
+                sys.exit(f"bench: two hosts give other numbers than one: {best[n]['sixth_step']} instead of "
+                         f"{alone[n]['sixth_step']} ({n} sites)")
+            parts = model.predict(volume[(n, n, 2)])
+            rows.append({"microseconds": microseconds, "gigabits": gigabits, "latency": model.latency, "sum": model.sum,
+                         "sites": n, "measured": best[n]["seconds"], "predicted": sum(parts.values()),
+                         "measured_communication": best[n]["phases"]["exchange"] + best[n]["phases"]["sums"],
+                         "predicted_communication": sum(parts.values()) - parts["work"]})
+    return rows

@@ -72,8 +72,8 @@ nlohmann::json measure(const Communicator& ranks, bool contact, double seconds,
     stretch(2);
     const double about = stretch(3);
     const StepRecord seen = simulation.step(true); // the sixth, whatever the clock says
-    const int steps = std::clamp(static_cast<int>(0.05 / about), 1, 200);
-    const int stretches = std::clamp(static_cast<int>(seconds / (about * steps)), 3, 1000);
+    const int steps = std::clamp(static_cast<int>(0.02 / about), 1, 200);
+    const int stretches = std::clamp(static_cast<int>(seconds / (about * steps)), 3, 5000);
     double best = 1e300;
     Times phases{};
     for (int n = 0; n < stretches; ++n) {

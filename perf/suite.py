@@ -12,6 +12,7 @@ import os
 import subprocess
 import sys
 
+import hosts
 import machine
 import page
 import scaling
@@ -181,6 +182,8 @@ def main():
     parser.add_argument("--build", default=os.path.join(SOURCE, "build", "release"), help=argparse.SUPPRESS)
     parser.add_argument("--scaling", action="store_true", help="the scaling study and its model, too (2 minutes more)")
     parser.add_argument("--study", action="store_true", help="nothing but a short scaling study (a quarter of a minute)")
+    parser.add_argument("--network", action="store_true",
+                        help="nothing but two ranks on two hosts (network namespaces; root) and the model for them (6 minutes)")
     parser.add_argument("--page", nargs="?", const=os.path.join(SOURCE, "docs"), metavar="DIR",
                         help="write performance.md and its plots there (default: docs); runs all of it")
     parser.add_argument("--out", metavar="FILE", help="JSON with all numbers (default: bench.json in the build)")
@@ -196,6 +199,15 @@ def main():
         for table in page.study_tables(scaling.study(programs(args), "short"), PHASES):
             say(page.terminal(table))
         say(machine.words(watch.report()))
+        return
+    if args.network:
+        watch = machine.Watch()
+        try:
+            table = page.network_table(scaling.networks(programs(args)))
+        except hosts.CannotMakeHosts as problem:
+            sys.exit(f"bench: there cannot be two hosts here: {problem}")
+        say(page.terminal(table))
+        say(f"Load before: {watch.load:.1f}; a rank that another program delays is waited for.")
         return
     if args.earlier:
         with open(args.earlier) as file:
