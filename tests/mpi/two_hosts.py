@@ -8,7 +8,7 @@
 The hosts are two network namespaces of this machine (perf/hosts.py), joined by a veth pair and then, with the
 program perf/wire, by a network of 20, 100 and 500 us and 1 Gbit/s. That the ranks were on both and talked over
 this network is seen from their hosts' names and from the bytes that the devices have sent.
-Exit code 77, with the reason, where namespaces cannot be made.
+Exit code 77, with the reason, where namespaces cannot be made or Open MPI does not start in them.
 """
 import json
 import os
@@ -47,6 +47,17 @@ def outcome(out):
     return data, result, result.pop("run")
 
 
+def names_of(two):
+    """Where Open MPI starts two ranks of a program that is not ours."""
+    try:
+        trial = two.mpirun(["hostname"], timeout=60)
+    except subprocess.TimeoutExpired:
+        raise hosts.CannotMakeHosts("mpirun did not come back within a minute") from None
+    if trial.returncode != 0:
+        raise hosts.CannotMakeHosts("mpirun hostname failed: " + trial.stderr.strip())
+    return trial.stdout.split()
+
+
 def main():
     program, wire = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None
     networks = [("veth", 0.0, 0.0, None)]
@@ -66,7 +77,7 @@ def main():
             out = os.path.join(folder, name.replace(" ", "-"))
             try:
                 with hosts.Hosts(2, microseconds, gigabits, wire) as two:
-                    names = two.mpirun(["hostname"], timeout=60).stdout.split()
+                    names = names_of(two)
                     before = [two.bytes_sent(host) for host in (0, 1)]
                     done = two.mpirun(command + [out], timeout=120)
                     sent = [two.bytes_sent(host) - b for host, b in zip((0, 1), before)]
