@@ -6,9 +6,9 @@
 //
 // A block of sites has a list of the cells that any of its sites may reach. Those whose bounds are
 // within the cutoff of the block are gathered, up to 64 at a time. Each site compares its position
-// with their bounds, a register of cells at a time, and takes the atoms of those it finds, a
-// register of atoms at a time; two registers share a division. A pair takes eleven and a half
-// multiplications, and the comparison with the cutoff.
+// with their bounds, a register of cells at a time, in single precision, lists those it finds, and
+// takes their atoms, a register of atoms at a time; two registers share a division. A pair takes
+// eleven and a half multiplications, and the comparison with the cutoff.
 //
 // Cells follow one another in the order of the list, which is that of the atoms and not of the
 // block, and a cell that is left out would have added exact zeros: so the order of a site's sum is
@@ -16,6 +16,7 @@
 #include "kernels/interface_block.hpp"
 
 #include <bit>
+#include <cstring>
 
 namespace asperity::ASPERITY_VARIANT {
 
@@ -28,72 +29,100 @@ struct Ground<CellSubstrate> {
     const SubstrateAtoms& judge() const { return from.atoms; }
     struct Some {
         double from_rest; ///< negative: nothing is in reach
+        bool close;       ///< a pair may be as near as r2_floor
     };
     ASPERITY_INLINE Some reach(int x, int y, const BlockOfSites& site,
                                const PairTable& pairs) const {
         const double highest =
             from.highest[static_cast<std::ptrdiff_t>(y) * from.blocks + x / interface_block];
-        return {pairs.cutoff - (site.lowest_z - highest)};
+        const double gap = site.lowest_z - highest;
+        double floor2 = 0.0;
+        for (int type = 0; type < pairs.types; ++type)
+            floor2 = std::fmax(floor2, pairs.of[type].r2_floor());
+        return {pairs.cutoff - gap, !(gap > 0.01 && (gap - 0.01) * (gap - 0.01) > floor2)};
     }
 };
 
 namespace {
 
-/// Fixed-point and single-precision distances differ from those of the bounds by less, Å.
-constexpr double cell_slack = 1e-5;
+/// Fixed-point and single-precision distances differ from those of the bounds by less, up to some
+/// thousand Å from the base.
+constexpr double cell_slack = 2e-3;
 
-/// Cells near a block of sites, and where one of the sites stands as they see it.
+/// x, y, z and nothing, Å.
+typedef double Place __attribute__((vector_size(32)));
+ASPERITY_INLINE Place place_at(const double* from) {
+    typedef double Unaligned __attribute__((vector_size(32), aligned(8), may_alias));
+    return *reinterpret_cast<const Unaligned*>(from);
+}
+
+/// Cells near a block of sites.
 template <class T>
 struct NearCells {
     static constexpr int most = 64;
+    static constexpr double per_length = 1.0 / length_unit<T>;
+    Place base; ///< bounds are counted from here: the lowest corner, its middle sideways, Å
+    Place low_corner, high_corner; ///< of a box around the sites, from the base, Å
+    double slack;                  ///< of comparisons with the bounds, Å
     int count = 0;
     std::int64_t cell[most];
-    alignas(64) double low[3][most], high[3][most]; ///< bounds of the image, Å
-    alignas(64) double origin[3][most]; ///< positions in the cell are counted from here, Å
-    alignas(64) double from[3][most];   ///< the site's, to be read by place()
+    /// Bounds of the image from the base, in single precision: they only say which cells are
+    /// visited, and one too many adds exact zeros.
+    alignas(64) float low[3][most], high[3][most];
+    alignas(64) double origin[most][4]; ///< positions in the cell are counted from here
 
-    /// Images [next, end) within `reach` of a box around the sites, as many as there is room for;
-    /// where to go on.
+    ASPERITY_INLINE NearCells(const Place& least, const Place& greatest)
+        : base(0.5 * (least + greatest)) {
+        base[2] = least[2];
+        low_corner = least - base;
+        high_corner = greatest - base;
+        // A site that is summed elsewhere may stand very high here.
+        slack = cell_slack + 4e-7 * high_corner[2];
+    }
+
+    /// Images [next, end) within `reach` of the box, as many as there is room for; where to go on.
     ASPERITY_INLINE std::int64_t gather(const CellSubstrate& atoms, std::int64_t next,
-                                        std::int64_t end, const double (&least)[3],
-                                        const double (&greatest)[3], double reach) {
+                                        std::int64_t end, double reach) {
+        const double edge = atoms.atoms.edge;
+        const Place none{};
         count = 0;
         for (; next < end && count < most; ++next) {
             const CellImage image = atoms.images[next];
-            const double* bound = atoms.bounds + image.cell;
-            const double shift[3] = {image.x * atoms.atoms.edge, image.y * atoms.atoms.edge, 0.0};
-            double distance2 = 0.0;
+            const double* bounds = atoms.bounds + std::ptrdiff_t{8} * image.cell;
+            const Place shift = {image.x * edge, image.y * edge, 0.0, 0.0};
+            const Place centre = place_at(bounds) + shift, extent = place_at(bounds + 4);
+            const Place from = centre - base, below = from - extent, above = from + extent;
+            const Place left = below - high_corner, right = low_corner - above;
+            Place gap = left > right ? left : right;
+            gap = gap > none ? gap : none;
+            gap *= gap;
+            const Place start = mixed ? centre * per_length : shift;
+            std::memcpy(origin[count], &start, sizeof start);
             for (int k = 0; k < 3; ++k) {
-                const double bottom = bound[2 * k * atoms.cells] + shift[k],
-                             top = bound[(2 * k + 1) * atoms.cells] + shift[k];
-                low[k][count] = bottom;
-                high[k][count] = top;
-                origin[k][count] = mixed ? 0.5 * (bottom + top) : shift[k];
-                // Twice the greatest of below, above and zero, without a branch: at most one of
-                // the two is positive.
-                const double below = bottom - greatest[k], above = least[k] - top;
-                const double gap = (below + std::fabs(below)) + (above + std::fabs(above));
-                distance2 += 0.25 * (gap * gap);
+                low[k][count] = static_cast<float>(below[k]);
+                high[k][count] = static_cast<float>(above[k]);
             }
             cell[count] = image.cell;
-            count += distance2 < reach * reach;
+            count += gap[0] + gap[1] + gap[2] < (reach + slack) * (reach + slack);
         }
-        for (int k = count; k < most && k % Real::width; ++k)
-            low[0][k] = high[0][k] = 1e30;
+        for (int k = count; k < most && k % Pack<float>::width; ++k)
+            low[0][k] = high[0][k] = 1e30f;
         return next;
     }
 
-    /// Bits of those within `reach` of a site, which is placed before them.
-    ASPERITY_INLINE std::uint64_t within(double x, double y, double z, double reach) {
-        const Real site[3] = {x, y, z}, zero(0.0), reach2(reach * reach);
+    /// Bits of those within `reach` of a site.
+    ASPERITY_INLINE std::uint64_t within(const double (&site)[3], double reach) const {
+        using V = Pack<float>;
+        V at[3];
+        for (int k = 0; k < 3; ++k)
+            at[k] = V(static_cast<float>(site[k] - base[k]));
+        const V zero(0.0f), reach2(static_cast<float>((reach + slack) * (reach + slack)));
         std::uint64_t bits = 0;
-        for (int c = 0; c < count; c += Real::width) {
-            Real r2(0.0);
+        for (int c = 0; c < count; c += V::width) {
+            V r2(0.0f);
             for (int k = 0; k < 3; ++k) {
-                biased(site[k] - Real::load(origin[k] + c)).store(from[k] + c);
-                const Real below = Real::load(low[k] + c) - site[k],
-                           above = site[k] - Real::load(high[k] + c);
-                const Real gap = max(max(below, above), zero);
+                const V gap =
+                    max(max(V::load(low[k] + c) - at[k], at[k] - V::load(high[k] + c)), zero);
                 r2 = fma(gap, gap, r2);
             }
             bits |= static_cast<std::uint64_t>(bits_where_less(r2, reach2)) << c;
@@ -101,22 +130,28 @@ struct NearCells {
         return bits;
     }
 
-    /// The site's coordinate from a cell, in every lane.
-    ASPERITY_INLINE auto place(int k, int c) const {
-        if constexpr (mixed) // the integer of a biased number is its last 32 bits
-            return Simd::Int32::same(
-                static_cast<std::int32_t>(std::bit_cast<std::int64_t>(from[k][c])));
-        else
-            return Real(from[k][c]);
-    }
-
 private:
     static constexpr bool mixed = std::is_same_v<T, float>;
-    ASPERITY_INLINE static Real biased(Real length) {
-        if constexpr (mixed)
-            return fma(length, Real(1.0 / fixed_quantum), Real(0x1.8p52));
-        else
-            return length;
+};
+
+/// The cells that a site reaches, and where it stands as their atoms have their places. Found
+/// before the first pair, so that no pair waits for them.
+template <class T>
+struct CellsInReach {
+    int count = 0;
+    std::int64_t first[NearCells<T>::most]; ///< of the cell's numbers
+    alignas(32) double site[NearCells<T>::most][4];
+
+    ASPERITY_INLINE CellsInReach(const NearCells<T>& near, const double (&at)[3], double reach) {
+        const Place here = Place{at[0], at[1], at[2], 0.0} * NearCells<T>::per_length;
+        for (std::uint64_t bits = near.within(at, reach); bits; bits &= bits - 1) {
+            const int c = __builtin_ctzll(bits);
+            Place from = here - place_at(near.origin[c]);
+            // A multiple of the quantum: the integer is in the last 32 bits.
+            if constexpr (std::is_same_v<T, float>) from += 0x1.8p52;
+            std::memcpy(site[count], &from, sizeof from);
+            first[count++] = near.cell[c] * (3 * cell_atoms);
+        }
     }
 };
 
@@ -125,25 +160,38 @@ template <class T>
 struct CellView;
 template <>
 struct CellView<double> {
-    const double* atoms[3];
+    const double* atoms;
     Real at[3];
-    ASPERITY_INLINE CellView(const CellSubstrate& of, const NearCells<double>& near, int c)
-        : atoms{of.x + near.cell[c] * cell_atoms, of.y + near.cell[c] * cell_atoms,
-                of.z + near.cell[c] * cell_atoms},
-          at{near.place(0, c), near.place(1, c), near.place(2, c)} {}
-    ASPERITY_INLINE Real d(int k, int lane) const { return at[k] - Real::load(atoms[k] + lane); }
+    ASPERITY_INLINE CellView(const CellSubstrate& of, const CellsInReach<double>& cells, int k)
+        : atoms(of.places + cells.first[k]), at{cells.site[k][0], cells.site[k][1],
+                                                cells.site[k][2]} {}
+    ASPERITY_INLINE Real d(int axis, int lane) const {
+        return at[axis] - Real::load(atoms + axis * cell_atoms + lane);
+    }
 };
 template <>
 struct CellView<float> {
-    const std::int32_t* atoms[3];
+    const std::int32_t* atoms;
     Simd::Int32 at[3];
-    ASPERITY_INLINE CellView(const CellSubstrate& of, const NearCells<float>& near, int c)
-        : atoms{of.fixed_x + near.cell[c] * cell_atoms, of.fixed_y + near.cell[c] * cell_atoms,
-                of.fixed_z + near.cell[c] * cell_atoms},
-          at{near.place(0, c), near.place(1, c), near.place(2, c)} {}
-    ASPERITY_INLINE Pack<float> d(int k, int lane) const {
-        return to_float(at[k] - Simd::Int32::load(atoms[k] + lane));
+    ASPERITY_INLINE CellView(const CellSubstrate& of, const CellsInReach<float>& cells, int k)
+        : atoms(of.fixed + cells.first[k]), at{part(cells.site[k][0]), part(cells.site[k][1]),
+                                               part(cells.site[k][2])} {}
+    ASPERITY_INLINE Pack<float> d(int axis, int lane) const {
+        return to_float(at[axis] - Simd::Int32::load(atoms + axis * cell_atoms + lane));
     }
+
+private:
+    ASPERITY_INLINE static Simd::Int32 part(double biased) {
+        return Simd::Int32::same(static_cast<std::int32_t>(std::bit_cast<std::int64_t>(biased)));
+    }
+};
+
+/// The sums of a block's sites, lane by lane, between one load of cells and the next.
+template <class T>
+struct BlockSums {
+    alignas(64) T x[interface_block][Pack<T>::width], y[interface_block][Pack<T>::width],
+        z[interface_block][Pack<T>::width];
+    alignas(64) T energy[interface_block][Pack<T>::width], nearest[interface_block][Pack<T>::width];
 };
 
 /// The sums of a site, lane by lane.
@@ -152,9 +200,24 @@ struct CellSums {
     using V = Pack<T>;
     V x, y, z, energy, nearest;
 
-    ASPERITY_INLINE void clear(const PairTerms<Simd, T>& pair) {
-        x = y = z = energy = V(T(0));
-        nearest = pair.r2_cut;
+    ASPERITY_INLINE explicit CellSums(const PairTerms<Simd, T>& pair)
+        : x(T(0)), y(T(0)), z(T(0)), energy(T(0)), nearest(pair.r2_cut) {}
+    ASPERITY_INLINE CellSums(const BlockSums<T>& of, int i)
+        : x(V::load(of.x[i])), y(V::load(of.y[i])), z(V::load(of.z[i])), energy(T(0)),
+          nearest(T(0)) {
+        if constexpr (observe) {
+            energy = V::load(of.energy[i]);
+            nearest = V::load(of.nearest[i]);
+        }
+    }
+    ASPERITY_INLINE void store(BlockSums<T>& to, int i) const {
+        x.store(to.x[i]);
+        y.store(to.y[i]);
+        z.store(to.z[i]);
+        if constexpr (observe) {
+            energy.store(to.energy[i]);
+            nearest.store(to.nearest[i]);
+        }
     }
     ASPERITY_INLINE void add(const PairTerms<Simd, T>& pair, V dx, V dy, V dz, V r2, V t) {
         const V f = pair.force(t, r2, std::true_type{});
@@ -166,12 +229,13 @@ struct CellSums {
             nearest = min(nearest, r2);
         }
     }
+    template <bool close>
     ASPERITY_INLINE void add_cell(const PairTerms<Simd, T>& pair, const CellView<T>& cell) {
         const auto square = [](V dx, V dy, V dz) { return fma(dx, dx, fma(dy, dy, dz * dz)); };
         if constexpr (V::width == cell_atoms) {
             const V dx = cell.d(0, 0), dy = cell.d(1, 0), dz = cell.d(2, 0),
                     r2 = square(dx, dy, dz);
-            add(pair, dx, dy, dz, r2, pair.template inverse<true>(r2));
+            add(pair, dx, dy, dz, r2, pair.template inverse<close>(r2));
         } else {
             for (int k = 0; k < cell_atoms; k += 2 * V::width) {
                 const int l = k + V::width;
@@ -179,7 +243,7 @@ struct CellSums {
                 const V ex = cell.d(0, l), ey = cell.d(1, l), ez = cell.d(2, l);
                 const V r2 = square(dx, dy, dz), s2 = square(ex, ey, ez);
                 V t, s;
-                pair.template inverse<true>(r2, s2, t, s);
+                pair.template inverse<close>(r2, s2, t, s);
                 add(pair, dx, dy, dz, r2, t);
                 add(pair, ex, ey, ez, s2, s);
             }
@@ -213,33 +277,36 @@ struct CellSums {
 };
 
 /// The cells of one type, images [next, end), over a block of sites.
-template <class T, bool observe>
+template <class T, bool observe, bool close>
 ASPERITY_INLINE void sum_type(const InterfaceSites& sites, const CellSubstrate& atoms,
                               const PairTerms<Simd, T>& pair, std::int64_t next, std::int64_t end,
                               bool first, const BlockOfSites& site, int x, int y, int count,
                               SiteTerms& terms) {
-    const double a = sites.spacing, reach = pair.cutoff + cell_slack;
+    const double a = sites.spacing, reach = pair.cutoff;
     const double at_x = (sites.x0 + x + 0.5) * a, at_y = (sites.y0 + y + 0.5) * a;
-    const double least[3] = {at_x - site.sideways, at_y - site.sideways, site.lowest_z};
-    const double greatest[3] = {at_x + (count - 1) * a + site.sideways, at_y + site.sideways,
-                                site.highest_z};
-    CellSums<T, observe> sum[interface_block];
-    for (int i = 0; i < count; ++i)
-        sum[i].clear(pair);
-    NearCells<T> near;
-    while (next < end) {
-        next = near.gather(atoms, next, end, least, greatest, reach);
+    const Place least = {at_x - site.sideways, at_y - site.sideways, site.lowest_z, 0.0};
+    const Place greatest = {at_x + (count - 1) * a + site.sideways, at_y + site.sideways,
+                            site.highest_z, 0.0};
+    NearCells<T> near(least, greatest);
+    BlockSums<T> sums;
+    bool begun = false;
+    do {
+        next = near.gather(atoms, next, end, reach);
         for (int i = 0; i < count; ++i) {
-            const double px = (sites.x0 + x + i + 0.5) * a + site.ux[i];
-            std::uint64_t bits = near.within(px, at_y + site.uy[i], site.z[i], reach);
-            CellSums<T, observe> mine = sum[i];
-            for (; bits; bits &= bits - 1)
-                mine.add_cell(pair, {atoms, near, __builtin_ctzll(bits)});
-            sum[i] = mine;
+            const double at[3] = {(sites.x0 + x + i + 0.5) * a + site.ux[i], at_y + site.uy[i],
+                                  site.z[i]};
+            const CellsInReach<T> cells(near, at, reach);
+            CellSums<T, observe> sum =
+                begun ? CellSums<T, observe>(sums, i) : CellSums<T, observe>(pair);
+            for (int k = 0; k < cells.count; ++k)
+                sum.template add_cell<close>(pair, {atoms, cells, k});
+            if (next < end)
+                sum.store(sums, i);
+            else
+                sum.finish(pair, first, i, terms);
         }
-    }
-    for (int i = 0; i < count; ++i)
-        sum[i].finish(pair, first, i, terms);
+        begun = true;
+    } while (next < end);
 }
 
 template <class T, bool observe>
@@ -247,14 +314,19 @@ void cell_sweep(const InterfaceSites& sites, const CellSubstrate& atoms, const P
                 int row_begin, int row_end, InterfaceSums& sums) {
     sweep_blocks<T, observe>(
         sites, atoms, pairs, pairs, row_begin, row_end, sums,
-        [&](const BlockOfSites& site, const auto&, int x, int y, int count, SiteTerms& terms)
+        [&](const BlockOfSites& site, const auto& reach, int x, int y, int count, SiteTerms& terms)
             __attribute__((always_inline)) {
                 const std::ptrdiff_t block =
                     static_cast<std::ptrdiff_t>(y) * atoms.blocks + x / interface_block;
                 for (int type = 0; type < pairs.types; ++type) {
                     const std::int64_t* list = atoms.first + block * pairs.types + type;
-                    sum_type<T, observe>(sites, atoms, PairTerms<Simd, T>(pairs.of[type]), list[0],
-                                         list[1], type == 0, site, x, y, count, terms);
+                    const PairTerms<Simd, T> pair(pairs.of[type]);
+                    if (reach.close)
+                        sum_type<T, observe, true>(sites, atoms, pair, list[0], list[1], type == 0,
+                                                   site, x, y, count, terms);
+                    else
+                        sum_type<T, observe, false>(sites, atoms, pair, list[0], list[1], type == 0,
+                                                    site, x, y, count, terms);
                 }
             });
 }

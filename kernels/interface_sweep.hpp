@@ -183,16 +183,14 @@ struct CellImage {
     std::int16_t x, y;
 };
 
-/// Atoms anywhere in cells of cell_atoms, [cell * cell_atoms + atom]; those of a cell are of one
-/// type. Heights are over the datum. A cell that is not full is filled with atoms so low that no
-/// site reaches them.
+/// Atoms anywhere in cells of cell_atoms, [(cell * 3 + axis) * cell_atoms + atom]; those of a cell
+/// are of one type. Heights are over the datum. A cell that is not full is filled with atoms so low
+/// that no site reaches them.
 struct CellSubstrate {
-    const double *x = nullptr, *y = nullptr, *z = nullptr; ///< Å; or, mixed,
-    const std::int32_t *fixed_x = nullptr, *fixed_y = nullptr,
-                       *fixed_z = nullptr; ///< from the cell's centre, in fixed_quantum
-    /// [bound * cells + cell], Å: least x, greatest x, least y, greatest y, least z, greatest z.
+    const double* places = nullptr;      ///< Å; or, mixed,
+    const std::int32_t* fixed = nullptr; ///< from the cell's centre, in fixed_quantum
+    /// [cell * 8 + n], Å: the middle of its atoms' bounds (x, y, z, 0), and half their edges.
     const double* bounds = nullptr;
-    std::int64_t cells = 0;
     /// The cells of a type within its cutoff and the margin of a block of sites, sideways:
     /// images[k], k from first[i] to first[i + 1] with i = b * types + type, b = y * blocks + x /
     /// interface_block and the types of the PairTable; in ascending order of (y, x, cell).

@@ -142,6 +142,11 @@ ASPERITY_INLINE unsigned bits_where_less(Pack<T> a, Pack<T> b) {
         return _mm512_cmp_pd_mask((__m512d)a.r, (__m512d)b.r, _CMP_LT_OQ);
     else
         return _mm512_cmp_ps_mask((__m512)a.r, (__m512)b.r, _CMP_LT_OQ);
+#elif defined(__AVX2__)
+    if constexpr (sizeof(T) == 8)
+        return _mm256_movemask_pd((__m256d)(a < b));
+    else
+        return _mm256_movemask_ps((__m256)(a < b));
 #else
     const auto less = a < b;
     unsigned bits = 0;

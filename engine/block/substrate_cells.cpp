@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -74,6 +75,20 @@ struct SubstrateCells::Tree {
         return axis == 0 ? atoms.x[i] : axis == 1 ? atoms.y[i] : atoms.z[i] - datum;
     }
 
+    /// How many of a box's cells lie left of its middle along the longest edge, if they are about
+    /// as long as wide: whole slabs of cells, so that no long ones are left over.
+    static std::int64_t left_cells(std::int64_t cells, double x, double y, double z) {
+        double edge[3] = {x, y, z};
+        std::sort(edge, edge + 3, std::greater<>());
+        const auto count = static_cast<double>(cells);
+        double cell = std::cbrt(edge[0] * edge[1] * edge[2] / count);
+        if (cell > edge[2]) cell = std::sqrt(edge[0] * edge[1] / count);
+        if (cell > edge[1]) cell = edge[0] / count;
+        const double slabs = std::clamp(std::round(edge[0] / cell), 2.0, count);
+        const auto left = std::llround(count * std::floor(0.5 * slabs) / slabs);
+        return std::clamp<std::int64_t>(left, 1, cells - 1);
+    }
+
     std::int32_t halve(std::int64_t first, std::int64_t last) {
         Node node{};
         int longest = 0;
@@ -96,7 +111,8 @@ struct SubstrateCells::Tree {
         }
         const std::int64_t full = (last - first + cell_atoms - 1) / cell_atoms;
         const std::int64_t half =
-            full > 1 ? (full + 1) / 2 * cell_atoms : std::max<std::int64_t>((last - first) / 2, 1);
+            full > 1 ? left_cells(full, extent(0), extent(1), extent(2)) * cell_atoms
+                     : std::max<std::int64_t>((last - first) / 2, 1);
         const auto middle = order.begin() + first + half;
         std::nth_element(order.begin() + first, middle, order.begin() + last,
                          [&](std::int64_t a, std::int64_t b) {
@@ -129,15 +145,9 @@ SubstrateCells::SubstrateCells(AtomPositions atoms, const Tile& tile, const Cell
 
 void SubstrateCells::fill(const Tree& tree, const CellOptions& options) {
     const std::size_t cells = tree.cells(), slots = cells * cell_atoms;
-    bounds_.resize(6 * cells);
-    if (options.in_double)
-        for (auto* wide : {&cell_x_, &cell_y_, &cell_z_})
-            wide->resize(slots);
-    if (options.in_mixed)
-        for (auto* fixed : {&fixed_x_, &fixed_y_, &fixed_z_})
-            fixed->resize(slots);
-    std::vector<double>* const wide[3] = {&cell_x_, &cell_y_, &cell_z_};
-    std::vector<std::int32_t>* const fixed[3] = {&fixed_x_, &fixed_y_, &fixed_z_};
+    bounds_.resize(8 * cells);
+    if (options.in_double) places_.resize(3 * slots);
+    if (options.in_mixed) fixed_.resize(3 * slots);
     for (const Tree::Node& node : tree.nodes) {
         if (node.cell < 0) continue;
         const auto cell = static_cast<std::size_t>(node.cell);
@@ -145,17 +155,18 @@ void SubstrateCells::fill(const Tree& tree, const CellOptions& options) {
         const std::int64_t atoms = tree.cell_begin[cell + 1] - begin;
         for (int k = 0; k < 3; ++k) {
             const auto axis = static_cast<std::size_t>(k);
-            bounds_[2 * axis * cells + cell] = node.low[k];
-            bounds_[(2 * axis + 1) * cells + cell] = node.high[k];
             const double centre = 0.5 * (node.low[k] + node.high[k]);
+            bounds_[8 * cell + axis] = centre;
+            bounds_[8 * cell + 4 + axis] = 0.5 * (node.high[k] - node.low[k]);
             for (std::int64_t i = 0; i < cell_atoms; ++i) {
                 const double value =
                     i < atoms ? tree.at(k, tree.order[static_cast<std::size_t>(begin + i)])
                               : node.low[k] - (k == 2 ? filler_depth : 0.0);
-                const std::size_t slot = cell * cell_atoms + static_cast<std::size_t>(i);
-                if (options.in_double) (*wide[k])[slot] = value;
+                const std::size_t slot =
+                    (3 * cell + axis) * cell_atoms + static_cast<std::size_t>(i);
+                if (options.in_double) places_[slot] = value;
                 if (options.in_mixed)
-                    (*fixed[k])[slot] =
+                    fixed_[slot] =
                         static_cast<std::int32_t>(std::nearbyint((value - centre) / fixed_quantum));
             }
         }
@@ -212,14 +223,9 @@ void SubstrateCells::list(const Tree& tree, const Tile& tile, const CellOptions&
 
 CellSubstrate SubstrateCells::view() const {
     CellSubstrate view;
-    view.x = cell_x_.data();
-    view.y = cell_y_.data();
-    view.z = cell_z_.data();
-    view.fixed_x = fixed_x_.data();
-    view.fixed_y = fixed_y_.data();
-    view.fixed_z = fixed_z_.data();
+    view.places = places_.data();
+    view.fixed = fixed_.data();
     view.bounds = bounds_.data();
-    view.cells = static_cast<std::int64_t>(bounds_.size()) / 6;
     view.images = images_.data();
     view.first = block_first_.data();
     view.highest = block_highest_.data();
@@ -243,8 +249,8 @@ std::size_t SubstrateCells::bytes() const {
     const auto size = [](const auto&... vectors) {
         return ((vectors.size() * sizeof(vectors[0])) + ...);
     };
-    return size(atoms_.x, atoms_.y, atoms_.z, atoms_.type, cell_x_, cell_y_, cell_z_, fixed_x_,
-                fixed_y_, fixed_z_, bounds_, block_highest_, images_, block_first_);
+    return size(atoms_.x, atoms_.y, atoms_.z, atoms_.type, places_, fixed_, bounds_, block_highest_,
+                images_, block_first_);
 }
 
 std::size_t SubstrateCells::bytes_for(std::size_t atoms, const Tile& tile,
@@ -264,7 +270,7 @@ std::size_t SubstrateCells::bytes_for(std::size_t atoms, const Tile& tile,
     const double listed = blocks * std::ceil(area * cells / (edge * edge));
     const double slot = (options.in_double ? 24.0 : 0.0) + (options.in_mixed ? 12.0 : 0.0);
     return static_cast<std::size_t>(
-        (types > 1.0 ? 28.0 : 24.0) * count + cells * (cell_atoms * slot + 48.0) +
+        (types > 1.0 ? 28.0 : 24.0) * count + cells * (cell_atoms * slot + 64.0) +
         8.0 * (types + 1.0) * blocks + 8.0 + sizeof(CellImage) * listed);
 }
 

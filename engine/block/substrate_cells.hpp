@@ -51,8 +51,8 @@ private:
 
     AtomPositions atoms_; ///< as given
     double edge_, datum_, margin_;
-    std::vector<double> cell_x_, cell_y_, cell_z_;
-    std::vector<std::int32_t> fixed_x_, fixed_y_, fixed_z_;
+    std::vector<double> places_;
+    std::vector<std::int32_t> fixed_;
     std::vector<double> bounds_, block_highest_;
     std::vector<CellImage> images_;
     std::vector<std::int64_t> block_first_;
