@@ -17,7 +17,7 @@ def _number(x):
 
 
 def _percent(x):
-    return "-" if math.isnan(x) else f"{100.0 * x:.0f} %"
+    return "-" if math.isnan(x) else f"{round(100.0 * x)} %"
 
 
 def _against(time, known):
@@ -239,7 +239,7 @@ def write(results, baseline, baselines, phases, folder):
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
 
-    matplotlib.rcParams.update({"font.size": 9, "svg.hashsalt": "asperity"})
+    matplotlib.rcParams.update({"font.size": 9, "svg.hashsalt": "asperity", "svg.fonttype": "none"})
     for name, figure in (("limits", limits_plot(results, plt)), ("phases", phases_plot(scaling["strong"], phases, plt)),
                          ("larger", predicted_plot(scaling["larger"], scaling["network"], plt))):
         figure.savefig(os.path.join(plots, name + ".svg"), metadata={"Date": None})
