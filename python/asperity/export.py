@@ -34,14 +34,13 @@ from .plots.run import map_of
 from .result import Result, State, expect
 
 TRAJECTORY = "/particles/trajectory"
-SPECIES = np.array(["X", "X", "Au"])
-"""Of type 1 (substrate) and 2 (block): labels that every reader of XYZ knows; X stands for no element."""
 FORMATS = ("xyz", "lammps", "xdmf", "vtk", "png")
 
 
 @dataclass
 class Atoms:
-    """One frame. positions [atom, 3] (Å); type 1 substrate, 2 block; columns: [atom] or [atom, 3] by name."""
+    """One frame. positions [atom, 3] (Å); types: the substrate's from 1, the last one is the block's; columns: [atom] or
+    [atom, 3] by name."""
 
     positions: np.ndarray
     types: np.ndarray
@@ -50,6 +49,11 @@ class Atoms:
     step: int = 0
     time: float = 0.0
     """ps"""
+
+    @property
+    def species(self) -> np.ndarray:
+        """Labels that every reader of XYZ knows: X, which stands for no element, and Au for the block."""
+        return np.where(self.types == self.types.max(), "Au", "X")
 
     @property
     def box_z(self) -> tuple[float, float]:
@@ -80,7 +84,7 @@ def write_xyz(file: IO[str], atoms: Atoms) -> None:
     for name, values in atoms.columns.items():
         head += f":{name}:{'I' if values.dtype.kind in 'iub' else 'R'}:{3 if values.ndim == 2 else 1}"
     file.write(f"{head} step={atoms.step} time={atoms.time:.8g}\n")
-    _rows(file, [("%s", SPECIES[atoms.types]), *(("%.8g", c) for c in atoms.positions.T), ("%d", atoms.types),
+    _rows(file, [("%s", atoms.species), *(("%.8g", c) for c in atoms.positions.T), ("%d", atoms.types),
                  *_columns(atoms)])
 
 
@@ -98,16 +102,17 @@ def write_dump(file: IO[str], atoms: Atoms) -> None:
     file.write(f"ITEM: TIME\n{atoms.time:.8g}\nITEM: TIMESTEP\n{atoms.step}\nITEM: NUMBER OF ATOMS\n{len(atoms.types)}\n"
                f"ITEM: BOX BOUNDS pp pp ff\n0 {atoms.edge:.8g}\n0 {atoms.edge:.8g}\n{low:.8g} {high:.8g}\n"
                f"ITEM: ATOMS {names}\n")
-    _rows(file, [("%d", np.arange(1, len(atoms.types) + 1)), ("%d", atoms.types), ("%s", SPECIES[atoms.types]),
+    _rows(file, [("%d", np.arange(1, len(atoms.types) + 1)), ("%d", atoms.types), ("%s", atoms.species),
                  *(("%.8g", c) for c in atoms.positions.T), *_columns(atoms)])
 
 
 def write_data(file: IO[str], atoms: Atoms, name: str, mass: float) -> None:
     """A LAMMPS data file, atom_style atomic, units metal."""
     low, high = atoms.box_z
-    file.write(f"{name} (asperity export)\n\n{len(atoms.types)} atoms\n2 atom types\n\n0 {atoms.edge:.8g} xlo xhi\n"
-               f"0 {atoms.edge:.8g} ylo yhi\n{low:.8g} {high:.8g} zlo zhi\n\nMasses\n\n1 {mass:.8g} # substrate\n"
-               f"2 {mass:.8g} # block\n\nAtoms # atomic\n\n")
+    types = atoms.types.max()
+    masses = "".join(f"{t} {mass:.8g} # {'substrate' if t < types else 'block'}\n" for t in range(1, types + 1))
+    file.write(f"{name} (asperity export)\n\n{len(atoms.types)} atoms\n{types} atom types\n\n0 {atoms.edge:.8g} xlo xhi\n"
+               f"0 {atoms.edge:.8g} ylo yhi\n{low:.8g} {high:.8g} zlo zhi\n\nMasses\n\n{masses}\nAtoms # atomic\n\n")
     _rows(file, [("%d", np.arange(1, len(atoms.types) + 1)), ("%d", atoms.types),
                  *(("%.8g", c) for c in atoms.positions.T)])
 
@@ -148,6 +153,11 @@ class Export:
         self.rigid = self.run.substrate.atoms
         if self.rigid is None:
             self.rigid = np.column_stack([x * self.run.edge / n, y * self.run.edge / n, height.ravel()])
+        types = self.run.substrate.types
+        self.types = np.ones(len(self.rigid), int) if types is None else types
+        if len(self.types) != len(self.rigid):
+            raise InputOutputError(str(self.run.file.path), f"has {len(self.types)} types of {len(self.rigid)} atoms",
+                                   "each atom of the substrate has one", "was the file written by another program?")
 
     def _path(self, name: str) -> Path:
         return files.directory(self.run.directory / "export") / name
@@ -155,6 +165,10 @@ class Export:
     def _frames(self) -> int:
         steps = self.run.file.members(TRAJECTORY + "/position")
         return len(self.run.file.array(TRAJECTORY + "/position/step", 1)) if "step" in steps else 0
+
+    def _types(self, sites: int) -> np.ndarray:
+        """Of the substrate's atoms and the block's."""
+        return np.concatenate([self.types, np.full(sites, self.types.max() + 1)])
 
     def _sites(self, state: State) -> int:
         """Of the state's maps, which must be of one size."""
@@ -183,7 +197,7 @@ class Export:
                 if values.dtype.kind == "f":
                     values = np.where(np.isfinite(values), values, -1.0)  # no atom in reach
                 columns[name] = np.concatenate([np.zeros(rigid, values.dtype), values])
-        return Atoms(np.vstack([self.rigid, rest + u]), np.repeat([1, 2], [rigid, n * n]), self.run.edge, columns)
+        return Atoms(np.vstack([self.rigid, rest + u]), self._types(n * n), self.run.edge, columns)
 
     def _trajectory(self) -> Iterator[Atoms]:
         file = self.run.file
@@ -195,7 +209,7 @@ class Export:
             if moving:
                 v = file.array(TRAJECTORY + "/velocity/value", 2, frame).astype(float)
                 columns["velocity"] = np.vstack([np.zeros_like(self.rigid), v])
-            yield Atoms(np.vstack([self.rigid, layer]), np.repeat([1, 2], [len(self.rigid), len(layer)]), self.run.edge,
+            yield Atoms(np.vstack([self.rigid, layer]), self._types(len(layer)), self.run.edge,
                         columns, int(steps[frame]), float(times[frame]))
 
     def atoms(self, xyz: bool) -> list[Path]:

@@ -295,8 +295,8 @@ class State(Group):
 
 
 class Substrate(Group):
-    """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4), atoms [atom, 3] (Å) where
-    they stand anywhere, else None."""
+    """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4); where they stand anywhere,
+    atoms [atom, 3] (Å) and types [atom] (from 1, by interface.pairs), else None."""
 
     lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms", "type")
 
@@ -311,6 +311,12 @@ class Substrate(Group):
     @functools.cached_property
     def atoms(self) -> np.ndarray | None:
         return self._file.array(f"{self._path}/atoms", 2).astype(float) if "atoms" in self._all else None
+
+    @functools.cached_property
+    def types(self) -> np.ndarray | None:
+        if self.atoms is None:
+            return None
+        return self._file.array(f"{self._path}/type", 1).astype(int) if "type" in self._all else np.ones(len(self.atoms), int)
 
 
 class Result(Values):

@@ -89,6 +89,11 @@ expect 0 run stepped.toml --out types-parts --resume auto "${fast[@]}" "${pairs[
 [ "$(found types)" = "$(found types-parts)" ] || fail "$(diff <(found types) <(found types-parts))"
 awk -v a="$(number types approach)" -v b="$(number whole-dynamic approach)" 'BEGIN { exit !(a != "" && a < b) }' ||
     fail "a weaker type attracts as much: $(number types approach), $(number whole-dynamic approach)"
+"$asperity" export types --to lammps >/dev/null || fail "a run with two types is not exported"
+for data in types/export/*.data; do
+    [ "$(awk '/^Atoms/ { on = 1 } on && NF == 5 { ++n[$2] } END { print n[1], n[2], n[3] }' "$data")" = "277 278 256" ] ||
+        fail "types in $data: $(grep types "$data")"
+done
 
 # Nor over another map.
 map() { awk -v bump="$1" 'BEGIN { for (y = 0; y < 16; ++y) { for (x = 0; x < 16; ++x) printf "%g ", (x == 3 && y == 5 ? bump : 0); print "" } }' >map.txt; }
