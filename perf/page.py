@@ -179,15 +179,17 @@ def markdown(table):
 
 def limits_plot(results, plt):
     """Each kernel's share of the limits, in percent."""
-    rows = [r for g in results["kernels"] for r in g["rows"] if "of fused" in r or "of stream" in r]
-    figure, ax = plt.subplots(figsize=(7.2, 1.0 + 0.22 * len(rows)), layout="constrained")
-    for shift, key, label in ((-0.2, "of fused", "of the fused multiply-add loop"), (0.2, "of stream", "of the memory's stream")):
+    kinds = (("of limit", "of its bound: arithmetic, division or memory"), ("of fused", "of the fused multiply-add loop"),
+             ("of stream", "of the memory's stream"))
+    rows = [r for g in results["kernels"] for r in g["rows"] if any(key in r for key, _ in kinds)]
+    figure, ax = plt.subplots(figsize=(7.2, 1.2 + 0.26 * len(rows)), layout="constrained")
+    for number, (key, label) in enumerate(kinds):
         there = [i for i, r in enumerate(rows) if key in r]
-        ax.barh([i + shift for i in there], [100.0 * rows[i][key] for i in there], 0.4, label=label)
+        ax.barh([i + 0.27 * (number - 1) for i in there], [100.0 * rows[i][key] for i in there], 0.27, label=label)
     ax.set_yticks(range(len(rows)), [r["label"] for r in rows])
     ax.invert_yaxis()
     ax.set_xlabel("share of the limit measured in the same run, %")
-    ax.legend()
+    ax.legend(loc="lower center", bbox_to_anchor=(0.3, 1.0))
     return figure
 
 
