@@ -81,8 +81,17 @@ double fused_rate(bool single) {
     return best;
 }
 
+#if defined(__x86_64__)
 namespace {
 
+/// What a kernel does to a register.
+struct Operations {
+    int multiplications; ///< fused with an addition or not
+    int additions;
+    int roots, divisions;
+    int shifts; ///< of the lanes of two registers by one
+    int items;  ///< pairs or nodes in each lane
+};
 // Counted in the kernels' texts. Not counted: the comparison of a masked pair with the cutoff, and
 // what a row or a block of sites takes beside its pairs and nodes.
 constexpr Operations counted[] = {
@@ -101,7 +110,6 @@ constexpr bool due(int k, int many, int steps) { return (k + 1) * many / steps >
 
 /// One function for each processor level and precision: seconds for a register of a kernel's
 /// operations, in chains that depend on themselves alone; slow: its roots and divisions only.
-#if defined(__x86_64__)
 #define ASPERITY_ON(i, variable, text, by)                                                         \
     case i:                                                                                        \
         asm volatile(text : "+v"(variable) : "v"(by));                                             \
@@ -181,9 +189,9 @@ template <int kernel>
 ArithmeticLimit measure(bool single) {
     return {mix<kernel, false>(single), mix<kernel, true>(single)};
 }
-#endif
 
 } // namespace
+#endif
 
 ArithmeticLimit arithmetic_limit([[maybe_unused]] Timed kernel, [[maybe_unused]] bool single) {
 #if defined(__x86_64__)

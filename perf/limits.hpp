@@ -21,16 +21,8 @@ enum class Timed {
     lattice, ///< pairs of sites with atoms on their lattice, four at a time
     rows,    ///< pairs with atoms of a row, two at a time
     cells,   ///< pairs with atoms anywhere, two at a time
-    node,    ///< force, kick and drift of a node at small strain
+    node,    ///< force, kick and drift of a node at small strain, undamped
     finite   ///< the same at finite strain, without a dilatation term
-};
-/// What a kernel does to a register.
-struct Operations {
-    int multiplications; ///< fused with an addition or not
-    int additions;
-    int roots, divisions;
-    int shifts; ///< of the lanes of two registers by one
-    int items;  ///< pairs or nodes in each lane
 };
 /// Seconds of one core for a pair or node of a kernel, in loops of its operations where none waits
 /// for another and nothing is loaded: what this processor's arithmetic allows at best. Best of

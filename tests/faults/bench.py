@@ -22,7 +22,6 @@ byte for byte, and result.json in all but times and counts of its `run` section.
     ranks      one of two MPI ranks killed, or stopped (SIGSTOP) for a while or for good; --long only
 """
 
-import json
 import os
 import random
 import shutil
@@ -31,6 +30,9 @@ import subprocess
 import sys
 import tempfile
 import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from run_outcome import outcome  # noqa: E402
 
 SCENE = """
 [surface]
@@ -106,13 +108,7 @@ class Bench:
 
     @staticmethod
     def outcome(out):
-        with open(os.path.join(out, "run.h5"), "rb") as file:
-            data = file.read()
-        with open(os.path.join(out, "result.json")) as file:
-            result = json.load(file)
-        del result["digest"]  # of the whole file, with its times
-        run = result.pop("run")
-        result["units"].pop("run")  # of the phases that there were
+        data, result, run = outcome(out)
         return data, result, run.get("steps")
 
     def resumes(self, out, kind="dynamic", what="", ranks=1):

@@ -10,14 +10,15 @@ program perf/wire, by a network of 20, 100 and 500 us and 1 Gbit/s. That the ran
 this network is seen from their hosts' names and from the bytes that the devices have sent.
 Exit code 77, with the reason, where namespaces cannot be made or Open MPI does not start in them.
 """
-import json
 import os
 import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "perf"))
+SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path[:0] = [os.path.join(SOURCE, "perf"), os.path.join(SOURCE, "tests", "support")]
 import hosts  # noqa: E402
+from run_outcome import outcome  # noqa: E402
 
 # Five levels: four are cut, the last one is held by both ranks and gathered in each step.
 SCENE = """
@@ -34,17 +35,6 @@ timestep = 20
 series = 10
 trajectory = 100
 """
-
-
-def outcome(out):
-    """What must not depend on the ranks: bytes and numbers, without times and machine."""
-    with open(os.path.join(out, "run.h5"), "rb") as file:
-        data = file.read()
-    with open(os.path.join(out, "result.json")) as file:
-        result = json.load(file)
-    del result["digest"]  # of the whole file, with its times
-    result["units"].pop("run")
-    return data, result, result.pop("run")
 
 
 def names_of(two):
