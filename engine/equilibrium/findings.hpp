@@ -48,8 +48,9 @@ struct StateList {
         /// empty for the innermost.
         std::optional<double> barrier;
     };
-    /// Why the search ended: no area is left to attract, or no equilibrium was found further in.
-    enum class End { none, contact, no_equilibrium };
+    /// Why the search ended: no area is left to attract, what is left cannot make a deeper state,
+    /// or no equilibrium was found further in.
+    enum class End { none, contact, energy, no_equilibrium };
 
     std::vector<State> all; ///< from the outermost, which is the first, inwards
     double step = 0.0;      ///< of the mean height, Å

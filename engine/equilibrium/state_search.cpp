@@ -60,7 +60,8 @@ StateSearch::Outcome StateSearch::advance() {
         return Outcome::point;
     }
     const Point to = point(state, height);
-    const bool smooth = missing(to) <= 0.0;
+    const double lost = missing(to);
+    const bool smooth = lost <= 0.0;
     const Point &outer = outwards_ ? to : now_, &inner = outwards_ ? now_ : to;
     if (outer.force < options_.load && inner.force >= options_.load) {
         StateCopy here;
@@ -85,12 +86,29 @@ StateSearch::Outcome StateSearch::advance() {
         ++outward_points_;
         const bool beyond = now_.height > passed_.front().height && now_.force < options_.load;
         if (joined() || beyond) turn_inwards();
-    } else if (!smooth) {
+    } else if (!smooth && lost > options_.least_loss * climb()) {
         turn_outwards();
     }
-    const double attraction = options_.largest_tension * options_.area * (1.0 - now_.contact);
-    if (!outwards_ && now_.force - options_.load > attraction) end_ = StateList::End::contact;
+    if (!outwards_) end_ = end();
     return Outcome::point;
+}
+
+/// Energy under the load above the deepest point passed, eV.
+double StateSearch::climb() const {
+    const auto enthalpy = [this](const Point& p) { return p.energy + options_.load * p.height; };
+    double deepest = HUGE_VAL;
+    for (const Point& p : passed_)
+        deepest = std::min(deepest, enthalpy(p));
+    return enthalpy(now_) - deepest;
+}
+
+/// Whether the search is over here.
+StateList::End StateSearch::end() const {
+    const double left = options_.area * (1.0 - now_.contact);
+    if (now_.force - options_.load > options_.largest_tension * left)
+        return StateList::End::contact;
+    if (climb() > options_.work_of_adhesion * left) return StateList::End::energy;
+    return StateList::End::none;
 }
 
 /// Inwards by the present step, outwards to the heights passed on the way inwards and beyond.

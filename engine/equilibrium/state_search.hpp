@@ -15,20 +15,28 @@
 // is a state. Where energy is missing between two points (the work of the force against the change
 // of the energy), the surface has become unstable and the path is on another branch. From there
 // that branch is followed outwards as well, until it joins the branch that the path came on; the
-// states on it are found likewise. Then the search goes on inwards.
+// states on it are found likewise. Then the search goes on inwards. The new branch lies nowhere
+// lower below the old one than by the energy D that is missing, so a deeper state on it lies where
+// the old one has come back to within D of the deepest point passed. Where D is less than a
+// thousandth of the climb from that point, U + P z, the branch is not followed: patches so small
+// give way long before.
 //
-// It ends where P is not met again further in: F - P is more than the area not yet in contact can
-// attract with, at the largest tension of flat on flat. (It is assumed that what is in contact
-// pushes the harder the closer it gets.) In full contact this is the case at once.
+// It is assumed that what is in contact pushes the harder the closer it gets. Then the search ends
+// - where P is not met again further in: F - P is more than the area not yet in contact can attract
+//   with, at the largest tension of flat on flat (in full contact at once), or
+// - where no deeper state is further in: the climb is more than that area can gain by contact, the
+//   work of adhesion of flat on flat.
 //
 // What may be missed: a state whose F crosses P and back within one step; a branch that no
-// instability of this path leads to, or that ends within one step of it.
+// instability of this path leads to, or that ends within one step of it; a state further in than
+// the last point that is not the deepest.
 #pragma once
 
 #include "engine/equilibrium/continuation.hpp"
 #include "engine/equilibrium/findings.hpp"
 #include "engine/equilibrium/force_trail.hpp"
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -43,6 +51,10 @@ struct StateSearchOptions {
     double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
     double area = 0.0;             ///< nominal, Å^2
     double largest_tension = 0.0;  ///< of flat on flat, eV/Å^3
+    /// Of flat on flat, eV/Å^2; infinite: a search for all states, deeper or not.
+    double work_of_adhesion = HUGE_VAL;
+    /// Of the climb: an instability that loses less is not followed outwards.
+    double least_loss = 1e-3;
     /// Called during relaxations with their iteration and residual. True: stop.
     Continuation::Report report;
     /// The state under the load, downhill of where the block is; empty where it was stopped.
@@ -107,6 +119,8 @@ private:
     void turn_outwards();
     void turn_inwards();
     bool joined() const;
+    double climb() const;
+    StateList::End end() const;
     double next_height() const;
     double largest_force_to(const Found& state, double next_height) const;
     double accuracy() const { return options_.tolerance * sites_ * options_.step; } ///< eV

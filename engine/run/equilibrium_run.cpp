@@ -294,6 +294,9 @@ private:
         o.reference_height = interface_.start_height();
         o.area = scene_.edge() * scene_.edge();
         o.largest_tension = units::gigapascal * run_.setup.largest_tension;
+        // Atoms anywhere can bind more than a flat layer does.
+        if (scene_.surface.kind != SurfaceKind::atoms)
+            o.work_of_adhesion = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
         o.report = [this](long long iteration, double residual) {
             if (run_.progress.due())
                 run_.progress.update(

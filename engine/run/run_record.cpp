@@ -141,6 +141,7 @@ void add_states(const StateList& states, io::Result& result) {
     result.set("states.search.innermost", states.innermost);
     result.set("states.search.ended",
                states.end == StateList::End::contact          ? "no area left to attract"
+               : states.end == StateList::End::energy         ? "no deeper state further in"
                : states.end == StateList::End::no_equilibrium ? "no equilibrium"
                                                               : "stopped");
     result.set("states.search.may_miss", states_missed(states));
@@ -151,8 +152,9 @@ void add_states(const StateList& states, io::Result& result) {
 std::string states_missed(const StateList& states) {
     return fmt::format(
         "states whose force crosses the load and back within one step ({:.4g} Å of "
-        "the mean height near a crossing), branches that no instability of the path leads to, and "
-        "states that pressing the solids together does not lead to",
+        "the mean height near a crossing), branches that no instability of the path leads to, "
+        "states further in than the search went that are not the deepest, and states that pressing "
+        "the solids together does not lead to",
         states.step);
 }
 

@@ -7,6 +7,7 @@
 // force between them, and neither the step nor the block's model nor a resume changes them.
 #include "engine/equilibrium/state_search.hpp"
 #include "engine/run/checkpoint.hpp"
+#include "engine/scene/surface.hpp"
 #include "engine/units.hpp"
 #include "support/path_case.hpp"
 
@@ -93,15 +94,20 @@ struct Search {
     std::vector<Layer> layers; ///< of the states, in the order in which they were relaxed
     StateSearch search;
 
-    explicit Search(Case& contact, double step = 0.25)
-        : c(contact), search(*c.block, c.interface, options(step)) {}
-    StateSearchOptions options(double step) {
+    explicit Search(Case& contact, double step = 0.25, bool to_the_end = true)
+        : c(contact), search(*c.block, c.interface, options(step, to_the_end)) {}
+    /// To the end: until no area is left to attract, after every instability.
+    StateSearchOptions options(double step, bool to_the_end) {
         StateSearchOptions o;
         o.step = step;
         o.tolerance = tolerance;
         o.reference_height = c.interface.start_height();
         o.area = area(c);
         o.largest_tension = 9.0 * units::gigapascal;
+        if (to_the_end)
+            o.least_loss = 0.0;
+        else
+            o.work_of_adhesion = 0.0989;
         o.relax_free = [this] { return relaxed(); };
         return o;
     }
@@ -126,8 +132,8 @@ struct Search {
     }
 };
 
-StateList all_states(Case& c, double step = 0.25) {
-    Search s(c, step);
+StateList all_states(Case& c, double step = 0.25, bool to_the_end = true) {
+    Search s(c, step, to_the_end);
     s.start();
     return s.finish();
 }
@@ -383,6 +389,32 @@ TEST(StateSearch, NoneIsDeeperFromABlockDrapedOverTheSubstrate) {
             others += state.binding_energy < deepest - 1.0;
         }
     EXPECT_GT(others, 0);
+}
+
+TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
+    SurfaceOptions rough;
+    rough.sites = 64;
+    rough.length = 64 * 2.6;
+    int shorter = 0, several = 0;
+    for (const double rms : {4.0, 6.0, 9.0})
+        for (const std::uint64_t seed : {1, 2, 3}) {
+            rough.rms = rms;
+            rough.seed = seed;
+            const auto contact = [&rough] {
+                Case c(test::paper_block(64, 64, 0), make_surface(rough), true);
+                without_friction(c);
+                return c;
+            };
+            Case a = contact(), b = contact();
+            const StateList quick = all_states(a, 0.25, false), whole = all_states(b, 0.25, true);
+            EXPECT_NEAR(quick.deepest().numbers.binding_energy,
+                        whole.deepest().numbers.binding_energy, 1e-3)
+                << rms << " " << seed;
+            shorter += quick.end == StateList::End::energy;
+            several += quick.all.size() > 1;
+        }
+    EXPECT_GT(shorter, 0);
+    EXPECT_GT(several, 0);
 }
 
 TEST(StateSearch, FullContactIsTheOnlyState) {
