@@ -136,9 +136,8 @@ class Pool:
         self.jobs, self.outcomes, self.options = jobs, outcomes, options
         self.progress = Progress(options.progress)
         self.waiting = [i for i, outcome in enumerate(outcomes) if outcome.status == WAITING]
-        self.asked = len(self.waiting)
+        self.finished: dict[str, tuple[int, float]] = {}  # points of a scene and the seconds they took
         self.children: dict[int, tuple[subprocess.Popen, float]] = {}
-        self.concluded = 0
         self.stopping = self.killed = False
         self.start_time = time.monotonic()
 
@@ -193,7 +192,6 @@ class Pool:
         except FileNotFoundError:
             self.outcomes[i] = Outcome(FAILED, exit_code=127,
                                        reason=f"'{words[0]}' of --launch cannot be started")
-            self.concluded += 1
             self._say(i, f"FAILED (exit 127): {self.outcomes[i].reason}")
             return
         except OSError as error:
@@ -205,13 +203,14 @@ class Pool:
         outcome = self.outcomes[i] = look_at(self.jobs[i])
         died = code < 0
         if outcome.status == DONE:
-            self.concluded += 1
-            self._say(i, "done in " + duration(time.monotonic() - started))
+            seconds = time.monotonic() - started
+            points, before = self.finished.get(self.jobs[i].file, (0, 0.0))
+            self.finished[self.jobs[i].file] = points + 1, before + seconds
+            self._say(i, "done in " + duration(seconds))
         elif code == STOPPED or (self.stopping and died):
             saved = (self.jobs[i].directory / "checkpoint.h5").exists()
             self._say(i, "stopped, with a checkpoint" if saved else "stopped before its first checkpoint")
         else:
-            self.concluded += 1
             outcome.status = FAILED
             outcome.exit_code = code if code > 0 else 1
             if not outcome.reason:
@@ -239,15 +238,30 @@ class Pool:
         self.progress.say(f"[{over}/{len(self.jobs)}] {self.jobs[i].name}: {what}")
 
     def _state(self) -> str:
-        now = time.monotonic()
         text = f"{len(self.jobs) - len(self.waiting) - len(self.children)} of {len(self.jobs)} points"
-        done, longest = float(self.concluded), 0.0
-        for i, (_, started) in self.children.items():
-            fraction = _fraction(self.jobs[i])
-            done += fraction
-            if fraction > 0:
-                longest = max(longest, (now - started) * (1 - fraction) / fraction)
+        fractions = {i: _fraction(self.jobs[i]) for i in self.children}
+        for i, fraction in fractions.items():
             text += f" | {self.jobs[i].name} {100 * fraction:.0f} %"
-        if done > 0.02:  # the mean so far, but no less than what those that run need
-            text += f" | {duration(max((now - self.start_time) * (self.asked - done) / done, longest))} left"
-        return text
+        return text + self._left(fractions, time.monotonic())
+
+    def _left(self, fractions: dict[int, float], now: float) -> str:
+        """Points of a scene are taken to last alike; those of a scene that none is known of are not counted."""
+        known = {file: (float(points), seconds) for file, (points, seconds) in self.finished.items()}
+        work = longest = 0.0  # seconds that points have left
+        for i, fraction in fractions.items():
+            points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
+            spent = now - self.children[i][1]
+            known[self.jobs[i].file] = points + fraction, seconds + spent
+            if fraction > 0:
+                work += spent * (1 - fraction) / fraction
+                longest = max(longest, spent * (1 - fraction) / fraction)
+        counted = True
+        for i in self.waiting:
+            points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
+            if points > 0.02:
+                work += seconds / points
+            else:
+                counted = False
+        if sum(points for points, _ in known.values()) <= 0.02:
+            return ""
+        return f" | {'' if counted else 'at least '}{duration(max(work / self.options.jobs, longest))} left"

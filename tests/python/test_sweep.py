@@ -217,6 +217,22 @@ def test_points_are_known_by_their_result(tmp_path):
         pool.look_at(job)
 
 
+def test_the_time_left_counts_each_scene_by_its_own_points(tmp_path):
+    jobs = [pool.Job(str(i), tmp_path / str(i), file, [], {}) for i, file in enumerate(["slow"] * 3 + ["fast"] * 10)]
+    many = pool.Pool(jobs, [pool.Outcome() for _ in jobs], pool.PoolOptions(jobs=2, progress="off"))
+    now = 1000.0
+
+    def left(running, finished):
+        many.children = {i: (None, now - 100.0) for i in running}
+        many.waiting = [i for i in range(len(jobs)) if i not in running][sum(points for points, _ in finished.values()):]
+        many.finished = finished
+        return many._left(running, now)
+
+    assert left({0: 0.0, 1: 0.0}, {}) == ""
+    assert left({0: 0.5, 1: 0.5}, {}) == " | at least 3 min 20 s left"  # two halves and a whole one of 200 s, by two
+    assert left({2: 0.5, 3: 0.5}, {"slow": (2, 400.0)}) == " | 16 min 40 s left"
+
+
 @pytest.mark.parametrize("words, says", [
     (["--set", "surface.rms=0.2,-1"], "surface.rms = -1 is out of range"),
     (["--set", "drive.mode=dynamic", "drive.path=approach", "drive.timestep=10,500", "block.model=lattice"],
