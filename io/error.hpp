@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// How Asperity says no.
+// Errors and their messages.
 //
 // Every error carries the exit code its command ends with and a message of one grammar:
 //

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Blocks of sites on packs, as both sweeps of the interface take them: sums handed over, and the
+// Blocks of sites on packs, as the sweeps over atoms take them: sums handed over, and the
 // loop over a tile's rows.
 #pragma once
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Pairs, as both sweeps of the interface take them (interface_lattice.cpp, interface_rows.cpp): one
-// text for packs and for the threads of a device. F is the family of values (Simd, Scalar), T the
-// precision of the pairs, double or float.
+// Pairs, as the three sweeps over atoms take them (interface_lattice.cpp, interface_rows.cpp,
+// interface_cells.cpp): one text for packs and for the threads of a device. F is the family of
+// values (Simd, Scalar), T the precision of the pairs, double or float.
 //
 // With t = r_m^2 / r^2 and r_m = 2^(1/6) r0 the potential of a pair is
 //

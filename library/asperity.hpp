@@ -120,7 +120,7 @@ public:
     std::string unit(const std::string& name) const; ///< "1" for a pure number
     std::string json() const;                        ///< the whole file
 
-    /// A column of the series along the path: "separation", "force".
+    /// A column of the series along the path: "mean_height", "force".
     std::vector<std::string> series() const;
     std::vector<double> series(const std::string& column) const;
     /// States with maps ("zero-load"), the names of their maps ("gap", "pressure"), and one of

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The interface: one tile of the block's lowest layer over the rigid substrate (model.md section
-// 4), whose atoms it meets, or a wall in their place.
+// The interface: one tile of the block's lowest layer over the rigid substrate (docs/model.md),
+// whose atoms it meets, or a wall in their place.
 //
 // Built once per run. It keeps what the sweeps need of the substrate around the tile (heights with
 // a halo as wide as the reach), the table of neighbour offsets, and for each block of sites how

@@ -28,8 +28,8 @@
 //   work of adhesion of flat on flat.
 //
 // What may be missed: a state whose F crosses P and back within one step; a branch that no
-// instability of this path leads to, or that ends within one step of it; a state further in than
-// the last point that is not the deepest.
+// instability of this path leads to, that is not followed, or that ends within one step of it; a
+// state further in than the last point that is not the deepest.
 #pragma once
 
 #include "engine/equilibrium/continuation.hpp"

@@ -322,7 +322,10 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
                    longer->timestep, longer->timestep / scene.drive.timestep,
                    100.0 * longer->error);
     if (plan.iterations > 0)
-        fmt::print(to, "iterations  about {} in the relaxation (typical)\n", plan.iterations);
+        fmt::print(to, "iterations  about {} in the relaxation (typical){}\n", plan.iterations,
+                   setup.effects.on(Effect::states)
+                       ? "; the search for all states takes many times as long and is not counted"
+                       : "");
     const io::AvailableMemory there = io::available_memory();
     fmt::print(to, "memory      {}, the most held at once on all ranks; {} available here ({})\n",
                memory_text(plan.bytes), memory_text(there.bytes), there.because);

@@ -158,7 +158,8 @@ io::Schema bind(Scene& scene) {
         "time over which the top plane's velocity is reversed smoothly; \"auto\": one sound "
         "transit of the block");
     schema.number("load", drive.load, "MPa", any(),
-                  "pressure at which the approach ends, or a path that starts at \"zero-load\"");
+                  "pressure at which an approach ends, or of the state that a path starting at "
+                  "\"zero-load\" relaxes; the state after an approach carries none");
     schema.number("temperature", drive.temperature, "K", at_least(0.0),
                   "above 0: Langevin thermostat");
     schema.integer("seed", drive.seed, at_least(0), "of the thermal noise");

@@ -184,9 +184,10 @@ def findings(run: Result) -> list[str]:
             sentence += f"; the simulation finds {energy(found)}" + \
                 (" by JKR from the pull-off force" if run.curved else "")
         text.append(sentence + ".")
-    for note in (run.text("theory.note"), run.text("theory.renormalised.note")):
+    for name in ("theory", "theory.renormalised"):
+        note, known = run.text(name + ".note"), run.number(name + ".gamma_eff") is not None
         if note:
-            text.append(f"The theory has no number for this scene: {note}.")
+            text.append(f"{'Note on the theory' if known else 'The theory has no number for this scene'}: {note}.")
     return [t for t in text if t]
 
 
