@@ -4,8 +4,9 @@
 // The ranks of a run behind one value type.
 //
 // A run started by mpirun uses MPI; a run started alone uses the serial transport and never
-// initialises MPI at all. Every raw MPI call of the project is in communicator.cpp. All member
-// functions but rank(), size() and abort() are collective: every rank calls them in the same order.
+// initialises MPI at all. Every raw MPI call of the project is in communicator.cpp, but those of
+// FFTW's transforms over all ranks (surface_transform.cpp). All member functions but rank(), size()
+// and abort() are collective: every rank calls them in the same order.
 #pragma once
 
 #include <cstddef>

@@ -135,6 +135,7 @@ std::vector<Command> all_commands() {
 void choose_threads() {
     if (std::getenv("OMP_NUM_THREADS")) return;
     const char* beside = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+    if (!beside) beside = std::getenv("MPI_LOCALNRANKS"); // MPICH's
     const int ranks = beside ? std::max(1, std::atoi(beside)) : 1;
     const int mine = omp_get_num_procs();
     const bool bound = mine < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));

@@ -52,7 +52,12 @@ Directory Directory::make(const std::string& path) {
 
 bool Directory::exists(const std::string& name) const {
     struct stat status {};
-    return ::fstatat(fd(), name.c_str(), &status, 0) == 0;
+    if (::fstatat(fd(), name.c_str(), &status, 0) == 0) return true;
+    // A disk that does not answer must not pass for one without the file.
+    if (errno != ENOENT && errno != ENOTDIR && errno != ELOOP)
+        throw FileError(*this / name, "cannot be looked at", std::strerror(errno),
+                        "check the disk, or its connection");
+    return false;
 }
 
 Descriptor Directory::open(const std::string& name, int flags) const {

@@ -78,6 +78,7 @@ public:
     void put(const std::vector<T>& values) {
         put(std::span<const T>(values));
     }
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
     Journal::Bytes bytes() const { return bytes_; }
 
 private:

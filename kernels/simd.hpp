@@ -87,16 +87,6 @@ struct Pack {
         return p;
     }
     ASPERITY_INLINE void store(T* to) const { std::memcpy(to, &r, sizeof(Register)); }
-    /// Stores past the caches, to an aligned place: for arrays too large to be found there again.
-    ASPERITY_INLINE void stream(T* to) const {
-#if defined(__AVX512F__)
-        _mm512_stream_si512(reinterpret_cast<__m512i*>(to), (__m512i)r);
-#elif defined(__AVX2__)
-        _mm256_stream_si256(reinterpret_cast<__m256i*>(to), (__m256i)r);
-#else
-        store(to);
-#endif
-    }
     /// Stores lanes [first, last) (the ends of a row); lane 0 belongs to to[0].
     ASPERITY_INLINE void store_lanes(T* to, int first, int last) const {
         if (first <= 0 && last >= width) return store(to);

@@ -508,7 +508,8 @@ ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks
     ranks.sum(counts);
     std::array<double, 1> nearest = {-sums.closest_r2};
     ranks.max(nearest);
-    return {counts[0], counts[1], std::sqrt(-nearest[0])};
+    const double r2 = -nearest[0];
+    return {counts[0], counts[1], r2 < no_pair ? std::sqrt(r2) : HUGE_VAL};
 }
 
 } // namespace asperity

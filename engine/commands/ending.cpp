@@ -7,11 +7,13 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <span>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -67,12 +69,26 @@ int agreed(int code, const Communicator& world) {
     world.abort(code);
 }
 
+/// A scene that only this rank cannot read: the others do not come to where all agree on the end.
+void end_if_alone(std::string what, const Communicator& world) {
+    std::thread([what = std::move(what), rank = world.rank()] {
+        std::this_thread::sleep_for(std::chrono::seconds(30));
+        fmt::print(stderr,
+                   "rank {}: {}\n    why: other ranks do not meet this, and wait for it: are the "
+                   "scene and its files on every machine?\n",
+                   rank, what);
+        std::fflush(stderr);
+        std::_Exit(io::exit_code::scene); // the launcher ends the others
+    }).detach();
+}
+
 } // namespace
 
 int ended_in_order(const Communicator& world, const std::function<int()>& work) {
     try {
         return work();
     } catch (const io::SceneError& error) { // on every rank, or on the root for all of them
+        if (!world.root()) end_if_alone(error.what(), world);
         return agreed(report(error, world), world);
     } catch (const io::PhysicsError& error) { // guards compare global numbers: on every rank
         return agreed(report(error, world), world);

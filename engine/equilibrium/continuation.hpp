@@ -48,7 +48,6 @@ public:
     /// Towards the last point from where the block is: this share of the way.
     void retreat(double share) { last_.extrapolate(-share, block_.state()); }
 
-    double at() const { return at_; }
     Constraint constraint(double at) const { return {options_.along, at}; }
     long long iterations() const { return iterations_; }
     void set_iterations(long long iterations) { iterations_ = iterations; }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace asperity {
@@ -43,11 +44,14 @@ struct Instability {
 
 /// All so far.
 struct Dissipation {
-    double approach = 0.0, pull_off = 0.0; ///< eV
+    double approach = 0.0, pull_off = 0.0; ///< on the last leg of each kind, eV
+    double earlier = 0.0;                  ///< on legs before these, eV
     long long events = 0;                  ///< points of the path at which some was counted
     std::vector<Instability> jumps;        ///< the strongest, in the order of the path
 
-    double total() const { return approach + pull_off; }
+    double total() const { return earlier + approach + pull_off; }
+    /// A leg begins: approach (0) or pull-off (1).
+    void begin(double leg) { earlier += std::exchange(leg == 0.0 ? approach : pull_off, 0.0); }
     void add(const Instability& jump) {
         (jump.leg == 0.0 ? approach : pull_off) += jump.energy;
         ++events;
@@ -64,6 +68,7 @@ struct Dissipation {
     void visit(Visitor& v) {
         v("dissipation.approach", approach);
         v("dissipation.pull_off", pull_off);
+        v("dissipation.earlier", earlier);
         v("dissipation.events", events);
         std::size_t count = jumps.size();
         v("dissipation.jumps", count);

@@ -181,9 +181,8 @@ std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
     // Half of force^2 / stiffness at each site, of the softest wave of the box, by the forces that
     // the tolerance allows: those left say how this relaxation ended, not where others may end.
     const BlockOptions& o = setup.simulation.block;
-    const double shear = o.shear_modulus(), lame = o.lame();
-    const double contact_modulus = 4.0 * shear * (lame + shear) / (lame + 2.0 * shear);
-    const double softest = contact_modulus * std::numbers::pi / scene.edge(); // E* q_L / 2, eV/Å^4
+    const double softest =
+        o.contact_modulus() * std::numbers::pi / scene.edge(); // E* q_L / 2, eV/Å^4
     const double site_area = scene.surface.spacing * scene.surface.spacing;
     z.uncertainty = units::milli_per_unit * 0.5 * options.tolerance * options.tolerance /
                     (softest * site_area * site_area);

@@ -66,6 +66,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         attracted_ = false;
         (leg == Leg::approach ? approach_ : pull_off_) = 0.0;
         (leg == Leg::approach ? approach_error_ : pull_off_error_) = {};
+        dissipation_.begin(leg == Leg::approach ? 0.0 : 1.0);
         direction_ = direction;
         ahead_.known = 0.0;
         predicts_ = reversible_;

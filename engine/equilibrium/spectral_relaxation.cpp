@@ -227,8 +227,10 @@ RelaxedState follow(Descent& descent, SpectralBlock& block, const RelaxOptions& 
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const RelaxOptions& options, Phases& phases) {
     if (interface.options().wall) {
-        WallDescent descent(block, interface, reference_height, options, phases);
-        return follow(descent, block, options);
+        RelaxOptions whole = options;
+        whole.force_window = {}; // its steps do not add up the force
+        WallDescent descent(block, interface, reference_height, whole, phases);
+        return follow(descent, block, whole);
     }
     Descent descent(block, interface, reference_height, options, phases);
     return follow(descent, block, options);

@@ -32,7 +32,6 @@ public:
     /// the names: to be written to a checkpoint, or read from one (halos are then not current).
     std::vector<StateArray> arrays(const std::vector<StateArray>& like, const std::string& prefix);
     bool empty() const { return copies_.empty(); }
-    void clear() { copies_.clear(); }
     const Field<double>& operator[](std::size_t i) const { return copies_[i]; }
 
 private:

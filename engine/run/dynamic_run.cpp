@@ -173,8 +173,14 @@ private:
         if (!snapshot_.empty()) {
             snapshot_.restore(simulation_);
             const char* file = "last-good.h5";
-            write_checkpoint(run_.file(file), simulation_, snapshot_scalars_, run_.fingerprint());
-            kept = fmt::format("the last good state, step {}, is in {}", snapshot_.step(), file);
+            try {
+                write_checkpoint(run_.file(file), simulation_, snapshot_scalars_,
+                                 run_.fingerprint());
+                kept =
+                    fmt::format("the last good state, step {}, is in {}", snapshot_.step(), file);
+            } catch (const std::exception&) { // a full disk must not hide what happened
+                kept = "the last good state could not be written";
+            }
         }
         const double limit = run_.setup.longest_timestep;
         throw io::PhysicsError(

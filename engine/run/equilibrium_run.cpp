@@ -66,8 +66,8 @@ private:
             block_->set_uniform(height - reference_height());
         }
         resumed_ = false;
-        if (!find_state(run_.setup.simulation.drive.load_force)) {
-            // Its displacements so far are the state to resume from.
+        // Its displacements so far are the state to resume from.
+        if (!find_state(run_.setup.simulation.drive.load_force, state_writer())) {
             run_.stop_now(state_writer(), position());
             return false;
         }
@@ -160,15 +160,15 @@ private:
         return false;
     }
 
-    /// The state under a load with the top plane free, from where the block is.
-    /// False where it was stopped.
-    bool find_state(double load) {
+    /// The state under a load with the top plane free, from where the block is. write: of the state
+    /// it has come to, where it can be resumed from that. False where it was stopped.
+    bool find_state(double load, const RunSession::WriteState& write = {}) {
         const auto t = run_.phases.time(Phase::relax);
         run_.findings.zero_load =
             find_zero_load(*block_, interface_, reference_height(), load, scene_, run_.setup,
                            [&](long long iteration, double residual) {
                                show_relaxation(run_.progress, iteration, residual);
-                               return run_.stop_relaxation(iteration, residual);
+                               return run_.stop_relaxation(iteration, residual, write);
                            });
         if (!run_.findings.zero_load) return false;
         if (scene_.writes_field("zero-load"))
@@ -207,7 +207,7 @@ private:
     struct Place {
         double top;
         std::size_t part;
-        bool at_end, on_path, searching;
+        bool at_end, on_path, searching, searched;
         template <class Visitor>
         void visit(Visitor& v) {
             v("top", top);
@@ -215,6 +215,7 @@ private:
             v("at_end", at_end);
             v("on_path", on_path);
             v("searching", searching);
+            v("searched", searched);
         }
     };
     RunSession::WriteState state_writer() {
@@ -222,10 +223,11 @@ private:
     }
     void write_state(const io::FilePlace& file) {
         CollectScalars collect;
-        Place place{block_->top(), part_, at_end_, points(), searching_};
+        Place place{block_->top(), part_,      at_end_,
+                    points(),      searching_, run_.findings.states && !searching_};
         place.visit(collect);
         if (place.on_path) path_.visit(collect);
-        if (place.searching) search_.visit(collect);
+        if (place.searching || place.searched) search_.visit(collect);
         const RunScalars run = run_.scalars();
         collect.values.insert(collect.values.end(), run.begin(), run.end());
         write_checkpoint(file, run_.ranks, run_.grid, arrays(place), collect.values,
@@ -254,11 +256,15 @@ private:
             path_.visit(restore);
             path_.resume();
             run_.findings.dissipated = path_.dissipation();
-        } else if (place.searching) {
+        }
+        if (place.searching || place.searched) {
             search_.visit(restore);
+            run_.findings.states = search_.found();
+        }
+        if (place.searching) {
             search_.resume();
             searching_ = true;
-        } else {
+        } else if (!place.on_path) {
             block_->settle(Constraint::top(place.top));
         }
         run_.restore({scalars.begin() + static_cast<std::ptrdiff_t>(restore.at), scalars.end()});

@@ -135,7 +135,10 @@ void write_gap_density(io::Hdf5File& file, const std::string& group,
 void write_fields(io::Hdf5File& file, io::PayloadReader record) {
     const auto name_length = record.get<std::uint64_t>();
     const auto name = record.get<char>(name_length);
-    const std::string group = "/fields/" + std::string(name.begin(), name.end());
+    const std::string first = "/fields/" + std::string(name.begin(), name.end());
+    std::string group = first; // a path of several cycles comes to a state of this name again
+    for (int n = 2; file.exists(group); ++n)
+        group = first + "-" + std::to_string(n);
     const auto n = record.get<std::uint64_t>();
     const auto reference_height = record.get<double>();
     std::vector<double> gap;
@@ -206,23 +209,24 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
                       const ProcessGrid& grid, const Interface& interface,
                       double reference_height) {
     const InterfaceMaps maps = interface.maps(layer, reference_height);
-    const std::vector<double> contact(maps.contact.begin(), maps.contact.end());
-    const std::array<std::vector<double>, 6> columns = {
-        whole(communicator_, grid, maps.gap),
-        whole(communicator_, grid, maps.pressure),
-        whole(communicator_, grid, maps.distance),
-        gather_plane(communicator_, grid, 0, layer.x),
-        gather_plane(communicator_, grid, 0, layer.y),
-        gather_plane(communicator_, grid, 0, layer.z)};
-    const auto touching = whole(communicator_, grid, contact);
+    const auto sites = static_cast<std::size_t>(grid.tile(0).sites);
+    io::PayloadWriter record;
     communicator_.on_root([&] {
-        io::PayloadWriter record;
+        record.reserve(64 + state.size() + 49 * sites * sites);
         record.put<std::uint64_t>(state.size());
         record.put(std::span<const char>(state));
-        record.put(static_cast<std::uint64_t>(grid.tile(0).sites));
+        record.put(static_cast<std::uint64_t>(sites));
         record.put(reference_height);
-        for (const std::vector<double>& column : columns)
-            record.put(column);
+    });
+    const auto put = [&](const std::vector<double>& column) { // one at a time: they are large
+        communicator_.on_root([&] { record.put(column); });
+    };
+    for (const auto* map : {&maps.gap, &maps.pressure, &maps.distance})
+        put(whole(communicator_, grid, *map));
+    for (const auto& component : {layer.x, layer.y, layer.z})
+        put(gather_plane(communicator_, grid, 0, component));
+    const auto touching = whole(communicator_, grid, {maps.contact.begin(), maps.contact.end()});
+    communicator_.on_root([&] {
         record.put(std::vector<std::uint8_t>(touching.begin(), touching.end()));
         journal_->append(fields_record, record.bytes());
     });

@@ -172,7 +172,7 @@ void RunSession::stop_now(const WriteState& write, const std::string& where) {
             storage_.path()));
 }
 
-bool RunSession::stop_relaxation(long long iteration, double residual) {
+bool RunSession::stop_relaxation(long long iteration, double residual, const WriteState& write) {
     constexpr long long patience = 5000;
     if (iteration == 0 || iteration < descent_.last || residual < 0.5 * descent_.smallest) {
         descent_.smallest = residual;
@@ -186,7 +186,9 @@ bool RunSession::stop_relaxation(long long iteration, double residual) {
                         "drive.tolerance is {:.2e} eV/Å",
                         residual, patience, scene.drive.tolerance),
             "a looser drive.tolerance ends where rounding still allows it");
-    return due() == Due::stop;
+    const Due now = due();
+    if (now == Due::save && write) save(write);
+    return now == Due::stop;
 }
 
 void RunSession::save(const WriteState& write) {

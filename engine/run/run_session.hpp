@@ -92,10 +92,11 @@ public:
     /// the result directory, and writes a checkpoint if one of them asks for it. True: the run must
     /// end. where: "step 1200".
     bool stop_here(const WriteState& write, const std::string& where);
-    /// Between two iterations: the same without a checkpoint. True: the relaxation must end, and
-    /// the run after stop_now(). Throws io::PhysicsError where the residual has not halved for so
-    /// long that it will not any more.
-    bool stop_relaxation(long long iteration, double residual);
+    /// Between two iterations: the same, without a checkpoint before it stops; one that is due
+    /// meanwhile is written where the relaxation can go on from one. True: the relaxation must end,
+    /// and the run after stop_now(). Throws io::PhysicsError where the residual has not halved for
+    /// so long that it will not any more.
+    bool stop_relaxation(long long iteration, double residual, const WriteState& write = {});
     /// With a checkpoint.
     void stop_now(const WriteState& write, const std::string& where);
 

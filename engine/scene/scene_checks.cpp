@@ -198,6 +198,13 @@ void check_scene(const Scene& scene, io::Problems& problems) {
     if (scene.numerics.device != no_device && scene.numerics.device != any_device)
         for (const io::Problem& p : device_problems(scene))
             problems.add(p.where, p.what, p.why, p.fix);
+    std::vector<std::string> kinds; // maps of one state, or of one stride, are asked for once
+    for (const std::string& field : scene.output.fields)
+        kinds.push_back(field.starts_with("every:") ? "every:" : field);
+    std::sort(kinds.begin(), kinds.end());
+    if (const auto twice = std::adjacent_find(kinds.begin(), kinds.end()); twice != kinds.end())
+        problems.add("output.fields", fmt::format("has \"{}\" twice", *twice),
+                     "maps of one kind are written once", "leave one of them out");
     if (scene.field_stride() == 0)
         problems.add("output.fields", "has an \"every:\" without a number of steps",
                      "maps are written every so many steps (points of a quasi-static path)",

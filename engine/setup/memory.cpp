@@ -77,7 +77,8 @@ void refuse(const Scene& scene, const char* what, double needed, const io::Avail
 } // namespace
 
 double MemoryNeed::most() const {
-    return std::max(making, surface + interface + block + motion + snapshot + relaxation + finite);
+    return std::max(making, surface + interface + block + motion + snapshot +
+                                std::max(relaxation, maps) + finite);
 }
 
 MemoryNeed& MemoryNeed::operator+=(const MemoryNeed& other) {
@@ -88,6 +89,7 @@ MemoryNeed& MemoryNeed::operator+=(const MemoryNeed& other) {
     motion += other.motion;
     snapshot += other.snapshot;
     relaxation += other.relaxation;
+    maps += other.maps;
     finite += other.finite;
     return *this;
 }
@@ -114,7 +116,17 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
             : Interface::bytes_for(
                   interface, tile, a,
                   substrate_sites(scene.surface.sites, scene.surface.lattice_ratio)));
+    // Maps of the rank's sites in double, and on the root the record of all and one more map.
+    if (on(Effect::maps)) {
+        const double here = static_cast<double>(tile.nx) * tile.ny;
+        const double all = static_cast<double>(tile.sites) * tile.sites;
+        need.maps = 41.0 * here + (rank == 0 ? 57.0 * all : 0.0);
+    }
+    const double copies = on(Effect::states)                           ? 4.0
+                          : scene.drive.mode == DriveMode::quasistatic ? 2.0
+                                                                       : 0.0;
     if (scene.block.model == BlockModel::spectral) {
+        need.snapshot = copies * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
         const double columns = scene.surface.sites / 2 + 1;
         const double parts = scene.interface.frictionless ? 1.0 : 3.0;
         const double entries = scene.interface.frictionless ? 1.0 : 6.0;
@@ -132,7 +144,7 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
     const double motion = static_cast<double>(memory.motion);
     need.block = static_cast<double>(memory.bytes) - motion;
     if (on(Effect::inertia)) need.motion = motion;
-    if (on(Effect::observation)) need.snapshot = motion;
+    need.snapshot = on(Effect::inertia) && on(Effect::observation) ? motion : copies * motion;
     if (on(Effect::relaxation)) need.relaxation = need.block + motion;
     if (on(Effect::finite_strain) && on(Effect::inertia))
         need.finite =

@@ -16,8 +16,9 @@ struct MemoryNeed {
     double interface = 0.0;  ///< the interface's own heights, rings and tail
     double block = 0.0;      ///< displacements and forces; of a spectral block S(q) too
     double motion = 0.0;     ///< velocities
-    double snapshot = 0.0;   ///< of the energy guard
+    double snapshot = 0.0;   ///< of the energy guard; points of a path, or of a search, kept
     double relaxation = 0.0; ///< what relaxing takes beside the block
+    double maps = 0.0;       ///< while maps are written; nothing is relaxed meanwhile
     double finite = 0.0;     ///< finite strain's own arrays
 
     /// The most held at once.

@@ -57,6 +57,17 @@ expect 0 run path.toml --progress off --out parts --resume auto --set drive.max_
 expect 0 run path.toml --progress off --out parts --resume auto
 same whole parts
 
+# Two cycles: maps of both states at zero load; each leg's loss is of the last one, the energy of all.
+expect 0 run path.toml --progress off --out cycles --set 'drive.path=["approach", "pull-off", "approach", "pull-off"]'
+for object in fields/zero-load fields/zero-load-2; do
+    h5ls "cycles/run.h5/$object" >/dev/null 2>&1 || ! command -v h5ls >/dev/null || fail "no $object after two cycles"
+done
+expect 0 run path.toml --progress off --out cycles-in-parts --set 'drive.path=["approach", "pull-off", "approach", "pull-off"]' drive.max_steps=150
+expect 0 run path.toml --progress off --out cycles-in-parts --resume auto --set 'drive.path=["approach", "pull-off", "approach", "pull-off"]'
+same cycles cycles-in-parts
+expect 2 run path.toml --progress off --set 'output.fields=["every:10", "every:7"]'
+says "twice"
+
 # The same solids at a held mean height: no fall as a whole, and the two works are the state's energy.
 held=(--set drive.hold=mean-height)
 expect 0 run path.toml --progress off --out held "${held[@]}"

@@ -58,6 +58,23 @@ for state in 0 1; do
 done
 holds "$(value whole 'r["states"]["search"]["points"]') == $(value parts 'r["states"]["search"]["points"]')"
 
+# The states stay known on the path that follows, also over a stop.
+expect 0 run hill.toml --progress off --out then-apart --set drive.mode=quasistatic 'drive.path=["zero-load", "pull-off"]' drive.max_steps=3
+expect 0 run hill.toml --progress off --out then-apart --resume auto --set drive.mode=quasistatic 'drive.path=["zero-load", "pull-off"]'
+holds "$(value then-apart 'len(r["states"]["all"])') == 2"
+holds "abs($(value then-apart 'r["states"]["deepest"]["binding_energy"]') - $(value whole 'r["states"]["deepest"]["binding_energy"]')) < 1e-3"
+
+# A checkpoint is written while a relaxation goes on, and survives a kill.
+"$asperity" run hill.toml --progress off --out killed --set surface.sites=256 block.thickness=256 drive.states=first \
+    drive.tolerance=1e-13 output.checkpoint=0.1s >out.txt 2>&1 &
+for ((i = 0; i < 100; i++)); do
+    [ ! -e killed/checkpoint.h5 ] || break
+    sleep 0.1
+done
+kill -9 $!
+wait $! 2>/dev/null
+[ -e killed/checkpoint.h5 ] || fail "no checkpoint during a relaxation: $(cat out.txt)"
+
 # A load in MPa.
 for load in 0.8 1.2; do
     expect 0 run hill.toml --progress off --out "load-$load" --set drive.states=first \

@@ -212,18 +212,21 @@ TEST(Quasistatic, AgainTheSameCycle) {
     Case c(test::paper_block(10, 40, 0), test::flat_surface(10), true);
     QuasistaticPath path = c.path(1e-5);
     path.start();
-    double in[2], out[2], lost[2];
+    double in[2], out[2], lost[2], lost_in[2];
     for (int n = 0; n < 2; ++n) {
         follow(path, Leg::approach);
         in[n] = path.approach_work();
         follow(path, Leg::pull_off);
         out[n] = path.pull_off_work();
         lost[n] = path.dissipation().total();
+        lost_in[n] = path.dissipation().approach;
     }
     const double allowed = 1e-5 * c.sites() * 12.0;
     EXPECT_NEAR(in[0], in[1], allowed);
     EXPECT_NEAR(out[0], out[1], allowed);
     EXPECT_NEAR(lost[1], 2.0 * lost[0], allowed);
+    EXPECT_GT(lost_in[0], 10.0 * allowed);
+    EXPECT_NEAR(lost_in[1], lost_in[0], allowed);
 }
 
 TEST(Quasistatic, LatticeAndSpectralGiveTheSameSeries) {
