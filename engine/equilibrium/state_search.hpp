@@ -15,11 +15,10 @@
 // is a state. Where energy is missing between two points (the work of the force against the change
 // of the energy), the surface has become unstable and the path is on another branch. From there
 // that branch is followed outwards as well, until it joins the branch that the path came on; the
-// states on it are found likewise. Then the search goes on inwards. The new branch lies nowhere
-// lower below the old one than by the energy D that is missing, so a deeper state on it lies where
-// the old one has come back to within D of the deepest point passed. Where D is less than a
-// thousandth of the climb from that point, U + P z, the branch is not followed: patches so small
-// give way long before.
+// states on it are found likewise. Then the search goes on inwards. The new branch is below
+// the old one by no more than the energy D that is missing, so a deeper state on it lies where the
+// old one has come back to within D of the deepest point passed. Where D is less than a thousandth
+// of the climb of U + P z from that point, the branch is not followed: it is taken to end before.
 //
 // It is assumed that what is in contact pushes the harder the closer it gets. Then the search ends
 // - where P is not met again further in: F - P is more than the area not yet in contact can attract
