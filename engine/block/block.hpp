@@ -28,6 +28,7 @@
 #include "kernels/elastic_level.hpp"
 #include "kernels/level_transfer.hpp"
 
+#include <numbers>
 #include <vector>
 
 namespace asperity {
@@ -47,6 +48,9 @@ struct BlockOptions {
     double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
     /// E/(1 - nu^2), eV/Å^3
     double contact_modulus() const { return young / (1.0 - poisson * poisson); }
+    /// Of the box's longest wave, at the lowest layer of a block that is not thin: E* q_L / 2,
+    /// eV/Å^4. Thin blocks are stiffer.
+    double softest_wave() const { return contact_modulus() * std::numbers::pi / (sites * spacing); }
     /// Speed of longitudinal waves, Å/fs.
     double sound_speed() const;
     CellElasticity elasticity(int level) const;

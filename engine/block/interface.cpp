@@ -490,6 +490,29 @@ double reach_of(const InterfaceOptions& options) {
 
 double Interface::start_height() const { return highest_ + reach_of(options_); }
 
+std::vector<double> Interface::reach_heights() const {
+    const double reach = reach_of(options_);
+    std::vector<double> heights(static_cast<std::size_t>(tile_.nx) *
+                                static_cast<std::size_t>(tile_.ny));
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x) {
+            double highest = nothing_there;
+            if (options_.wall)
+                highest = height_.plane(0)(x, y) + reach;
+            else
+                for_atoms_around(
+                    map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_, reach,
+                    [&](double lateral, double h) {
+                        const double above = std::sqrt(reach * reach - lateral * lateral);
+                        highest = std::max(highest, h + above);
+                    });
+            heights[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile_.nx) +
+                    static_cast<std::size_t>(x)] = highest;
+        }
+    return heights;
+}
+
 double Interface::attraction_grows_down_to() const {
     if (!options_.wall) return start_height();
     return highest_ + std::visit([](const auto& law) { return law.contact_gap(); }, *options_.wall);

@@ -180,12 +180,9 @@ std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
     z.iterations = static_cast<double>(s.iterations);
     // Half of force^2 / stiffness at each site, of the softest wave of the box, by the forces that
     // the tolerance allows: those left say how this relaxation ended, not where others may end.
-    const BlockOptions& o = setup.simulation.block;
-    const double softest =
-        o.contact_modulus() * std::numbers::pi / scene.edge(); // E* q_L / 2, eV/Å^4
     const double site_area = scene.surface.spacing * scene.surface.spacing;
     z.uncertainty = units::milli_per_unit * 0.5 * options.tolerance * options.tolerance /
-                    (softest * site_area * site_area);
+                    (setup.simulation.block.softest_wave() * site_area * site_area);
     return z;
 }
 

@@ -6,12 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace asperity {
 
 StateSearch::StateSearch(Equilibrium& block, Interface& interface, StateSearchOptions options)
-    : block_(block), options_(std::move(options)),
+    : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
       points_(block, interface,
               {Constraint::Of::mean_height, 10.0 * options_.tolerance, options_.site_stiffness,
@@ -102,13 +103,55 @@ double StateSearch::climb() const {
     return enthalpy(now_) - deepest;
 }
 
-/// Whether the search is over here.
-StateList::End StateSearch::end() const {
+/// Whether the search is over here. Collective.
+StateList::End StateSearch::end() {
     const double left = options_.area * (1.0 - now_.contact);
     if (now_.force - options_.load > options_.largest_tension * left)
         return StateList::End::contact;
-    if (climb() > options_.work_of_adhesion * left) return StateList::End::energy;
+    if (none_deeper_further_in()) return StateList::End::energy;
     return StateList::End::none;
+}
+
+/// Sites not in contact, by their heights above the reach of the substrate: below 1, 2, ... bins.
+std::vector<std::int64_t> StateSearch::sites_by_depth(double bin, int bins) {
+    if (reach_.empty()) reach_ = interface_.reach_heights();
+    const PlaneView<const double> z = block_.lowest_layer().z;
+    std::vector<std::int64_t> sites(static_cast<std::size_t>(bins), 0);
+    for (int y = 0; y < z.ny; ++y)
+        for (int x = 0; x < z.nx; ++x) {
+            const auto site = static_cast<std::size_t>(y) * static_cast<std::size_t>(z.nx) +
+                              static_cast<std::size_t>(x);
+            const double above = options_.reference_height + z(x, y) - reach_[site];
+            const int i = static_cast<int>(std::clamp(above / bin, 0.0, bins - 1.0));
+            ++sites[static_cast<std::size_t>(i)];
+        }
+    block_.communicator().sum(sites);
+    const auto in_contact = static_cast<std::int64_t>(std::lround(now_.contact * sites_));
+    sites[0] = std::max<std::int64_t>(sites[0] - in_contact, 0);
+    return sites;
+}
+
+/// Whether the energy stays above the deepest point passed however much further in the block goes.
+bool StateSearch::none_deeper_further_in() {
+    if (!std::isfinite(options_.work_of_adhesion)) return false;
+    const double climbed = climb();
+    if (climbed <= 0.0) return false;
+    constexpr double bin = 0.5; // Å
+    constexpr int bins = 512;
+    const std::vector<std::int64_t> sites = sites_by_depth(bin, bins);
+    const double site = options_.area / sites_, push = std::max(now_.force - options_.load, 0.0);
+    for (int d = 0; d < bins; ++d) {
+        double gain = 0.0;
+        for (int i = 0; i < bins; ++i) {
+            const double ahead = bin * std::max(i - d - 1, 0);
+            const double most =
+                options_.work_of_adhesion - 0.5 * options_.softest_wave * ahead * ahead;
+            if (most <= 0.0) break;
+            gain += most * site * static_cast<double>(sites[static_cast<std::size_t>(i)]);
+        }
+        if (climbed + push * bin * d <= gain) return false;
+    }
+    return true;
 }
 
 /// Inwards by the present step, outwards to the heights passed on the way inwards and beyond.

@@ -16,15 +16,18 @@
 // of the energy), the surface has become unstable and the path is on another branch. From there
 // that branch is followed outwards as well, until it joins the branch that the path came on; the
 // states on it are found likewise. Then the search goes on inwards. The new branch is below
-// the old one by no more than the energy D that is missing, so a deeper state on it lies where the
-// old one has come back to within D of the deepest point passed. Where D is less than a thousandth
-// of the climb of U + P z from that point, the branch is not followed: it is taken to end before.
+// the old one by about the energy D that is missing (by more where smaller instabilities were not
+// told), so a deeper state on it lies where the old one has come back to about D above the deepest
+// point passed. Where D is less than three thousandths of the climb of U + P z from that point, the
+// branch is not followed: it is taken to end before.
 //
 // It is assumed that what is in contact pushes the harder the closer it gets. Then the search ends
 // - where P is not met again further in: F - P is more than the area not yet in contact can attract
 //   with, at the largest tension of flat on flat (in full contact at once), or
-// - where no deeper state is further in: the climb is more than that area can gain by contact, the
-//   work of adhesion of flat on flat.
+// - where no deeper state is further in: for every further approach d, the climb and (F - P) d are
+//   more than can be gained by contact. A site out of reach of the substrate by c gains at most
+//   W - k max(0, c - d)^2 / 2, W being the work of adhesion of flat on flat and k the stiffness of
+//   the softest wave, because it has to bulge by c - d.
 //
 // What may be missed: a state whose F crosses P and back within one step; a branch that no
 // instability of this path leads to, that is not followed, or that ends within one step of it; a
@@ -36,6 +39,7 @@
 #include "engine/equilibrium/force_trail.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -52,8 +56,9 @@ struct StateSearchOptions {
     double largest_tension = 0.0;  ///< of flat on flat, eV/Å^3
     /// Of flat on flat, eV/Å^2; infinite: a search for all states, deeper or not.
     double work_of_adhesion = HUGE_VAL;
+    double softest_wave = 0.0; ///< of the block (BlockOptions), eV/Å^4
     /// Of the climb: an instability that loses less is not followed outwards.
-    double least_loss = 1e-3;
+    double least_loss = 3e-3;
     /// Called during relaxations with their iteration and residual. True: stop.
     Continuation::Report report;
     /// The state under the load, downhill of where the block is; empty where it was stopped.
@@ -119,12 +124,15 @@ private:
     void turn_inwards();
     bool joined() const;
     double climb() const;
-    StateList::End end() const;
+    StateList::End end();
+    bool none_deeper_further_in();
+    std::vector<std::int64_t> sites_by_depth(double bin, int bins);
     double next_height() const;
     double largest_force_to(const Found& state, double next_height) const;
     double accuracy() const { return options_.tolerance * sites_ * options_.step; } ///< eV
 
     Equilibrium& block_;
+    const Interface& interface_;
     StateSearchOptions options_;
     double sites_ = 0.0; ///< N^2
     Continuation points_;
@@ -134,7 +142,8 @@ private:
     ForceTrail trail_, turned_trail_; ///< turned_trail_: as if there had been no instability
     bool smooth_ = false;             ///< the last step: good for a prediction
     bool outwards_ = false;
-    int stride_ = 1; ///< of the next step inwards, in shortest steps
+    std::vector<double> reach_; ///< of the substrate, Å; made when it is first asked for
+    int stride_ = 1;            ///< of the next step inwards, in shortest steps
     long long instabilities_ = 0, outward_points_ = 0; ///< the latter since the last turn
     std::vector<Point> passed_;
     std::vector<Found> found_;

@@ -303,6 +303,7 @@ private:
         // Atoms anywhere can bind more than a flat layer does.
         if (scene_.surface.kind != SurfaceKind::atoms)
             o.work_of_adhesion = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
+        o.softest_wave = run_.setup.simulation.block.softest_wave();
         o.report = [this](long long iteration, double residual) {
             if (run_.progress.due())
                 run_.progress.update(

@@ -108,6 +108,7 @@ struct Search {
             o.least_loss = 0.0;
         else
             o.work_of_adhesion = 0.0989;
+        o.softest_wave = c.options.softest_wave();
         o.relax_free = [this] { return relaxed(); };
         return o;
     }
@@ -395,24 +396,31 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
     SurfaceOptions rough;
     rough.sites = 64;
     rough.length = 64 * 2.6;
-    int shorter = 0, several = 0;
-    for (const double rms : {4.0, 6.0, 9.0})
+    std::vector<Surface> surfaces;
+    for (const double rms : {4.0, 6.0, 9.0, 14.0})
         for (const std::uint64_t seed : {1, 2, 3}) {
             rough.rms = rms;
             rough.seed = seed;
-            const auto contact = [&rough] {
-                Case c(test::paper_block(64, 64, 0), make_surface(rough), true);
-                without_friction(c);
-                return c;
-            };
-            Case a = contact(), b = contact();
-            const StateList quick = all_states(a, 0.25, false), whole = all_states(b, 0.25, true);
-            EXPECT_NEAR(quick.deepest().numbers.binding_energy,
-                        whole.deepest().numbers.binding_energy, 1e-3)
-                << rms << " " << seed;
-            shorter += quick.end == StateList::End::energy;
-            several += quick.all.size() > 1;
+            surfaces.push_back(make_surface(rough));
         }
+    // Full contact is the deepest state of some hills, far inside of the first one.
+    for (const auto& [height, width] : {std::pair{12.0, 6.0}, {16.0, 5.0}, {12.0, 3.0}, {8.0, 3.0}})
+        surfaces.push_back(hill(32, height, width));
+    int shorter = 0, several = 0;
+    for (const Surface& surface : surfaces) {
+        const auto contact = [&surface] {
+            Case c(test::paper_block(surface.sites, surface.sites, 0), surface, true);
+            without_friction(c);
+            return c;
+        };
+        Case a = contact(), b = contact();
+        const StateList quick = all_states(a, 0.25, false), whole = all_states(b, 0.25, true);
+        const auto& deepest = whole.deepest().numbers;
+        EXPECT_NEAR(quick.deepest().numbers.binding_energy, deepest.binding_energy, 1e-3)
+            << surface.statistics.highest;
+        shorter += quick.end == StateList::End::energy;
+        several += &whole.deepest() != &whole.all.front();
+    }
     EXPECT_GT(shorter, 0);
     EXPECT_GT(several, 0);
 }
