@@ -113,7 +113,7 @@ StateList::End StateSearch::end() {
 }
 
 /// Sites not in contact, by their heights above the reach of the substrate: below 1, 2, ... bins.
-std::vector<std::int64_t> StateSearch::sites_by_depth(double bin, int bins) {
+std::vector<std::int64_t> StateSearch::sites_above_reach(double bin, int bins) {
     if (reach_.empty()) reach_ = interface_.reach_heights();
     const PlaneView<const double> z = block_.lowest_layer().z;
     std::vector<std::int64_t> sites(static_cast<std::size_t>(bins), 0);
@@ -138,7 +138,7 @@ bool StateSearch::none_deeper_further_in() {
     if (climbed <= 0.0) return false;
     constexpr double bin = 0.5; // Å
     constexpr int bins = 512;
-    const std::vector<std::int64_t> sites = sites_by_depth(bin, bins);
+    const std::vector<std::int64_t> sites = sites_above_reach(bin, bins);
     const double site = options_.area / sites_, push = std::max(now_.force - options_.load, 0.0);
     for (int d = 0; d < bins; ++d) {
         double gain = 0.0;

@@ -126,7 +126,7 @@ private:
     double climb() const;
     StateList::End end();
     bool none_deeper_further_in();
-    std::vector<std::int64_t> sites_by_depth(double bin, int bins);
+    std::vector<std::int64_t> sites_above_reach(double bin, int bins);
     double next_height() const;
     double largest_force_to(const Found& state, double next_height) const;
     double accuracy() const { return options_.tolerance * sites_ * options_.step; } ///< eV
