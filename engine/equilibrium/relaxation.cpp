@@ -309,10 +309,12 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
                    const Constraint& constraint, const RelaxOptions& options, Phases& phases) {
     Descent descent(block, interface, reference_height, constraint, options, phases);
     RelaxedState state;
+    Standstill standstill;
     for (;; ++state.iterations) {
         state.residual = descent.evaluate(false);
         if (state.residual <= options.tolerance || !std::isfinite(state.residual) ||
-            state.iterations >= options.max_iterations)
+            state.iterations >= options.max_iterations ||
+            standstill(state.iterations, state.residual))
             break;
         if (options.report && state.iterations % 50 == 0 &&
             options.report(state.iterations, state.residual)) {
@@ -323,7 +325,6 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
     }
 
     descent.evaluate(true);
-    state.converged = state.residual <= options.tolerance;
     const InterfaceSums& sums = descent.interface_sums();
     std::array<ExactSum, 4> energies;
     energies[0] = sums.energy;
@@ -335,6 +336,9 @@ RelaxedState relax(Block& block, Interface& interface, double reference_height,
     state.force = values[1];
     state.top_force = constraint.is_mean_height() ? state.force : descent.elastic_top_force();
     state.elastic_energy = values[2];
+    // A maximum leaves forces out that are no numbers; sums do not.
+    state.converged = state.residual <= options.tolerance && std::isfinite(values[0]) &&
+                      std::isfinite(values[1]) && std::isfinite(values[2]);
     state.mean_height =
         values[3] / (static_cast<double>(block.options().sites) * block.options().sites);
     const ContactCount contacts = count_contacts(sums, block.communicator());

@@ -55,6 +55,23 @@ struct RelaxOptions {
     std::function<bool(long long, double)> report;
 };
 
+/// Whether a relaxation has come to a standstill.
+class Standstill {
+public:
+    /// What has not halved in 3000 iterations will not any more.
+    bool operator()(long long iteration, double residual) {
+        if (residual < 0.5 * smallest_) {
+            smallest_ = residual;
+            found_at_ = iteration;
+        }
+        return iteration > found_at_ + 3000;
+    }
+
+private:
+    double smallest_ = std::numeric_limits<double>::infinity();
+    long long found_at_ = 0;
+};
+
 struct RelaxedState {
     bool converged = false;
     bool interrupted = false; ///< report() asked for it

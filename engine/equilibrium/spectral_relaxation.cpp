@@ -173,23 +173,16 @@ private:
 template <class Descent>
 RelaxedState follow(Descent& descent, SpectralBlock& block, const RelaxOptions& options) {
     RelaxedState state;
-    // What has not halved in so many iterations will not any more.
-    constexpr long long long_enough = 3000;
-    double smallest = std::numeric_limits<double>::infinity();
-    long long found_at = 0;
+    Standstill standstill;
     // The first moves take the force out of its window too, but not for long.
     constexpr long long settled = 20, look = 5;
     const ForceWindow& window = options.force_window;
     bool outside = false;
     for (;; ++state.iterations) {
         state.residual = descent.residual();
-        if (state.residual < 0.5 * smallest) {
-            smallest = state.residual;
-            found_at = state.iterations;
-        }
         const bool over = !std::isfinite(state.residual) ||
                           state.iterations >= options.max_iterations ||
-                          state.iterations > found_at + long_enough;
+                          standstill(state.iterations, state.residual);
         state.interrupted = options.report && state.iterations % 10 == 0 &&
                             options.report(state.iterations, state.residual);
         if (over || state.interrupted || state.residual <= options.tolerance) {

@@ -23,8 +23,9 @@ void StateSearch::start(const ZeroLoad& first) {
     points_.begin(height);
     first_.take(block_.state());
     first_top_ = block_.top();
-    now_ = {height, options_.load, -first.binding_energy * options_.area / units::milli_per_unit,
-            first.contact_fraction, 0.0};
+    // As at all other points, the energy is without what a load stretches the block by.
+    now_ = point(points_.relax_at(height, false, {}), height);
+    now_.force = options_.load;
     trail_.begin(height, now_.force);
     passed_ = {now_};
     found_ = {{first, 0.0}};
@@ -85,7 +86,8 @@ StateSearch::Outcome StateSearch::advance() {
     passed_.push_back(to);
     if (outwards_) {
         ++outward_points_;
-        const bool beyond = now_.height > passed_.front().height && now_.force < options_.load;
+        const bool beyond = (now_.height > passed_.front().height && now_.force < options_.load) ||
+                            now_.height >= 0.0; // nothing is in reach
         if (joined() || beyond) turn_inwards();
     } else if (!smooth && lost > options_.least_loss * climb()) {
         turn_outwards();
@@ -134,12 +136,12 @@ std::vector<std::int64_t> StateSearch::sites_above_reach(double bin, int bins) {
 /// Whether the energy stays above the deepest point passed however much further in the block goes.
 bool StateSearch::none_deeper_further_in() {
     if (!std::isfinite(options_.work_of_adhesion)) return false;
-    const double climbed = climb();
-    if (climbed <= 0.0) return false;
+    const double climbed = climb(), push = now_.force - options_.load;
+    if (climbed <= 0.0 || push <= 0.0) return false;
     constexpr double bin = 0.5; // Å
     constexpr int bins = 512;
     const std::vector<std::int64_t> sites = sites_above_reach(bin, bins);
-    const double site = options_.area / sites_, push = std::max(now_.force - options_.load, 0.0);
+    const double site = options_.area / sites_;
     for (int d = 0; d < bins; ++d) {
         double gain = 0.0;
         for (int i = 0; i < bins; ++i) {

@@ -24,14 +24,15 @@
 // It is assumed that what is in contact pushes the harder the closer it gets. Then the search ends
 // - where P is not met again further in: F - P is more than the area not yet in contact can attract
 //   with, at the largest tension of flat on flat (in full contact at once), or
-// - where no deeper state is further in: for every further approach d, the climb and (F - P) d are
-//   more than can be gained by contact. A site out of reach of the substrate by c gains at most
-//   W - k max(0, c - d)^2 / 2, W being the work of adhesion of flat on flat and k the stiffness of
-//   the softest wave, because it has to bulge by c - d.
+// - where no deeper state is further in: F is above P, and for every further approach d, the climb
+//   and (F - P) d are more than can be gained by contact. A site out of reach of the substrate by c
+//   gains at most W - k max(0, c - d)^2 / 2, W being the work of adhesion of flat on flat and k the
+//   stiffness of the softest wave, because it has to bulge by c - d.
 //
 // What may be missed: a state whose F crosses P and back within one step; a branch that no
-// instability of this path leads to, that is not followed, or that ends within one step of it; a
-// state further in than the last point that is not the deepest.
+// instability of this path leads to (also a deeper one further out, if its instability is further
+// in than the search went), that is not followed, or that ends within one step of it; a state
+// further in than the last point that is not the deepest.
 #pragma once
 
 #include "engine/equilibrium/continuation.hpp"

@@ -19,8 +19,9 @@ namespace {
 std::optional<double> attraction_averaged(const PathSeries& path, std::size_t from,
                                           std::size_t to) {
     constexpr double window = 2.0; // ps
-    if (path.time.empty() || to - from < 2) return std::nullopt;
-    const double spacing = path.time[from + 1] - path.time[from];
+    if (path.time.empty() || to - from < 3) return std::nullopt;
+    // A leg's first row is that of the step after the last one's end, between two of the series.
+    const double spacing = path.time[from + 2] - path.time[from + 1];
     const auto rows = static_cast<std::size_t>(std::lround(window / spacing));
     if (rows < 4 || to - from < rows) return std::nullopt;
     double sum = 0.0, strongest = 0.0;

@@ -152,7 +152,7 @@ private:
             find_zero_load(*copy, simulation_.interface(), simulation_.reference_height(), 0.0,
                            scene_, run_.setup, [&](long long iteration, double residual) {
                                show_relaxation(run_.progress, iteration, residual);
-                               return run_.stop_relaxation(iteration, residual);
+                               return run_.stop_relaxation();
                            });
         if (!run_.findings.zero_load) return false;
         if (scene_.writes_field("zero-load"))

@@ -168,7 +168,7 @@ private:
             find_zero_load(*block_, interface_, reference_height(), load, scene_, run_.setup,
                            [&](long long iteration, double residual) {
                                show_relaxation(run_.progress, iteration, residual);
-                               return run_.stop_relaxation(iteration, residual, write);
+                               return run_.stop_relaxation(write);
                            });
         if (!run_.findings.zero_load) return false;
         if (scene_.writes_field("zero-load"))
@@ -282,11 +282,11 @@ private:
         o.site_stiffness = relax_options(scene_, run_.setup).site_stiffness;
         o.load = run_.setup.simulation.drive.load_force;
         o.reference_height = interface_.start_height();
-        o.report = [this](long long iteration, double residual) {
+        o.report = [this](long long iteration, double) {
             if (run_.progress.due())
                 run_.progress.update(
                     {fmt::format("{}, relaxing", name(leg_)), iteration, 0.0, -1.0});
-            return run_.stop_relaxation(iteration, residual);
+            return run_.stop_relaxation();
         };
         return o;
     }
@@ -304,11 +304,11 @@ private:
         if (scene_.surface.kind != SurfaceKind::atoms)
             o.work_of_adhesion = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
         o.softest_wave = run_.setup.simulation.block.softest_wave();
-        o.report = [this](long long iteration, double residual) {
+        o.report = [this](long long iteration, double) {
             if (run_.progress.due())
                 run_.progress.update(
                     {fmt::format("{}, relaxing", position()), iteration, 0.0, -1.0});
-            return run_.stop_relaxation(iteration, residual);
+            return run_.stop_relaxation();
         };
         o.relax_free = [this] {
             return find_zero_load(*block_, interface_, reference_height(),

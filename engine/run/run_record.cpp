@@ -152,9 +152,8 @@ void add_states(const StateList& states, io::Result& result) {
 std::string states_missed(const StateList& states) {
     return fmt::format(
         "states whose force crosses the load and back within one step ({:.4g} Å of "
-        "the mean height near a crossing), branches that no instability of the path leads to or "
-        "whose "
-        "instability lost little, "
+        "the mean height near a crossing), branches that no instability of the path leads to, as "
+        "far in as it went, or whose instability lost little, "
         "states further in than the search went that are not the deepest, and states that pressing "
         "the solids together does not lead to",
         states.step);

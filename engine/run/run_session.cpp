@@ -46,6 +46,7 @@ std::string physics_of(const Scene& scene, const Surface& surface) {
     for (const char* section : {"surface", "block", "interface", "drive"})
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
+    part["kept_layer"] = scene.writes_field("pull-off"); // in the checkpoint
     if (scene.surface.kind == SurfaceKind::file || scene.surface.kind == SurfaceKind::atoms) {
         io::Digest digest;
         for (const auto* values :
@@ -172,20 +173,7 @@ void RunSession::stop_now(const WriteState& write, const std::string& where) {
             storage_.path()));
 }
 
-bool RunSession::stop_relaxation(long long iteration, double residual, const WriteState& write) {
-    constexpr long long patience = 5000;
-    if (iteration == 0 || iteration < descent_.last || residual < 0.5 * descent_.smallest) {
-        descent_.smallest = residual;
-        descent_.found_at = iteration;
-    }
-    descent_.last = iteration;
-    if (iteration - descent_.found_at > patience)
-        throw io::PhysicsError(
-            fmt::format("the relaxation makes no progress after {} iterations", iteration),
-            fmt::format("the largest force left, {:.2e} eV/Å, has not halved in {} iterations, and "
-                        "drive.tolerance is {:.2e} eV/Å",
-                        residual, patience, scene.drive.tolerance),
-            "a looser drive.tolerance ends where rounding still allows it");
+bool RunSession::stop_relaxation(const WriteState& write) {
     const Due now = due();
     if (now == Due::save && write) save(write);
     return now == Due::stop;

@@ -43,6 +43,7 @@ public:
     const Communicator ranks;
 
 private:
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     const RunOptions& options_;
 
 public:
@@ -94,9 +95,8 @@ public:
     bool stop_here(const WriteState& write, const std::string& where);
     /// Between two iterations: the same, without a checkpoint before it stops; one that is due
     /// meanwhile is written where the relaxation can go on from one. True: the relaxation must end,
-    /// and the run after stop_now(). Throws io::PhysicsError where the residual has not halved for
-    /// so long that it will not any more.
-    bool stop_relaxation(long long iteration, double residual, const WriteState& write = {});
+    /// and the run after stop_now().
+    bool stop_relaxation(const WriteState& write = {});
     /// With a checkpoint.
     void stop_now(const WriteState& write, const std::string& where);
 
@@ -153,11 +153,6 @@ private:
     std::string saved_at_;          ///< where the last checkpoint was written
     long long steps_to_look_ = 1, looked_every_ = 1;
     double last_look_ = 0.0; ///< s
-    struct Descent {
-        double smallest = 0.0;
-        long long found_at = 0, last = 0;
-    } descent_; ///< the relaxation under way
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 // As run(), which checks the scene and chooses.

@@ -69,8 +69,8 @@ RelaxedState relax(Case& c, const Constraint& constraint, double to = tolerance)
     return s;
 }
 
-ZeroLoad relax_free(Case& c) {
-    const RelaxedState s = relax(c, {});
+ZeroLoad relax_free(Case& c, double load = 0.0) {
+    const RelaxedState s = relax(c, Constraint::load(load));
     ZeroLoad z;
     z.binding_energy = -1e3 * (s.interface_energy + s.elastic_energy) / area(c);
     z.contact_fraction = static_cast<double>(s.in_contact) / c.sites();
@@ -92,15 +92,17 @@ Layer layer_of(const Equilibrium& block) {
 struct Search {
     Case& c;
     std::vector<Layer> layers; ///< of the states, in the order in which they were relaxed
+    double load;               ///< eV/Å, pressing down
     StateSearch search;
 
-    explicit Search(Case& contact, double step = 0.25, bool to_the_end = true)
-        : c(contact), search(*c.block, c.interface, options(step, to_the_end)) {}
+    explicit Search(Case& contact, double step = 0.25, bool to_the_end = true, double press = 0.0)
+        : c(contact), load(press), search(*c.block, c.interface, options(step, to_the_end)) {}
     /// To the end: until no area is left to attract, after every instability.
     StateSearchOptions options(double step, bool to_the_end) {
         StateSearchOptions o;
         o.step = step;
         o.tolerance = tolerance;
+        o.load = load;
         o.reference_height = c.interface.start_height();
         o.area = area(c);
         o.largest_tension = 9.0 * units::gigapascal;
@@ -113,7 +115,7 @@ struct Search {
         return o;
     }
     ZeroLoad relaxed() {
-        const ZeroLoad z = relax_free(c);
+        const ZeroLoad z = relax_free(c, load);
         layers.push_back(layer_of(*c.block));
         return z;
     }
@@ -423,6 +425,16 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
     }
     EXPECT_GT(shorter, 0);
     EXPECT_GT(several, 0);
+}
+
+TEST(StateSearch, ALoadThatStretchesTheBlockIsNoInstability) {
+    Case c = two_states();
+    without_friction(c);
+    Search s(c, 0.25, true, 30.0 * units::gigapascal * 1e-3 * area(c)); // 30 MPa
+    s.start();
+    const StateList states = s.finish();
+    EXPECT_EQ(states.all.size(), 2u);
+    EXPECT_EQ(states.instabilities, 0);
 }
 
 TEST(StateSearch, FullContactIsTheOnlyState) {
