@@ -44,49 +44,47 @@ void combine(double a, const From* from, double keep, To* to, int n) {
         to[i] = static_cast<To>(factor * static_cast<T>(from[i]) + kept * static_cast<T>(to[i]));
 }
 
-/// Arithmetic in the type of the table, but no wider than what it acts on.
-template <bool keep, class M, class U, class F>
-void multiply_three(const MatrixRow<M>& m, int waves, const U* const* u, double norm_,
-                    F* const* f) {
-    using T = std::conditional_t<std::is_same_v<U, float>, float, M>;
+template <bool keep, class M, class T>
+void multiply_three(const MatrixRow<M>& m, int waves, const T* const* u, double norm_,
+                    T* const* f) {
     using E = typename MatrixRow<M>::Entry;
     const M *xx = m.at[E::xx], *yy = m.at[E::yy], *zz = m.at[E::zz];
     const M *xy = m.at[E::xy], *xz = m.at[E::xz], *yz = m.at[E::yz];
-    const U *ux = u[0], *uy = u[1], *uz = u[2];
-    F *fx = f[0], *fy = f[1], *fz = f[2];
+    const T *ux = u[0], *uy = u[1], *uz = u[2];
+    T *fx = f[0], *fy = f[1], *fz = f[2];
     const T sign = static_cast<T>(m.sign), norm = static_cast<T>(norm_);
 #pragma omp simd
     for (int i = 0; i < waves; ++i) {
         const T cross = sign * static_cast<T>(xy[i]), across = sign * static_cast<T>(yz[i]);
         const T along = static_cast<T>(xz[i]), a = static_cast<T>(xx[i]);
         const T b = static_cast<T>(yy[i]), c = static_cast<T>(zz[i]);
-        const T x0 = static_cast<T>(ux[2 * i]), x1 = static_cast<T>(ux[2 * i + 1]);
-        const T y0 = static_cast<T>(uy[2 * i]), y1 = static_cast<T>(uy[2 * i + 1]);
-        const T z0 = static_cast<T>(uz[2 * i]), z1 = static_cast<T>(uz[2 * i + 1]);
+        const T x0 = ux[2 * i], x1 = ux[2 * i + 1];
+        const T y0 = uy[2 * i], y1 = uy[2 * i + 1];
+        const T z0 = uz[2 * i], z1 = uz[2 * i + 1];
         // w = i u_z = (-z1, z0); the third row, of i f_z, likewise.
         T gx0 = a * x0 + cross * y0 - along * z1, gx1 = a * x1 + cross * y1 + along * z0;
         T gy0 = cross * x0 + b * y0 - across * z1, gy1 = cross * x1 + b * y1 + across * z0;
         T gz0 = c * z0 + along * x1 + across * y1, gz1 = c * z1 - along * x0 - across * y0;
         if constexpr (keep) {
-            gx0 += norm * static_cast<T>(fx[2 * i]);
-            gx1 += norm * static_cast<T>(fx[2 * i + 1]);
-            gy0 += norm * static_cast<T>(fy[2 * i]);
-            gy1 += norm * static_cast<T>(fy[2 * i + 1]);
-            gz0 += norm * static_cast<T>(fz[2 * i]);
-            gz1 += norm * static_cast<T>(fz[2 * i + 1]);
+            gx0 += norm * fx[2 * i];
+            gx1 += norm * fx[2 * i + 1];
+            gy0 += norm * fy[2 * i];
+            gy1 += norm * fy[2 * i + 1];
+            gz0 += norm * fz[2 * i];
+            gz1 += norm * fz[2 * i + 1];
         }
-        fx[2 * i] = static_cast<F>(gx0);
-        fx[2 * i + 1] = static_cast<F>(gx1);
-        fy[2 * i] = static_cast<F>(gy0);
-        fy[2 * i + 1] = static_cast<F>(gy1);
-        fz[2 * i] = static_cast<F>(gz0);
-        fz[2 * i + 1] = static_cast<F>(gz1);
+        fx[2 * i] = gx0;
+        fx[2 * i + 1] = gx1;
+        fy[2 * i] = gy0;
+        fy[2 * i + 1] = gy1;
+        fz[2 * i] = gz0;
+        fz[2 * i + 1] = gz1;
     }
 }
 
-template <class M, class U, class F>
-void multiply(const MatrixRow<M>& m, int waves, int components, const U* const* u, double norm,
-              F* const* f) {
+template <class M, class T>
+void multiply(const MatrixRow<M>& m, int waves, int components, const T* const* u, double norm,
+              T* const* f) {
     if (components == 3) {
         if (norm == 0.0)
             multiply_three<false>(m, waves, u, norm, f);
@@ -95,12 +93,12 @@ void multiply(const MatrixRow<M>& m, int waves, int components, const U* const* 
         return;
     }
     const M* zz = m.at[MatrixRow<M>::zz];
-    const U* from = u[0];
-    F* to = f[0];
+    const T* from = u[0];
+    T* to = f[0];
     for (int i = 0; i < 2 * waves; ++i) {
         const double kept = norm == 0.0 ? 0.0 : norm * static_cast<double>(to[i]);
         to[i] =
-            static_cast<F>(static_cast<double>(zz[i / 2]) * static_cast<double>(from[i]) + kept);
+            static_cast<T>(static_cast<double>(zz[i / 2]) * static_cast<double>(from[i]) + kept);
     }
 }
 
@@ -190,11 +188,9 @@ const RowKernels row_kernels = {dot<double, double>,
                                 combine<double, float>,
                                 combine<float, double>,
                                 combine<float, float>,
-                                multiply<double, double, double>,
-                                multiply<double, float, float>,
-                                multiply<float, double, double>,
-                                multiply<float, double, float>,
-                                multiply<float, float, float>,
+                                multiply<double, double>,
+                                multiply<double, float>,
+                                multiply<float, float>,
                                 longest,
                                 tie,
                                 ball};

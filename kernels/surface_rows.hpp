@@ -5,7 +5,8 @@
 // (decomposition/waves.hpp), compiled for each processor level (variant.hpp).
 //
 // Waves are pairs (real, imaginary), sites / 2 + 1 of them in a row. Arithmetic is in the wider of
-// the two types that meet, inner products always in double. Orders of sums belong to the level: the
+// the two types that meet, inner products always in double, products with matrices in the type of
+// the waves. Orders of sums belong to the level: the
 // same on any number of threads, others on another level.
 #pragma once
 
@@ -40,8 +41,8 @@ struct RowKernels {
     using Dot = double (*)(const A*, const B*, int sites);
     template <class From, class To>
     using Combine = void (*)(double, const From*, double, To*, int);
-    template <class M, class U, class F>
-    using Multiply = void (*)(const MatrixRow<M>&, int, int, const U* const*, double, F* const*);
+    template <class M, class T>
+    using Multiply = void (*)(const MatrixRow<M>&, int, int, const T* const*, double, T* const*);
 
     Dot<double, double> dot_double;
     Dot<double, float> dot_mixed;
@@ -50,11 +51,9 @@ struct RowKernels {
     Combine<double, float> combine_narrow;
     Combine<float, double> combine_wide;
     Combine<float, float> combine_float;
-    Multiply<double, double, double> multiply_double;
-    Multiply<double, float, float> multiply_float;
-    Multiply<float, double, double> condition_double;
-    Multiply<float, double, float> condition_mixed;
-    Multiply<float, float, float> condition_float;
+    Multiply<double, double> multiply_double;
+    Multiply<double, float> multiply_float;
+    Multiply<float, float> condition_float;
     float (*longest)(const float* const*, int, int);
     void (*tie)(double, double, const double*, const double*, float*, int);
     float (*ball)(const BallRow&, const BallRule&, int, int);
@@ -96,14 +95,6 @@ inline void multiply_row(const MatrixRow<double>& m, int waves, int components,
 inline void multiply_row(const MatrixRow<double>& m, int waves, int components,
                          const float* const* u, double norm, float* const* f) {
     row_kernels().multiply_float(m, waves, components, u, norm, f);
-}
-inline void multiply_row(const MatrixRow<float>& m, int waves, int components,
-                         const double* const* u, double norm, double* const* f) {
-    row_kernels().condition_double(m, waves, components, u, norm, f);
-}
-inline void multiply_row(const MatrixRow<float>& m, int waves, int components,
-                         const double* const* u, double norm, float* const* f) {
-    row_kernels().condition_mixed(m, waves, components, u, norm, f);
 }
 inline void multiply_row(const MatrixRow<float>& m, int waves, int components,
                          const float* const* u, double norm, float* const* f) {

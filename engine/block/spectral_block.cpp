@@ -31,10 +31,10 @@ MatrixRow<T> matrix_row(const std::vector<T>& table, std::size_t columns, int ro
 }
 
 /// f <- m u + norm f for row y of some waves.
-template <class M, class U, class F>
-void multiply_waves(const MatrixRow<M>& m, int y, const Waves<U>& u, double norm, Waves<F>& f) {
-    const U* from[3] = {};
-    F* to[3] = {};
+template <class M, class T>
+void multiply_waves(const MatrixRow<M>& m, int y, const Waves<T>& u, double norm, Waves<T>& f) {
+    const T* from[3] = {};
+    T* to[3] = {};
     for (int c = 0; c < u.components(); ++c) {
         from[c] = u.row(c, y);
         to[c] = f.row(c, y);
@@ -174,8 +174,7 @@ void SpectralBlock::to_waves(const SiteField<T>& field, Waves<T>& waves) const {
 template void SpectralBlock::to_waves(const SiteField<float>&, Waves<float>&) const;
 template void SpectralBlock::to_waves(const SiteField<double>&, Waves<double>&) const;
 
-template <class T>
-void SpectralBlock::displace(double t, const Waves<T>& d, const SiteField<T>& at_sites) {
+void SpectralBlock::displace(double t, const Waves<float>& d, const SiteField<float>& at_sites) {
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < slab_.rows; ++y)
         for (int c = 0; c < components_; ++c) {
@@ -184,8 +183,6 @@ void SpectralBlock::displace(double t, const Waves<T>& d, const SiteField<T>& at
                         moving(layer_.plane(0), c).line(y), slab_.sites);
         }
 }
-template void SpectralBlock::displace(double, const Waves<float>&, const SiteField<float>&);
-template void SpectralBlock::displace(double, const Waves<double>&, const SiteField<double>&);
 
 void SpectralBlock::respond(const Preconditioner& preconditioner, Waves<float>& waves,
                             SiteField<float>& goal) const {
@@ -277,12 +274,8 @@ void Preconditioner::tune(const SpectralBlock& block, double k) {
         }
 }
 
-template <class From, class To>
-void Preconditioner::apply_row(int y, const Waves<From>& from, Waves<To>& to) const {
+void Preconditioner::apply_row(int y, const Waves<float>& from, Waves<float>& to) const {
     multiply_waves(matrix_row(table_, columns_, first_ + y, sites_), y, from, 0.0, to);
 }
-template void Preconditioner::apply_row(int, const Waves<float>&, Waves<float>&) const;
-template void Preconditioner::apply_row(int, const Waves<double>&, Waves<float>&) const;
-template void Preconditioner::apply_row(int, const Waves<double>&, Waves<double>&) const;
 
 } // namespace asperity

@@ -102,8 +102,7 @@ public:
     template <class T>
     void to_waves(const SiteField<T>& field, Waves<T>& waves) const;
     /// u <- u + t d, given both as waves and at the sites.
-    template <class T>
-    void displace(double t, const Waves<T>& d, const SiteField<T>& at_sites);
+    void displace(double t, const Waves<float>& d, const SiteField<float>& at_sites);
     /// Component c of those that move, at the sites, to be moved from outside (settle() as above).
     PlaneView<double> moving_layer(int c) { return moving(layer_.plane(0), c); }
     /// Puts the sites, moved from outside, back to a prescribed mean height. Collective.
@@ -158,8 +157,7 @@ public:
     void tune(const SpectralBlock& block, double k);
     double k() const { return k_; }
     /// to <- (S + k)^-1 from, row y of the slab; the two may be the same.
-    template <class From, class To>
-    void apply_row(int y, const Waves<From>& from, Waves<To>& to) const;
+    void apply_row(int y, const Waves<float>& from, Waves<float>& to) const;
 
 private:
     int sites_, first_;

@@ -175,10 +175,12 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
             block.respond(preconditioner, waves, goal);
 
             auto g = block.new_waves<double>();
-            auto response = block.new_waves<double>();
             block.gradient(g);
+            combine(1.0, g, 0.0, waves);
             for (int y = 0; y < g.rows(); ++y)
-                preconditioner.apply_row(y, g, response);
+                preconditioner.apply_row(y, waves, waves);
+            auto response = block.new_waves<double>();
+            combine(1.0, waves, 0.0, response);
             auto expected = block.new_field<double>();
             block.at_sites(response, expected);
             double largest = 0.0;
