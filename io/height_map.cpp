@@ -6,11 +6,9 @@
 #include "io/hdf5_file.hpp"
 #include "io/map_file.hpp"
 #include "io/map_formats.hpp"
-#include "io/output_file.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 #include <utility>
 
@@ -19,13 +17,6 @@
 namespace asperity::io {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-bool is_text_name(const fs::path& path) {
-    const std::string ending = path.extension().string();
-    return ending == ".txt" || ending == ".dat" || ending == ".csv" || ending == ".asc";
-}
 
 void treat_missing(MapFile& map, bool fill, std::vector<std::string>& notes) {
     if (map.missing == 0) return;
@@ -102,7 +93,6 @@ HeightMap read_height_map(const std::string& file, const MapOptions& options) {
     map.sites = static_cast<int>(std::min(read.rows, read.columns));
     map.heights = std::move(read.heights);
     map.unit = std::move(read.unit);
-    map.source = std::move(read.source);
     map.origin = std::move(read.origin);
     return map;
 }
@@ -160,16 +150,6 @@ void fill_missing(std::vector<double>& h, std::size_t rows, std::size_t columns)
 
 void write_height_map(const std::string& file, const HeightMap& map) {
     const auto sites = static_cast<std::size_t>(map.sites);
-    if (is_text_name(file)) {
-        std::string text =
-            fmt::format("# {} x {} heights in Å, one row (y) a line\n", sites, sites);
-        text += "# Value units: Å\n";
-        if (map.size) text += fmt::format("# edge: {} Å\n", *map.size);
-        for (std::size_t y = 0; y < sites; ++y)
-            for (std::size_t x = 0; x < sites; ++x)
-                text += fmt::format("{}{}", map.heights[y * sites + x], x + 1 < sites ? ' ' : '\n');
-        return write_whole(file, text);
-    }
     Hdf5File out(file, Hdf5File::Mode::create);
     out.write<double>("/heights", {sites, sites}, map.heights);
     out.write_attribute("/heights", "unit", "Å");

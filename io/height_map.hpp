@@ -15,11 +15,10 @@ struct HeightMap {
     std::vector<double> heights;      ///< Å; heights[y * sites + x]
     std::optional<double> size;       ///< edge of the map, Å, where the file tells it
     std::string unit = "Å";           ///< the heights had in the file
-    std::string source;               ///< the file (and data set)
     std::string origin;               ///< whose map it is, where the file tells it
     std::vector<std::string> notes{}; ///< what was assumed, filled or cut, one sentence each
 
-    /// Written beside the heights (HDF5 only), not read.
+    /// Written beside the heights, not read.
     struct Column {
         std::string name, unit; ///< "/spectrum/q"
         std::vector<double> values;
@@ -41,8 +40,7 @@ HeightMap read_height_map(const std::string& file, const MapOptions& options = {
 /// To 1e-9 of the largest height; there must be one that is no NaN.
 void fill_missing(std::vector<double>& heights, std::size_t rows, std::size_t columns);
 
-/// Text if the name ends in .txt, .dat, .csv or .asc, else HDF5 data set /heights (with unit and
-/// sizes). Whole or not at all. Throws FileError.
+/// HDF5 data set /heights (with unit and sizes). Whole or not at all. Throws FileError.
 void write_height_map(const std::string& file, const HeightMap& map);
 
 } // namespace asperity::io

@@ -210,7 +210,6 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
                                surface.height,
                                surface.length,
                                "Å",
-                               "",
                                surface.origin,
                                {},
                                {{"/spectrum/q", "1/Å", q},
