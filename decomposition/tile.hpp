@@ -12,8 +12,6 @@ struct Tile {
     int nx = 0; ///< nodes owned
     int ny = 0;
     int sites = 0; ///< nodes of this level across the whole (periodic, square) box
-
-    bool whole() const { return nx == sites && ny == sites; }
 };
 
 /// i folded into [0, n).

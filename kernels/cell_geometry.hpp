@@ -39,6 +39,5 @@ struct CellSprings {
             }
     }
 };
-inline constexpr CellSprings cell_springs{};
 
 } // namespace asperity

@@ -445,7 +445,6 @@ void DeviceBlock::wait_for_messages() {
 
 /// Along x, then along y, whose rows hold the halo just received.
 void DeviceBlock::exchange(const Block& block) {
-    halo_bytes_ = 0;
     trade(block, true);
     trade(block, false);
 }
@@ -484,7 +483,6 @@ void DeviceBlock::trade(const Block& block, bool along_x) {
     halo.before = from_before_;
     halo.after = from_after_;
     check(device_.unpack(step_, halo), "the launch that unpacks halos");
-    halo_bytes_ += 2 * bytes;
 }
 
 } // namespace asperity

@@ -78,8 +78,6 @@ public:
     std::size_t bytes() const { return used_; }
     static std::size_t bytes_for(const BlockOptions& block, const ProcessGrid& grid,
                                  const InterfaceOptions& interface, int substrate_sites);
-    /// Bytes copied to other ranks in the last step.
-    std::size_t halo_bytes() const { return halo_bytes_; }
 
 private:
     struct LevelMemory {
@@ -141,7 +139,6 @@ private:
     std::optional<At> launched_; ///< forces, since the last advance()
     long long steps_ = 0;        ///< advanced
     long long booked_ = 0;
-    std::size_t halo_bytes_ = 0;
 };
 
 } // namespace asperity

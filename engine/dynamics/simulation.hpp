@@ -49,7 +49,9 @@ struct StepRecord {
     long long in_contact = 0, repulsive = 0; ///< sites
     double closest = 0.0;                    ///< smallest pair distance, Å
     double work = 0.0, damped = 0.0;         ///< since the start, at that step
-    double residual = 0.0; ///< of the energy balance, over the largest term met so far
+    /// (work - change of energy - damped) over the largest of these terms and of the interface
+    /// energy met so far.
+    double residual = 0.0;
 };
 
 /// Work and dissipation since the start, eV.
@@ -102,10 +104,6 @@ public:
         return phases_;
     }
     const Communicator& communicator() const { return block_.communicator(); }
-
-    /// Of the last observed step: (work - change of energy - damped) over the largest of these
-    /// terms and of the interface energy met so far.
-    double energy_residual() const { return record_.residual; }
 
     /// Everything but the fields, for checkpoints.
     template <class Visitor>

@@ -121,7 +121,7 @@ void advance(Simulation& s, int steps, Trace& trace) {
         if (!now.observed) continue;
         for (double value : {now.interface_energy, now.elastic_energy, now.kinetic_energy,
                              now.closest, static_cast<double>(now.in_contact),
-                             static_cast<double>(now.repulsive), s.energy_residual()})
+                             static_cast<double>(now.repulsive), now.residual})
             trace.records = test::mix(trace.records, value);
         trace.in_contact = std::max(trace.in_contact, now.in_contact);
     }

@@ -192,7 +192,7 @@ TEST(EnergyBalance, ADrivenDampedRunBalances) {
         double worst = 0.0;
         while (contact.simulation.time() < 12000.0) {
             contact.step();
-            worst = std::max(worst, std::abs(contact.simulation.energy_residual()));
+            worst = std::max(worst, std::abs(contact.simulation.now().residual));
         }
         const Ledger& l = contact.simulation.ledger();
         EXPECT_GT(l.damped, 0.1);
@@ -299,7 +299,7 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
     // run.
     EXPECT_NEAR(simulation.ledger().heat, simulation.ledger().damped,
                 0.02 * simulation.ledger().damped);
-    EXPECT_LT(std::abs(simulation.energy_residual()), 0.02);
+    EXPECT_LT(std::abs(simulation.now().residual), 0.02);
 }
 
 TEST(Temperature, OnlyTheDampedDepthIsDriven) {
