@@ -25,7 +25,7 @@ public:
     virtual bool takes_device_memory() const { return false; }
     virtual void sum(std::span<double>) const {}
     virtual void sum(std::span<std::int64_t>) const {}
-    virtual void max(std::span<double>) const {}
+    virtual double max(double value) const { return value; }
     virtual void broadcast(std::span<std::byte>) const {}
     virtual void gather(std::span<const double> mine, std::span<const int>, std::span<double> all,
                         bool /*everywhere*/) const {
@@ -67,8 +67,9 @@ public:
     void sum(std::span<std::int64_t> v) const override {
         MPI_Allreduce(MPI_IN_PLACE, v.data(), count(v.size()), MPI_INT64_T, MPI_SUM, comm_);
     }
-    void max(std::span<double> v) const override {
-        MPI_Allreduce(MPI_IN_PLACE, v.data(), count(v.size()), MPI_DOUBLE, MPI_MAX, comm_);
+    double max(double value) const override {
+        MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, comm_);
+        return value;
     }
     void broadcast(std::span<std::byte> bytes) const override {
         constexpr std::size_t chunk = std::size_t{1} << 30; // MPI counts are ints
@@ -135,7 +136,7 @@ int Communicator::local_rank() const { return transport_->local_rank(); }
 bool Communicator::takes_device_memory() const { return transport_->takes_device_memory(); }
 void Communicator::sum(std::span<double> values) const { transport_->sum(values); }
 void Communicator::sum(std::span<std::int64_t> values) const { transport_->sum(values); }
-void Communicator::max(std::span<double> values) const { transport_->max(values); }
+double Communicator::max(double value) const { return transport_->max(value); }
 void Communicator::broadcast(std::span<std::byte> bytes) const { transport_->broadcast(bytes); }
 void Communicator::all_gather(std::span<const double> mine, std::span<const int> counts,
                               std::span<double> all) const {

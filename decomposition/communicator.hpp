@@ -51,7 +51,8 @@ public:
     /// in any order (ExactSum bins, counts).
     void sum(std::span<double> values) const;
     void sum(std::span<std::int64_t> values) const;
-    void max(std::span<double> values) const;
+    /// The greatest of the ranks' values.
+    double max(double value) const;
     /// Root's bytes to all.
     void broadcast(std::span<std::byte> bytes) const;
     void broadcast(std::span<double> values) const { broadcast(std::as_writable_bytes(values)); }

@@ -8,7 +8,6 @@
 #include "decomposition/communicator.hpp"
 #include "decomposition/tile.hpp"
 
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -31,13 +30,10 @@ LargestSite global_largest(const Communicator& ranks, const Tile& tile, const Va
             if (!std::isfinite(here)) here = std::numeric_limits<double>::max();
             if (here > worst) worst = here, wx = x + tile.x0, wy = y + tile.y0;
         }
-    std::array<double, 1> most = {worst};
-    ranks.max(most);
-    const double sites = tile.sites;
-    std::array<double, 1> place = {most[0] == worst ? sites * sites - (wy * sites + wx) : 0.0};
-    ranks.max(place);
-    const auto index = static_cast<long long>(sites * sites - place[0]);
-    return {most[0], static_cast<int>(index % tile.sites), static_cast<int>(index / tile.sites)};
+    const double most = ranks.max(worst), sites = tile.sites;
+    const double place = ranks.max(most == worst ? sites * sites - (wy * sites + wx) : 0.0);
+    const auto index = static_cast<long long>(sites * sites - place);
+    return {most, static_cast<int>(index % tile.sites), static_cast<int>(index / tile.sites)};
 }
 
 } // namespace asperity

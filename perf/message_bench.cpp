@@ -14,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -37,10 +36,9 @@ double least(const Communicator& ranks, const Call& call) {
         for (int n = 0; n < calls; ++n)
             call();
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        std::array<double, 1> longest = {took.count()}; // all ranks decide alike
-        ranks.max(longest);
-        best = std::min(best, longest[0] / calls);
-        spent += longest[0];
+        const double longest = ranks.max(took.count()); // all ranks decide alike
+        best = std::min(best, longest / calls);
+        spent += longest;
         calls = static_cast<int>(std::clamp(4e-3 / best, 4.0, 200.0));
     }
     return best;

@@ -44,12 +44,6 @@ Times times(const Phases& phases) {
     return t;
 }
 
-double largest(const Communicator& ranks, double value) {
-    std::array<double, 1> most = {value};
-    ranks.max(most);
-    return most[0];
-}
-
 nlohmann::json measure(const Communicator& ranks, bool contact, double seconds,
                        const std::vector<std::string>& settings) {
     const Scene scene = read_scene_text("[surface]\nrms = 0.3\n", "step_bench", settings);
@@ -67,7 +61,7 @@ nlohmann::json measure(const Communicator& ranks, bool contact, double seconds,
         for (int n = 0; n < steps; ++n)
             simulation.step(false);
         const std::chrono::duration<double> took = Clock::now() - start;
-        return largest(ranks, took.count()) / steps;
+        return ranks.max(took.count()) / steps;
     };
     stretch(2);
     const double about = stretch(3);
@@ -103,9 +97,9 @@ nlohmann::json measure(const Communicator& ranks, bool contact, double seconds,
               seen.elastic_energy, seen.kinetic_energy, seen.closest}},
             {"seconds", best},
             {"phases", by_phase},
-            {"nodes", largest(ranks, nodes)},
-            {"halo_bytes", largest(ranks, static_cast<double>(simulation.block().halo_bytes()))},
-            {"block_bytes", largest(ranks, static_cast<double>(simulation.block().bytes()))}};
+            {"nodes", ranks.max(nodes)},
+            {"halo_bytes", ranks.max(static_cast<double>(simulation.block().halo_bytes()))},
+            {"block_bytes", ranks.max(static_cast<double>(simulation.block().bytes()))}};
 }
 
 } // namespace

@@ -529,9 +529,7 @@ std::size_t Interface::bytes() const {
 ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks) {
     std::array<std::int64_t, 2> counts = {sums.in_contact, sums.repulsive};
     ranks.sum(counts);
-    std::array<double, 1> nearest = {-sums.closest_r2};
-    ranks.max(nearest);
-    const double r2 = -nearest[0];
+    const double r2 = -ranks.max(-sums.closest_r2);
     return {counts[0], counts[1], r2 < no_pair ? std::sqrt(r2) : HUGE_VAL};
 }
 

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
-#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -51,11 +50,7 @@ int report(const std::exception& error, const Communicator& world) {
 }
 
 /// The root's exit code (or the only one there is), on every rank. Collective.
-int agreed(int code, const Communicator& world) {
-    double greatest = code;
-    world.max(std::span<double>(&greatest, 1));
-    return static_cast<int>(greatest);
-}
+int agreed(int code, const Communicator& world) { return static_cast<int>(world.max(code)); }
 
 /// An error inside a run of several ranks. The others give rank 0 time to report first;
 /// if it does not, the error is not one of rank 0.

@@ -37,8 +37,7 @@ double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
         longest = std::max(longest, static_cast<double>(move_row(row, rule, components, gain.nx)));
     }
     block_.restore_mean_height();
-    block_.communicator().max(std::span(&longest, 1));
-    return std::sqrt(longest);
+    return std::sqrt(block_.communicator().max(longest));
 }
 
 void HeavyBall::stop() { momentum_ = block_.new_field<float>(); }

@@ -78,9 +78,7 @@ public:
         momentum_ =
             power < 0.0 ? least_momentum : std::min(most_momentum, 1.0 - lost * (1.0 - momentum_));
         const double whole = constraint_.is_top() ? below - above : top_force_;
-        std::array<double, 1> all = {std::max(largest_force(), std::abs(whole) / sites_)};
-        block_.communicator().max(all);
-        return all[0];
+        return block_.communicator().max(std::max(largest_force(), std::abs(whole) / sites_));
     }
 
     /// One iteration: steps from the forces, moves from the steps, positions from the moves. Forces

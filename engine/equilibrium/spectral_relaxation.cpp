@@ -28,8 +28,7 @@ double largest(const Communicator& ranks, SiteField<float>& field) {
         longest = std::max(longest, static_cast<double>(longest_squared(
                                         rows.data(), static_cast<int>(field.size()), f.nx)));
     }
-    ranks.max(std::span(&longest, 1));
-    return std::sqrt(longest);
+    return std::sqrt(ranks.max(longest));
 }
 
 /// The relaxation: where it is, what is left, and how it goes on.

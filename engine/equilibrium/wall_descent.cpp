@@ -74,7 +74,7 @@ double WallDescent::conclude() {
     for (int y = 0; y < g.ny; ++y)
         for (int x = 0; x < g.nx; ++x)
             largest = std::max(largest, std::abs(g(x, y)));
-    block_.communicator().max(std::span(&largest, 1));
+    largest = block_.communicator().max(largest);
     // What the steps do not show: forces of single precision, or sites that still snap.
     single_ = false;
     doubt_ *= largest > options_.tolerance ? 0.5 : 1.0;
@@ -126,8 +126,7 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
             sums.row(y)[0] = s.turn;
             sums.row(y)[1] = s.height;
         }
-        block_.communicator().max(std::span(&furthest, 1));
-        estimate_ = spring_ * furthest;
+        estimate_ = spring_ * block_.communicator().max(furthest);
         const std::vector<double> total = sums.total();
         turn = total[0];
         mean = total[1] / (sites * sites); // RowSums multiplies by the sites

@@ -130,11 +130,10 @@ RunSession::Due RunSession::due() {
     }
     if (stop_signals::caught()) decision = signal;
     if (ranks.root() && !storage_.in_place(*recorder_)) decision = gone;
-    std::array<double, 1> agreed = {decision};
-    ranks.max(agreed);
-    if (agreed[0] == nothing) return Due::nothing;
-    if (agreed[0] == save) return Due::save;
-    stopped_ = agreed[0] == wall ? "wall_limit" : agreed[0] == signal ? "signal" : "directory";
+    const double agreed = ranks.max(decision);
+    if (agreed == nothing) return Due::nothing;
+    if (agreed == save) return Due::save;
+    stopped_ = agreed == wall ? "wall_limit" : agreed == signal ? "signal" : "directory";
     return Due::stop;
 }
 
@@ -198,11 +197,10 @@ void RunSession::save(const WriteState& write) {
 
 /// Of a directory that was moved or removed: makes it usable again. False: it was not. Collective.
 bool RunSession::bring_back_directory() {
-    std::array<double, 1> gone = {0.0};
-    if (ranks.root()) gone[0] = storage_.in_place(*recorder_) ? 0.0 : 1.0;
-    ranks.max(gone);
-    if (gone[0] != 0.0) ranks.on_root([&] { storage_.bring_back(*recorder_); });
-    return gone[0] != 0.0;
+    const bool away = ranks.root() && !storage_.in_place(*recorder_);
+    const bool gone = ranks.max(away ? 1.0 : 0.0) != 0.0;
+    if (gone) ranks.on_root([&] { storage_.bring_back(*recorder_); });
+    return gone;
 }
 
 void RunSession::save_if_on(const WriteState& write) {

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 
 #include <unistd.h>
@@ -165,8 +164,7 @@ void require_memory(const Scene& scene, const Communicator& ranks, int threads) 
     const double needed = sum_on_machine(mine, ranks);
     const io::AvailableMemory there = io::available_memory();
     // All ranks refuse alike, with the numbers of the machine that is worst off.
-    double worst = needed / there.bytes;
-    ranks.max(std::span<double>(&worst, 1));
+    const double worst = ranks.max(needed / there.bytes);
     if (worst <= 1.0) return;
     const bool coarser = scene.block.model == BlockModel::lattice;
     refuse(scene, "the run", worst * there.bytes, there,
