@@ -4,7 +4,7 @@
 
 #include "decomposition/global_sum.hpp"
 #include "engine/equilibrium/spectral_relaxation.hpp"
-#include "engine/equilibrium/wall_descent.hpp"
+#include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 
@@ -101,7 +101,7 @@ public:
     }
     std::size_t bytes() const override {
         return block_.bytes() +
-               (wall_ ? WallDescent::bytes_for(block_) : spectral_relaxation_bytes(block_));
+               spectral_relaxation_bytes(block_.tile(), block_.components(), wall_);
     }
 
 private:

@@ -228,15 +228,4 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     return follow(descent, block, options);
 }
 
-std::size_t spectral_relaxation_bytes(const SpectralBlock& block) {
-    // Vectors of the sites: in double, the gradient, a displaced layer with its force; in single,
-    // the ball's goals, momenta, waves and gain, Newton's four and its map, its direction twice,
-    // and three fields of sites.
-    const std::size_t sites = block.tile().nx * static_cast<std::size_t>(block.tile().ny);
-    const auto c = static_cast<std::size_t>(block.components());
-    const std::size_t map = c == 1 ? 1 : 6;
-    return sites * (sizeof(double) * (c + (c == 1 ? 3 : 6)) +
-                    sizeof(float) * (3 * c + 1 + 4 * c + map + 4 * c));
-}
-
 } // namespace asperity

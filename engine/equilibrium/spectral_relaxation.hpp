@@ -42,7 +42,5 @@ namespace asperity {
 /// options.max_move: 0.3 Å, well below the range of the potential, is usual.
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const RelaxOptions& options, Phases& phases);
-/// What it takes beside the block, bytes.
-std::size_t spectral_relaxation_bytes(const SpectralBlock& block);
 
 } // namespace asperity

@@ -173,10 +173,4 @@ void WallDescent::accept() {
         }
 }
 
-std::size_t WallDescent::bytes_for(const SpectralBlock& block) {
-    const std::size_t sites = block.tile().nx * static_cast<std::size_t>(block.tile().ny);
-    // Waves, elastic forces in both precisions; next in double, the step in single.
-    return sites * (2 * sizeof(double) + 2 * sizeof(float) + sizeof(double) + sizeof(float));
-}
-
 } // namespace asperity

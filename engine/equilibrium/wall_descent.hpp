@@ -37,8 +37,6 @@ public:
     /// One iteration. Collective. False from a prediction: the steps that go on from the last
     /// equilibrium are as good, and do not jump over a barrier.
     bool step();
-    /// What it takes beside the block, bytes.
-    static std::size_t bytes_for(const SpectralBlock& block);
 
 private:
     template <class T>

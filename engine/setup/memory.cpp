@@ -93,6 +93,19 @@ MemoryNeed& MemoryNeed::operator+=(const MemoryNeed& other) {
     return *this;
 }
 
+std::size_t spectral_relaxation_bytes(const Tile& tile, int components, bool wall) {
+    const std::size_t sites = static_cast<std::size_t>(tile.nx) * static_cast<std::size_t>(tile.ny);
+    // Waves, elastic forces in both precisions; next in double, the step in single.
+    if (wall) return sites * (3 * sizeof(double) + 3 * sizeof(float));
+    // Vectors of the sites: in double, the gradient, a displaced layer with its force; in single,
+    // the ball's goals, momenta, waves and gain, Newton's four and its map, its direction twice,
+    // and three fields of sites.
+    const auto c = static_cast<std::size_t>(components);
+    const std::size_t map = c == 1 ? 1 : 6;
+    return sites * (sizeof(double) * (c + (c == 1 ? 3 : 6)) +
+                    sizeof(float) * (3 * c + 1 + 4 * c + map + 4 * c));
+}
+
 double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid) {
     return static_cast<double>(
         DeviceBlock::bytes_for(setup.simulation.block, grid, setup.simulation.interface,
@@ -127,16 +140,13 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
     if (scene.block.model == BlockModel::spectral) {
         need.snapshot = copies * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
         const double columns = scene.surface.sites / 2 + 1;
-        const double parts = scene.interface.frictionless ? 1.0 : 3.0;
+        const int parts = scene.interface.frictionless ? 1 : 3;
         const double entries = scene.interface.frictionless ? 1.0 : 6.0;
         // S(q) of a quadrant in double and its inverse in single precision, on every rank; waves.
         need.block = entries * columns * columns * 12.0 + 16.0 * parts * columns * tile.ny +
                      2.0 * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
-        need.relaxation =
-            static_cast<double>(tile.nx) * tile.ny *
-            (8.0 * (parts + (parts == 1.0 ? 3.0 : 6.0)) + 4.0 * (11.0 * parts + 1.0 + entries));
-        if (scene.interface.kind == InterfaceKind::wall)
-            need.relaxation = 36.0 * tile.nx * tile.ny; // WallDescent::bytes_for
+        need.relaxation = static_cast<double>(
+            spectral_relaxation_bytes(tile, parts, scene.interface.kind == InterfaceKind::wall));
         return need;
     }
     const Block::Memory memory = Block::memory_for(setup.simulation.block, grid);

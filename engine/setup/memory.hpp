@@ -31,6 +31,9 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
 /// Of all ranks together.
 MemoryNeed memory_of(const Scene& scene, const Setup& setup, int ranks, int threads);
 
+/// What relaxing a spectral block takes beside it, for a tile of its surface.
+std::size_t spectral_relaxation_bytes(const Tile& tile, int components, bool wall);
+
 /// Of the device of a rank, where the scene has devices take its steps.
 double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid);
 
