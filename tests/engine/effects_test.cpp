@@ -4,13 +4,11 @@
 // Effects are switched by the scene; one that is off holds no memory, is not called and leaves
 // nothing in the files of a run.
 #include "engine/equilibrium/equilibrium.hpp"
-#include "engine/run/run.hpp"
 #include "engine/setup/setup.hpp"
-#include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "kernels/variant.hpp"
 #include "support/cases.hpp"
-#include "support/scratch.hpp"
+#include "support/run_scene.hpp"
 
 #include <atomic>
 #include <cstdlib>
@@ -66,11 +64,7 @@ struct Left {
 
     Left(std::string where, const std::vector<std::string>& overrides)
         : directory(std::move(where)) {
-        RunOptions options;
-        options.out = directory;
-        options.progress = io::ProgressMode::off;
-        EXPECT_EQ(run(scene_with(overrides), options, Communicator()), io::exit_code::done);
-        json = io::contents(directory + "/result.json");
+        json = io::json_text(test::run_scene(scene_with(overrides), directory), 2);
         groups = io::Hdf5File(directory + "/run.h5", io::Hdf5File::Mode::read).members("/");
     }
     bool has_group(const char* name) const {

@@ -3,43 +3,32 @@
 //
 // What a run writes, against itself: the same quantity in result.json, in the series and in the
 // maps of run.h5, each converted by the unit that the file states.
-#include "decomposition/communicator.hpp"
-#include "engine/run/run.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/units.hpp"
-#include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/quantities.hpp"
 #include "io/units.hpp"
-#include "support/scratch.hpp"
+#include "support/run_scene.hpp"
 #include "theory/half_space.hpp"
 #include "theory/periodic_sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <numeric>
-
-#include <nlohmann/json.hpp>
 
 using namespace asperity;
 
 namespace {
 
-using Json = nlohmann::json;
+using io::Json;
 
 /// A run and what it wrote.
 class Written {
 public:
-    explicit Written(const std::string& scene)
-        : scene_(read_scene_text(scene, "test.toml")), directory_(scratch_ / "run") {
-        RunOptions options;
-        options.out = directory_;
-        options.progress = io::ProgressMode::off;
-        EXPECT_EQ(run(scene_, options, Communicator()), io::exit_code::done);
-        json = Json::parse(io::contents(directory_ + "/result.json"));
-        file.emplace(directory_ + "/run.h5", io::Hdf5File::Mode::read);
+    explicit Written(const std::string& scene) : scene_(read_scene_text(scene, "test.toml")) {
+        json = test::run_scene(scene_, scratch_ / "run");
+        file.emplace(scratch_ / "run/run.h5", io::Hdf5File::Mode::read);
     }
 
     /// A number of result.json ("energy.elastic") in this unit.
@@ -76,7 +65,6 @@ private:
 
     io::Scratch scratch_;
     Scene scene_;
-    std::string directory_;
 };
 
 double mean(const std::vector<double>& values) {

@@ -4,12 +4,9 @@
 // What a run leaves in its files against each other and against symmetry. The substrate is a ridge:
 // its height depends on x alone, so that nothing moves along y and every column of a map is
 // constant.
-#include "engine/run/run.hpp"
-
-#include "decomposition/communicator.hpp"
 #include "engine/scene/scene.hpp"
 #include "io/hdf5_file.hpp"
-#include "support/scratch.hpp"
+#include "support/run_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +30,9 @@ double ridge(double x) { // in units of the box
     return 1.2 * std::sin(2.0 * std::numbers::pi * x) + 0.6 * std::cos(4.0 * std::numbers::pi * x);
 }
 
-/// Runs a scene over the ridge; returns its directory.
-std::string run_over_ridge(const Scratch& scratch, const std::string& drive,
-                           const std::string& output) {
+/// Runs a scene over the ridge into "out". Returns its result.
+io::Json run_over_ridge(const Scratch& scratch, const std::string& drive,
+                        const std::string& output) {
     std::ofstream map(scratch / "ridge.txt");
     for (std::size_t y = 0; y < n; ++y)
         for (std::size_t x = 0; x < n; ++x)
@@ -46,11 +43,7 @@ std::string run_over_ridge(const Scratch& scratch, const std::string& drive,
                                     "[block]\nmodel = \"lattice\"\nthickness = 8\n"
                                     "[interface]\ncutoff = 5.0\ntail = true\n[drive]\n" +
                                         drive + "[output]\n" + output));
-    RunOptions options;
-    options.out = scratch / "out";
-    options.progress = io::ProgressMode::off;
-    EXPECT_EQ(run(scene, options, Communicator()), 0);
-    return options.out;
+    return test::run_scene(scene, scratch / "out");
 }
 
 double share(const std::vector<double>& values, const auto& is) {
@@ -58,40 +51,31 @@ double share(const std::vector<double>& values, const auto& is) {
            static_cast<double>(values.size());
 }
 
-/// The number behind this key of result.json, the first of its name.
-double result_number(const std::string& directory, const std::string& key) {
-    const std::string text = io::contents(directory + "/result.json");
-    const std::size_t at = text.find("\"" + key + "\":");
-    EXPECT_NE(at, std::string::npos) << key;
-    return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + key.size() + 3));
-}
-
 TEST(RunFiles, FractionsAreThoseOfTheMaps) {
     // A path without time that ends at zero load: the result, the last row of the series and the
     // maps of the state are of the same equilibrium, the result's to the tolerance of its
     // relaxation.
     const Scratch scratch;
-    const std::string out = run_over_ridge(
+    const io::Json result = run_over_ridge(
         scratch, "mode = \"quasistatic\"\npath = [\"approach\"]\n", "fields = [\"zero-load\"]\n");
-    const io::Hdf5File file(out + "/run.h5", io::Hdf5File::Mode::read);
+    const io::Hdf5File file(scratch / "out/run.h5", io::Hdf5File::Mode::read);
     const auto pressure = file.read<double>("/fields/zero-load/pressure");
     const auto distance = file.read<double>("/fields/zero-load/distance");
     const double inflection = std::pow(26.0 / 7.0, 1.0 / 6.0) * 3.28; // of 4 eps (s^12 - s^6)
     const double repulsive = share(pressure, [](double p) { return p > 0.0; });
     const double touching = share(distance, [&](double d) { return d < inflection; });
     ASSERT_NE(repulsive, touching) << "the case must tell one from the other";
-    EXPECT_EQ(result_number(out, "pushed_fraction"), repulsive);
-    EXPECT_EQ(result_number(out, "contact_fraction"), touching);
+    EXPECT_EQ(result.at("pushed_fraction").get<double>(), repulsive);
+    EXPECT_EQ(result.at("contact_fraction").get<double>(), touching);
     EXPECT_EQ(file.read<double>("/series/pushed_fraction").back(), repulsive);
     EXPECT_EQ(file.read<double>("/series/contact_fraction").back(), touching);
 }
 
 TEST(RunFiles, ThePathOverARidgeMovesAcrossItAndNotAlong) {
     const Scratch scratch;
-    const std::string out = run_over_ridge(
-        scratch, "velocity = \"50 m/s\"\ntimestep = \"20 fs\"\n",
-        "series = 10\ntrajectory = 20\nvelocities = true\nfields = [\"zero-load\"]\n");
-    const io::Hdf5File file(out + "/run.h5", io::Hdf5File::Mode::read);
+    run_over_ridge(scratch, "velocity = \"50 m/s\"\ntimestep = \"20 fs\"\n",
+                   "series = 10\ntrajectory = 20\nvelocities = true\nfields = [\"zero-load\"]\n");
+    const io::Hdf5File file(scratch / "out/run.h5", io::Hdf5File::Mode::read);
     const auto position = file.read<float>("/particles/trajectory/position/value");
     const auto velocity = file.read<float>("/particles/trajectory/velocity/value");
     ASSERT_EQ(position.size() % (3 * n * n), 0u);

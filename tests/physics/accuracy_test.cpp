@@ -3,18 +3,13 @@
 //
 // numerics.accuracy on scenes that its calibration has not seen: the error is within the target,
 // and the work, counted in node-steps or iterations of nodes, a third of the default's or less.
-#include "engine/run/run.hpp"
 #include "engine/scene/accuracy.hpp"
 #include "engine/setup/setup.hpp"
-#include "io/error.hpp"
-#include "io/json.hpp"
-#include "support/scratch.hpp"
+#include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -23,14 +18,7 @@ namespace {
 
 io::Json result_of(const std::string& text, const std::vector<std::string>& overrides) {
     const io::Scratch scratch;
-    const Scene scene = read_scene_text(text, "held-out.toml", overrides);
-    RunOptions options;
-    options.out = scratch / "run";
-    options.progress = io::ProgressMode::off;
-    EXPECT_EQ(run(scene, options, Communicator()), io::exit_code::done);
-    std::ifstream stream(options.out + "/result.json");
-    const std::string json{std::istreambuf_iterator<char>(stream), {}};
-    return io::parse_json(json, "result.json");
+    return test::run_scene(read_scene_text(text, "held-out.toml", overrides), scratch / "run");
 }
 
 /// Node-steps of the path in time, or nodes times iterations without.

@@ -6,17 +6,12 @@
 #include "engine/dynamics/approach_start.hpp"
 
 #include "engine/equilibrium/equilibrium.hpp"
-#include "engine/run/run.hpp"
 #include "engine/units.hpp"
-#include "io/error.hpp"
-#include "io/json.hpp"
-#include "support/scratch.hpp"
+#include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -86,20 +81,10 @@ TEST(ApproachStart, IsOutOfReachWhereNothingAttracts) {
     EXPECT_EQ(start.force, 0.0);
 }
 
-io::Json result_of(const Scene& scene, const std::string& out) {
-    RunOptions options;
-    options.out = out;
-    options.progress = io::ProgressMode::off;
-    EXPECT_EQ(run(scene, options, Communicator()), io::exit_code::done);
-    std::ifstream stream(options.out + "/result.json");
-    const std::string json{std::istreambuf_iterator<char>(stream), {}};
-    return io::parse_json(json, "result.json");
-}
-
 TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
     const io::Scratch scratch;
     Case c(rough + "[drive]\nvelocity = 10\ndamping = 0.2\ntimestep = 20\n");
-    const io::Json result = result_of(c.scene, scratch / "run");
+    const io::Json result = test::run_scene(c.scene, scratch / "run");
     Simulation s(c.setup.simulation, c.surface, c.ranks, c.grid);
     s.start(c.interface.start_height());
     double strongest = 0.0;
@@ -123,7 +108,7 @@ TEST(ApproachStart, AWarmBlockStartsOutOfReach) {
                                      "path = [\"approach\"]\n";
     for (const double temperature : {0.0, 300.0}) {
         Case c(once + "temperature = " + std::to_string(temperature) + "\n");
-        const io::Json result = result_of(c.scene, scratch / std::to_string(temperature));
+        const io::Json result = test::run_scene(c.scene, scratch / std::to_string(temperature));
         const double energy = io::find(result, "energy.interface")->get<double>();
         EXPECT_EQ(energy == 0.0, temperature > 0.0) << temperature;
     }

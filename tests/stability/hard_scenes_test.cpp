@@ -4,19 +4,12 @@
 // The scenes of scenes/hard, run as a user runs them. Each file says in its head what stable means
 // for it; here it is held to that. With ASPERITY_LONG set they are followed at a tenth of the
 // speed.
-#include "engine/run/run.hpp"
-#include "io/json.hpp"
-#include "support/cases.hpp"
+#include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
-#include <unistd.h>
 
 using namespace asperity;
 
@@ -25,22 +18,10 @@ namespace {
 const bool at_length = std::getenv("ASPERITY_LONG") != nullptr;
 
 io::Json follow(const std::string& name) {
-    namespace fs = std::filesystem;
-    const fs::path hard = fs::path(ASPERITY_SOURCE_DIR) / "scenes/hard";
-    Scene scene = read_scene((hard / (name + ".toml")).string());
+    Scene scene = read_scene(ASPERITY_SOURCE_DIR "/scenes/hard/" + name + ".toml");
     if (at_length) scene.drive.velocity *= 0.1;
-    const fs::path out =
-        fs::temp_directory_path() /
-        ("asperity-hard-" + name + (at_length ? "-long" : "") + "-" + std::to_string(::getpid()));
-    RunOptions options;
-    options.out = out.string();
-    options.progress = io::ProgressMode::off;
-    EXPECT_EQ(run(scene, options, Communicator()), 0) << name;
-    std::ifstream file(out / "result.json");
-    std::stringstream text;
-    text << file.rdbuf();
-    const io::Json result = io::parse_json(text.str(), "result.json");
-    fs::remove_all(out);
+    const io::Scratch scratch;
+    const io::Json result = test::run_scene(scene, scratch / "run");
     EXPECT_EQ(io::find(result, "failure"), nullptr) << name;
     return result;
 }
