@@ -17,6 +17,17 @@
 
 namespace asperity {
 
+/// Of what follows such a sequence.
+struct SequenceOptions {
+    double step = 0.25;            ///< of the prescribed coordinate, Å
+    double tolerance = 1e-4;       ///< eV/Å
+    double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
+    double load = 0.0;             ///< eV/Å
+    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    /// Called during relaxations with their iteration and residual. True: stop.
+    std::function<bool(long long, double)> report;
+};
+
 class Continuation {
 public:
     struct Options {

@@ -41,19 +41,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <functional>
 
 namespace asperity {
 
-struct PathOptions {
+/// step: the largest; load: at which the approach ends.
+struct PathOptions : SequenceOptions {
     Constraint::Of along = Constraint::Of::top; ///< or mean_height
-    double step = 0.25;                         ///< of that, the largest, Å
-    double tolerance = 1e-4;                    ///< eV/Å
-    double site_stiffness = 2.2;                ///< of the interface, eV/Å^2
-    double load = 0.0;                          ///< at which the approach ends, eV/Å
-    double reference_height = 0.0;              ///< z of the undisplaced lowest layer, Å
-    /// Called during relaxations with their iteration and residual. True: stop.
-    std::function<bool(long long, double)> report;
 };
 
 class QuasistaticPath {

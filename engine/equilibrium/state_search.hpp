@@ -47,23 +47,17 @@
 
 namespace asperity {
 
-struct StateSearchOptions {
-    double step = 0.25;            ///< of the mean height, the shortest, Å
-    double tolerance = 1e-4;       ///< eV/Å
-    double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
-    double load = 0.0;             ///< P, eV/Å
-    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
-    double area = 0.0;             ///< nominal, Å^2
-    double largest_tension = 0.0;  ///< of flat on flat, eV/Å^3
+/// step: of the mean height, the shortest; load: P.
+struct StateSearchOptions : SequenceOptions {
+    double area = 0.0;            ///< nominal, Å^2
+    double largest_tension = 0.0; ///< of flat on flat, eV/Å^3
     /// Of flat on flat, eV/Å^2; infinite: a search for all states, deeper or not.
     double work_of_adhesion = HUGE_VAL;
     double softest_wave = 0.0; ///< of the block (BlockOptions), eV/Å^4
     /// Of the climb: an instability that loses less is not followed outwards.
     double least_loss = 3e-3;
-    /// Called during relaxations with their iteration and residual. True: stop.
-    Continuation::Report report;
     /// The state under the load, downhill of where the block is; empty where it was stopped.
-    std::function<std::optional<ZeroLoad>()> relax_free;
+    std::function<std::optional<ZeroLoad>()> relax_free{};
 };
 
 class StateSearch {

@@ -273,47 +273,38 @@ private:
     }
 
     double reference_height() const { return interface_.start_height(); }
-    PathOptions path_options() {
-        PathOptions o;
-        o.along =
-            scene_.drive.hold == Hold::top ? Constraint::Of::top : Constraint::Of::mean_height;
+    SequenceOptions sequence_options() {
+        SequenceOptions o;
         o.step = scene_.drive.step;
         o.tolerance = scene_.drive.tolerance;
-        o.site_stiffness = relax_options(scene_, run_.setup).site_stiffness;
+        o.site_stiffness = run_.setup.site_stiffness;
         o.load = run_.setup.simulation.drive.load_force;
         o.reference_height = interface_.start_height();
         o.report = [this](long long iteration, double) {
             if (run_.progress.due())
                 run_.progress.update(
-                    {fmt::format("{}, relaxing", name(leg_)), iteration, 0.0, -1.0});
+                    {fmt::format("{}, relaxing", searching_ ? position() : std::string(name(leg_))),
+                     iteration, 0.0, -1.0});
             return run_.stop_relaxation();
         };
         return o;
     }
-
+    PathOptions path_options() {
+        return {sequence_options(),
+                scene_.drive.hold == Hold::top ? Constraint::Of::top : Constraint::Of::mean_height};
+    }
     StateSearchOptions search_options() {
-        StateSearchOptions o;
-        o.step = scene_.drive.step;
-        o.tolerance = scene_.drive.tolerance;
-        o.site_stiffness = relax_options(scene_, run_.setup).site_stiffness;
-        o.load = run_.setup.simulation.drive.load_force;
-        o.reference_height = interface_.start_height();
+        StateSearchOptions o{sequence_options()};
         o.area = scene_.edge() * scene_.edge();
         o.largest_tension = units::gigapascal * run_.setup.largest_tension;
         // Atoms anywhere can bind more than a flat layer does.
         if (scene_.surface.kind != SurfaceKind::atoms)
             o.work_of_adhesion = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
         o.softest_wave = run_.setup.simulation.block.softest_wave();
-        o.report = [this](long long iteration, double) {
-            if (run_.progress.due())
-                run_.progress.update(
-                    {fmt::format("{}, relaxing", position()), iteration, 0.0, -1.0});
-            return run_.stop_relaxation();
-        };
         o.relax_free = [this] {
             return find_zero_load(*block_, interface_, reference_height(),
                                   run_.setup.simulation.drive.load_force, scene_, run_.setup,
-                                  search_options().report);
+                                  sequence_options().report);
         };
         return o;
     }
