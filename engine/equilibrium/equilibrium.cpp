@@ -17,15 +17,6 @@ namespace asperity {
 
 namespace {
 
-void add_arrays(int level, VectorField<double>& u, int planes, std::vector<StateArray>& list) {
-    const auto add = [&](const char* what, Field<double>& field) {
-        list.push_back({fmt::format("/level{}/{}", level, what), level, &field, planes});
-    };
-    add("u_x", u.x);
-    add("u_y", u.y);
-    add("u_z", u.z);
-}
-
 class LevelsAtRest final : public Equilibrium {
 public:
     explicit LevelsAtRest(Block block) : block_(std::move(block)) {}
@@ -43,7 +34,7 @@ public:
     std::vector<StateArray> state() override {
         std::vector<StateArray> list;
         for (const Block::Level& level : block_.levels())
-            add_arrays(level.shape.level, block_.fields(level).u, level.shape.cells, list);
+            add_arrays(level.shape.level, "u", block_.fields(level).u, level.shape.cells, list);
         return list;
     }
     void settle(const Constraint& constraint) override {
@@ -86,7 +77,7 @@ public:
     double mean_height() const override { return block_.mean_height(); }
     std::vector<StateArray> state() override {
         std::vector<StateArray> list;
-        add_arrays(0, block_.layer(), 1, list);
+        add_arrays(0, "u", block_.layer(), 1, list);
         return list;
     }
     void settle(const Constraint& constraint) override {

@@ -2,9 +2,22 @@
 // SPDX-License-Identifier: MIT
 #include "engine/equilibrium/state_array.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace asperity {
+
+void add_arrays(int level, const char* what, VectorField<double>& field, int planes,
+                std::vector<StateArray>& list) {
+    const auto add = [&](char component, Field<double>& values) {
+        list.push_back(
+            {fmt::format("/level{}/{}_{}", level, what, component), level, &values, planes});
+    };
+    add('x', field.x);
+    add('y', field.y);
+    add('z', field.z);
+}
 
 void StateCopy::take(const std::vector<StateArray>& arrays) {
     if (copies_.empty())

@@ -20,6 +20,11 @@ struct StateArray {
     int planes = 0;
 };
 
+/// Adds the components of a field of a level to a list, in the order x, y, z, named
+/// "/level2/<what>_x".
+void add_arrays(int level, const char* what, VectorField<double>& field, int planes,
+                std::vector<StateArray>& list);
+
 /// A copy of all arrays of a list, to go back to.
 class StateCopy {
 public:

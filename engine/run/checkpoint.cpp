@@ -27,15 +27,8 @@ std::vector<StateArray> fields_of(Simulation& simulation) {
     for (const Block::Level& level : block.levels()) {
         const int n = level.shape.level, planes = level.shape.cells;
         const Block::Fields fields = block.fields(level);
-        const auto add = [&](const char* what, Field<double>& field) {
-            list.push_back({fmt::format("/level{}/{}", n, what), n, &field, planes});
-        };
-        add("u_x", fields.u.x);
-        add("u_y", fields.u.y);
-        add("u_z", fields.u.z);
-        add("v_x", fields.v.x);
-        add("v_y", fields.v.y);
-        add("v_z", fields.v.z);
+        add_arrays(n, "u", fields.u, planes, list);
+        add_arrays(n, "v", fields.v, planes, list);
     }
     return list;
 }
