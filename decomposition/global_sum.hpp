@@ -11,43 +11,42 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace asperity {
 
+namespace detail {
+
+/// bins: room for those of all sums.
+inline void global_sums(const Communicator& ranks, std::span<const ExactSum> mine,
+                        std::span<double> bins, std::span<double> values) {
+    for (std::size_t i = 0; i < mine.size(); ++i)
+        std::copy_n(mine[i].bin, ExactSum::bins, &bins[ExactSum::bins * i]);
+    ranks.sum(bins);
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+        ExactSum sum;
+        std::copy_n(&bins[ExactSum::bins * i], ExactSum::bins, sum.bin);
+        values[i] = sum.value();
+    }
+}
+
+} // namespace detail
+
 /// Collective: one reduction for all of them.
 template <std::size_t n>
 std::array<double, n> global_sums(const Communicator& ranks, const std::array<ExactSum, n>& mine) {
-    constexpr std::size_t bins = ExactSum::bins;
-    std::array<double, bins * n> all;
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < bins; ++k)
-            all[bins * i + k] = mine[i].bin[k];
-    ranks.sum(all);
+    std::array<double, ExactSum::bins * n> bins;
     std::array<double, n> values;
-    for (std::size_t i = 0; i < n; ++i) {
-        ExactSum sum;
-        for (std::size_t k = 0; k < bins; ++k)
-            sum.bin[k] = all[bins * i + k];
-        values[i] = sum.value();
-    }
+    detail::global_sums(ranks, mine, bins, values);
     return values;
 }
 
 /// The same for a number of sums known only when run.
 inline std::vector<double> global_sums(const Communicator& ranks,
                                        const std::vector<ExactSum>& mine) {
-    constexpr std::size_t bins = ExactSum::bins;
-    std::vector<double> all;
-    for (const ExactSum& sum : mine)
-        all.insert(all.end(), sum.bin, sum.bin + bins);
-    ranks.sum(all);
-    std::vector<double> values;
-    for (std::size_t i = 0; i < mine.size(); ++i) {
-        ExactSum sum;
-        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(bins * i), bins, sum.bin);
-        values.push_back(sum.value());
-    }
+    std::vector<double> bins(ExactSum::bins * mine.size()), values(mine.size());
+    detail::global_sums(ranks, mine, bins, values);
     return values;
 }
 

@@ -182,15 +182,7 @@ void advance(const ElasticLevel& level, const LevelKicks& kicks, double dt, Band
 
 void energy(VectorVolume<const double> u, const LevelCell& cell, int y0, int y1, ExactSum& sum) {
     const finite::Cell<V> terms(cell);
-    BasicExactSum<V> lanes;
-    for (int z = 0; z + 1 < u.x.nz; ++z)
-        for (int y = y0; y < y1; ++y) {
-            const auto line = z * u.x.plane + y * u.x.row;
-            for (int x = 0; x < u.x.nx; x += V::width) {
-                lanes.add(first_lanes(finite::energy(u, line + x, terms, cell), u.x.nx - x));
-            }
-        }
-    collect(lanes, sum);
+    cell_sum(u, y0, y1, sum, [&](std::ptrdiff_t at) { return finite::energy(u, at, terms, cell); });
 }
 
 } // namespace

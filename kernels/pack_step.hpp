@@ -54,6 +54,21 @@ inline void drift(const ElasticLevel& level, double dt, int y0, int y1) {
         drift_rows(level, z, dt, y0, y1);
 }
 
+/// Adds up what energies(i), of a pack of cells from element i on, gives for rows [y0, y1).
+template <class Energies>
+ASPERITY_INLINE void cell_sum(const VectorVolume<const double>& u, int y0, int y1, ExactSum& into,
+                              const Energies& energies) {
+    using V = Pack<double>;
+    BasicExactSum<V> lanes;
+    for (int z = 0; z + 1 < u.x.nz; ++z)
+        for (int y = y0; y < y1; ++y) {
+            const auto line = z * u.x.plane + y * u.x.row;
+            for (int x = 0; x < u.x.nx; x += V::width)
+                lanes.add(first_lanes(energies(line + x), u.x.nx - x));
+        }
+    collect(lanes, into);
+}
+
 inline void plane_sum(PlaneView<const double> plane, int y0, int y1, ExactSum& into) {
     using V = Pack<double>;
     BasicExactSum<V> lanes;

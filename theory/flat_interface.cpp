@@ -78,14 +78,7 @@ FlatInterface FlatInterface::hollow_sites(const PairPotential& pair, double a) {
         flat.radii_.push_back(std::sqrt(square) * a / 2);
         flat.densities_.push_back(atoms / (a * a));
     }
-    if (pair.tail)
-        add_rings(pair.cutoff, tail_rings * pair.cutoff, 1 / std::pow(a, 4), flat.radii_,
-                  flat.densities_);
-    const double contact = std::pow(26.0 / 7, 1.0 / 6) * pair.r0;
-    flat.contact_ = std::sqrt(std::max(0.0, contact * contact - a * a / 2));
-    flat.closest_ = 0.75 * pair.r0;
-    flat.reach_ = (pair.tail ? 2 : 1) * pair.cutoff;
-    flat.find_minimum();
+    flat.complete(1 / std::pow(a, 4), a * a / 2);
     return flat;
 }
 
@@ -101,15 +94,18 @@ FlatInterface FlatInterface::all_registries(const PairPotential& pair, double a,
         if (ends[k + 1] > ends[k])
             add_rings(ends[k], std::min(ends[k + 1], pair.cutoff), per_area, flat.radii_,
                       flat.densities_);
-    if (pair.tail)
-        add_rings(pair.cutoff, tail_rings * pair.cutoff, per_area, flat.radii_, flat.densities_);
-    // The nearest atom is a/√6 off on average of squares.
-    const double contact = std::pow(26.0 / 7, 1.0 / 6) * pair.r0;
-    flat.contact_ = std::sqrt(std::max(0.0, contact * contact - b * b / 6));
-    flat.closest_ = 0.75 * pair.r0;
-    flat.reach_ = (pair.tail ? 2 : 1) * pair.cutoff;
-    flat.find_minimum();
+    flat.complete(per_area, b * b / 6); // the nearest atom is b/√6 off on average of squares
     return flat;
+}
+
+void FlatInterface::complete(double per_area, double sideways2) {
+    if (pair_.tail)
+        add_rings(pair_.cutoff, tail_rings * pair_.cutoff, per_area, radii_, densities_);
+    const double contact = std::pow(26.0 / 7, 1.0 / 6) * pair_.r0;
+    contact_ = std::sqrt(std::max(0.0, contact * contact - sideways2));
+    closest_ = 0.75 * pair_.r0;
+    reach_ = (pair_.tail ? 2 : 1) * pair_.cutoff;
+    find_minimum();
 }
 
 FlatInterface FlatInterface::wall(std::function<double(double)> energy, double closest,

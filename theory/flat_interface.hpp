@@ -71,6 +71,9 @@ public:
 
 private:
     FlatInterface() = default;
+    /// Once there are rings up to the cutoff: the tail, of so many atoms for each area, and all
+    /// else. sideways2: mean square distance of a site from the nearest atom, along the surface.
+    void complete(double per_area, double sideways2);
     void find_minimum();
 
     std::vector<double> radii_, densities_;
