@@ -16,13 +16,13 @@ The sets "drawn-1" to "drawn-10" were drawn at random once (uniform: Hurst expon
 """
 import argparse
 import csv
-import json
 import pathlib
 import statistics
-import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+import asperity  # noqa: E402
 
 
 def drawn(hurst, epsilon, young, poisson, rolloff, r0, rms):
@@ -74,15 +74,10 @@ def interfaces(name: str) -> list[str]:
 def state(name: str, interface: str, rms: float, seed: int, place: pathlib.Path) -> dict:
     """The row of one state; run where it is not there."""
     where = place / f"{name}-{interface}" / f"rms={rms:g},seed={seed}"
-    if not (where / "result.json").exists():
-        settings = {**SETS[name][0], **INTERFACES[interface], "output.checkpoint": 0, "output.fields": "[]",
-                    "surface.rms": rms, "surface.seed": seed}
-        command = [str(ROOT / "asperity"), "run", str(ROOT / "scenes/validation/parameters.toml"), "--progress", "off",
-                   "--out", str(where), "--set", *(f"{k}={v}" for k, v in settings.items())]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode:
-            sys.exit(f"{' '.join(command)}\n{done.stderr}")
-    result = json.loads((where / "result.json").read_text())
+    settings = {**SETS[name][0], **INTERFACES[interface], "output.checkpoint": 0, "output.fields": [],
+                "surface.rms": rms, "surface.seed": seed}
+    result = (asperity.load(where) if (where / "result.json").exists() else
+              asperity.run(ROOT / "scenes/validation/parameters.toml", settings, where))
     flat, theory = result["delta_gamma"], result["theory"]
     renormalised = theory["renormalised"]
     return {"set": name, "interface": interface, "rms": rms, "seed": seed, "rms_slope": result["surface"]["rms_slope"],

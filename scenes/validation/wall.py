@@ -11,23 +11,24 @@ a paraboloid without adhesion, periodic images corrected for. gfmd: the same by 
 falls. area: contact area of self-affine surfaces against pressure without adhesion, extrapolated in the spacing.
 """
 import argparse
-import json
 import math
 import pathlib
-import subprocess
 import sys
 
 import h5py
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+import asperity  # noqa: E402
+
 GPA = 1 / 160.21766208  # eV/Å³
 E = 77.2 * GPA / (1 - 0.42**2)
 
 
 class Runs:
-    def __init__(self, out: pathlib.Path, program: str):
-        self.out, self.program = out, program
+    def __init__(self, out: pathlib.Path):
+        self.out = out
         out.mkdir(parents=True, exist_ok=True)
 
     def map(self, name: str, heights: np.ndarray) -> dict:
@@ -41,24 +42,20 @@ class Runs:
         wave = amplitude * np.cos(2 * math.pi * np.arange(sites) / sites)
         return self.map(f"sine-{sites}-{amplitude:.6g}", np.tile(wave, (sites, 1)))
 
-    def state(self, name: str, keys: dict) -> dict:
+    def state(self, name: str, keys: dict) -> asperity.Result:
         """The relaxed state of a scene over a wall; a run that is there already is read."""
         place = self.out / name
-        if not (place / "result.json").exists():
-            settings = {"numerics.precision": "double", "drive.path": "zero-load", "block.model": "spectral", "interface.kind": "wall", "theory.renormalised": "false",
-                        "output.checkpoint": 0, "drive.tolerance": 1e-6, **keys}
-            settings.setdefault("block.thickness", settings["surface.sites"])
-            command = [self.program, "run", str(ROOT / "scenes/paper/flat-3A.toml"), "--progress", "off", "--out", str(place),
-                       "--set", *(f"{k}={v}" for k, v in settings.items())]
-            done = subprocess.run(command, capture_output=True, text=True)
-            if done.returncode:
-                sys.exit(f"{' '.join(command)}\n{done.stderr}")
-        return json.loads((place / "result.json").read_text())
+        if (place / "result.json").exists():
+            return asperity.load(place)
+        settings = {"numerics.precision": "double", "drive.path": "zero-load", "block.model": "spectral", "interface.kind": "wall", "theory.renormalised": False,
+                    "output.checkpoint": 0, "drive.tolerance": 1e-6, **keys}
+        settings.setdefault("block.thickness", settings["surface.sites"])
+        return asperity.run(ROOT / "scenes/paper/flat-3A.toml", settings, place)
 
     def path(self, name: str, keys: dict) -> dict:
         """Force (eV/Å), mean height (Å), contact fraction along a path at a held mean height, and the theories' curves."""
-        self.state(name, {"drive.mode": "quasistatic", "drive.path": '["approach","pull-off"]', "drive.hold": "mean-height",
-                          "output.fields": "[]"} | keys)
+        self.state(name, {"drive.mode": "quasistatic", "drive.path": ["approach", "pull-off"], "drive.hold": "mean-height",
+                          "output.fields": []} | keys)
         with h5py.File(self.out / name / "run.h5") as file:
             series = {k: file[f"series/{k}"][:] for k in ("force", "mean_height", "contact_fraction", "leg")}
             curves = {n: {k: c[k][:] for k in c} for n, c in file.get("curves", {}).items()}
@@ -189,8 +186,7 @@ def jkr(runs: Runs) -> None:
         name = f"jkr-{sites}"
         r = runs.path(name, {"surface.kind": "flat", "surface.radius": 300, "surface.sites": sites, "surface.spacing": 332.8 / sites,
                              "interface.adhesion": 30, "interface.range": reach, "drive.tolerance": 1e-3 * (64 / sites) ** 2})
-        result = json.loads((runs.out / name / "result.json").read_text())
-        sphere, unit = result["sphere"], 1.5 * math.pi * 0.03 * 300
+        sphere, unit = asperity.load(runs.out / name)["sphere"], 1.5 * math.pi * 0.03 * 300
         attached = (r["leg"] == r["leg"].max()) & (r["contact_fraction"] > 0.004)
         off = {}
         for theory, curve in r["curves"].items():
@@ -241,6 +237,5 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("problem", choices=["westergaard", "johnson", "load", "hertz", "gfmd", "jkr", "area"])
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/wall"))
-    parser.add_argument("--program", default=str(ROOT / "asperity"))
     arguments = parser.parse_args()
-    globals()[arguments.problem](Runs(arguments.out, arguments.program))
+    globals()[arguments.problem](Runs(arguments.out))
