@@ -4,13 +4,15 @@
 
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/json.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -133,6 +135,18 @@ struct NamedValues {
     std::vector<double> values;
 };
 
+/// The keys, as section.key, in which two fingerprints differ.
+std::string differing_keys(const io::Json& one, const io::Json& other) {
+    std::set<std::string> keys;
+    for (const auto& [a, b] : {std::pair{&one, &other}, std::pair{&other, &one}})
+        for (const auto& [section, values] : a->items())
+            for (const auto& [key, value] : values.items())
+                if (!b->contains(section) || !(*b)[section].contains(key) ||
+                    (*b)[section][key] != value)
+                    keys.insert(section + "." + key);
+    return fmt::format("{}", fmt::join(keys, ", "));
+}
+
 } // namespace
 
 RunScalars read_checkpoint_scalars(const io::FilePlace& place) {
@@ -147,11 +161,12 @@ RunScalars read_checkpoint(const io::FilePlace& place, const Communicator& ranks
     std::int64_t sizes[2] = {0, 0};
     ranks.on_root([&] {
         file = std::make_unique<io::Hdf5File>(open_checkpoint(place));
-        if (file->read_text_attribute("/", "scene") != fingerprint)
-            throw io::SceneError(
-                {file->path(), "belongs to another scene",
-                 "the physics of this scene differs from the one that wrote the checkpoint",
-                 "give the scene it was made with, or start without --resume"});
+        if (const std::string its = file->read_text_attribute("/", "scene"); its != fingerprint)
+            throw io::SceneError({file->path(), "belongs to another scene",
+                                  "this scene differs from it in " +
+                                      differing_keys(io::parse_json(its, file->path()),
+                                                     io::parse_json(fingerprint, "this scene")),
+                                  "give the scene it was made with, or start without --resume"});
         named = NamedValues(*file);
         sizes[0] = static_cast<std::int64_t>(named.names.size());
         sizes[1] = static_cast<std::int64_t>(named.values.size());

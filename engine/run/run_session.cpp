@@ -46,14 +46,14 @@ std::string physics_of(const Scene& scene, const Surface& surface) {
     for (const char* section : {"surface", "block", "interface", "drive"})
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
-    part["kept_layer"] = scene.writes_field("pull-off"); // in the checkpoint
+    part["output"]["fields"] = scene.writes_field("pull-off"); // keeps a layer in the checkpoint
     if (scene.surface.kind == SurfaceKind::file || scene.surface.kind == SurfaceKind::atoms) {
         io::Digest digest;
         for (const auto* values :
              {&surface.height, &surface.atoms.x, &surface.atoms.y, &surface.atoms.z})
             digest.update(std::as_bytes(std::span(*values)));
         digest.update(std::as_bytes(std::span(surface.atoms.type)));
-        part["surface"]["content"] = digest.value();
+        part["surface"]["content_of_file"] = digest.value();
     }
     return io::json_text(part);
 }

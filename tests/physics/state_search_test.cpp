@@ -430,7 +430,7 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
 TEST(StateSearch, ALoadThatStretchesTheBlockIsNoInstability) {
     Case c = two_states();
     without_friction(c);
-    Search s(c, 0.25, true, 30.0 * units::gigapascal * 1e-3 * area(c)); // 30 MPa
+    Search s(c, 0.25, true, 100.0 * units::gigapascal * 1e-3 * area(c)); // 100 MPa
     s.start();
     const StateList states = s.finish();
     EXPECT_EQ(states.all.size(), 2u);
