@@ -3,7 +3,10 @@
 """Running scenes and reading results: values, arrays, units, errors, damaged files."""
 
 import json
+import os
+import re
 import shutil
+import subprocess
 import sys
 import types
 
@@ -13,7 +16,7 @@ import pytest
 
 import asperity
 from asperity import program, scene
-from conftest import SMALL, unsealed
+from conftest import SMALL, command, unsealed
 
 
 def test_a_result_is_what_the_files_hold(path_run):
@@ -207,3 +210,26 @@ def test_a_huge_array_is_not_read(path_run, tmp_path):
             file.create_dataset("substrate/height", shape=(100_000, 100_000), chunks=(1000, 1000))
     with pytest.raises(asperity.InputOutputError, match="values"):
         damaged(path_run, tmp_path, change).substrate.height
+
+
+@pytest.mark.parametrize("effects", [[], ["interface.frictionless=true"], ["drive.states=all"],
+                                     ["block.model=multiscale", "numerics.precision=mixed"]])
+def test_a_run_takes_the_memory_that_its_plan_says(results, effects):
+    keys = ["surface.rms=4", "block.model=spectral", "drive.path=zero-load", "drive.tolerance=0.3", *effects]
+
+    def words(sites):
+        return [word for key in [*keys, f"surface.sites={sites}"] for word in ("--set", key)]
+
+    def peak(sites):
+        # Started by a small process: the peak that the kernel tells has that of the process before it.
+        starter = "import os, sys; print(os.wait4(os.spawnv(os.P_NOWAIT, sys.argv[1], sys.argv[1:]), 0)[2].ru_maxrss)"
+        out = results / f"memory {sites} {'_'.join(effects)}"
+        told = subprocess.run([sys.executable, "-c", starter, os.environ["ASPERITY_PROGRAM"], "run", "-", *words(sites), "--out", out,
+                               "--progress", "off"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True)
+        assert (out / "result.json").exists()
+        return 1024.0 * int(told.stdout.split()[-1])
+
+    # The run of few sites has the libraries; some of their buffers grow with the sites.
+    taken = peak(384) - peak(24)
+    planned = 1e6 * float(re.search(r"^memory +([0-9.]+) MB", command("plan", "-", *words(384)), re.MULTILINE)[1])
+    assert 0.7 * planned < taken < 1.05 * planned
