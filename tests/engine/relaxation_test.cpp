@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace asperity;
 
@@ -130,4 +131,19 @@ TEST(Relaxation, WavesGiveUpWhereNothingGetsBetter) {
     EXPECT_FALSE(s.converged);
     EXPECT_LT(s.iterations, 10000);
     EXPECT_LT(s.residual, 1e-3);
+}
+
+TEST(Relaxation, LevelsGiveUpWhereNothingGetsBetter) {
+    Contact c;
+    const RelaxedState s = c.relax_with(1e-18);
+    EXPECT_FALSE(s.converged);
+    EXPECT_LT(s.iterations, 10000);
+    EXPECT_LT(s.residual, 1e-9);
+}
+
+TEST(Relaxation, WhatIsNoNumberIsNoEquilibrium) {
+    Contact c;
+    c.block.fields(c.block.levels()[0]).u.view().z(3, 3, 0) =
+        std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(c.relax_with(1e-2).converged);
 }
