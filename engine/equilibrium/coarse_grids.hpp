@@ -11,14 +11,15 @@
 // under each level.
 //
 // The steps of all grids are added (Bramble, Pasciak, Xu, Math. Comp. 55, 1, 1990), each a node's
-// force over its stiffness. Inside, that is 2^g times an atom's. A node of the lowest layer stands
-// for 4^g sites, which the interface holds as well: with s_g = 2^-g s_0 of the block and the mean
-// stiffness k of the interface around, for each site, grid g adds
+// force over its stiffness. With K the lattice's largest stiffness, a node inside has 2^g K times
+// 0.5 to 1.6 (coarse_grids.cpp). A node of the lowest layer stands for 4^g sites, which the
+// interface holds as well: with s_0 = 0.5 K, s_g = 0.8 2^-g K, and the mean stiffness k of the
+// interface around, for each site, grid g adds
 //
-//     1 / (s_g + k) - 1 / (s_(g-1) + k)           (grid 0: 1 / (s_0 + k)),
+//     1 / (s_g + k) - 1 / (s_(g-1) + k)           (grid 0: 1 / (s_0 + k)).
 //
-// so that what the grids do to a wave together is 1 / (s + k) with the s of the coarsest that can
-// follow it, whichever is larger: about (S(q) + k)^-1, without a transform.
+// The terms of grids 0 to g add up to 1 / (s_g + k): a wave moves by its force over s_g + k, g
+// being the coarsest grid that resolves it. That is about (S(q) + k)^-1, without a transform.
 //
 // Grids are halved while their nodes are an even number across and they are finer than the block is
 // thick. Every step is a sum in a fixed order over neighbours: the same bits on any number of

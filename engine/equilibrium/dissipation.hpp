@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Energy that a quasi-static path dissipates: where a state becomes unstable, the block goes over
-// to the next one at the same position of the top plane, and the energy that this sets free goes
-// into vibrations that the path does not follow.
+// to the next one at the same position of what is held (top plane or mean height), and the energy
+// that this sets free goes into vibrations that the path does not follow.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace asperity {
 struct Instability {
     double energy = 0.0;                              ///< dissipated, eV
     double leg = 0.0;                                 ///< 0 approach, 1 pull-off
-    double top = 0.0;                                 ///< displacement of the top plane, Å
+    double top = 0.0;                                 ///< displacement of what is held, Å
     double height_before = 0.0, height_after = 0.0;   ///< mean height of the lowest layer, Å
-    double force_before = 0.0, force_after = 0.0;     ///< on the top plane, eV/Å
+    double force_before = 0.0, force_after = 0.0;     ///< that holding it takes, eV/Å
     double contact_before = 0.0, contact_after = 0.0; ///< sites
     double site_x = 0.0, site_y = 0.0; ///< the site of the lowest layer that moved most
     double largest_move = 0.0;         ///< how far, Å

@@ -23,7 +23,8 @@ struct ZeroLoad {
     double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
     double residual = 0.0;    ///< largest force left, eV/Å
     double iterations = 0.0;
-    /// Of the binding energy, by the forces left: those of the softest wave, meV/Å^2.
+    /// Of the binding energy: what forces as large as drive.tolerance stand for in the softest wave
+    /// of the box, meV/Å^2.
     double uncertainty = 0.0;
 
     template <class Visitor>

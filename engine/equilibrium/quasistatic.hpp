@@ -29,8 +29,9 @@
 // bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
 //
 // Where the last steps were reversible, the next one starts from their linear continuation
-// (continuation.hpp), which is given up at once where no equilibrium is close to it. What is not
-// accepted after a prediction, or would be counted as dissipated, is computed again without.
+// (continuation.hpp). A spectral block gives that up as soon as Newton's method does not help; over
+// a wall none is tried. What is not accepted after a prediction, or would be counted as dissipated,
+// is computed again without.
 #pragma once
 
 #include "engine/dynamics/drive.hpp"

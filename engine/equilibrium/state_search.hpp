@@ -9,17 +9,18 @@
 // summits; further in, more of the surface is in contact.
 //
 // The search starts in the first state (the one that a slow approach ends in) and goes inwards,
-// relaxing at each mean height. Steps are doubled, up to four times the shortest, while the force
-// is predicted to a tenth of its distance from P: no crossing is near then. Where F - P changes
-// from attraction to repulsion, the block is relaxed with nothing prescribed but the load, and that
-// is a state. Where energy is missing between two points (the work of the force against the change
-// of the energy), the surface has become unstable and the path is on another branch. From there
-// that branch is followed outwards as well, until it joins the branch that the path came on; the
-// states on it are found likewise. Then the search goes on inwards. The new branch is below
-// the old one by about the energy D that is missing (by more where smaller instabilities were not
-// told), so a deeper state on it lies where the old one has come back to about D above the deepest
-// point passed. Where D is less than three thousandths of the climb of U + P z from that point, the
-// branch is not followed: it is taken to end before.
+// relaxing at each mean height to ten times the tolerance, and the states to the tolerance. Steps
+// are doubled, up to four times the shortest, while the force is predicted to a tenth of its
+// distance from P: no crossing is near then. Where F - P changes from attraction to repulsion, the
+// block is relaxed with nothing prescribed but the load, and that is a state. Where energy is
+// missing between two points (the work of the force against the change of the energy), the surface
+// has become unstable and the path is on another branch. From there that branch is followed
+// outwards as well, until it joins the branch that the path came on; the states on it are found
+// likewise. Then the search goes on inwards. The energy D that is missing is about how far the new
+// branch lies below the old one (more where smaller instabilities were below what the search can
+// tell). A state on the new branch can be deeper than the deepest point passed only where the old
+// branch has come back to within about D of it. Where D is less than three thousandths of the climb
+// of U + P z from that point, the branch is not followed: it is taken to end before.
 //
 // It is assumed that what is in contact pushes the harder the closer it gets. Then the search ends
 // - where P is not met again further in: F - P is more than the area not yet in contact can attract
