@@ -189,12 +189,7 @@ void print_map_file(const Scene& scene) {
     fmt::print("\n");
 }
 
-} // namespace
-
-int surface_command(const Scene& scene, const std::string& out, const Communicator& world) {
-    if (scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(scene); });
-    const Surface surface = scene_surface(scene);
-    if (!world.root()) return io::exit_code::done;
+void write_surface(const Scene& scene, const Surface& surface, const std::string& out) {
     const io::ResultDirectory place({out, scene.name + "-surface"});
 
     const SurfaceStatistics& statistics = surface.statistics;
@@ -249,6 +244,14 @@ int surface_command(const Scene& scene, const std::string& out, const Communicat
     for (const std::string& note : place.notes())
         fmt::print("note: {}\n", note);
     fmt::print("heights and spectrum in {}\n", map);
+}
+
+} // namespace
+
+int surface_command(const Scene& scene, const std::string& out, const Communicator& world) {
+    if (scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(scene); });
+    const Surface surface = scene_surface(scene);
+    world.on_root([&] { write_surface(scene, surface, out); });
     return io::exit_code::done;
 }
 

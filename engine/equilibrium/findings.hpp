@@ -53,7 +53,8 @@ struct StateList {
     /// or no equilibrium was found further in.
     enum class End { none, contact, energy, no_equilibrium };
 
-    std::vector<State> all; ///< from the outermost, which is the first, inwards
+    std::vector<State> all; ///< from the outermost inwards
+    std::size_t first = 0;  ///< of these, the one that the search started in
     double step = 0.0;      ///< of the mean height, Å
     double innermost = HUGE_VAL;
     long long points = 0, instabilities = 0;

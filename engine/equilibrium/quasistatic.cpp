@@ -74,6 +74,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
     }
     const double aim = attracted_ ? options_.load : std::max(options_.load, 0.0);
     for (;;) {
+        const Ahead ahead = ahead_;
         const bool all_the_way = close_in();
         const double top = record_.top + direction * length_;
         predicts_ = predicts_ && points_.predicts(top);
@@ -82,7 +83,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         const RelaxedState state =
             points_.relax_at(top, predicts_, options_.report,
                              all_the_way || last_try ? ForceWindow{} : acceptable_force(top));
-        if (state.interrupted) {
+        if (state.interrupted) { // resumed, the same step is made
+            ahead_ = ahead;
             put_back();
             points_.set_iterations(iterations);
             return Outcome::interrupted;

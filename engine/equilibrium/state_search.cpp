@@ -204,7 +204,10 @@ void StateSearch::turn_outwards() {
 void StateSearch::turn_inwards() {
     // A branch that joins the other after one step may have been none.
     const bool none = outward_points_ == 1 && joined();
-    if (none) --instabilities_;
+    if (none) {
+        --instabilities_;
+        passed_.pop_back();
+    }
     turn_.restore(block_.state());
     block_.settle(points_.constraint(turned_at_.height));
     points_.begin(turned_at_.height);
@@ -258,9 +261,15 @@ std::vector<StateArray> StateSearch::states() {
 StateList StateSearch::found() const {
     StateList list;
     std::vector<Found> states = found_;
-    std::sort(states.begin(), states.end(), [](const Found& a, const Found& b) {
+    std::stable_sort(states.begin(), states.end(), [](const Found& a, const Found& b) {
         return a.state.mean_height > b.state.mean_height;
     });
+    // A branch followed outwards may have led beyond the state that the search started in.
+    if (!found_.empty())
+        list.first = static_cast<std::size_t>(
+            std::count_if(found_.begin(), found_.end(), [this](const Found& f) {
+                return f.state.mean_height > found_.front().state.mean_height;
+            }));
     for (std::size_t i = 0; i < states.size(); ++i) {
         list.all.push_back({states[i].state, std::nullopt});
         if (i + 1 < states.size())

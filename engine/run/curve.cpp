@@ -58,7 +58,7 @@ void add_cycle(const PathSeries& path, const Scene& scene, io::Result& result) {
     if (!approach || !pull_off) return; // not to its end
     const double area = scene.edge() * scene.edge() / units::milli_per_unit;
     result.set("hysteresis.loop", (*pull_off - *approach) * area);
-    if (state) {
+    if (state && scene.drive.load == 0.0) {
         result.set("hysteresis.approach", (*state - *approach) * area);
         result.set("hysteresis.pull_off", (*pull_off - *state) * area);
     }

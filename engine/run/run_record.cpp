@@ -130,7 +130,7 @@ void add_states(const StateList& states, io::Result& result) {
     const auto add_named = [&](const char* name, const StateList::State& state) {
         add(state, [&](io::Key named, io::Key, double value) { result.set(named, name, value); });
     };
-    add_named("first", states.all.front());
+    add_named("first", states.all[states.first]);
     add_named("deepest", states.deepest());
     for (std::size_t i = 0; i < states.all.size(); ++i)
         add(states.all[i],

@@ -47,6 +47,7 @@ std::string physics_of(const Scene& scene, const Surface& surface) {
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
     part["output"]["fields"] = scene.writes_field("pull-off"); // keeps a layer in the checkpoint
+    part["output"]["velocities"] = scene.output.trajectory && scene.output.velocities;
     if (scene.surface.kind == SurfaceKind::file || scene.surface.kind == SurfaceKind::atoms) {
         io::Digest digest;
         for (const auto* values :
@@ -155,7 +156,6 @@ bool RunSession::look_is_due() {
 }
 
 bool RunSession::stop_here(const WriteState& write, const std::string& where) {
-    saved_at_ = where;
     const Due now = due();
     if (now == Due::stop) stop_now(write, where);
     if (now == Due::save) save(write);
@@ -164,6 +164,7 @@ bool RunSession::stop_here(const WriteState& write, const std::string& where) {
 }
 
 void RunSession::stop_now(const WriteState& write, const std::string& where) {
+    saved_at_ = where;
     bring_back_directory();
     save(write);
     if (ranks.root())
@@ -301,8 +302,8 @@ double RunSession::way_done(Leg leg, double top, double start_height) const {
 
 void RunSession::write_failure(const io::Error& error, const AddToResult& add_to) {
     if (!ranks.root()) return;
-    // A run that could not begin to record leaves no result: there is nothing to resume.
-    if (!recorder_ && error.code() == io::exit_code::input_output) return;
+    // A run that could not begin to record leaves its directory as it was.
+    if (!recorder_ && error.code() != io::exit_code::physics) return;
     try {
         if (recorder_) recorder_->write_on_root();
     } catch (const std::exception&) { // what run.h5 held before must do

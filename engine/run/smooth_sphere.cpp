@@ -149,7 +149,7 @@ void add_sphere(const Scene& scene, const FlatReference& flat, io::Result& resul
 
 void write_sphere_curves(io::Hdf5File& file, const Scene& scene, const FlatReference& flat,
                          const std::optional<RenormalisedNumbers>& rough) {
-    if (!scene.surface.radius) return;
+    if (!scene.surface.radius || !(flat.work_of_adhesion > 0.0)) return;
     const std::vector<double> force = file.read<double>("/series/force");
     if (force.size() < 2) return;
     const double largest = *std::max_element(force.begin(), force.end());

@@ -80,8 +80,11 @@ void print_states(std::FILE* to, const StateList& states) {
             fmt::print(to, "\n");
         }
         fmt::print(to,
-                   "  A slow approach ends in the first. The binding energy of the pair of "
+                   "  A slow approach ends in the {}. The binding energy of the pair of "
                    "surfaces is the deepest's,\n  {:.3f} meV/Å².\n",
+                   states.first == 0 ? "first"
+                                     : fmt::format("one at {:.2f} Å",
+                                                   states.all[states.first].numbers.mean_height),
                    deepest.binding_energy);
     }
     fmt::print(to, "  May be missed: {}.\n", states_missed(states));
@@ -179,13 +182,24 @@ void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
     if (approach && pull_off && state) {
         const double loop = *pull_off - *approach;
         fmt::print(to, "  Approach and pull-off are the work of the interface's force on the mean "
-                       "height of the surface.\n"
-                       "  Without instabilities both equal the binding energy");
-        if (loop < 0.01 * flat)
-            fmt::print(to, ", as they do here to {:.2f} meV/Å².\n", std::abs(loop));
+                       "height of the surface.\n");
+        const bool agree = std::abs(loop) < std::max(0.01 * flat, 0.005);
+        if (scene.drive.load != 0.0)
+            fmt::print(
+                to,
+                "  They end and begin under the load, and the binding energy is that without "
+                "one.\n  They {} {:.2f} meV/Å²{}.\n",
+                agree ? "agree to" : "differ by", std::abs(loop),
+                agree ? "" : ", which is lost to vibrations");
+        else if (agree)
+            fmt::print(to,
+                       "  Without instabilities both equal the binding energy, as they do here to "
+                       "{:.2f} meV/Å².\n",
+                       std::abs(loop));
         else
             fmt::print(to,
-                       "; their difference, {:.2f} meV/Å², is energy\n"
+                       "  Without instabilities both equal the binding energy; their difference, "
+                       "{:.2f} meV/Å², is energy\n"
                        "  that instabilities of snap-in and snap-off turn into vibrations "
                        "(hysteresis).\n  {}\n",
                        loop,

@@ -134,9 +134,10 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
         const double all = static_cast<double>(tile.sites) * tile.sites;
         need.maps = 41.0 * here + (rank == 0 ? 57.0 * all : 0.0);
     }
-    const double copies = on(Effect::states)                           ? 4.0
-                          : scene.drive.mode == DriveMode::quasistatic ? 2.0
-                                                                       : 0.0;
+    // A search keeps two points, the first state, where it turned, and a point beside a state; its
+    // first four stay while a path with its own two goes on.
+    const bool path = scene.drive.mode == DriveMode::quasistatic;
+    const double copies = on(Effect::states) ? (path ? 6.0 : 5.0) : path ? 2.0 : 0.0;
     if (scene.block.model == BlockModel::spectral) {
         need.snapshot = copies * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
         const double columns = scene.surface.sites / 2 + 1;

@@ -83,7 +83,10 @@ for key in approach pull_off; do
     near "$state" "$(sed -n "/\"work_of_adhesion\"/,/}/s/.*\"$key\": \([0-9.]*\),*/\1/p" held/result.json)" 0.5 "held, $key"
 done
 expect 75 run path.toml --progress off --out held-parts --wall-limit 0.05s "${held[@]}"
+cp held-parts/result.json before.json
 expect 2 run path.toml --progress off --out held-parts --resume auto
+says "differs from it in drive.hold"
+cmp -s before.json held-parts/result.json || fail "a refused resume changed result.json"
 expect 0 run path.toml --progress off --out held-parts --resume auto "${held[@]}"
 same held held-parts
 expect 0 check path.toml "${held[@]}" 'drive.path=["zero-load"]' 'output.fields=[]'

@@ -104,9 +104,11 @@ near run/result.json gamma_eff "$(number theory/result.json gamma_eff)" 1e-9
 mpirun=$(command -v mpirun)
 if [ -n "$mpirun" ]; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    out=$(timeout 60 "$mpirun" --oversubscribe -n 2 "$asperity" theory small.toml --out theory 2>&1)
-    code=$?
-    [ $code -eq 2 ] || fail "mpirun with an old result: exit code $code: $out"
-    [ "$(grep -c 'already holds a result' <<<"$out")" = 1 ] || fail "not one complaint: $out"
+    for command in theory surface; do
+        out=$(timeout 60 "$mpirun" --oversubscribe -n 2 "$asperity" $command small.toml --out theory 2>&1)
+        code=$?
+        [ $code -eq 2 ] || fail "mpirun $command with an old result: exit code $code: $out"
+        [ "$(grep -c 'already holds a result' <<<"$out")" = 1 ] || fail "not one complaint: $out"
+    done
 fi
 finish

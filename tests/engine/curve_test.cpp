@@ -118,5 +118,23 @@ TEST(SphereCurves, AreThoseOfJkr) {
     std::filesystem::remove(file);
 }
 
+TEST(SphereCurves, AreNoneWithoutAdhesion) {
+    const Scene scene = read_scene_text("[surface]\nsites = 64\nrms = 0\nradius = 300\n"
+                                        "[interface]\nkind = \"wall\"\nadhesion = 0\n"
+                                        "[block]\nmodel = \"spectral\"\nthickness = 16\n"
+                                        "[drive]\nmode = \"quasistatic\"\n",
+                                        "s.toml");
+    const std::string file = (std::filesystem::temp_directory_path() /
+                              ("asperity-no-curves-" + std::to_string(::getpid()) + ".h5"))
+                                 .string();
+    io::Hdf5File written(file, io::Hdf5File::Mode::create);
+    written.make_group("/series");
+    written.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
+    write_sphere_curves(written, scene, make_setup(scene, 1).flat, std::nullopt);
+    EXPECT_FALSE(written.exists("/curves"));
+    written.close();
+    std::filesystem::remove(file);
+}
+
 } // namespace
 } // namespace asperity

@@ -421,7 +421,7 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
         EXPECT_NEAR(quick.deepest().numbers.binding_energy, deepest.binding_energy, 1e-3)
             << surface.statistics.highest;
         shorter += quick.end == StateList::End::energy;
-        several += &whole.deepest() != &whole.all.front();
+        several += &whole.deepest() != &whole.all[whole.first];
     }
     EXPECT_GT(shorter, 0);
     EXPECT_GT(several, 0);
