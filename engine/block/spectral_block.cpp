@@ -3,7 +3,6 @@
 #include "engine/block/spectral_block.hpp"
 
 #include "decomposition/global_sum.hpp"
-#include "kernels/elastic_level.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -213,17 +212,10 @@ void SpectralBlock::restore_mean_height() {
     const double sites = options_.sites;
     const PlaneView<double> z = layer_.z.plane(0);
     ExactSum sum;
-#pragma omp parallel
-    {
-        ExactSum mine;
-#pragma omp for schedule(static) nowait
-        for (int y = 0; y < z.ny; ++y)
-            elastic_kernels().sum(z, y, y + 1, mine);
-#pragma omp critical(asperity_mean_height)
-        sum.merge(mine);
-    }
+    for (int y = 0; y < z.ny; ++y)
+        for (int x = 0; x < z.nx; ++x)
+            sum.add(z(x, y));
     const double by = constraint_.value - global_sum(slab_.ranks, sum) / (sites * sites);
-#pragma omp parallel for schedule(static)
     for (int y = 0; y < z.ny; ++y)
         for (int x = 0; x < z.nx; ++x)
             z(x, y) += by;
