@@ -95,13 +95,15 @@ for data in types/export/*.data; do
         fail "types in $data: $(grep types "$data")"
 done
 
-# Nor over another map.
+# Nor over another map, nor with other frames.
 map() { awk -v bump="$1" 'BEGIN { for (y = 0; y < 16; ++y) { for (x = 0; x < 16; ++x) printf "%g ", (x == 3 && y == 5 ? bump : 0); print "" } }' >map.txt; }
 printf '[surface]\nkind = "file"\nfile = "map.txt"\nfile_unit = "Å"\nsites = 16\n' >map.toml
 map 1
-expect 0 run map.toml --out mapped "${fast[@]}" drive.max_steps=25
+expect 0 run map.toml --out mapped "${fast[@]}" output.trajectory=10 drive.max_steps=25
 map 1.001
 expect 2 run map.toml --out mapped --resume auto "${fast[@]}"
 map 1
-expect 0 run map.toml --out mapped --resume auto "${fast[@]}" drive.max_steps=50
+expect 2 run map.toml --out mapped --resume auto "${fast[@]}" output.trajectory=10 output.velocities=true
+says "differs from it in output.velocities"
+expect 0 run map.toml --out mapped --resume auto "${fast[@]}" output.trajectory=10 drive.max_steps=50
 finish

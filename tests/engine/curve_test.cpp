@@ -9,16 +9,15 @@
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"
+#include "support/scratch.hpp"
 #include "theory/half_space.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace asperity {
 namespace {
@@ -50,6 +49,22 @@ TEST(Paths, TellWhatTheyLose) {
     // The single spike of 90 counts for an eighth of it in the mean.
     EXPECT_NEAR(io::find(json, "jkr.out_averaged")->get<double>(), 1e3 * 50.0 / (1.5 * M_PI * 1000),
                 1e-9);
+}
+
+TEST(Paths, HaveNoPartsOfTheirHysteresisUnderALoad) {
+    PathSeries path;
+    path.leg = {0.0, 0.0, 1.0, 1.0};
+    path.height = path.force = path.contact_fraction = {0.0, 0.0, 0.0, 0.0};
+    io::Result result;
+    result.set("work_of_adhesion.approach", 5.0);
+    result.set("work_of_adhesion.pull_off", 8.0);
+    result.set("binding_energy", 6.0);
+    Scene scene;
+    scene.drive.load = 10.0;
+    add_cycle(path, scene, result);
+    EXPECT_TRUE(result.number("hysteresis.loop"));
+    EXPECT_FALSE(result.number("hysteresis.approach"));
+    EXPECT_FALSE(result.number("hysteresis.pull_off"));
 }
 
 /// The value of `key` for a path of rows every 0.1 ps whose force is -1 eV/Å from row `from` for
@@ -90,21 +105,22 @@ TEST(Curve, TheRunningMeanIsOverTwoPicoseconds) {
     }
 }
 
+/// A run.h5 with the forces of a path and the curves that a scene adds to it.
+io::Hdf5File with_curves(const io::Scratch& scratch, const Scene& scene) {
+    io::Hdf5File file(scratch / "run.h5", io::Hdf5File::Mode::create);
+    file.make_group("/series");
+    file.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
+    write_sphere_curves(file, scene, make_setup(scene, 1).flat, std::nullopt);
+    return file;
+}
+
 TEST(SphereCurves, AreThoseOfJkr) {
     const Scene scene = read_scene_text(
         "[surface]\nsites = 64\nrms = 0\nradius = 300\n[block]\nthickness = 16\n", "s.toml");
-    const FlatReference flat = make_setup(scene, 1).flat;
-    const std::string file = (std::filesystem::temp_directory_path() /
-                              ("asperity-curves-" + std::to_string(::getpid()) + ".h5"))
-                                 .string();
-    io::Hdf5File written(file, io::Hdf5File::Mode::create);
-    written.make_group("/series");
-    written.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
-    write_sphere_curves(written, scene, flat, std::nullopt);
-    written.close();
-    const io::Hdf5File run(file, io::Hdf5File::Mode::read);
+    const io::Scratch scratch;
+    const io::Hdf5File run = with_curves(scratch, scene);
     // The deepest attraction of JKR: 3/2 pi gamma R.
-    const double gamma = flat.work_of_adhesion / units::milli_per_unit;
+    const double gamma = make_setup(scene, 1).flat.work_of_adhesion / units::milli_per_unit;
     const auto force = run.read<double>("/curves/jkr/force");
     EXPECT_NEAR(*std::min_element(force.begin(), force.end()) / (-1.5 * M_PI * gamma * 300.0), 1.0,
                 1e-4);
@@ -115,7 +131,6 @@ TEST(SphereCurves, AreThoseOfJkr) {
         EXPECT_EQ(run.read<double>(group + "/height").size(),
                   run.read<double>(group + "/force").size());
     }
-    std::filesystem::remove(file);
 }
 
 TEST(SphereCurves, AreNoneWithoutAdhesion) {
@@ -124,16 +139,8 @@ TEST(SphereCurves, AreNoneWithoutAdhesion) {
                                         "[block]\nmodel = \"spectral\"\nthickness = 16\n"
                                         "[drive]\nmode = \"quasistatic\"\n",
                                         "s.toml");
-    const std::string file = (std::filesystem::temp_directory_path() /
-                              ("asperity-no-curves-" + std::to_string(::getpid()) + ".h5"))
-                                 .string();
-    io::Hdf5File written(file, io::Hdf5File::Mode::create);
-    written.make_group("/series");
-    written.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
-    write_sphere_curves(written, scene, make_setup(scene, 1).flat, std::nullopt);
-    EXPECT_FALSE(written.exists("/curves"));
-    written.close();
-    std::filesystem::remove(file);
+    const io::Scratch scratch;
+    EXPECT_FALSE(with_curves(scratch, scene).exists("/curves"));
 }
 
 } // namespace

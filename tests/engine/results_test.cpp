@@ -3,7 +3,9 @@
 //
 // What a run writes, against itself: the same quantity in result.json, in the series and in the
 // maps of run.h5, each converted by the unit that the file states.
+#include "engine/run/run_record.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/quantities.hpp"
@@ -246,4 +248,21 @@ TEST(Results, OfACurvedSceneHoldTheTheoryOfTheSmoothSphere) {
     const double strongest = -*std::min_element(force.begin(), force.end());
     EXPECT_NEAR(strongest, 1.5 * std::numbers::pi * 300.0 * run.number("delta_gamma", "eV/Å^2"),
                 1e-3 * strongest);
+}
+
+TEST(Results, TheFirstOfSeveralStatesIsWhereTheSearchStarted) {
+    const Scene scene = read_scene_text("[surface]\nsites = 16\nrms = 0\n[block]\nthickness = 8\n"
+                                        "[drive]\npath = [\"zero-load\"]\nstates = \"all\"\n",
+                                        "s.toml");
+    Findings findings;
+    StateList& states = findings.states.emplace();
+    for (const double energy : {1.0, 2.0, 3.0}) {
+        states.all.emplace_back();
+        states.all.back().numbers.binding_energy = energy;
+    }
+    states.first = 1;
+    const Json json =
+        run_result(scene, scene_surface(scene), make_setup(scene, 1), findings, 1).json();
+    EXPECT_EQ(json.at("states").at("first").at("binding_energy"), 2.0);
+    EXPECT_EQ(json.at("states").at("deepest").at("binding_energy"), 3.0);
 }

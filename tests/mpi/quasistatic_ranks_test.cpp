@@ -33,6 +33,7 @@ struct Kind {
     int layers_per_level = 2;
     Constraint::Of along = Constraint::Of::top;
     std::optional<WallLaw> wall = {};
+    int sites = 16, thickness = 60;
 };
 
 InterfaceOptions interface_of(const Kind& kind) {
@@ -41,10 +42,24 @@ InterfaceOptions interface_of(const Kind& kind) {
     return o;
 }
 
-/// A soft block on a rough map: under a held top plane it snaps in.
+/// A rough map of 16 sites, or a rougher one of more.
+Surface surface_of(const Kind& kind) {
+    if (kind.sites == 16) return test::reference_surface("c1_N16_T16_rms0.5");
+    SurfaceOptions o;
+    o.kind = SurfaceKind::self_affine;
+    o.sites = kind.sites;
+    o.length = 2.6 * kind.sites;
+    o.rms = 1.0;
+    o.rolloff = 3;
+    o.cutoff = 0.5 * kind.sites;
+    o.seed = 8;
+    return make_surface(o);
+}
+
+/// A soft block on it: under a held top plane it snaps in.
 struct Contact {
     BlockOptions options;
-    Surface surface = test::reference_surface("c1_N16_T16_rms0.5");
+    Surface surface;
     ProcessGrid grid;
     Interface interface;
     std::unique_ptr<Equilibrium> block;
@@ -54,8 +69,9 @@ struct Contact {
     Leg leg = Leg::approach;
 
     explicit Contact(const Communicator& ranks, const Kind& kind = {})
-        : options(test::paper_block(16, 60, kind.layers_per_level)),
-          grid(kind.spectral ? ProcessGrid::slabs(ranks.size(), ranks.rank(), 16)
+        : options(test::paper_block(kind.sites, kind.thickness, kind.layers_per_level)),
+          surface(surface_of(kind)),
+          grid(kind.spectral ? ProcessGrid::slabs(ranks.size(), ranks.rank(), kind.sites)
                              : test::grid_for(options, ranks)),
           interface(surface, grid.tile(0), options.spacing, interface_of(kind)),
           block(kind.spectral ? spectral_at_rest(options, ranks, kind.frictionless)
@@ -191,4 +207,31 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
     }
     world().barrier();
     if (world().root()) std::filesystem::remove(file);
+}
+
+TEST(QuasistaticRanks, StoppedOnItsWayIntoAnInstabilityItIsTheSameBits) {
+    // Around these looks a step is relaxed all the way to a place that earlier steps have found.
+    using Outcome = QuasistaticPath::Outcome;
+    const std::string file = "quasistatic_stopped" + std::to_string(world().size()) + ".h5";
+    const Kind kind{.spectral = true,
+                    .layers_per_level = 0,
+                    .along = Constraint::Of::mean_height,
+                    .sites = 64,
+                    .thickness = 64};
+    const std::vector<std::uint64_t> whole = cycle(world(), kind, 100);
+    for (const long long look : {112, 116, 120}) {
+        Contact stopped(world(), kind);
+        stopped.path.start();
+        stopped.stop_at = look;
+        std::size_t point = 0;
+        while (stopped.advance() != Outcome::interrupted)
+            ASSERT_LT(++point + 2, whole.size());
+        stopped.write(file, world());
+        world().barrier();
+        Contact resumed(world(), kind);
+        resumed.read(file, world());
+        resumed.advance();
+        EXPECT_EQ(resumed.trace(), whole[point + 1]) << "stopped at look " << look;
+        world().barrier();
+    }
 }
