@@ -51,13 +51,14 @@ public:
         }
         return {value, std::abs(0.5 * h * miss)};
     }
-    /// The force at x on the line through the last two points; of one alone, its own.
-    double continued(double x) const {
-        const Point& last = points_.back();
-        if (points_.size() == 1) return last.f;
-        const Point& second = points_[points_.size() - 2];
-        return last.f + (x - last.x) * (last.f - second.f) / (last.x - second.x);
+    /// From the last point but one to the last; none of one alone.
+    double slope() const {
+        if (points_.size() == 1) return 0.0;
+        const Point &last = points_.back(), &second = points_[points_.size() - 2];
+        return (last.f - second.f) / (last.x - second.x);
     }
+    /// The force at x on the line through the last two points; of one alone, its own.
+    double continued(double x) const { return points_.back().f + (x - points_.back().x) * slope(); }
     /// By the trapezium, whatever came before.
     double trapezium(double x, double f) const {
         return 0.5 * (x - points_.back().x) * (f + points_.back().f);

@@ -138,6 +138,7 @@ bool StateSearch::none_deeper_further_in() {
     if (!std::isfinite(options_.work_of_adhesion)) return false;
     const double climbed = climb(), push = now_.force - options_.load;
     if (climbed <= 0.0 || push <= 0.0) return false;
+    const double stiffness = std::max(0.0, -trail_.slope());
     constexpr double bin = 0.5; // Å
     constexpr int bins = 512;
     const std::vector<std::int64_t> sites = sites_above_reach(bin, bins);
@@ -151,7 +152,8 @@ bool StateSearch::none_deeper_further_in() {
             if (most <= 0.0) break;
             gain += most * site * static_cast<double>(sites[static_cast<std::size_t>(i)]);
         }
-        if (climbed + push * bin * d <= gain) return false;
+        const double further = bin * d;
+        if (climbed + (push + 0.5 * stiffness * further) * further <= gain) return false;
     }
     return true;
 }

@@ -22,11 +22,13 @@
 // branch has come back to within about D of it. Where D is less than three thousandths of the climb
 // of U + P z from that point, the branch is not followed: it is taken to end before.
 //
-// It is assumed that what is in contact pushes the harder the closer it gets. Then the search ends
+// It is assumed that what is in contact pushes the harder the closer it gets, and gets no softer.
+// Then the search ends
 // - where P is not met again further in: F - P is more than the area not yet in contact can attract
 //   with, at the largest tension of flat on flat (in full contact at once), or
 // - where no deeper state is further in: F is above P, and for every further approach d, the climb
-//   and (F - P) d are more than can be gained by contact. A site out of reach of the substrate by c
+//   and (F - P) d + K d^2 / 2 are more than can be gained by contact. K is -dF/dz in the last step,
+//   none after an instability or where it is negative. A site out of reach of the substrate by c
 //   gains at most W - k max(0, c - d)^2 / 2, W being the work of adhesion of flat on flat and k the
 //   stiffness of the softest wave, because it has to bulge by c - d.
 //

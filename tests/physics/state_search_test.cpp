@@ -408,6 +408,8 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
     // Full contact is the deepest state of some hills, far inside of the first one.
     for (const auto& [height, width] : {std::pair{12.0, 6.0}, {16.0, 5.0}, {12.0, 3.0}, {8.0, 3.0}})
         surfaces.push_back(hill(32, height, width));
+    // The work of pressing the hill in has to be outweighed by all that is out of reach at first.
+    surfaces.push_back(hill(96, 30.0, 8.0));
     int shorter = 0, several = 0;
     for (const Surface& surface : surfaces) {
         const auto contact = [&surface] {
