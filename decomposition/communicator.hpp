@@ -3,8 +3,8 @@
 //
 // The ranks of a run behind one value type.
 //
-// A run started by mpirun uses MPI; a run started alone uses the serial transport and never
-// initialises MPI at all. Every raw MPI call of the project is in communicator.cpp, but those of
+// A run started by mpirun uses MPI; a run started alone never initialises it: there, what all ranks
+// do together costs nothing. Every raw MPI call of the project is in communicator.cpp, but those of
 // FFTW's transforms over all ranks (surface_transform.cpp). All member functions but rank(), size()
 // and abort() are collective: every rank calls them in the same order.
 #pragma once
@@ -37,12 +37,12 @@ struct Message {
 class Communicator {
 public:
     /// One rank, no MPI.
-    Communicator();
+    Communicator() = default;
 
-    int rank() const;
-    int size() const;
+    int rank() const { return rank_; }
+    int size() const { return size_; }
     /// Number of this rank among those of its machine.
-    int local_rank() const;
+    int local_rank() const { return local_rank_; }
     bool root() const { return rank() == 0; }
     /// Whether messages may lie in the memory of a CUDA device.
     bool takes_device_memory() const;
@@ -51,6 +51,8 @@ public:
     /// in any order (ExactSum bins, counts).
     void sum(std::span<double> values) const;
     void sum(std::span<std::int64_t> values) const;
+    /// Over the ranks of this machine.
+    double sum_on_machine(double value) const;
     /// The greatest of the ranks' values.
     double max(double value) const;
     /// Root's bytes to all.
@@ -72,12 +74,16 @@ public:
     /// others RootFailure, so that all end together and the root alone reports the reason.
     void on_root(const std::function<void()>& work) const;
 
-    class Transport;
-
 private:
     friend class ParallelSession;
-    explicit Communicator(std::shared_ptr<const Transport> transport);
-    std::shared_ptr<const Transport> transport_;
+    /// MPI's communicators: of all ranks, and of those of this machine.
+    struct Mpi;
+    explicit Communicator(std::shared_ptr<const Mpi> mpi);
+    void gather(std::span<const double> mine, std::span<const int> counts, std::span<double> all,
+                bool everywhere) const;
+
+    std::shared_ptr<const Mpi> mpi_; ///< none: one rank
+    int rank_ = 0, size_ = 1, local_rank_ = 0;
 };
 
 /// Starts MPI if the process was launched by mpirun (or srun), and ends it. One in main().

@@ -12,10 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <string>
-
-#include <unistd.h>
 
 namespace asperity {
 
@@ -44,21 +41,6 @@ double making_bytes(const Scene& scene) {
     const double copies = scene.surface.kind == SurfaceKind::flat ? 1.0 : 2.0;
     return surface_bytes(scene) + heights_of(scene) * copies * waves +
            static_cast<double>(atoms_of(scene)) * places;
-}
-
-/// The ranks of this machine: their values added up. Collective.
-double sum_on_machine(double mine, const Communicator& ranks) {
-    char name[256] = {};
-    ::gethostname(name, sizeof name - 1);
-    const std::size_t hash = std::hash<std::string>{}(name) & ((std::size_t{1} << 52) - 1);
-    const double pair[2] = {static_cast<double>(hash), mine};
-    const auto size = static_cast<std::size_t>(ranks.size());
-    std::vector<double> all(2 * size);
-    ranks.all_gather(pair, std::vector<int>(size, 2), all);
-    double sum = 0.0;
-    for (std::size_t r = 0; r < size; ++r)
-        if (all[2 * r] == pair[0]) sum += all[2 * r + 1];
-    return sum;
 }
 
 void refuse(const Scene& scene, const char* what, double needed, const io::AvailableMemory& there,
@@ -172,7 +154,7 @@ MemoryNeed memory_of(const Scene& scene, const Setup& setup, int ranks, int thre
 void require_memory(const Scene& scene, const Communicator& ranks, int threads) {
     const Setup setup = make_setup(scene, ranks.size());
     const double mine = memory_of_rank(scene, setup, ranks.size(), ranks.rank(), threads).most();
-    const double needed = sum_on_machine(mine, ranks);
+    const double needed = ranks.sum_on_machine(mine);
     const io::AvailableMemory there = io::available_memory();
     // All ranks refuse alike, with the numbers of the machine that is worst off.
     const double worst = ranks.max(needed / there.bytes);

@@ -224,14 +224,15 @@ Relaxation relaxed(bool finite, double load) {
     options.finite_strain = finite;
     const ProcessGrid grid = test::serial_grid(options);
     const Surface surface = test::reference_surface("n8_b_rms1.0");
-    Block block(options, Communicator(), grid);
+    const auto block = at_rest(Block(options, Communicator(), grid));
     Interface interface(surface, grid.tile(0), options.spacing, test::paper_interface());
-    const double height = test::height_of_strongest_attraction(block, interface, surface);
+    const double height = height_of_strongest_attraction(*block, interface,
+                                                         surface.statistics.lowest, Communicator());
     RelaxOptions o;
     o.tolerance = 1e-8;
-    o.max_iterations = 200000;
     Phases phases;
-    return {relax(block, interface, height, Constraint::load(load), o, phases), block.top()};
+    const RelaxedState state = block->relax(interface, height, Constraint::load(load), o, phases);
+    return {state, block->top()};
 }
 
 } // namespace

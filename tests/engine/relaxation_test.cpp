@@ -19,16 +19,17 @@ struct Contact {
     BlockOptions options = test::paper_block(8, 6, 2);
     ProcessGrid grid = test::serial_grid(options);
     Surface surface = test::reference_surface("n8_b_rms1.0");
-    Block block{options, Communicator(), grid};
+    std::unique_ptr<Equilibrium> block = at_rest(Block(options, Communicator(), grid));
     Interface interface { surface, grid.tile(0), options.spacing, test::paper_interface() };
-    double height = test::height_of_strongest_attraction(block, interface, surface);
+    double height = height_of_strongest_attraction(*block, interface, surface.statistics.lowest,
+                                                   Communicator());
     Phases phases;
 
     RelaxedState relax_with(double tolerance, double load = 0.0, long long most = 200000) {
         RelaxOptions o;
         o.tolerance = tolerance;
         o.max_iterations = most;
-        return relax(block, interface, height, Constraint::load(load), o, phases);
+        return block->relax(interface, height, Constraint::load(load), o, phases);
     }
 };
 
@@ -73,20 +74,20 @@ TEST(Relaxation, ReleasesTheWorkOfTheLoad) {
     const auto enthalpy = [](double load) {
         Contact c;
         const auto s = c.relax_with(1e-8, load);
-        return s.interface_energy + s.elastic_energy + load * c.block.top();
+        return s.interface_energy + s.elastic_energy + load * c.block->top();
     };
     Contact c;
     c.relax_with(1e-8);
     const double h = 0.05;
-    EXPECT_NEAR((enthalpy(h) - enthalpy(-h)) / (2 * h), c.block.top(), 1e-5);
+    EXPECT_NEAR((enthalpy(h) - enthalpy(-h)) / (2 * h), c.block->top(), 1e-5);
 }
 
 TEST(Relaxation, FromAnywhereInTheBasinToTheSameState) {
     Contact a, b;
     const auto first = a.relax_with(1e-8);
     b.height -= 0.4;
-    b.block.set_uniform(0.0, 0.0);
-    b.block.fields(b.block.levels()[0]).u.view().x(3, 3, 0) += 0.1;
+    b.block->set_uniform(0.0);
+    b.block->state()[0].field->view()(3, 3, 0) += 0.1;
     const auto second = b.relax_with(1e-8);
     ASSERT_TRUE(first.converged && second.converged);
     // Energies are stationary: the residual enters squared.
@@ -143,7 +144,6 @@ TEST(Relaxation, LevelsGiveUpWhereNothingGetsBetter) {
 
 TEST(Relaxation, WhatIsNoNumberIsNoEquilibrium) {
     Contact c;
-    c.block.fields(c.block.levels()[0]).u.view().z(3, 3, 0) =
-        std::numeric_limits<double>::quiet_NaN();
+    c.block->state()[2].field->view()(3, 3, 0) = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(c.relax_with(1e-2).converged);
 }

@@ -3,7 +3,7 @@
 #include "support/cases.hpp"
 
 #include "decomposition/halo_exchange.hpp"
-#include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/equilibrium/equilibrium.hpp"
 #include "engine/units.hpp"
 
 #include <algorithm>
@@ -84,65 +84,42 @@ ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicat
                        static_cast<int>(level_shapes(options).size()));
 }
 
-double height_of_strongest_attraction(Block& block, const Interface& interface,
-                                      const Surface& surface) {
-    block.set_uniform(0.0, 0.0);
-    double best = interface.start_height(), strongest = 0.0;
-    for (double height = best;; height -= 0.1) {
-        const InterfaceSums sums =
-            interface.sweep(block.lowest_layer(), block.interface_force(), height, false);
-        ExactSum total = sums.force_z;
-        block.communicator().sum(std::span<double>(total.bin));
-        const double force = total.value();
-        if (force < strongest) strongest = force, best = height;
-        if (force > 0.0 || height < surface.statistics.lowest) return best;
-    }
+namespace {
+
+Relaxed relax(Equilibrium& block, Interface& interface, const Surface& surface,
+              const BlockOptions& options, double tolerance) {
+    const double height = height_of_strongest_attraction(
+        block, interface, surface.statistics.lowest, block.communicator());
+    RelaxOptions relax_options;
+    relax_options.tolerance = tolerance;
+    Phases phases;
+    Relaxed relaxed;
+    relaxed.state = block.relax(interface, height, {}, relax_options, phases);
+    const double edge = options.sites * options.spacing;
+    relaxed.binding_energy =
+        -1e3 * (relaxed.state.interface_energy + relaxed.state.elastic_energy) / (edge * edge);
+    relaxed.pairwise = -1e3 * relaxed.state.interface_energy / (edge * edge);
+    relaxed.mean_height = height + relaxed.state.mean_height;
+    return relaxed;
 }
+
+} // namespace
 
 Relaxed relax_from_attraction(const BlockOptions& options,
                               const InterfaceOptions& interface_options, const Surface& surface,
                               double tolerance, const Communicator& communicator) {
     const ProcessGrid grid = grid_for(options, communicator);
-    Block block(options, communicator, grid);
+    const auto block = at_rest(Block(options, communicator, grid));
     Interface interface(surface, grid.tile(0), options.spacing, interface_options);
-    const double height = height_of_strongest_attraction(block, interface, surface);
-    RelaxOptions relax_options;
-    relax_options.tolerance = tolerance;
-    Phases phases;
-    Relaxed relaxed;
-    relaxed.state = relax(block, interface, height, {}, relax_options, phases);
-    const double edge = options.sites * options.spacing;
-    relaxed.binding_energy =
-        -1e3 * (relaxed.state.interface_energy + relaxed.state.elastic_energy) / (edge * edge);
-    relaxed.pairwise = -1e3 * relaxed.state.interface_energy / (edge * edge);
-    relaxed.mean_height = height + relaxed.state.mean_height;
-    return relaxed;
+    return relax(*block, interface, surface, options, tolerance);
 }
 
 Relaxed relax_spectral(const BlockOptions& options, const InterfaceOptions& interface_options,
                        const Surface& surface, double tolerance, bool frictionless) {
-    SpectralBlock block(options, Communicator(), frictionless);
-    const Interface interface(surface, block.tile(), options.spacing, interface_options);
-    double height = interface.start_height(), strongest = 0.0;
-    for (double z = height;; z -= 0.1) {
-        const double force =
-            interface.sweep(block.lowest_layer(), block.interface_force(), z, false)
-                .force_z.value();
-        if (force < strongest) strongest = force, height = z;
-        if (force > 0.0 || z < surface.statistics.lowest) break;
-    }
-    RelaxOptions relax_options;
-    relax_options.tolerance = tolerance;
-    relax_options.max_move = 0.2;
-    Phases phases;
-    Relaxed relaxed;
-    relaxed.state = relax(block, interface, height, relax_options, phases);
-    const double edge = options.sites * options.spacing;
-    relaxed.binding_energy =
-        -1e3 * (relaxed.state.interface_energy + relaxed.state.elastic_energy) / (edge * edge);
-    relaxed.pairwise = -1e3 * relaxed.state.interface_energy / (edge * edge);
-    relaxed.mean_height = height + relaxed.state.mean_height;
-    return relaxed;
+    const auto block = spectral_at_rest(options, Communicator(), frictionless);
+    const Tile tile{0, 0, options.sites, options.sites, options.sites};
+    Interface interface(surface, tile, options.spacing, interface_options);
+    return relax(*block, interface, surface, options, tolerance);
 }
 
 SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt19937_64& random,

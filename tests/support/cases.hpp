@@ -31,11 +31,6 @@ inline ProcessGrid serial_grid(const BlockOptions& options) {
     return grid_for(options, Communicator());
 }
 
-/// The height at which the rigid block feels the strongest attraction, as `asperity run` looks for
-/// it.
-double height_of_strongest_attraction(Block& block, const Interface& interface,
-                                      const Surface& surface);
-
 struct Relaxed {
     RelaxedState state;
     double binding_energy = 0.0; ///< meV/Å^2
