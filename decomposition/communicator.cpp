@@ -9,9 +9,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <stdexcept>
+#include <utility>
 
 namespace asperity {
 

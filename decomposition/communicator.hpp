@@ -5,8 +5,9 @@
 //
 // A run started by mpirun uses MPI; a run started alone never initialises it: there, what all ranks
 // do together costs nothing. Every raw MPI call of the project is in communicator.cpp, but those of
-// FFTW's transforms over all ranks (surface_transform.cpp). All member functions but rank(), size()
-// and abort() are collective: every rank calls them in the same order.
+// FFTW's transforms over all ranks (surface_transform.cpp). All member functions but abort() and
+// those that only tell (rank, size and the like) are collective: every rank calls them in the same
+// order.
 #pragma once
 
 #include <cstddef>
