@@ -491,7 +491,7 @@ double reach_of(const InterfaceOptions& options) {
 double Interface::start_height() const { return highest_ + reach_of(options_); }
 
 std::vector<double> Interface::reach_heights() const {
-    const double reach = options_.wall ? reach_of(options_) : options_.pairs().cutoff;
+    const double reach = this->reach();
     std::vector<double> heights(static_cast<std::size_t>(tile_.nx) *
                                 static_cast<std::size_t>(tile_.ny));
 #pragma omp parallel for schedule(static)

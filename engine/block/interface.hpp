@@ -103,8 +103,10 @@ public:
     /// The reference height from which nothing is in reach of undisplaced sites: highest atom +
     /// reach_of().
     double start_height() const;
-    /// Heights above which undisplaced sites of the tile have no atom within the cutoff, or a wall
-    /// in reach, Å, [y * nx + x]. Not over atoms anywhere.
+    /// The cutoff, or how far a wall reaches, Å.
+    double reach() const { return options_.wall ? reach_of(options_) : options_.pairs().cutoff; }
+    /// Heights above which undisplaced sites of the tile have nothing within reach(), Å,
+    /// [y * nx + x]. Not over atoms anywhere.
     std::vector<double> reach_heights() const;
     /// Down to this reference height the attraction of undisplaced sites only grows; the start
     /// height, where no better bound is known.

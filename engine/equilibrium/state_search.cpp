@@ -114,43 +114,66 @@ StateList::End StateSearch::end() {
     return StateList::End::none;
 }
 
-/// Sites not in contact, by their heights above the reach of the substrate: below 1, 2, ... bins.
-std::vector<std::int64_t> StateSearch::sites_above_reach(double bin, int bins) {
+/// Sites not in contact, by their distances from the substrate: below 1, 2, ... bins. Where the
+/// nearest atom is not straight below, they are further away than that.
+std::vector<std::int64_t> StateSearch::sites_by_distance() {
     if (reach_.empty()) reach_ = interface_.reach_heights();
+    const double reach = interface_.reach();
     const PlaneView<const double> z = block_.lowest_layer().z;
-    std::vector<std::int64_t> sites(static_cast<std::size_t>(bins), 0);
+    std::vector<std::int64_t> sites(bins, 0);
     for (int y = 0; y < z.ny; ++y)
         for (int x = 0; x < z.nx; ++x) {
             const auto site = static_cast<std::size_t>(y) * static_cast<std::size_t>(z.nx) +
                               static_cast<std::size_t>(x);
-            const double above = options_.reference_height + z(x, y) - reach_[site];
-            const int i = static_cast<int>(std::clamp(above / bin, 0.0, bins - 1.0));
-            ++sites[static_cast<std::size_t>(i)];
+            const double distance = options_.reference_height + z(x, y) - reach_[site] + reach;
+            ++sites[static_cast<std::size_t>(std::clamp(distance / bin, 0.0, bins - 1.0))];
         }
     block_.communicator().sum(sites);
-    const auto in_contact = static_cast<std::int64_t>(std::lround(now_.contact * sites_));
-    sites[0] = std::max<std::int64_t>(sites[0] - in_contact, 0);
+    auto in_contact = static_cast<std::int64_t>(std::lround(now_.contact * sites_));
+    for (std::int64_t& count : sites) {
+        const std::int64_t touching = std::min(count, in_contact);
+        count -= touching;
+        in_contact -= touching;
+    }
     return sites;
+}
+
+/// At a distance s: the most of -U(s - b) - k b^2 / 2 over the bulges b.
+void StateSearch::tabulate_gain() {
+    constexpr int finer = 5;
+    constexpr double step = bin / finer;
+    std::vector<double> depth(bins * finer); // -U, once it is on its way out
+    double deepest = 0.0;
+    for (int i = bins * finer; i-- > 1;) {
+        depth[static_cast<std::size_t>(i)] = deepest =
+            std::max(deepest, -options_.flat_energy(step * i));
+    }
+    depth[0] = deepest;
+    for (int i = 0; i < bins; ++i) {
+        double most = 0.0;
+        for (int j = 0; j <= finer * i; ++j) {
+            const double bulge = step * (finer * i - j);
+            most = std::max(most, depth[static_cast<std::size_t>(j)] -
+                                      0.5 * options_.softest_wave * bulge * bulge);
+        }
+        gain_.push_back(most * options_.area / sites_);
+    }
 }
 
 /// Whether the energy stays above the deepest point passed however much further in the block goes.
 bool StateSearch::none_deeper_further_in() {
-    if (!std::isfinite(options_.work_of_adhesion)) return false;
+    if (!options_.flat_energy) return false;
     const double climbed = climb(), push = now_.force - options_.load;
     if (climbed <= 0.0 || push <= 0.0) return false;
+    if (gain_.empty()) tabulate_gain();
     const double stiffness = std::max(0.0, -trail_.slope());
-    constexpr double bin = 0.5; // Å
-    constexpr int bins = 512;
-    const std::vector<std::int64_t> sites = sites_above_reach(bin, bins);
-    const double site = options_.area / sites_;
+    const std::vector<std::int64_t> sites = sites_by_distance();
     for (int d = 0; d < bins; ++d) {
         double gain = 0.0;
         for (int i = 0; i < bins; ++i) {
-            const double ahead = bin * std::max(i - d - 1, 0);
-            const double most =
-                options_.work_of_adhesion - 0.5 * options_.softest_wave * ahead * ahead;
-            if (most <= 0.0) break;
-            gain += most * site * static_cast<double>(sites[static_cast<std::size_t>(i)]);
+            const int distance = std::max(i - d - 1, 0);
+            gain += gain_[static_cast<std::size_t>(distance)] *
+                    static_cast<double>(sites[static_cast<std::size_t>(i)]);
         }
         const double further = bin * d;
         if (climbed + (push + 0.5 * stiffness * further) * further <= gain) return false;

@@ -28,9 +28,10 @@
 //   with, at the largest tension of flat on flat (in full contact at once), or
 // - where no deeper state is further in: F is above P, and for every further approach d, the climb
 //   and (F - P) d + K d^2 / 2 are more than can be gained by contact. K is -dF/dz in the last step,
-//   none after an instability or where it is negative. A site out of reach of the substrate by c
-//   gains at most W - k max(0, c - d)^2 / 2, W being the work of adhesion of flat on flat and k the
-//   stiffness of the softest wave, because it has to bulge by c - d.
+//   none after an instability or where it is negative. A site that is not in contact, at a distance
+//   s from the substrate, gains at most the greatest of V(s - d - b) - k b^2 / 2 over b: V is what
+//   flat on flat gains at a distance, and to come closer by b than its surroundings the site has to
+//   bulge, against the stiffness k of the softest wave at least.
 //
 // What may be missed: a state whose F crosses P and back within one step; a branch that no
 // instability of this path leads to (also a deeper one further out, if its instability is further
@@ -54,8 +55,9 @@ namespace asperity {
 struct StateSearchOptions : SequenceOptions {
     double area = 0.0;            ///< nominal, Å^2
     double largest_tension = 0.0; ///< of flat on flat, eV/Å^3
-    /// Of flat on flat, eV/Å^2; infinite: a search for all states, deeper or not.
-    double work_of_adhesion = HUGE_VAL;
+    /// Energy of flat on flat over the distance, eV/Å^2; none: a search for all states, deeper or
+    /// not.
+    std::function<double(double)> flat_energy{};
     double softest_wave = 0.0; ///< of the block (BlockOptions), eV/Å^4
     /// Of the climb: an instability that loses less is not followed outwards.
     double least_loss = 3e-3;
@@ -124,7 +126,8 @@ private:
     double climb() const;
     StateList::End end();
     bool none_deeper_further_in();
-    std::vector<std::int64_t> sites_above_reach(double bin, int bins);
+    std::vector<std::int64_t> sites_by_distance();
+    void tabulate_gain();
     double next_height() const;
     double largest_force_to(const Found& state, double next_height) const;
     double accuracy() const { return options_.tolerance * sites_ * options_.step; } ///< eV
@@ -140,8 +143,12 @@ private:
     ForceTrail trail_, turned_trail_; ///< turned_trail_: as if there had been no instability
     bool smooth_ = false;             ///< the last step: good for a prediction
     bool outwards_ = false;
-    std::vector<double> reach_; ///< of the substrate, Å; made when it is first asked for
-    int stride_ = 1;            ///< of the next step inwards, in shortest steps
+    static constexpr double bin = 0.5; ///< of distances, Å
+    static constexpr int bins = 512;
+    /// Made when they are first asked for: heights of the substrate's reach, Å, and what a site can
+    /// gain by contact, by its distance now, eV.
+    std::vector<double> reach_, gain_;
+    int stride_ = 1; ///< of the next step inwards, in shortest steps
     long long instabilities_ = 0, outward_points_ = 0; ///< the latter since the last turn
     std::vector<Point> passed_;
     std::vector<Found> found_;

@@ -299,7 +299,13 @@ private:
         o.largest_tension = units::gigapascal * run_.setup.largest_tension;
         // Atoms anywhere can bind more than a flat layer does.
         if (scene_.surface.kind != SurfaceKind::atoms)
-            o.work_of_adhesion = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
+            o.flat_energy = [this](double distance) {
+                const double a = scene_.surface.spacing;
+                return flat_pair_sum(interface_.options(), a, scene_.surface.sites,
+                                     interface_.substrate_sites(), distance)
+                           .energy /
+                       (a * a);
+            };
         o.softest_wave = run_.setup.simulation.block.softest_wave();
         o.relax_free = [this] {
             return find_zero_load(*block_, interface_, reference_height(),

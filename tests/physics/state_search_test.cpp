@@ -109,7 +109,9 @@ struct Search {
         if (to_the_end)
             o.least_loss = 0.0;
         else
-            o.work_of_adhesion = 0.0989;
+            o.flat_energy = [this](double distance) {
+                return flat_pair_sum(c.interface.options(), 2.6, 1, 1, distance).energy / 6.76;
+            };
         o.softest_wave = c.options.softest_wave();
         o.relax_free = [this] { return relaxed(); };
         return o;
