@@ -5,6 +5,7 @@
 // it alone touches there is one of full contact, and a barrier between them. Each state is stable
 // in every direction (smallest eigenvalue of its Hessian), their energies differ by the work of the
 // force between them, and neither the step nor the block's model nor a resume changes them.
+#include "engine/block/flat_reference.hpp"
 #include "engine/equilibrium/state_search.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "engine/scene/surface.hpp"
