@@ -114,8 +114,8 @@ StateList::End StateSearch::end() {
     return StateList::End::none;
 }
 
-/// Sites not in contact, by their distances from the substrate: below 1, 2, ... bins. Where the
-/// nearest atom is not straight below, they are further away than that.
+/// Sites not in contact, by their distances from the substrate: below 1, 2, ... bins. Within reach
+/// the nearest atom is that far away or further; out of reach, the reach is that much closer.
 std::vector<std::int64_t> StateSearch::sites_by_distance() {
     if (reach_.empty()) reach_ = interface_.reach_heights();
     const double reach = interface_.reach();

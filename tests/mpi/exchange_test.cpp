@@ -201,4 +201,6 @@ TEST(Communicator, TheRanksOfAMachineAreNumbered) {
     // The tests run on one machine, where a rank's number is its number in the world.
     EXPECT_EQ(world().local_rank(), world().rank());
     EXPECT_EQ(Communicator().local_rank(), 0);
+    EXPECT_EQ(world().sum_on_machine(1.0), world().size());
+    EXPECT_EQ(Communicator().sum_on_machine(2.0), 2.0);
 }
