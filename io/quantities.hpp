@@ -110,7 +110,8 @@ inline constexpr Quantity result_quantities[] = {
     {"states.*.mean_height", "Å", "", "as zero_load.mean_height"},
     {"states.*.elastic_energy", "meV/Å^2", per::area, "elastic energy of the state"},
     {"states.*.barrier", "MPa", "",
-     "largest pressure on the way to the next state inwards; null for the innermost"},
+     "largest pressure, above drive.load, on the way to the next state inwards; null for the "
+     "innermost"},
     {"states.all[].binding_energy", "meV/Å^2", per::area, "the same of every state, inwards"},
     {"states.all[].contact_fraction", "1", per::sites, "as above"},
     {"states.all[].pushed_fraction", "1", per::sites, "as above"},
@@ -119,7 +120,7 @@ inline constexpr Quantity result_quantities[] = {
     {"states.all[].barrier", "MPa", "", "as above"},
     {"states.search.step", "Å", "", "step of the mean height near a crossing of the load"},
     {"states.search.points", "1", "", "points of the search"},
-    {"states.search.instabilities", "1", "", "instabilities that it passed"},
+    {"states.search.instabilities", "1", "", "instabilities that were followed outwards"},
     {"states.search.innermost", "Å", "", "mean height where it ended"},
     {"states.search.ended", "", "", "why it ended"},
     {"states.search.may_miss", "", "", "states that this search does not find"},
@@ -179,7 +180,8 @@ inline constexpr Quantity result_quantities[] = {
     {"run.processor_seconds", "s", per::rank,
      "processor time of all threads, from the first start"},
     {"run.steps", "1", "", "time steps; of a quasi-static path: points"},
-    {"run.iterations", "1", "", "iterations of the relaxations"},
+    {"run.iterations", "1", "",
+     "iterations: of a path's points, or of the state and of the search for others"},
     {"run.stopped", "", "",
      "\"max_steps\", \"wall_limit\", \"signal\" or \"directory\" (moved or removed): the path is "
      "not "

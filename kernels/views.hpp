@@ -12,6 +12,7 @@
 
 #include "kernels/annotations.hpp"
 
+#include <array>
 #include <cstddef>
 #include <type_traits>
 
@@ -71,5 +72,11 @@ template <class T>
 using VectorPlane = Vector3<PlaneView<T>>;
 template <class T>
 using VectorVolume = Vector3<VolumeView<T>>;
+
+/// The three components' lines at y.
+template <class T>
+std::array<T*, 3> lines(const VectorPlane<T>& plane, int y) {
+    return {plane.x.line(y), plane.y.line(y), plane.z.line(y)};
+}
 
 } // namespace asperity

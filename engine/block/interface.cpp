@@ -490,8 +490,8 @@ double reach_of(const InterfaceOptions& options) {
 
 double Interface::start_height() const { return highest_ + reach_of(options_); }
 
-std::vector<double> Interface::reach_heights() const {
-    const double reach = this->reach();
+std::vector<double> Interface::heights_below() const {
+    const double cutoff = options_.pairs().cutoff;
     std::vector<double> heights(static_cast<std::size_t>(tile_.nx) *
                                 static_cast<std::size_t>(tile_.ny));
 #pragma omp parallel for schedule(static)
@@ -499,13 +499,13 @@ std::vector<double> Interface::reach_heights() const {
         for (int x = 0; x < tile_.nx; ++x) {
             double highest = nothing_there;
             if (options_.wall)
-                highest = height_.plane(0)(x, y) + reach;
-            else
+                highest = height_.plane(0)(x, y);
+            else // the height at which the nearest atom is at the cutoff, less the cutoff
                 for_atoms_around(
-                    map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_, reach,
+                    map_, (tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_, cutoff,
                     [&](double lateral, double h) {
-                        const double above = std::sqrt(reach * reach - lateral * lateral);
-                        highest = std::max(highest, h + above);
+                        const double above = std::sqrt(cutoff * cutoff - lateral * lateral);
+                        highest = std::max(highest, h + above - cutoff);
                     });
             heights[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile_.nx) +
                     static_cast<std::size_t>(x)] = highest;

@@ -23,10 +23,6 @@ constexpr double wave = 0.8;         // but the lowest layer: s_g over 2^-g of i
 /// Below this many nodes work is done sooner than threads are woken.
 constexpr int worth_threads = 8192;
 
-std::array<double*, 3> rows(const VectorPlane<double>& plane, int y) {
-    return {plane.x.line(y), plane.y.line(y), plane.z.line(y)};
-}
-
 } // namespace
 
 CoarseGrids::CoarseGrids(const Block& block)
@@ -128,15 +124,15 @@ void CoarseGrids::collect_forces(std::size_t g, std::vector<VectorField<double>>
 #pragma omp parallel for schedule(static) if (fine.tile.ny * nx > worth_threads)
     for (int y = 0; y < fine.tile.ny; ++y) {
         for (int j = 0; j < posts(g); ++j)
-            for (double* row : rows(fine.between.plane(j), y))
+            for (double* row : lines(fine.between.plane(j), y))
                 std::fill_n(row, nx, 0.0);
         for (int i = 0; i < planes(g - 1); ++i) {
             const auto [below, share] = fine.place[static_cast<std::size_t>(i)];
-            const auto from = rows(plane(g - 1, i, nodes), y);
+            const auto from = lines(plane(g - 1, i, nodes), y);
             for (int j = below; j <= below + 1 && j < posts(g); ++j) {
                 const double part = j == below ? 1.0 - share : share;
                 if (part == 0.0) continue;
-                const auto to = rows(fine.between.plane(j), y);
+                const auto to = lines(fine.between.plane(j), y);
                 for (std::size_t c = 0; c < 3; ++c)
                     for (int x = 0; x < nx; ++x)
                         to[c][x] += part * from[c][x];
@@ -165,7 +161,7 @@ void CoarseGrids::collect_forces(std::size_t g, std::vector<VectorField<double>>
         gather_footprints(block_.communicator(), block_.grid(), static_cast<int>(g), made);
     if (!has_level(g)) return;
     for (int y = 0; y < coarse.tile.ny; ++y) {
-        const auto from = rows(coarse.incoming.plane(0), y), to = rows(nodes[g].plane(0), y);
+        const auto from = lines(coarse.incoming.plane(0), y), to = lines(nodes[g].plane(0), y);
         for (std::size_t c = 0; c < 3; ++c)
             for (int x = 0; x < coarse.tile.nx; ++x)
                 to[c][x] += from[c][x];
@@ -177,7 +173,7 @@ void CoarseGrids::step_row(std::size_t g, int y, std::vector<VectorField<double>
     const Grid& grid = grids_[g];
     const int level = static_cast<int>(g);
     for (int i = 0; i < planes(g); ++i) {
-        const auto f = rows(plane(g, i, nodes), y);
+        const auto f = lines(plane(g, i, nodes), y);
         if (i == 0) {
             const double* stiffness = std::as_const(grid.stiffness).plane(0).line(y);
             const double s = wave_stiffness(g), finer = g == 0 ? 0.0 : wave_stiffness(g - 1);
@@ -217,11 +213,11 @@ void CoarseGrids::add_coarse_row(std::size_t g, int y, std::vector<VectorField<d
     }
     for (int i = 0; i < planes(g); ++i) {
         const auto [below, share] = fine.place[static_cast<std::size_t>(i)];
-        const auto to = rows(plane(g, i, nodes), y);
+        const auto to = lines(plane(g, i, nodes), y);
         for (int j = below; j <= below + 1 && j < posts(g + 1); ++j) {
             const double part = j == below ? 1.0 - share : share;
             if (part == 0.0) continue;
-            const auto from = rows(fine.between.plane(j), y);
+            const auto from = lines(fine.between.plane(j), y);
             for (std::size_t c = 0; c < 3; ++c)
                 for (int x = 0; x < nx; ++x)
                     to[c][x] += part * from[c][x];

@@ -43,8 +43,6 @@ public:
     /// Makes of the forces (eV/Å) on the moving nodes of each level their steps (Å), in place.
     /// Collective.
     void steps(std::vector<VectorField<double>>& nodes);
-    /// s of the coarsest grid, eV/Å^2.
-    double softest() const { return wave_stiffness(grids_.size() - 1); }
 
 private:
     /// Where a plane lies between two planes of the coarser grid.

@@ -134,18 +134,13 @@ double height_of_strongest_attraction(Equilibrium& block, const Interface& inter
     }
 }
 
-RelaxOptions relax_options(const Scene& scene, const Setup& setup) {
-    RelaxOptions options;
-    options.tolerance = scene.drive.tolerance;
-    options.site_stiffness = setup.site_stiffness;
-    return options;
-}
-
 std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
                                        double reference_height, double load, const Scene& scene,
                                        const Setup& setup,
                                        const std::function<bool(long long, double)>& stop) {
-    RelaxOptions options = relax_options(scene, setup);
+    RelaxOptions options;
+    options.tolerance = scene.drive.tolerance;
+    options.site_stiffness = setup.site_stiffness;
     options.report = stop;
     Phases own; // its lines are not lines of the step
     const RelaxedState s =

@@ -63,9 +63,6 @@ std::unique_ptr<Equilibrium> make_equilibrium(const Scene& scene, const Setup& s
 double height_of_strongest_attraction(Equilibrium& block, const Interface& interface,
                                       double lowest_atom, const Communicator& ranks);
 
-/// What a relaxation of this scene is asked for, without a load.
-RelaxOptions relax_options(const Scene& scene, const Setup& setup);
-
 /// The relaxed state with the top plane free under this load (eV/Å, pressing down). Empty if
 /// stop(iteration, residual) asked for an end. Collective. Throws io::PhysicsError if it is not
 /// found.

@@ -29,9 +29,9 @@ class HeavyBall {
 public:
     explicit HeavyBall(SpectralBlock& block);
 
-    /// Moves the sites, none further than bound (Å), interface_force() being up to date; their
-    /// waves do not follow (SpectralBlock::settle()). Returns the longest way to a goal, Å.
-    /// Collective.
+    /// Moves the sites, interface_force() being up to date, none further than bound (Å) but for
+    /// the shift that keeps a prescribed mean height; their waves do not follow
+    /// (SpectralBlock::settle()). Returns the longest way to a goal, Å. Collective.
     double move(const Preconditioner& preconditioner, double bound);
     /// From rest again; the gains are kept.
     void stop();

@@ -24,13 +24,13 @@
 // while many small instabilities that leave the force smooth are counted without looking for each.
 // As long as a place further on is kept, steps go half of the way to it. A relaxation whose force
 // jumps further than a step of its length may have it (spectral block) is given up on its way
-// through the instability: its step would be halved anyway.
+// through the instability: its step would, with few exceptions, be halved anyway.
 // "Nothing" is drive.tolerance for each site and Å of the step: errors of the energy are then
 // bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
 //
 // Where the last steps were reversible, the next one starts from their linear continuation
 // (continuation.hpp). A spectral block gives that up as soon as Newton's method does not help; over
-// a wall none is tried. What is not accepted after a prediction, or would be counted as dissipated,
+// a wall none is taken. What is not accepted after a prediction, or would be counted as dissipated,
 // is computed again without.
 #pragma once
 

@@ -21,10 +21,6 @@ constexpr double remembered = 0.9;       // of a site's stiffness, from one iter
 constexpr double probe = 1e-3;           // to measure it at first, Å
 constexpr double telling = 1e-5; // shorter moves, Å, tell nothing of it for the steps at the cutoff
 
-std::array<double*, 3> rows(const VectorPlane<double>& plane, int y) {
-    return {plane.x.line(y), plane.y.line(y), plane.z.line(y)};
-}
-
 /// The block on its way down: forces, moves, and what is known of the interface's stiffness.
 class Descent {
     using Means = std::array<double, 3>; ///< of a plane, along x, y, z
@@ -94,7 +90,7 @@ public:
 #pragma omp parallel
             each_row([&](std::size_t l, int z, int y, int nx) {
                 const Means& m = mean[first_plane_[l] + static_cast<std::size_t>(z)];
-                const auto step = rows(nodes_[l].plane(z), y), v = rows(moves_[l].plane(z), y);
+                const auto step = lines(nodes_[l].plane(z), y), v = lines(moves_[l].plane(z), y);
                 for (std::size_t c = 0; c < 3; ++c)
                     for (int x = 0; x < nx; ++x)
                         v[c][x] = momentum_ * v[c][x] + step[c][x] + m[c];
@@ -166,7 +162,7 @@ private:
         double largest2 = 0.0;
 #pragma omp parallel reduction(max : largest2)
         each_row([&](std::size_t l, int z, int y, int nx) {
-            const auto f = rows(nodes_[l].plane(z), y);
+            const auto f = lines(nodes_[l].plane(z), y);
             for (int x = 0; x < nx; ++x)
                 largest2 =
                     std::max(largest2, f[0][x] * f[0][x] + f[1][x] * f[1][x] + f[2][x] * f[2][x]);
@@ -236,7 +232,7 @@ private:
         const double scale = options_.max_move / (options_.max_move + std::abs(drift));
 #pragma omp parallel
         each_row([&](std::size_t l, int z, int y, int nx) {
-            const auto v = rows(moves_[l].plane(z), y);
+            const auto v = lines(moves_[l].plane(z), y);
             for (int x = 0; x < nx; ++x) {
                 v[0][x] *= scale;
                 v[1][x] *= scale;
@@ -258,8 +254,8 @@ private:
         }
     }
     void displace(std::size_t l, int z, int y, int nx) {
-        const auto v = rows(moves_[l].plane(z), y),
-                   u = rows(block_.fields(block_.levels()[l]).u.plane(z), y);
+        const auto v = lines(moves_[l].plane(z), y),
+                   u = lines(block_.fields(block_.levels()[l]).u.plane(z), y);
         for (std::size_t c = 0; c < 3; ++c)
             for (int x = 0; x < nx; ++x)
                 u[c][x] += v[c][x];

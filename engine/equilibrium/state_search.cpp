@@ -3,6 +3,9 @@
 #include "engine/equilibrium/state_search.hpp"
 
 #include "engine/units.hpp"
+#include "io/error.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +26,14 @@ void StateSearch::start(const ZeroLoad& first) {
     points_.begin(height);
     first_.take(block_.state());
     first_top_ = block_.top();
-    // As at all other points, the energy is without what a load stretches the block by.
-    now_ = point(points_.relax_at(height, false, {}), height);
+    // As all other points, without what a load stretches the block by.
+    const RelaxedState state = points_.relax_at(height, false, {});
+    if (!state.converged)
+        throw io::PhysicsError("the search for states does not start from an equilibrium",
+                               fmt::format("the largest force left is {:.2e} eV/Å", state.residual),
+                               "a looser drive.tolerance");
+    points_.replace();
+    now_ = point(state, height);
     now_.force = options_.load;
     trail_.begin(height, now_.force);
     passed_ = {now_};
@@ -114,18 +123,17 @@ StateList::End StateSearch::end() {
     return StateList::End::none;
 }
 
-/// Sites not in contact, by their distances from the substrate: below 1, 2, ... bins. Within reach
-/// the nearest atom is that far away or further; out of reach, the reach is that much closer.
+/// Sites not in contact, by their distances from the substrate: below 1, 2, ... bins. Within the
+/// cutoff the nearest atom is that far away or further; beyond it, the cutoff is that much closer.
 std::vector<std::int64_t> StateSearch::sites_by_distance() {
-    if (reach_.empty()) reach_ = interface_.reach_heights();
-    const double reach = interface_.reach();
+    if (below_.empty()) below_ = interface_.heights_below();
     const PlaneView<const double> z = block_.lowest_layer().z;
     std::vector<std::int64_t> sites(bins, 0);
     for (int y = 0; y < z.ny; ++y)
         for (int x = 0; x < z.nx; ++x) {
             const auto site = static_cast<std::size_t>(y) * static_cast<std::size_t>(z.nx) +
                               static_cast<std::size_t>(x);
-            const double distance = options_.reference_height + z(x, y) - reach_[site] + reach;
+            const double distance = options_.reference_height + z(x, y) - below_[site];
             ++sites[static_cast<std::size_t>(std::clamp(distance / bin, 0.0, bins - 1.0))];
         }
     block_.communicator().sum(sites);
@@ -148,7 +156,7 @@ void StateSearch::tabulate_gain() {
         depth[static_cast<std::size_t>(i)] = deepest =
             std::max(deepest, -options_.flat_energy(step * i));
     }
-    depth[0] = deepest;
+    depth[0] = std::max(deepest, options_.flat_depth);
     for (int i = 0; i < bins; ++i) {
         double most = 0.0;
         for (int j = 0; j <= finer * i; ++j) {
@@ -251,16 +259,26 @@ bool StateSearch::joined() const {
     });
 }
 
-/// On the way from a state to this mean height, on its branch.
-double StateSearch::largest_force_to(const Found& state, double next_height) const {
-    const double height = state.state.mean_height - options_.reference_height;
-    double inner = HUGE_VAL; // where the branch was followed outwards from
+/// The innermost point of a branch that was followed outwards.
+double StateSearch::inner_end(double branch) const {
+    double inner = HUGE_VAL;
     for (const Point& p : passed_)
-        if (p.branch == state.branch) inner = std::min(inner, p.height);
+        if (p.branch == branch) inner = std::min(inner, p.height);
+    return inner;
+}
+
+/// On the way from one state to the next: on the branch of the first to its inner end, and inwards
+/// from there. A state on another branch that was followed outwards is reached through the
+/// instability at the inner end of that, which can be further in than the state.
+double StateSearch::largest_force(const Found& from, const Found& to) const {
+    const double start = from.state.mean_height - options_.reference_height;
+    double end = to.state.mean_height - options_.reference_height;
+    if (to.branch != 0.0 && to.branch != from.branch) end = std::min(end, inner_end(to.branch));
+    const double inner = inner_end(from.branch);
     double largest = 0.0;
     for (const Point& p : passed_)
-        if (p.height < height && p.height > next_height &&
-            (p.branch == state.branch || (p.branch == 0.0 && p.height < inner)))
+        if (p.height < start && p.height >= end &&
+            (p.branch == from.branch || (p.branch == 0.0 && p.height < inner)))
             largest = std::max(largest, p.force - options_.load);
     return largest;
 }
@@ -298,9 +316,7 @@ StateList StateSearch::found() const {
     for (std::size_t i = 0; i < states.size(); ++i) {
         list.all.push_back({states[i].state, std::nullopt});
         if (i + 1 < states.size())
-            list.all.back().barrier = largest_force_to(states[i], states[i + 1].state.mean_height -
-                                                                      options_.reference_height) /
-                                      options_.area;
+            list.all.back().barrier = largest_force(states[i], states[i + 1]) / options_.area;
     }
     list.step = options_.step;
     list.points = static_cast<long long>(passed_.size());

@@ -58,6 +58,7 @@ struct StateSearchOptions : SequenceOptions {
     /// Energy of flat on flat over the distance, eV/Å^2; none: a search for all states, deeper or
     /// not.
     std::function<double(double)> flat_energy{};
+    double flat_depth = 0.0;   ///< what flat on flat gains at most, eV/Å^2
     double softest_wave = 0.0; ///< of the block (BlockOptions), eV/Å^4
     /// Of the climb: an instability that loses less is not followed outwards.
     double least_loss = 3e-3;
@@ -129,7 +130,8 @@ private:
     std::vector<std::int64_t> sites_by_distance();
     void tabulate_gain();
     double next_height() const;
-    double largest_force_to(const Found& state, double next_height) const;
+    double inner_end(double branch) const;
+    double largest_force(const Found& from, const Found& to) const;
     double accuracy() const { return options_.tolerance * sites_ * options_.step; } ///< eV
 
     Equilibrium& block_;
@@ -145,9 +147,9 @@ private:
     bool outwards_ = false;
     static constexpr double bin = 0.5; ///< of distances, Å
     static constexpr int bins = 512;
-    /// Made when they are first asked for: heights of the substrate's reach, Å, and what a site can
-    /// gain by contact, by its distance now, eV.
-    std::vector<double> reach_, gain_;
+    /// Made when they are first asked for: heights that distances count from, Å, and what a site
+    /// can gain by contact, by its distance now, eV.
+    std::vector<double> below_, gain_;
     int stride_ = 1; ///< of the next step inwards, in shortest steps
     long long instabilities_ = 0, outward_points_ = 0; ///< the latter since the last turn
     std::vector<Point> passed_;

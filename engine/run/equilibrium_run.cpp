@@ -132,10 +132,14 @@ private:
         run_.recorder().row(now, leg == Leg::pull_off, scene_.surface.sites);
         run_.watch_fields(now.step, leg, -now.force, block_->lowest_layer(), interface_,
                           reference_height());
-        if (run_.progress.due())
-            run_.progress.update({fmt::format("{}, F = {:.1f} eV/Å", name(leg), now.force),
-                                  now.step, 0.0,
-                                  run_.way_done(leg, now.top, interface_.start_height())});
+        if (run_.progress.due()) run_.progress.update(path_progress());
+    }
+
+    /// Of the last point; its steps are iterations.
+    io::Progress::State path_progress() const {
+        const StepRecord& now = path_.now();
+        return {fmt::format("{}, F = {:.1f} eV/Å", name(leg_), now.force), path_.iterations(), 0.0,
+                run_.way_done(leg_, now.top, interface_.start_height())};
     }
 
     /// What a leg has shown. False where it was stopped on the way to it.
@@ -165,13 +169,15 @@ private:
     /// it has come to, where it can be resumed from that. False where it was stopped.
     bool find_state(double load, const RunSession::WriteState& write = {}) {
         const auto t = run_.phases.time(Phase::relax);
-        run_.findings.zero_load =
-            find_zero_load(*block_, interface_, reference_height(), load, scene_, run_.setup,
-                           [&](long long iteration, double residual) {
-                               show_relaxation(run_.progress, iteration, residual);
-                               return run_.stop_relaxation(write);
-                           });
-        if (!run_.findings.zero_load) return false;
+        const auto state = find_zero_load(*block_, interface_, reference_height(), load, scene_,
+                                          run_.setup, [&](long long iteration, double residual) {
+                                              show_relaxation(run_.progress, iteration, residual);
+                                              return run_.stop_relaxation(write);
+                                          });
+        if (!state) return false;
+        // A path that starts in a state comes back to another; its numbers are of the first.
+        if (!run_.findings.zero_load || scene_.drive.path.front() != PathPart::zero_load)
+            run_.findings.zero_load = state;
         if (scene_.writes_field("zero-load"))
             run_.recorder().fields("zero-load", block_->lowest_layer(), run_.grid, interface_,
                                    reference_height());
@@ -282,10 +288,14 @@ private:
         o.load = run_.setup.simulation.drive.load_force;
         o.reference_height = interface_.start_height();
         o.report = [this](long long iteration, double) {
-            if (run_.progress.due())
-                run_.progress.update(
-                    {fmt::format("{}, relaxing", searching_ ? position() : std::string(name(leg_))),
-                     iteration, 0.0, -1.0});
+            if (run_.progress.due()) {
+                io::Progress::State now =
+                    searching_ ? io::Progress::State{position(), search_.iterations()}
+                               : path_progress();
+                now.phase += ", relaxing";
+                now.steps += iteration;
+                run_.progress.update(now);
+            }
             return run_.stop_relaxation();
         };
         return o;
@@ -307,6 +317,7 @@ private:
                            .energy /
                        (a * a);
             };
+        o.flat_depth = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
         o.softest_wave = run_.setup.simulation.block.softest_wave();
         o.relax_free = [this] {
             return find_zero_load(*block_, interface_, reference_height(),

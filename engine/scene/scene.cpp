@@ -145,9 +145,10 @@ io::Schema bind(Scene& scene) {
     schema.choice<States>("states", drive.states, {{"first", States::first}, {"all", States::all}},
                           "of path = [\"zero-load\"]: the state that a slow approach ends in, or "
                           "all that a path at a prescribed mean height passes from there inwards");
-    schema.number("step", drive.step, "Å", positive(),
-                  "largest displacement of what is held per point (quasistatic); of a point of the "
-                  "search for all states");
+    schema.number(
+        "step", drive.step, "Å", positive(),
+        "largest displacement of what is held per point (quasistatic); the search for all "
+        "states starts with it and takes up to four times that");
     schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet");
     schema.number("damping", drive.damping, "1/ps", at_least(0.0),
                   "rate Γ of the force -m Γ v, v relative to the top plane");

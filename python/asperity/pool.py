@@ -248,20 +248,25 @@ class Pool:
         """Points of a scene are taken to last alike; those of a scene that none is known of are not counted."""
         known = {file: (float(points), seconds) for file, (points, seconds) in self.finished.items()}
         work = longest = 0.0  # seconds that points have left
+        counted = True
         for i, fraction in fractions.items():
             points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
             spent = now - self.children[i][1]
-            known[self.jobs[i].file] = points + fraction, seconds + spent
             if fraction > 0:
-                work += spent * (1 - fraction) / fraction
-                longest = max(longest, spent * (1 - fraction) / fraction)
-        counted = True
+                known[self.jobs[i].file] = points + fraction, seconds + spent
+                left = spent * (1 - fraction) / fraction
+            elif points > 0.02:
+                left = max(0.0, seconds / points - spent)
+            else:
+                left, counted = 0.0, False
+            work += left
+            longest = max(longest, left)
         for i in self.waiting:
             points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
             if points > 0.02:
                 work += seconds / points
             else:
                 counted = False
-        if sum(points for points, _ in known.values()) <= 0.02:
+        if work == 0.0:
             return ""
         return f" | {'' if counted else 'at least '}{duration(max(work / self.options.jobs, longest))} left"

@@ -70,6 +70,8 @@ RelaxedState relax(Case& c, const Constraint& constraint, double to = tolerance)
     return s;
 }
 
+double energy(const RelaxedState& s) { return s.interface_energy + s.elastic_energy; }
+
 ZeroLoad relax_free(Case& c, double load = 0.0) {
     const RelaxedState s = relax(c, Constraint::load(load));
     ZeroLoad z;
@@ -346,6 +348,33 @@ TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
         (relax(c, Constraint::mean_height(z)).force < 0.0 ? inner : outer) = z;
     }
     EXPECT_LT(Hessian(c, layer_of(*c.block)).smallest(80), -1e-4);
+}
+
+// A state on a branch that was followed outwards: to come to it the first one has to be pressed in
+// as far as the instability, beyond the height at which the other state is.
+TEST(StateSearch, ABarrierReachesDownToTheInstabilityThatHasToBeCrossed) {
+    Case c(test::paper_block(32, 32, 0), hill(32, 20.0, 6.0), true);
+    Search s(c, 0.25, false);
+    s.start();
+    const StateList states = s.finish();
+    ASSERT_GE(states.all.size(), 2u);
+    ASSERT_EQ(states.instabilities, 1);
+    s.search.restore_first();
+    constexpr double step = 0.25;
+    double largest = 0.0, largest_above = 0.0, lost = 0.0, z = c.block->mean_height();
+    for (RelaxedState last = relax(c, Constraint::mean_height(z)); lost < 5.0;) {
+        const double height = c.interface.start_height() + z;
+        ASSERT_GT(height, 3.0);
+        largest = std::max(largest, last.force);
+        if (height > states.all[1].numbers.mean_height) largest_above = largest;
+        z -= step;
+        const RelaxedState now = relax(c, Constraint::mean_height(z));
+        lost = energy(last) + 0.5 * step * (last.force + now.force) - energy(now);
+        last = now;
+    }
+    const double barrier = states.all[0].barrier.value_or(0.0) * area(c);
+    EXPECT_GT(barrier, 2.0 * largest_above); // above the other state's height
+    EXPECT_LT(barrier, 1.01 * largest);      // of all points down to the instability
 }
 
 TEST(StateSearch, EnergiesDifferByTheWorkOfTheForce) {

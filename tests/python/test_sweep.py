@@ -231,6 +231,10 @@ def test_the_time_left_counts_each_scene_by_its_own_points(tmp_path):
     assert left({0: 0.0, 1: 0.0}, {}) == ""
     assert left({0: 0.5, 1: 0.5}, {}) == " | at least 3 min 20 s left"  # two halves and a whole one of 200 s, by two
     assert left({2: 0.5, 3: 0.5}, {"slow": (2, 400.0)}) == " | 16 min 40 s left"
+    # How far a point has come is not known: it lasts as long as those of its scene have, or nothing is known of it.
+    assert left({9: 0.0}, {"slow": (3, 600.0), "fast": (5, 900.0)}) == " | 6 min 40 s left"
+    assert left({0: 0.0}, {"fast": (10, 100.0)}) == " | at least 10 s left"
+    assert left({0: 0.0, 1: 0.0}, {"fast": (11, 100.0)}) == ""
 
 
 @pytest.mark.parametrize("words, says", [
