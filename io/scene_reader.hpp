@@ -46,7 +46,6 @@ public:
     std::string where(const std::string& key) const;
     void set(const std::string& key, Position position) { at_[key] = std::move(position); }
     void set_file(std::string file) { file_ = std::move(file); }
-    const std::string& file() const { return file_; }
 
 private:
     std::string file_;
@@ -91,9 +90,6 @@ inline Range any() { return {}; }
 inline Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
 inline Range at_least(double low) {
     return {low, std::numeric_limits<double>::infinity(), false, false};
-}
-inline Range above(double low) {
-    return {low, std::numeric_limits<double>::infinity(), true, false};
 }
 inline Range between(double low, double high) { return {low, high, false, false}; }
 

@@ -76,7 +76,7 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                 pair.epsilon, pair.r0, pair.cutoff));
     const double cutoff = pairs.cutoff;
     const double between_atoms = tile.sites * spacing / substrate.sites;
-    if (const double most = largest_cutoff(spacing, between_atoms); cutoff > most)
+    if (const double most = largest_cutoff(spacing, between_atoms); !anywhere && cutoff > most)
         throw std::invalid_argument(fmt::format(
             "interface: a cutoff of {:.6g} Å is more than the {:.6g} Å that the tables hold for "
             "sites {:.6g} Å and atoms {:.6g} Å apart; choose a smaller one (4 r0 = {:.6g} Å keeps "

@@ -62,16 +62,7 @@ std::vector<std::string> overrides_of(const std::string& line, const std::string
     return overrides;
 }
 
-/// simulated: the theory stands beside a run, which goes on without one.
-Json point_json(const Scene& scene, SurfaceCache& surfaces, bool simulated) {
-    if (const std::string why = no_theory(scene); simulated && !why.empty()) {
-        io::Result values = scene_result(scene);
-        values.set("delta_gamma", examine(scene, 1).flat.work_of_adhesion);
-        values.set("theory.note", why);
-        Json point = values.json();
-        point["notes"] = Json::array();
-        return point;
-    }
+Json point_json(const Scene& scene, SurfaceCache& surfaces) {
     const TheoryCase what = theory_case(scene, surfaces.of(scene));
     const TheoryNumbers numbers = solve_theory(what);
     io::Result values = scene_result(scene);
@@ -84,6 +75,22 @@ Json point_json(const Scene& scene, SurfaceCache& surfaces, bool simulated) {
     point["theory"]["gamma_eff_ratio"] = numbers.state.gamma_ratio;
     point["theory"]["gamma_eff_ratio_error"] = numbers.state.gamma_ratio_error;
     point["notes"] = what.notes;
+    return point;
+}
+
+/// The theory stands beside a run, which goes on without one.
+Json simulated_point(const Scene& scene, SurfaceCache& surfaces) {
+    std::string why = no_theory(scene);
+    try {
+        if (why.empty()) return point_json(scene, surfaces);
+    } catch (const io::SceneError& error) {
+        why = error.what();
+    }
+    io::Result values = scene_result(scene);
+    values.set("delta_gamma", examine(scene, 1).flat.work_of_adhesion);
+    values.set("theory.note", why);
+    Json point = values.json();
+    point["notes"] = Json::array();
     return point;
 }
 
@@ -121,7 +128,7 @@ int theory_points_command(const TheoryPoints& what) {
         try {
             const Scene scene = read_scene_text(text, what.scene, overrides);
             if (what.runnable) examine(scene, 1);
-            point = point_json(scene, surfaces, what.runnable);
+            point = what.runnable ? simulated_point(scene, surfaces) : point_json(scene, surfaces);
         } catch (const io::SceneError& error) {
             point = problems_json(error.problems());
         }

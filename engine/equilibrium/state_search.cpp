@@ -269,8 +269,9 @@ double StateSearch::inner_end(double branch) const {
 
 /// On the way from one state to the next: on the branch of the first to its inner end, and inwards
 /// from there. A state on another branch that was followed outwards is reached through the
-/// instability at the inner end of that, which can be further in than the state.
-double StateSearch::largest_force(const Found& from, const Found& to) const {
+/// instability at the inner end of that, which can be further in than the state. Nothing where no
+/// point that pushes lies on the way.
+std::optional<double> StateSearch::largest_force(const Found& from, const Found& to) const {
     const double start = from.state.mean_height - options_.reference_height;
     double end = to.state.mean_height - options_.reference_height;
     if (to.branch != 0.0 && to.branch != from.branch) end = std::min(end, inner_end(to.branch));
@@ -280,7 +281,8 @@ double StateSearch::largest_force(const Found& from, const Found& to) const {
         if (p.height < start && p.height >= end &&
             (p.branch == from.branch || (p.branch == 0.0 && p.height < inner)))
             largest = std::max(largest, p.force - options_.load);
-    return largest;
+    if (largest > 0.0) return largest;
+    return std::nullopt;
 }
 
 void StateSearch::restore_first() {
@@ -315,8 +317,9 @@ StateList StateSearch::found() const {
             }));
     for (std::size_t i = 0; i < states.size(); ++i) {
         list.all.push_back({states[i].state, std::nullopt});
-        if (i + 1 < states.size())
-            list.all.back().barrier = largest_force(states[i], states[i + 1]) / options_.area;
+        if (i + 1 == states.size()) continue;
+        if (const auto force = largest_force(states[i], states[i + 1]))
+            list.all.back().barrier = *force / options_.area;
     }
     list.step = options_.step;
     list.points = static_cast<long long>(passed_.size());

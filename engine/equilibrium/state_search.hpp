@@ -131,7 +131,7 @@ private:
     void tabulate_gain();
     double next_height() const;
     double inner_end(double branch) const;
-    double largest_force(const Found& from, const Found& to) const;
+    std::optional<double> largest_force(const Found& from, const Found& to) const;
     double accuracy() const { return options_.tolerance * sites_ * options_.step; } ///< eV
 
     Equilibrium& block_;

@@ -40,6 +40,7 @@ public:
         const auto work = [&] {
             if (!resume()) start();
             integrate();
+            name_fields_left();
             run_.write_kept_fields(simulation_.interface());
         };
         return run_.carry_out(bytes, work, [&](io::Result& result) { add_to(result); });
@@ -118,6 +119,13 @@ private:
             delayed_fields_.erase(delayed_fields_.begin());
         }
     }
+    /// The path can end before they are due.
+    void name_fields_left() {
+        if (!simulation_.drive().done()) return;
+        for (const auto& [delay, name] : delayed_fields_)
+            run_.progress.say(
+                fmt::format("the maps \"{}\" were not written: the path ended before", name));
+    }
     bool is_due(double delay, double time) const { // ps, fs
         return run_.findings.contact_made &&
                time >= *run_.findings.contact_made + delay * units::picosecond;
@@ -167,7 +175,7 @@ private:
         const double residual = now.observed ? now.residual : 0.0;
         const bool balanced = std::isfinite(residual) && std::abs(residual) <= energy_limit;
         if (finite && balanced) return;
-        const StepRecord failed = now; // what follows puts the simulation back
+        failed_ = now; // what follows puts the simulation back
         const std::string where = fastest_site();
         std::string kept = "no earlier state was kept";
         if (!snapshot_.empty()) {
@@ -185,9 +193,9 @@ private:
         const double limit = run_.setup.longest_timestep;
         throw io::PhysicsError(
             finite ? fmt::format("the energy balance is off by {:.1f} % at step {}",
-                                 100.0 * residual, failed.step)
-                   : fmt::format("the motion diverged at step {}: the force is {}", failed.step,
-                                 failed.force),
+                                 100.0 * residual, failed_->step)
+                   : fmt::format("the motion diverged at step {}: the force is {}", failed_->step,
+                                 failed_->force),
             fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
                         "contact, and less "
                         "where atoms are pressed into the wall or hit it fast",
@@ -288,17 +296,19 @@ private:
     /// Steps and energies.
     void add_to(io::Result& result) const {
         add_phases(simulation_.phases(), result);
-        result.set("run.steps", simulation_.steps());
+        const StepRecord& now = failed_ ? *failed_ : simulation_.now();
+        result.set("run.steps", failed_ ? failed_->step : simulation_.steps());
         result.set("run.device", describe_device(run_.setup.simulation.device));
-        if (simulation_.steps() > 0) add_energies(simulation_.now(), result);
+        if (simulation_.steps() > 0) add_energies(now, result);
     }
 
     RunSession run_;
     const Scene& scene_;
     Simulation simulation_;
     ApproachStart start_;
-    std::optional<Leg> ended_;      ///< the leg that the last step ended
-    std::optional<Leg> concluding_; ///< the leg that ended the step before
+    std::optional<StepRecord> failed_; ///< the step that a guard ended the run at
+    std::optional<Leg> ended_;         ///< the leg that the last step ended
+    std::optional<Leg> concluding_;    ///< the leg that ended the step before
     std::vector<std::pair<double, std::string>> delayed_fields_ = scene_.delayed_fields();
     Snapshot snapshot_;
     RunScalars snapshot_scalars_;

@@ -114,6 +114,7 @@ private:
     void begin_leg(Leg leg) {
         leg_ = leg;
         if (std::exchange(resumed_, false)) return;
+        (leg == Leg::approach ? run_.findings.attraction_in : run_.findings.attraction_out) = 0.0;
         if (part_ == 0)
             path_.start();
         else if (scene_.drive.path[part_ - 1] == PathPart::zero_load)

@@ -32,6 +32,7 @@ struct Piece {
 Piece cut_out(const Scene& scene, const Setup& setup, const Surface& surface) {
     Piece piece;
     piece.options = setup.simulation;
+    piece.options.device = {}; // rates are the processor's
     BlockOptions& block = piece.options.block;
     const int needed = static_cast<int>(
         std::ceil(2.0 * setup.simulation.interface.pairs().cutoff / block.spacing));

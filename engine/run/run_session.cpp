@@ -47,6 +47,11 @@ std::string physics_of(const Scene& scene, const Surface& surface) {
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
     part["output"]["fields"] = scene.writes_field("pull-off"); // keeps a layer in the checkpoint
+    // What resumes is taken as written where its time is past.
+    part["output"]["delayed"] = io::Json::array();
+    for (const auto& [delay, name] : scene.delayed_fields())
+        part["output"]["delayed"].push_back(name);
+    if (scene.surface.radius) part["output"]["series"] = scene.output.series; // averaged over time
     part["output"]["velocities"] = scene.output.trajectory && scene.output.velocities;
     if (scene.surface.kind == SurfaceKind::file || scene.surface.kind == SurfaceKind::atoms) {
         io::Digest digest;
@@ -92,7 +97,15 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
         recorder_->write();
     } catch (const io::Error& error) {
         progress.finish();
-        write_failure(error, add_to);
+        write_failure({error.code(), error.what()}, add_to);
+        throw;
+    } catch (const std::bad_alloc&) {
+        progress.finish();
+        write_failure({io::exit_code::scene, "out of memory"}, add_to);
+        throw;
+    } catch (const std::exception& error) {
+        progress.finish();
+        write_failure({io::exit_code::internal, error.what()}, add_to);
         throw;
     }
     progress.finish();
@@ -300,21 +313,21 @@ double RunSession::way_done(Leg leg, double top, double start_height) const {
     return std::clamp(done / (path.approach + path.pull_off), 0.0, 0.99);
 }
 
-void RunSession::write_failure(const io::Error& error, const AddToResult& add_to) {
+void RunSession::write_failure(const Failure& failure, const AddToResult& add_to) {
     if (!ranks.root()) return;
     // A run that could not begin to record leaves its directory as it was.
-    if (!recorder_ && error.code() != io::exit_code::physics) return;
+    if (!recorder_ && failure.code != io::exit_code::physics) return;
     try {
         if (recorder_) recorder_->write_on_root();
     } catch (const std::exception&) { // what run.h5 held before must do
     }
     try {
-        write_result(&error, add_to);
+        write_result(&failure, add_to);
     } catch (const std::exception&) { // the first error is the one to report
     }
 }
 
-io::Result RunSession::write_result(const io::Error* failure, const AddToResult& add_to) {
+io::Result RunSession::write_result(const Failure* failure, const AddToResult& add_to) {
     io::Result result = run_result(scene, surface, setup, findings, ranks.size());
     add_to(result);
     result.set("run.wall_seconds", seconds());
@@ -322,8 +335,8 @@ io::Result RunSession::write_result(const io::Error* failure, const AddToResult&
     add_phases(phases, result);
     if (!stopped_.empty()) result.set("run.stopped", stopped_);
     if (failure) {
-        result.set("failure.exit_code", failure->code());
-        result.set("failure.reason", failure->what());
+        result.set("failure.exit_code", failure->code);
+        result.set("failure.reason", failure->reason);
     }
     if (recorder_) {
         add_cycle(read_path(storage_.path() + "/run.h5"), scene, result);

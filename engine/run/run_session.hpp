@@ -130,9 +130,13 @@ private:
     double processor_seconds() const;
     void print_notes();
     bool bring_back_directory();
-    void write_failure(const io::Error& error, const AddToResult& add_to);
+    struct Failure {
+        int code;
+        std::string reason;
+    };
+    void write_failure(const Failure& failure, const AddToResult& add_to);
     /// failure: why the run failed, or null. Root only.
-    io::Result write_result(const io::Error* failure, const AddToResult& add_to);
+    io::Result write_result(const Failure* failure, const AddToResult& add_to);
     void throw_if_directory_gone();
 
     const std::string fingerprint_;

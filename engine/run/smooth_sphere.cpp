@@ -119,7 +119,8 @@ void add_sphere(const Scene& scene, const FlatReference& flat, io::Result& resul
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, R);
     };
-    if (const auto binding = result.number("binding_energy")) {
+    const bool pressed = scene.drive.path.front() == PathPart::zero_load && scene.drive.load != 0.0;
+    if (const auto binding = result.number("binding_energy"); binding && !pressed) {
         const double energy = *binding / units::milli_per_unit * scene.edge() * scene.edge();
         const double modulus =
             theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson);

@@ -175,7 +175,7 @@ TheoryNumbers solve_theory(const TheoryCase& what) {
         n.gamma_eff = units::milli_per_unit * n.state.gamma_eff;
         n.gamma_full_contact = units::milli_per_unit * theory::full_contact(c).gamma;
         if (what.renormalised) n.renormalised = solve_renormalised(*what.renormalised);
-        if (what.q0)
+        if (what.q0 && c.work_of_adhesion > 0.0)
             n.theta = theory::adhesion_parameter(c.contact_modulus, n.h_rms, *what.q0,
                                                  c.work_of_adhesion);
         if (what.radius && n.state.gamma_eff > 0.0)

@@ -195,6 +195,9 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                      fmt::format("= {:.6g} K with drive.damping = 0", drive.temperature),
                      "the Langevin thermostat gives and takes heat through the damping",
                      "give a damping, for example 0.05 1/ps");
+    if (drive.temperature > 0.0 && scene.without_time())
+        problems.add("drive.temperature", fmt::format("= {:.6g} K without time", drive.temperature),
+                     "equilibria have no temperature", "leave it out, or take a path in time");
     if (scene.numerics.device != no_device && scene.numerics.device != any_device)
         for (const io::Problem& p : device_problems(scene))
             problems.add(p.where, p.what, p.why, p.fix);
@@ -301,6 +304,12 @@ std::vector<std::string> notes(const Scene& scene) {
         idle("drive.hold", "drive.path relaxes with nothing held");
     if (!scene.has(PathPart::zero_load))
         idle("drive.states", "drive.path does not start at \"zero-load\"");
+    if (scene.without_time())
+        for (const char* key : {"drive.seed", "drive.velocity", "drive.timestep", "drive.damping",
+                                "drive.damping_from", "drive.ramp", "output.series"})
+            idle(key, "no time passes on this path");
+    else
+        idle("drive.step", "drive.mode is \"dynamic\"");
     if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
     const bool wall = scene.interface.kind == InterfaceKind::wall;
     const bool exponential = wall && scene.interface.law == WallLawKind::exponential;
@@ -313,12 +322,17 @@ std::vector<std::string> notes(const Scene& scene) {
     if (wall) idle("numerics.precision", "a wall is worked out in double precision");
     if (!surface.reads_file())
         idle("surface.file", "surface.kind is neither \"file\" nor \"atoms\"");
+    if (surface.kind != SurfaceKind::file)
+        for (const char* key :
+             {"surface.detrend", "surface.resample", "surface.file_size", "surface.file_unit"})
+            idle(key, "surface.kind is not \"file\"");
     if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");
     if (surface.kind == SurfaceKind::atoms)
         for (const char* key : {"surface.file_missing", "surface.file_crop", "theory.delta_gamma"})
             idle(key, "surface.kind is \"atoms\"");
     if (surface.kind != SurfaceKind::self_affine)
-        for (const char* key : {"surface.hurst", "surface.rolloff", "surface.cutoff"})
+        for (const char* key : {"surface.hurst", "surface.rolloff", "surface.cutoff",
+                                "surface.seed", "surface.amplitudes"})
             idle(key, "surface.kind is not \"self-affine\"");
     if (scene.block.model != BlockModel::multiscale)
         idle("block.layers_per_level", "block.model is not \"multiscale\"");

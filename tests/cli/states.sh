@@ -84,6 +84,13 @@ half=$(python3 -c "print(0.5 * ($first + $second))")
 holds "$(value load-0.8 'r["zero_load"]["mean_height"]') > $half"
 holds "$(value load-1.2 'r["zero_load"]["mean_height"]') < $half"
 
+# JKR's γ from the binding energy is that of a state without load.
+sphere=(--set surface.kind=flat surface.radius=500 drive.states=first)
+expect 0 run hill.toml --progress off --out sphere "${sphere[@]}"
+expect 0 run hill.toml --progress off --out sphere-load "${sphere[@]}" drive.load=20
+holds "$(value sphere '"zero_load" in r["jkr"]')"
+holds "$(value sphere-load '"zero_load" not in r.get("jkr", {})')"
+
 expect 0 check hill.toml --set 'drive.path=["approach"]' drive.mode=quasistatic
 says "drive.states"
 finish

@@ -101,6 +101,27 @@ expect 0 theory small.toml --out theory
 near run/result.json gamma_full_contact "$(number theory/result.json gamma_full_contact)" 1e-9
 near run/result.json gamma_eff "$(number theory/result.json gamma_eff)" 1e-9
 
+# Without adhesion there is no θ, and all else of the theory; a sweep runs whether its theory can be computed or not.
+cat >wall.toml <<'EOF'
+[surface]
+sites = 32
+rms = 0.5
+[block]
+model = "spectral"
+thickness = 32
+[interface]
+kind = "wall"
+law = "exponential"
+adhesion = 0
+[drive]
+path = ["zero-load"]
+load = 50
+EOF
+expect 0 theory wall.toml --out wall-theory
+grep -q '"contact_fraction"' wall-theory/result.json || fail "no theory of a wall without adhesion"
+expect 0 sweep wall.toml --set drive.load=50,100 --out wall-sweep --progress off
+expect 0 sweep wall.toml --set surface.rolloff=1 surface.cutoff=1,2 --out ring-sweep --progress off
+
 mpirun=$(command -v mpirun)
 if [ -n "$mpirun" ]; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

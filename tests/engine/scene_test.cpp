@@ -280,6 +280,11 @@ TEST(Scene, Notes) {
         return false;
     };
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.rms = 1", "surface.rms has no effect"));
+    EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.seed = 2", "surface.seed has no effect"));
+    EXPECT_TRUE(said("drive.step = 0.1", "drive.step has no effect"));
+    const std::string still = "drive.mode = \"quasistatic\"\n";
+    EXPECT_TRUE(said(still + "drive.velocity = 2", "drive.velocity has no effect"));
+    EXPECT_FALSE(said(still + "drive.step = 0.1", "has no effect"));
     EXPECT_TRUE(said("surface.sites = 500", "halved 2 times"));
     EXPECT_FALSE(said("", "halved"));
     EXPECT_TRUE(said("block.thickness = 64", "thinner"));

@@ -80,7 +80,9 @@ def test_errors_of_the_program_are_exceptions(tmp_path):
     assert "nothing was written" not in str(error.value) and not (tmp_path / "bad").exists()
     with pytest.raises(asperity.PhysicsError, match="why:"):
         asperity.run(SMALL, {"drive.timestep": 70, "drive.velocity": 3000}, out=tmp_path / "fast")
-    assert "drive" in asperity.load(tmp_path / "fast").failure_text
+    failed = asperity.load(tmp_path / "fast")
+    assert "drive" in failed.failure_text
+    assert f"at step {failed.run.steps}" in failed.failure_text  # not of the state that was put back
     with pytest.raises(asperity.InputOutputError, match="there is no such directory"):
         asperity.load(tmp_path / "gone")
     (tmp_path / "empty").mkdir()
