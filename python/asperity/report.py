@@ -14,7 +14,7 @@ from . import program, scene, words
 from .page import Page, Row, file_name, minus
 from .plots import run as plots
 from .plots.files import KINDS
-from .result import Result, State, Values, expect
+from .result import Result, State, Values, expect, load_words
 from .units import shown
 
 MOST_STATES = 6
@@ -72,7 +72,7 @@ def _path(page: Page, run: Result) -> None:
 
 def _state(page: Page, run: Result, state: State) -> None:
     name = file_name(state.name)
-    page.section(f"state-{name}", f"The state {words.state_in_words(state.name)}")
+    page.section(f"state-{name}", f"The state {words.state_in_words(run, state.name)}")
     for key, heading, caption in MAPS:
         if key == "gap":
             caption += " The colour bar ends at the cutoff." if run.curved else \
@@ -86,15 +86,16 @@ def _state(page: Page, run: Result, state: State) -> None:
 
 
 def _states(page: Page, run: Result) -> None:
-    """The state at zero load first; of many, some that are spread evenly."""
+    """The relaxed state first; of many, some that are spread evenly."""
     states = sorted(run.fields.values(), key=lambda s: s.name != "zero-load")
     n, few = len(states), min(len(states), MOST_STATES)
     for i in range(few):
         _state(page, run, states[i * (n - 1) // (few - 1) if few > 1 else i])
     if few < n:
         page.add("paragraph", f"{few} of the {n} states in run.h5 are shown; `asperity export` writes them all.")
-    page.section("states", "States at zero load")
-    page.figure("states", "Energy of every state", "Binding energy of the states at zero load over their mean height.",
+    at = load_words(run.find("scene"))[0]
+    page.section("states", f"States {at}")
+    page.figure("states", "Energy of every state", f"Binding energy of the states {at} over their mean height.",
                 partial(plots.states, run))
     found = run.find("states.all")
     rows = [Row([str(i + 1), *(words.general(s.get(k), 6) for k, _ in STATE_COLUMNS)])
@@ -125,12 +126,12 @@ def _energies(page: Page, run: Result) -> None:
 
 def _numbers(page: Page, run: Result) -> None:
     """Every number of the result, in the order of the file."""
-    flat, rows = run.number("delta_gamma") or 0.0, []
+    rows = []
     for key, value in run.numbers().items():
         if key.split(".")[0] in ("scene", "run", "failure", "units") or run.number(key) is None:
             continue
         known = program.quantity(key)
-        unit, meaning = shown(run.unit(key) or known["unit"]), known["meaning"]
+        unit, meaning, flat = shown(run.unit(key) or known["unit"]), known["meaning"], words.reference(run, key)
         # Of a sphere, the nominal area says nothing, and so does an energy over it.
         nominal = key.split(".")[0] in ("binding_energy", "work_of_adhesion", "states", "zero_load")
         over = unit == "meV/Å²" and flat > 0 and not (run.curved and nominal)

@@ -33,9 +33,10 @@ MOST_CURVES = 6
 
 CAPTIONS = {
     "gamma": "Binding energy over that of two flat surfaces: theory, and what was simulated. Of a sphere, γ by JKR from "
-             "the largest attraction and from the energy at zero load. Bars: standard deviation over the seeds.",
-    "area": "Projected contact area over the nominal area at zero load.",
-    "separation": "Mean height of the lowest layer above the substrate’s mean plane at zero load.",
+             "the largest attraction and from the energy at zero load. Bars: standard deviation over seeds and uncertainty of a run, "
+             "added in squares.",
+    "area": "Projected contact area over the nominal area.",
+    "separation": "Mean height of the lowest layer above the substrate’s mean plane.",
     "radius": "Radius of a circle as large as the area in contact.",
     "pull-off": "What it takes to pull the block off.",
     "hysteresis": "The area of the loop of force against separation: what a cycle of approach and pull-off turns into "

@@ -101,6 +101,16 @@ class Values(Mapping):
         return found
 
 
+def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
+    """Of a scene, the load of its state, "at zero load" or "under a load of 5 MPa", and that of its theory, "" or
+    " under a load of 5 MPa". They differ after an approach: its state carries none. swept: drive.load is an axis."""
+    keys = Values(scene if isinstance(scene, dict) else {})
+    load, path = keys.number("drive.load") or 0.0, keys.find("drive.path")
+    under = "under the load" if swept else f"under a load of {load:.4g} MPa".replace("-", "−")
+    carried = (load or swept) and isinstance(path, list) and path[:1] == ["zero-load"]
+    return under if carried else "at zero load", f" {under}" if load and not swept else ""
+
+
 def _deeper_than(value: Any, levels: int) -> bool:
     members = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
     return any(levels == 0 or _deeper_than(m, levels - 1) for m in members if isinstance(m, (dict, list)))

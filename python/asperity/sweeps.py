@@ -14,6 +14,7 @@ import functools
 import math
 import os
 import time
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -227,21 +228,22 @@ def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
             "delta_gamma": point.get("delta_gamma"), "theory": point["theory"]}
 
 
-def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The theory between the points: the same axes, one seed, and 61 values along x."""
+def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[dict[str, Any]],
+                   needs_surface: bool) -> list[dict[str, Any]]:
+    """The theory between the points: the same axes, 61 values along x, and one seed unless the surface matters."""
     x = Table([a.key for a in axes], points, False).along
     if x is None or not any("gamma_eff" in p["theory"] for p in points):  # none applies to these scenes
         return []
     finer = []
     for axis in axes:
-        values = axis.values[:1] if axis.is_seed else axis.values
+        one = axis.is_seed and not (needs_surface and axis.key == "surface.seed")
+        values = axis.values[:1] if one else axis.values
         if axis.key == x and program.schema()[x]["kind"] == "number":
             low, high = (pick(p["set"][x] for p in points) for pick in (min, max))
             values = [f"{low + (high - low) * i / 60:.12g}" for i in range(61)]
         finer.append(Axis(axis.key, values))
     found = program.theory_points(file, [fixed + point for point in points_of(finer)])
-    program.complaints(found)
-    return [_point(finer, point) for point in found]
+    return [_point(finer, point) for point in found if "problems" not in point]  # where it has no number
 
 
 def _point_name(point: dict[str, Any]) -> str:
@@ -271,7 +273,7 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
             raise SceneError("asperity sweep", f"two points are the same: {name}",
                              "every point has a directory of its own", "give every value once")
         jobs[name] = Job(prefix + name, place / name, file, given, answer["scene"])
-    sweep.theory = _theory_curves(file, axes, fixed, sweep.points)
+    sweep.theory = _theory_curves(file, axes, fixed, sweep.points, base["theory_needs_surface"])
     return sweep, list(jobs.values())
 
 
@@ -331,12 +333,16 @@ class _Carried:
         self.written = time.monotonic()
         outcomes = iter(self.outcomes)
         for sweep in self.sweeps:
+            programs: Counter[str] = Counter()
             for point, outcome in zip(sweep.points, outcomes) if sweep.simulated else ():
                 point["status"] = outcome.status
                 point.pop("failure", None)
                 if outcome.exit_code:
                     point["failure"] = {"exit_code": outcome.exit_code, "reason": outcome.reason}
                 point["result"] = columns_of(outcome.result)
+                if git := outcome.result.text("run.git"):
+                    programs[git] += 1
+            sweep.run["programs"] = dict(programs)
             sweep.run["wall_seconds"] = time.monotonic() - self.start
             sweep.write()
 
@@ -356,6 +362,9 @@ def sweep_command(scenes: list[str], sets: list[str], out: str, theory_only: boo
         sweep.print_table()
         for said in sweep.notes:
             print(f"note: {said}")
+        if len(sweep.run.get("programs", {})) > 1:
+            print("note: points are by several programs: "
+                  + ", ".join(f"{git} ({count})" for git, count in sweep.run["programs"].items()))
     if note:
         print(f"note: {note}")
     failed = [(job, outcome) for job, outcome in zip(done.jobs, done.outcomes) if outcome.status == FAILED]

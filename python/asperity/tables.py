@@ -12,6 +12,7 @@ import numpy as np
 
 from . import program
 from .grid import is_seed, shown
+from .pool import DONE
 from .result import Values
 
 RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
@@ -121,6 +122,7 @@ class Table(Columns):
     def __init__(self, axes: list[str], points: list[dict[str, Any]], simulated: bool):
         self.axes, self.simulated = axes, simulated
         self.status = [str(p.get("status", "waiting") if simulated else p["theory"].get("status", "")) for p in points]
+        self._done = np.array([not simulated or status == DONE for status in self.status], bool)
         groups: dict[str, tuple[dict[str, Any], list[int]]] = {}
         for i, point in enumerate(points):
             values = {key: point["set"].get(key) for key in axes if not is_seed(key)}
@@ -146,11 +148,15 @@ class Table(Columns):
         numbers = [k for k in self.axes if not is_seed(k) and isinstance(self[k], np.ndarray) and len(self[k])]
         return max(numbers, key=lambda k: len(set(self[k])), default=None)
 
+    def counted(self, name: str) -> np.ndarray:
+        """A column, NaN where the point is not done; of the theory whole."""
+        return self[name] if name.startswith("theory.") else np.where(self._done, self[name], np.nan)
+
     def values(self, name: str) -> np.ndarray:
-        """A column, NaN where it means nothing or there is none. "theory.": of the theory, in any kind of sweep."""
+        """The same, NaN where it means nothing or there is none. "theory.": of the theory, in any kind of sweep."""
         if name.startswith("theory."):
             name = self._before + name.removeprefix("theory.")
-        found = self.get(name, np.full(len(self.status), np.nan))
+        found = self.counted(name) if name in self else np.full(len(self.status), np.nan)
         sphere = self.get("contact_radius.zero_load")
         return found if sphere is None or name not in OF_AREA else np.where(np.isfinite(sphere), np.nan, found)
 
@@ -166,8 +172,8 @@ class Table(Columns):
                        np.array([len(v) for v in there]))
 
     def averages(self) -> dict[str, Average]:
-        """Of every column that is no axis."""
-        return {name: self.average(self[name]) for name in self if name not in self.axes}
+        """Of every column that is no axis; of results, over the points that are done."""
+        return {name: self.average(self.counted(name)) for name in self if name not in self.axes}
 
     def means(self) -> Columns:
         """A row a group: mean, .deviation and .count of every column."""

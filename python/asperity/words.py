@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .page import minus
-from .result import Result, Values
+from .result import Result, Values, load_words
 from .terminal import duration
 from .units import GIGAPASCAL, NANONEWTON
 
@@ -37,9 +37,9 @@ def general(value: Any, digits: int = 4) -> str:
     return f"{value:.{digits}g}" if number else "?"
 
 
-def state_in_words(name: str) -> str:
+def state_in_words(run: Result, name: str) -> str:
     if name == "zero-load":
-        return "at zero load"
+        return load_words(run.find("scene"))[0]
     if name == "pull-off":
         return "at the largest attraction of the pull-off"
     if name.startswith("after-zero-load:"):
@@ -72,15 +72,22 @@ def smooth_pull_off(run: Result, gamma: float) -> float:
     return 1.5 * math.pi * (run.radius or 0.0) * gamma / 1e3
 
 
+def reference(run: Result, key: str) -> float:
+    """The Δγ that an energy is compared with, meV/Å²; 0: none. Persson's theory may have been given another."""
+    own = key.startswith("theory.") and not key.startswith("theory.renormalised.")
+    return (own and run.number("theory.delta_gamma")) or run.number("delta_gamma") or 0.0
+
+
 def key_numbers(run: Result) -> list[KeyNumber]:
     """The numbers that stand at the top of a page."""
     found: list[KeyNumber] = []
-    flat = run.number("delta_gamma") or 0.0
+    at, pressed = load_words(run.find("scene"))
 
     def gamma(key: str, name: str, symbol: str = "γ_{eff}/Δγ") -> None:
-        value = run.number(key)
+        value, flat = run.number(key), reference(run, key)
         if value is not None and flat > 0:
-            error = run.number(key + "_uncertainty") or run.number(key.rpartition(".")[0] + ".uncertainty")
+            parent, _, leaf = key.rpartition(".")
+            error = run.number(key + "_uncertainty") or run.number(f"{parent}.uncertainty.{leaf}")
             note = energy(value) + (f" ± {error:.2g}" if error else "")
             found.append(KeyNumber(minus(f"{value / flat:.3f}"), symbol, name, note))
 
@@ -97,14 +104,14 @@ def key_numbers(run: Result) -> list[KeyNumber]:
                                    if jkr > 0 and maugis > 0 else ""))
         radius = run.number("contact_radius.zero_load")
         if radius is not None:
-            found.append(KeyNumber(f"{radius:.1f}", "Å", "contact radius at zero load",
+            found.append(KeyNumber(f"{radius:.1f}", "Å", f"contact radius {at}",
                                    "√(area of the sites in contact / π)"))
     else:
-        gamma("binding_energy", "binding energy at zero load")
+        gamma("binding_energy", f"binding energy {at}")
         contact, theory = run.number("contact_fraction"), run.number("theory.contact_fraction")
         if contact is not None:
-            found.append(KeyNumber(percent(contact), "", "of the sites in contact at zero load",
-                                   f"theory: {percent(theory)}" if theory is not None else ""))
+            found.append(KeyNumber(percent(contact), "", f"of the sites in contact {at}",
+                                   f"theory{pressed}: {percent(theory)}" if theory is not None else ""))
         if force is not None and run.edge:
             found.append(KeyNumber(f"{force / run.edge**2 / GIGAPASCAL:.3g}", "GPa",
                                    "pull-off stress, the largest attraction on the way out",
@@ -116,11 +123,11 @@ def key_numbers(run: Result) -> list[KeyNumber]:
     if not run.curved:
         gamma("work_of_adhesion.approach", "work of adhesion, approach")
         gamma("work_of_adhesion.pull_off", "work of adhesion, pull-off")
-    gamma("theory.gamma_eff", "Persson’s theory, of the flat surface" if run.curved else "Persson’s theory")
-    gamma("theory.renormalised.gamma_eff", "renormalised theory")
+    gamma("theory.gamma_eff", f"Persson’s theory{pressed}" + ", of the flat surface" * run.curved)
+    gamma("theory.renormalised.gamma_eff", f"renormalised theory{pressed}")
     theory = run.number("theory.contact_fraction")
     if theory is not None and run.number("contact_fraction") is None:
-        found.append(KeyNumber(percent(theory), "", "contact area in theory"))
+        found.append(KeyNumber(percent(theory), "", f"contact area in theory{pressed}"))
     residual = run.number("energy.residual")
     if residual is not None and not run.failure_text:
         found.append(KeyNumber(f"{abs(residual):.1e}", "", "energy balance", "relative to its largest term"))
@@ -129,11 +136,13 @@ def key_numbers(run: Result) -> list[KeyNumber]:
 
 def _state_sentence(run: Result, state: float, flat: float) -> str:
     bonds, contact, pushed = (run.number(k) for k in ("work_of_adhesion.pairwise", "contact_fraction", "pushed_fraction"))
+    at = load_words(run.find("scene"))[0]
+    at = "Without external force" if at == "at zero load" else "U" + at[1:]
     if run.curved:
-        text = f"Without external force the sphere is bound by {state * run.edge**2 / 1e3:.4g} eV."
+        text = f"{at} the sphere is bound by {state * run.edge**2 / 1e3:.4g} eV."
     else:
         unit = "one flat layer of the block’s lattice" if run.key("surface.kind") == "atoms" else "two flat surfaces"
-        text = (f"Without external force the solids are bound by {energy(state)}, {percent(state / flat)} of the "
+        text = (f"{at} the solids are bound by {energy(state)}, {percent(state / flat)} of the "
                 f"{energy(flat)} of {unit}.")
         if bonds is not None:
             text += (f" The bonds across the interface give {energy(bonds)}; {energy(bonds - state)} of it is spent on "
@@ -173,16 +182,18 @@ def findings(run: Result) -> list[str]:
         text.append(_cycle_sentence(run, into, out, flat))
     theory = run.number("theory.gamma_eff")
     if theory is not None and flat > 0:
-        sentence = f"Persson’s theory gives γ_{{eff}} = {energy(theory)} ({percent(theory / flat)} of Δγ)"
+        (at, pressed), given = load_words(run.find("scene")), reference(run, "theory.gamma_eff")
+        sentence = (f"Persson’s theory{pressed} gives γ_{{eff}} = {energy(theory)} ({percent(theory / given)} of "
+                    + ("Δγ)" if math.isclose(given, flat) else f"its Δγ, {energy(given)})"))
         full, renormalised = run.number("theory.gamma_full_contact"), run.number("theory.renormalised.gamma_eff")
         if full is not None:
             sentence += f", and {energy(full)} if contact were full"
         if renormalised is not None:
-            sentence += f"; the renormalised theory {energy(renormalised)} ({percent(renormalised / flat)})"
+            sentence += f"; the renormalised theory {energy(renormalised)} ({percent(renormalised / flat)} of Δγ)"
         found = run.number("jkr.out") if run.curved else state
         if found is not None:
             sentence += f"; the simulation finds {energy(found)}" + \
-                (" by JKR from the pull-off force" if run.curved else "")
+                (" by JKR from the pull-off force" if run.curved else f" {at}" * bool(pressed))
         text.append(sentence + ".")
     for name in ("theory", "theory.renormalised"):
         note, known = run.text(name + ".note"), run.number(name + ".gamma_eff") is not None

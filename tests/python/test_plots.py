@@ -51,6 +51,18 @@ def test_the_theory_over_roughness_meets_the_runs_own(path_run):
     assert theory.x[-1] == pytest.approx(1.8 * path_run.surface.rms)
 
 
+def test_each_theory_is_over_its_own_reference(state_run):
+    """Persson's Δγ can be given; the renormalised theory has that of the flat surfaces."""
+    run = asperity.run({**state_run["scene"], "name": "given"}, {"theory.delta_gamma": 130.0, "drive.load": 100},
+                       out=state_run.directory.with_name("given"))
+    curves = {c.label: c for c in style.drawn(run.plot.roughness(axes())).curves}
+    for label, ratio in (("theory", run.theory.gamma_eff / 130),
+                         ("renormalised theory", run.theory.renormalised.gamma_eff_ratio)):
+        curve = curves[label + " under a load of 100 MPa"]
+        assert np.interp(run.surface.rms, curve.x, curve.y) == pytest.approx(ratio, abs=5e-4)
+    assert curves["state under a load of 100 MPa"].y == pytest.approx(run.binding_energy / run.delta_gamma)
+
+
 def test_distributions_are_normalised(path_run):
     state = path_run.fields["zero-load"]
     one = style.drawn(path_run.plot.pressures(axes())).curves[0]
@@ -119,7 +131,8 @@ def test_points_carry_their_uncertainty():
 
     def average(*results):
         return approach.average(Table(["surface.rms", "surface.seed"], [
-            {"set": {"surface.rms": 1.0, "surface.seed": i}, "theory": {}, "result": r} for i, r in enumerate(results)], True))
+            {"set": {"surface.rms": 1.0, "surface.seed": i}, "theory": {}, "status": "done", "result": r}
+            for i, r in enumerate(results)], True))
     energy, ratio, uncertainty = (f"work_of_adhesion.{name}" for name in ("approach", "approach_ratio", "uncertainty.approach"))
     one = {energy: 50.0, ratio: 0.5, uncertainty: 3.0}
     assert average(one) == pytest.approx((0.5, 0.03))

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity import words
 from asperity.report import write_run_page
 from asperity.report_sweep import holds_sweep, write_sweep_page
 from conftest import ROOT, SMALL, STATE, command, unsealed
@@ -100,6 +101,48 @@ def test_values_can_be_read_by_pointing(path_run):
     assert one["low"] + raw / 65534 * (one["high"] - one["low"]) == pytest.approx(gap, abs=2e-5 * np.ptp(gap))
     left, top, right, bottom = curves[0]["frame"]
     assert 0 < left < right <= 1 and 0 < top < bottom <= 1
+
+
+def stored(tmp_path, path, load):
+    """A result as a file alone, with a Δγ of its own for Persson's theory."""
+    tmp_path.joinpath("result.json").write_text(json.dumps({
+        "scene": {"surface": {"sites": 32, "spacing": 2.6}, "drive": {"path": path, "load": load}},
+        "delta_gamma": 80.0, "binding_energy": 40.0, "contact_fraction": 0.5,
+        "work_of_adhesion": {"approach": 30.0, "pull_off": 50.0, "uncertainty": {"approach": 3.0, "pull_off": 0.25}},
+        "theory": {"gamma_eff": 50.0, "delta_gamma": 100.0, "contact_fraction": 0.25, "gamma_full_contact": 20.0,
+                   "renormalised": {"gamma_eff": 60.0}},
+        "states": {"all": [{"mean_height": h, "binding_energy": -h} for h in (1.0, 2.0)]}}))
+    return asperity.load(tmp_path)
+
+
+@pytest.mark.parametrize("path, load, at, under", [
+    (["zero-load"], 100.0, "under a load of 100 MPa", " under a load of 100 MPa"),
+    (["zero-load"], 0.0, "at zero load", ""),
+    (["approach", "pull-off"], -5.5, "at zero load", " under a load of −5.5 MPa")])  # the state carries none
+def test_a_load_is_told_of_what_carries_it(tmp_path, path, load, at, under):
+    run = stored(tmp_path, path, load)
+    numbers = {n.name: n for n in words.key_numbers(run)}
+    assert f"binding energy {at}" in numbers and f"renormalised theory{under}" in numbers
+    assert numbers[f"of the sites in contact {at}"].note.startswith(f"theory{under}: ")
+    state, _, theory = words.findings(run)
+    assert state.startswith(("Without external force" if at == "at zero load" else "U" + at[1:]) + " the solids are bound")
+    assert theory.startswith(f"Persson’s theory{under} gives") and theory.endswith(" meV/Å²" + f" {at}" * bool(under) + ".")
+    assert f"States {at}" in page(tmp_path).text
+    assert words.state_in_words(run, "zero-load") == at
+
+
+def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
+    run = stored(tmp_path, ["approach", "pull-off"], 0.0)
+    numbers = {n.name: n for n in words.key_numbers(run)}
+    assert numbers["Persson’s theory"].value == "0.500" and numbers["renormalised theory"].value == "0.750"
+    assert numbers["binding energy at zero load"].value == "0.500"
+    assert "(50.0\u00a0% of its Δγ, 100.00 meV/Å²)" in words.findings(run)[2]
+    assert "(75.0\u00a0% of Δγ)" in words.findings(run)[2]
+    assert numbers["work of adhesion, approach"].note == "30.00 meV/Å² ± 3"
+    assert numbers["work of adhesion, pull-off"].note == "50.00 meV/Å² ± 0.25"
+    rows = re.findall(r"<tr>(.*?)</tr>", (tmp_path / "report.html").read_text() if page(tmp_path) else "", re.S)
+    over = {cells[0].split(":")[0]: cells[-1] for row in rows if len(cells := re.findall(r"<td.*?>(.*?)</td>", row)) == 4}
+    assert over["theory.gamma_full_contact"] == "0.2000" and over["theory.renormalised.gamma_eff"] == "0.7500"
 
 
 def test_a_sphere_has_its_own_numbers_and_curves(sphere_run):
@@ -211,6 +254,7 @@ def test_the_page_of_a_sweep(tmp_path):
     (out / "sweep.json").write_text(json.dumps(stored))
     found = page(out)
     assert (out / "rms=0.6,seed=1/report.html").stat().st_mtime_ns == before  # not made again
+    assert "Bars: standard deviation over seeds and uncertainty of a run, added in squares." in found.text
     assert "rms=0.2,seed=1 failed" in found.text and "the balance is off" in found.text
     assert "This sweep is not finished" in found.text
 

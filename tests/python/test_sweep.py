@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import grid, pool
+from asperity import files, grid, pool
 from asperity.plots import sweep as plots
 from asperity.plots.style import drawn
 from asperity.sweeps import load_sweep, load_sweeps
@@ -127,6 +127,25 @@ def test_tables_average_over_seeds(tmp_path):
     assert found["points"][8]["status"] == "waiting"
 
 
+def test_only_points_that_are_done_are_averaged(tmp_path):
+    sweep = nine_points()
+    sweep.points[1].update(status="failed")
+    for i in (6, 7):  # as an unfinished run leaves them
+        sweep.points[i].update(status="waiting")
+    sweep.directory = tmp_path
+    sweep.write()
+    average = sweep.table.averages()
+    assert list(average["binding_energy"].count) == [2, 3, 0] and list(average["theory.gamma_eff"].count) == [3, 3, 3]
+    assert average["binding_energy"].mean[0] == pytest.approx((10 + 17.875) / 2)  # the first and the third
+    assert sweep.means["binding_energy.count"].tolist() == [2, 3, 0]
+    rows = text_of(sweep.table)[1]
+    assert rows[0][1].startswith("0.2787 ±") and rows[2][1] == "-" and rows[2][-1] == "3 waiting"
+    curves = drawn(sweep.plot("gamma", Figure().add_subplot())).curves
+    assert np.isnan(curves[-1].y[2]) and curves[-1].y[0] == pytest.approx((10 + 17.875) / 100)
+    row = numbers(tmp_path)[1]
+    assert row["status"] == "failed" and float(row["binding_energy"]) == 13.5  # the point itself is told
+
+
 def test_csv_hdf5_and_json_hold_the_same(tmp_path):
     sweep = nine_points()
     sweep.directory = tmp_path / "out"
@@ -176,12 +195,118 @@ def test_plots_of_a_sweep_read_back_are_the_same(tmp_path):
         ax = Figure().add_subplot()
         assert plots.plot([of], "gamma", ax)
         return [(c.label, c.x.tolist(), c.y.tolist()) for c in drawn(ax).curves]
+    head = plots.files.csv(sweep.plot("gamma", Figure().add_subplot()).figure).splitlines()[0]
+    assert "state at zero load: γeff / Δγ, deviation over seeds and uncertainty of a run, added in squares" in head
     here = curves(sweep)
     assert here == curves(load_sweep(tmp_path))
     assert [label for label, _, _ in here] == ["theory", "renormalised theory", "state at zero load"]
     assert here[2][2][0] == pytest.approx(41.375 / 150)
     assert not plots.plot([sweep], "hysteresis", Figure().add_subplot())  # no cycle
     assert not plots.plot([sweep], "readings", Figure().add_subplot())  # no path
+
+
+def labels(sweeps, name="gamma"):
+    """Of a plot: what each curve is, and the legend."""
+    ax = Figure().add_subplot()
+    assert plots.plot(sweeps, name, ax)
+    return [c.label for c in drawn(ax).curves], [t.get_text() for t in ax.get_legend().get_texts()]
+
+
+def test_plots_tell_which_load_states_and_theory_have():
+    sweep = nine_points()
+    for path, load, theory, state in (
+            (["zero-load"], 100.0, "theory under a load of 100 MPa", "state under a load of 100 MPa"),
+            (["approach"], 100.0, "theory under a load of 100 MPa", "state at zero load"),
+            (["zero-load"], 0.0, "theory", "state at zero load")):
+        sweep.scene["drive"] = {"path": path, "load": load}
+        assert labels([sweep])[0] == [theory, f"renormalised {theory}", state]
+    for point in sweep.points:  # now over the load
+        point["set"] = {"drive.load": point["set"]["surface.rms"], "surface.seed": point["set"]["surface.seed"]}
+    sweep.axes = ["drive.load", "surface.seed"]
+    assert labels([sweep])[0] == ["theory", "renormalised theory", "state under the load"]
+    sweep.scene["drive"]["path"] = ["approach"]
+    assert labels([sweep])[0] == ["theory", "renormalised theory", "state at zero load"]
+
+
+def named(name, factor=1.0, shift=0.0):
+    """Nine points of another name, with another theory of Persson, at other roughnesses."""
+    sweep = nine_points()
+    sweep.name = name
+    for point in sweep.points:
+        point["theory"]["gamma_eff"] *= factor
+        point["set"]["surface.rms"] += shift
+    return sweep
+
+
+def test_scenes_in_one_plot_have_their_own_theory():
+    states = ["a: state at zero load", "b: state at zero load"]
+    assert labels([named("a"), named("b")])[0] == ["theory", "renormalised theory", *states]  # equal: once
+    ax = Figure().add_subplot()
+    assert plots.plot([named("a"), named("b", 0.9)], "gamma", ax)
+    told = ["a: theory", "b: theory", "renormalised theory", *states]
+    assert [c.label for c in drawn(ax).curves] == [t.get_text() for t in ax.get_legend().get_texts()] == told
+    assert len({line.get_color() for line in ax.lines[:3]}) == len({line._unscaled_dash_pattern for line in ax.lines[:3]}) == 3
+    # Where nothing tells that they are equal, both are drawn, each its own.
+    assert labels([named("a"), named("b", shift=0.25)])[0][:2] == ["a: theory", "b: theory"]
+    near = named("b")
+    for point in near.points[3:]:
+        point["set"]["surface.rms"] += 0.25
+    assert labels([named("a"), near])[0][:2] == ["a: theory", "b: theory"]  # one point is too little
+    # Of other points with some in common, one curve leads through all.
+    wide = named("b")
+    for point in wide.points:
+        if point["set"]["surface.rms"] == 3.5:
+            point["set"]["surface.rms"] = 5.0
+    ax = Figure().add_subplot()
+    assert plots.plot([named("a"), wide], "gamma", ax)
+    assert drawn(ax).curves[0].label == "theory" and list(drawn(ax).curves[0].x) == [1, 2, 3.5, 5]
+    # Of the theory alone.
+    alone = [named("a"), named("b", 0.9)]
+    for sweep in alone:
+        sweep.simulated = False
+    assert labels(alone)[0] == ["a: theory", "b: theory", "renormalised theory"]
+    # One without a theory: the curve is not its.
+    for point in alone[0].points:
+        point["theory"] = {}
+    assert labels(alone)[0] == ["b: theory", "b: renormalised theory"]
+
+
+def test_colours_are_told_whatever_is_drawn_first():
+    sweep = nine_points()
+    sweep.axes = ["surface.rms", "drive.load"]
+    for point in sweep.points:
+        point["set"]["drive.load"] = 100.0 * point["set"].pop("surface.seed")
+    words = [f"load = {load} MPa" for load in (100, 200, 300)]
+    assert labels([sweep])[1] == [*words, "theory", "renormalised theory", "state at zero load"]
+    for i, point in enumerate(sweep.points):
+        del point["theory"]["gamma_eff"]
+        if i % 3:
+            del point["theory"]["renormalised"]  # one curve has a theory, the others have not
+    assert labels([sweep])[1] == [words[0], "renormalised theory", *words[1:], "state at zero load"]
+    for point in sweep.points:
+        point["theory"] = {}  # as of atoms anywhere
+    assert labels([sweep])[1] == [*words, "state at zero load"]
+    # The same words have the same colour in all scenes.
+    other = nine_points()
+    other.name, other.axes = "b", sweep.axes
+    for point in other.points:
+        point["set"]["drive.load"] = 100.0 * (1 + point["set"].pop("surface.seed"))
+        point["theory"] = {}
+    ax = Figure().add_subplot()
+    assert plots.plot([sweep, other], "gamma", ax)
+    colours = {}
+    lines = [line for line in ax.lines if len(line.get_xdata())]
+    for one, line in zip(drawn(ax).curves, lines, strict=True):
+        colours.setdefault(one.label.partition(", ")[2], set()).add(line.get_color())
+    assert sorted(colours) == [*words, "load = 400 MPa"] and [len(c) for c in colours.values()] == [1] * 4
+    assert [t.get_text() for t in ax.get_legend().get_texts()].count(words[1]) == 1
+    # What is not drawn is told, all of it.
+    other.points = [{"set": {"surface.rms": rms, "drive.load": load}, "theory": {}} for rms in range(9) for load in range(8)]
+    third = nine_points()
+    third.axes = ["surface.seed", "drive.load"]
+    third.points = [{"set": {"surface.seed": 1, "drive.load": load}, "theory": {}} for load in (1.0, 2.0)]
+    assert plots.parts_of([other, third])[2] == "s is not in the plots: it sweeps another key; " \
+        "the plots show the first 7 of 8 curves"
 
 
 @pytest.mark.parametrize("text", ['{"points": 3}', "[]", "{}", '{"points": [{"set": 3, "theory": []}], "axes": 1, "run": 2}'])
@@ -274,6 +399,14 @@ def test_the_table_is_the_same_for_any_number_of_jobs_and_from_python(place):
     assert (place / "one/rms=0.2,seed=1/result.json").stat().st_mtime_ns == before
     assert "holds the result of another scene" in command("sweep", "state.toml", "--set", "block.thickness=12", "--out",
                                                           "one", expect=2)
+    # A point of another program is told.
+    point = place / "one/rms=0.2,seed=1/result.json"
+    result = json.loads(point.read_text())
+    ours, result["run"]["git"] = result["run"]["git"], "another"
+    result.pop("digest")
+    point.write_text(files.sealed_json(result))
+    words = ["sweep", "state.toml", "--set", "surface.rms=0.2,0.4,0.6", "--out", "one", "--progress", "off"]
+    assert "another (1)" in command(*words) and f"{ours} (5)" in command(*words)
 
 
 def test_points_share_the_processors_unless_somebody_has_chosen(place):
@@ -286,6 +419,16 @@ def test_points_share_the_processors_unless_somebody_has_chosen(place):
     assert threads("shared") == max(1, len(os.sched_getaffinity(0)) // 2)
     command(*words, "chosen", env={"OMP_NUM_THREADS": "3"})
     assert threads("chosen") == 3
+
+
+def test_the_theory_of_a_realised_spectrum_has_all_seeds(place):
+    given = {"surface.rms": [0.2, 0.4], "surface.seed": [1, 2]}
+    sweep = asperity.sweep({**STATE, "theory": {"spectrum": "realised"}}, given, out="realised", jobs=2)
+    assert {p["set"]["surface.seed"] for p in sweep.theory} == {1, 2} and len(sweep.theory) == 122
+    points, curve = (t.average(t.values("theory.gamma_eff_ratio")) for t in (sweep.table, sweep.curves))
+    assert points.deviation[1] > 1e-5  # the seeds are told apart
+    assert curve.mean[[0, -1]] == pytest.approx(points.mean, rel=1e-12)
+    assert len(asperity.sweep(STATE, given, out="target", jobs=2).theory) == 61
 
 
 def test_several_scenes_share_their_plots(place):

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from .. import program, scene
 from ..errors import Error, InputOutputError
-from ..result import Result, State, Values
+from ..result import Result, State, Values, load_words
 from ..units import GIGAPASCAL, NANONEWTON
 from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, YELLOW, curve, drawn_into, finish, image
 
@@ -147,12 +147,13 @@ def roughness(run: Result, ax: Axes) -> bool:
     flat, rms = run.number("delta_gamma") or 0.0, run.number("surface.rms") or run.number("theory.h_rms") or 0.0
     if flat <= 0 or rms <= 0 or run.key("surface.kind") == "atoms":  # no theory, and Δγ but a unit
         return False
+    at, pressed = load_words(run.find("scene"))
     for words, x, y, line in theory_over_roughness(run, rms):
-        curve(ax, x, y, words, colour=GREY, line=line, behind=True)
+        curve(ax, x, y, words + pressed, colour=GREY, line=line, behind=True)
     names = (("jkr.in_averaged", "approach, by JKR", BLUE, "o"), ("jkr.out", "pull-off, by JKR", RED, "s")) \
         if run.curved else (("work_of_adhesion.approach", "approach", BLUE, "o"),
                             ("work_of_adhesion.pull_off", "pull-off", RED, "s"),
-                            ("binding_energy", "state at zero load", GREEN, "^"))
+                            ("binding_energy", f"state {at}", GREEN, "^"))
     for key, label, colour, marker in names:
         if (value := run.number(key)) is not None:
             curve(ax, [rms], [value / flat], label, colour=colour, line="", marker=marker, filled=marker != "s")
@@ -189,11 +190,10 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     if any("theory" not in p for p in points):
         return []
     curves = []
-    for words, line, key in (("theory", "-", "gamma_eff"),
-                             ("renormalised theory", DASHES[3], "renormalised.gamma_eff")):
-        theories = [Values(point["theory"]) for point in points]
-        found = [(value, gamma / theory.delta_gamma) for value, theory in zip(values, theories)
-                 if (gamma := theory.number(key)) is not None]
+    for words, line, key, flat in (("theory", "-", "gamma_eff", "theory.delta_gamma"),
+                                   ("renormalised theory", DASHES[3], "renormalised.gamma_eff", "delta_gamma")):
+        found = [(value, gamma / point.number(flat)) for value, point in zip(values, map(Values, points))
+                 if (gamma := point.number("theory." + key)) is not None]
         if found:
             curves.append((words, *zip(*found), line))
     return curves

@@ -53,7 +53,7 @@ SIZE = (4.2, 3.0)
 
 @dataclass
 class Curve:
-    """A curve or points as they were drawn; spread: standard deviations, if there are any."""
+    """A curve or points as they were drawn; spread: length of the error bars, if there are any."""
 
     label: str
     x: np.ndarray
@@ -109,7 +109,7 @@ def plain(text: str) -> str:
 
 def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-", marker: str = "",
           filled: bool = True, spread=None, width: float | None = None, behind: bool = False) -> None:
-    """A curve, or points with bars of their standard deviation. label "": none in the legend."""
+    """A curve, or points with error bars of the length `spread`. label "": none in the legend."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     options: dict[str, Any] = {"color": colour, "linestyle": line, "label": label or "_", "marker": marker or None,
                                "zorder": 1.8 if behind else 2.5, "markerfacecolor": colour if filled else PAPER}

@@ -8,8 +8,9 @@ colours, while dashes and markers tell the quantities apart.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ from matplotlib.axes import Axes
 from .. import files as writing
 from .. import program
 from ..grid import is_seed, shown
+from ..result import load_words
 from ..tables import Table
 from ..units import NANONEWTON
 from ..units import shown as shown_unit
@@ -37,7 +39,7 @@ MOST_CURVES = len(COLOURS)
 
 @dataclass
 class Trace:
-    """A quantity of the points: a column of the table over `unit`."""
+    """A quantity of the points: a column of the table over `unit`. In its label, {at} and {under} are the words of load_words."""
 
     label: str
     column: str
@@ -65,11 +67,11 @@ class Trace:
         return mean, np.where(np.isfinite(bars).any(axis=0), np.sqrt(np.nansum(bars**2, axis=0)), np.nan)
 
 
-THEORY = Trace("theory", "theory.gamma_eff_ratio", GREY, "-")
-FULL = Trace("theory, assuming full contact", "theory.gamma_full_contact_ratio", GREEN, DASHES[1])
-RENORMALISED = Trace("renormalised theory", "theory.renormalised.gamma_eff_ratio", PINK, DASHES[3])
-AREA = [Trace("theory", "theory.contact_fraction", GREY, "-"),
-        Trace("renormalised theory", "theory.renormalised.contact_fraction", PINK, DASHES[3])]
+THEORY = Trace("theory{under}", "theory.gamma_eff_ratio", GREY, "-")
+FULL = Trace("theory{under}, assuming full contact", "theory.gamma_full_contact_ratio", GREEN, DASHES[1])
+RENORMALISED = Trace("renormalised theory{under}", "theory.renormalised.gamma_eff_ratio", PINK, DASHES[3])
+AREA = [Trace("theory{under}", "theory.contact_fraction", GREY, "-"),
+        Trace("renormalised theory{under}", "theory.renormalised.contact_fraction", PINK, DASHES[3])]
 GAMMA, CONTACT = "$γ_{\\mathrm{eff}}$ / Δγ", "$A$ / $A_0$"
 Spec = tuple[str, list[Trace], list[Trace]]
 
@@ -79,7 +81,7 @@ SIMULATED: dict[str, Spec] = {
               uncertainty="work_of_adhesion.uncertainty.approach"),
         Trace("pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False,
               uncertainty="work_of_adhesion.uncertainty.pull_off"),
-        Trace("state at zero load", "binding_energy_ratio", GREEN, "", "^",
+        Trace("state {at}", "binding_energy_ratio", GREEN, "", "^",
               uncertainty="binding_energy_uncertainty"),
         Trace("deepest state", "states.deepest.binding_energy_ratio", GREEN, "", "^", False,
               unless="states.first.binding_energy_ratio"),
@@ -91,12 +93,13 @@ SIMULATED: dict[str, Spec] = {
         Trace("∫F dz, approach", "work_of_adhesion.approach_ratio", BLUE, "", "o"),
         Trace("∫F dz, pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False),
         Trace("atom by atom, both ways", "work_of_adhesion.pairwise_ratio", YELLOW, "", "D", False),
-        Trace("state at zero load", "binding_energy_ratio", GREEN, "", "^")]),
-    "area": (CONTACT, AREA, [Trace("state at zero load", "contact_fraction", GREEN, "", "^")]),
-    "separation": ("mean separation (Å)", [Trace("renormalised theory", "theory.renormalised.separation", PINK, DASHES[3])],
-                   [Trace("state at zero load", "zero_load.mean_height", GREEN, "", "^")]),
+        Trace("state {at}", "binding_energy_ratio", GREEN, "", "^")]),
+    "area": (CONTACT, AREA, [Trace("state {at}", "contact_fraction", GREEN, "", "^")]),
+    "separation": ("mean separation (Å)", [
+        Trace("renormalised theory{under}", "theory.renormalised.separation", PINK, DASHES[3])], [
+        Trace("state {at}", "zero_load.mean_height", GREEN, "", "^")]),
     "radius": ("√(contact area / π) (Å)", [], [
-        Trace("at zero load", "contact_radius.zero_load", GREEN, "", "^"),
+        Trace("{at}", "contact_radius.zero_load", GREEN, "", "^"),
         Trace("at the pull-off force", "contact_radius.pull_off", RED, "", "s", False)]),
     "pull-off": ("largest attraction on the way out (nN)", [],
                  [Trace("pull-off", "pull_off_force", RED, "", "s", False, unit=NANONEWTON)]),
@@ -125,43 +128,77 @@ def _curves(table: Table, x: str) -> dict[str, list[int]]:
     return {words: sorted(groups, key=table.at(x).__getitem__) for words, groups in found.items()}
 
 
-def _trace(ax: Axes, table: Table, x: str, trace: Trace, prefix: str, first: bool, colour: str) -> bool:
+def _words(sweeps: Sequence[Sweep], x: str) -> list[str]:
+    """What tells the curves of sweeps with several of them apart."""
+    found = [curves for sweep in sweeps if len(curves := _curves(sweep.table, x)) > 1]
+    return list(dict.fromkeys(words for curves in found for words in curves))
+
+
+def _trace(ax: Axes, table: Table, x: str, trace: Trace, colours: dict[str, str], told: set[str]) -> bool:
+    """colours: by the words of a curve; told: the words that the legend has."""
     curves = _curves(table, x)
     along, (means, bars) = table.at(x), trace.average(table)
     several = len(curves) > 1
     any_drawn = False
-    for i, (words, groups) in enumerate(list(curves.items())[:MOST_CURVES]):
-        if not np.isfinite(means[groups]).any():
+    for words, groups in curves.items():
+        if not np.isfinite(means[groups]).any() or (several and words not in colours):
             continue
-        label = (words if first else "") if several else prefix + trace.label
+        label = trace.label
+        if several:
+            label = "" if words in told else words
+            told.add(words)
         curve(ax, along[groups], means[groups], label, line=trace.line, marker=trace.marker, filled=trace.filled,
-              colour=COLOURS[i] if several else colour, behind=not trace.marker,
+              colour=colours[words] if several else trace.colour, behind=not trace.marker,
               spread=bars[groups] if trace.marker else None)
-        drawn(ax).curves[-1].label = prefix + trace.label + (f", {words}" if several else "")
+        drawn(ax).curves[-1].label = trace.label + (f", {words}" if several else "")
         any_drawn = True
     if several and any_drawn:  # what the dashes and markers mean
-        ax.plot([], [], color=GREY, linestyle=trace.line, marker=trace.marker or None, label=prefix + trace.label,
+        ax.plot([], [], color=GREY, linestyle=trace.line, marker=trace.marker or None, label=trace.label,
                 markerfacecolor=GREY if trace.filled else "none")
     return any_drawn
+
+
+def _agree(one: dict[str, float], other: dict[str, float]) -> bool:
+    """Whether two curves, {point: value}, agree: at the same points, or at different values that they have in common."""
+    both = np.array([(one[point], other[point]) for point in one.keys() & other.keys()]).reshape(-1, 2)
+    enough = one.keys() == other.keys() or (len(both) and np.ptp(np.nan_to_num(both)) > 1e-6)
+    return bool(enough) and np.allclose(*both.T, rtol=1e-6, atol=1e-9, equal_nan=True)
+
+
+def _theories(sweeps: Sequence[Sweep], trace: Trace) -> list[list[Sweep]]:
+    """The sweeps that have this theory, those with the same curve together."""
+    found: list[tuple[list[Sweep], list[dict[str, float]]]] = []
+    for sweep in sweeps:
+        table = Table(sweep.axes, [*sweep.points, *sweep.theory], False)
+        means = trace.average(table)[0]
+        if not np.isfinite(means).any():
+            continue
+        values = {json.dumps(point, sort_keys=True): mean for (point, _), mean in zip(table.groups, means)}
+        same = next((group for group in found if any(_agree(values, other) for other in group[1])), None)
+        if same is None:
+            found.append(([sweep], [values]))
+        else:
+            same[0].append(sweep)
+            same[1].append(values)
+    return [group for group, _ in found]
 
 
 def parts_of(sweeps: Sequence[Sweep]) -> tuple[list[Sweep], str, str]:
     """The sweeps that share a plot, their key along x, and what kept others out."""
     shared: list[Sweep] = []
-    along, note = "", ""
+    along, notes = "", []
     for sweep in sweeps:
         x = sweep.table.along
         if x is None:
-            note = "no plots: none of the swept keys is a number"
+            notes.append("no plots: none of the swept keys is a number")
         elif along and x != along:
-            note = f"{sweep.name} is not in the plots: it sweeps another key"
+            notes.append(f"{sweep.name} is not in the plots: it sweeps another key")
         else:
             along = x
             shared.append(sweep)
-            others = len(_curves(sweep.table, x))
-            if others > MOST_CURVES:
-                note = f"the plots show the first {MOST_CURVES} of {others} curves"
-    return shared, along, note
+    if (curves := len(_words(shared, along))) > MOST_CURVES:
+        notes.append(f"the plots show the first {MOST_CURVES} of {curves} curves")
+    return shared, along, "; ".join(dict.fromkeys(notes))
 
 
 def names(sweeps: Sequence[Sweep]) -> list[str]:
@@ -178,25 +215,39 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     if name == "readings" and not any(np.isfinite(points[0].values(s.table)).any() for s in shared):
         return False  # of paths
     simulated = False
-    used = {trace.colour for trace in lines}
-    curves = shared[0].curves
+    colours, told = dict(zip(_words(shared, x), COLOURS)), set()
+    used, dashes = [trace.colour for trace in lines], [trace.line for trace in lines]
+    of_theory: dict[str, str] = {}
+
+    def unused(those: Sequence, taken: list, otherwise: Any) -> Any:
+        taken.append(next((one for one in those if one not in taken), otherwise))
+        return taken[-1]
+
+    def words(sweep: Sweep) -> dict[str, str]:
+        return dict(zip(("at", "under"), load_words(sweep.scene, "drive.load" in sweep.axes)))
+
     for trace in lines:
-        _trace(ax, curves, x, trace, "", trace is lines[0], trace.colour)
+        for number, group in enumerate(_theories(shared, trace)):
+            name = ", ".join(sweep.name for sweep in group)
+            look = replace(trace, label=f"{name}: " * (len(group) < len(shared)) + trace.label.format(**words(group[0])))
+            if number:  # a further theory: another colour, the same for all of it, and other dashes
+                look.line = unused(DASHES, dashes, trace.line)
+                look.colour = of_theory[name] = of_theory.get(name) or unused(COLOURS[::-1], used, trace.colour)
+            table = Table(group[0].axes, [point for sweep in group for point in sweep.theory or sweep.points], False)
+            _trace(ax, table, x, look, colours, told)
     for sweep in shared:
         if not sweep.simulated:
             continue
         table = sweep.table
         prefix = f"{sweep.name}: " if len(shared) > 1 else ""
         last = GREY
-        for i, trace in enumerate(points):
+        for trace in points:
             if not np.isfinite(trace.values(table)).any():
                 continue
-            colour = next((c for c in (trace.colour, *COLOURS) if c not in used), trace.colour)
-            if trace.unless:  # of the same colour as what it is compared with
-                colour = last
-            last = colour
-            used.add(colour)
-            simulated |= _trace(ax, table, x, trace, prefix, i == 0 and not lines, colour)
+            if not trace.unless:  # else of the same colour as what it is compared with
+                last = unused((trace.colour, *COLOURS), used, trace.colour)
+            look = replace(trace, label=prefix + trace.label.format(**words(sweep)), colour=last)
+            simulated |= _trace(ax, table, x, look, colours, told)
     if not ax.lines or (shared[0].simulated and not simulated):
         return False
     ys = [v for c in drawn(ax).curves for v in c.y if np.isfinite(v)]
