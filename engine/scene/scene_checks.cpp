@@ -195,9 +195,6 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                      fmt::format("= {:.6g} K with drive.damping = 0", drive.temperature),
                      "the Langevin thermostat gives and takes heat through the damping",
                      "give a damping, for example 0.05 1/ps");
-    if (drive.temperature > 0.0 && scene.without_time())
-        problems.add("drive.temperature", fmt::format("= {:.6g} K without time", drive.temperature),
-                     "equilibria have no temperature", "leave it out, or take a path in time");
     if (scene.numerics.device != no_device && scene.numerics.device != any_device)
         for (const io::Problem& p : device_problems(scene))
             problems.add(p.where, p.what, p.why, p.fix);
@@ -305,8 +302,9 @@ std::vector<std::string> notes(const Scene& scene) {
     if (!scene.has(PathPart::zero_load))
         idle("drive.states", "drive.path does not start at \"zero-load\"");
     if (scene.without_time())
-        for (const char* key : {"drive.seed", "drive.velocity", "drive.timestep", "drive.damping",
-                                "drive.damping_from", "drive.ramp", "output.series"})
+        for (const char* key :
+             {"drive.temperature", "drive.seed", "drive.velocity", "drive.timestep",
+              "drive.damping", "drive.damping_from", "drive.ramp", "output.series"})
             idle(key, "no time passes on this path");
     else
         idle("drive.step", "drive.mode is \"dynamic\"");

@@ -43,8 +43,6 @@ bad "waves at finite strain" $'[block]\nmodel = "spectral"\nstrain = "finite"\n[
     "scene.toml:3:10: block.strain = \"finite\" with block.model = \"spectral\"" "waves do not add up"
 bad "mean height in time" $'[drive]\nhold = "mean-height"' \
     "scene.toml:2:8: drive.hold = \"mean-height\" on a path in time" "take drive.mode = \"quasistatic\""
-bad "temperature without time" $'[drive]\nmode = "quasistatic"\ntemperature = 300' \
-    "scene.toml:3:15: drive.temperature = 300 K without time" "equilibria have no temperature"
 bad "several" $'[surface]\nrms = -1\nhurst = 3\n[drive]\nspeed = 1\n' \
     "scene.toml:2:7" "scene.toml:3:9" "scene.toml:5:1" "3 problems"
 

@@ -284,6 +284,7 @@ TEST(Scene, Notes) {
     EXPECT_TRUE(said("drive.step = 0.1", "drive.step has no effect"));
     const std::string still = "drive.mode = \"quasistatic\"\n";
     EXPECT_TRUE(said(still + "drive.velocity = 2", "drive.velocity has no effect"));
+    EXPECT_TRUE(said(still + "drive.temperature = 300", "drive.temperature has no effect"));
     EXPECT_FALSE(said(still + "drive.step = 0.1", "has no effect"));
     EXPECT_TRUE(said("surface.sites = 500", "halved 2 times"));
     EXPECT_FALSE(said("", "halved"));
