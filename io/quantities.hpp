@@ -48,9 +48,8 @@ inline constexpr Quantity result_quantities[] = {
     {"work_of_adhesion.pairwise", "meV/Å^2", per::area,
      "-U_LJ of the zero-load state: the pair energies alone"},
     {"work_of_adhesion.uncertainty.approach", "meV/Å^2", per::area,
-     "uncertainty of the work of a quasi-static approach, for the sequence of instabilities that "
-     "it "
-     "takes"},
+     "uncertainty of the work of a quasi-static approach, for the sequence of instabilities "
+     "that it takes"},
     {"work_of_adhesion.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"contact_fraction", "1", per::sites,
      "sites closer to an atom than the inflection of the pair potential, at zero load; over a wall "
