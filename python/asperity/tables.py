@@ -214,7 +214,7 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
     for group, (values, places) in enumerate(table.groups):
         row = [shown(values[key]) for key in axes]
         for _, (mean, deviation, count), digits in cells:
-            row.append((f"{round(mean[group], digits) + 0.0:.{digits}f}" if count[group] else "-") +
+            row.append((f"{round(float(mean[group]), digits) + 0.0:.{digits}f}" if count[group] else "-") +
                        (f" ± {deviation[group]:.{digits}f}" if deviation[group] > 0.5 * 10.0**-digits else ""))
         rows.append([*row, _status([table.status[i] for i in places])])
     meaning = "binding energies and works of adhesion over Δγ" if table.simulated else ""
