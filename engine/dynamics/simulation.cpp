@@ -187,6 +187,7 @@ void Simulation::update_energy_balance() {
     scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(ledger_.work())});
     const double change = lj + elastic + kinetic - *energy_at_start_;
     record_.work = ledger_.work();
+    record_.interface_work = ledger_.approach + ledger_.pull_off;
     record_.damped = ledger_.damped;
     const double balance =
         (record_.work - work_at_start_) - change - (record_.damped - damped_at_start_);

@@ -49,6 +49,7 @@ struct StepRecord {
     long long in_contact = 0, repulsive = 0; ///< sites
     double closest = 0.0;                    ///< smallest pair distance, Å
     double work = 0.0, damped = 0.0;         ///< since the start, at that step
+    double interface_work = 0.0;             ///< int F dz of the mean height, likewise
     /// (work - change of energy - damped) over the largest of these terms and of the interface
     /// energy met so far.
     double residual = 0.0;
@@ -169,6 +170,7 @@ void Simulation::visit(Visitor& v) {
     v("record.elastic_energy", record_.elastic_energy);
     v("record.kinetic_energy", record_.kinetic_energy);
     v("record.work", record_.work);
+    v("record.interface_work", record_.interface_work);
     v("record.damped", record_.damped);
     v("record.residual", record_.residual);
     v("ledger.top_work", ledger_.top_work);

@@ -13,6 +13,15 @@
 
 namespace asperity {
 
+/// Of a number that may be there, for checkpoints.
+template <class Visitor>
+void visit_optional(Visitor& v, const char* name, std::optional<double>& value) {
+    double has = value ? 1.0 : 0.0, number = value.value_or(0.0);
+    v("has", has);
+    v(name, number);
+    if (has != 0.0) value = number;
+}
+
 /// Of the relaxed state under zero load.
 struct ZeroLoad {
     double binding_energy = 0.0; ///< gamma_state = -(U_LJ + U_el) / A0, meV/Å^2
@@ -67,12 +76,32 @@ struct StateList {
     }
 };
 
+/// Energies of an approach or a pull-off that has ended, meV/Å^2. Works are positive where the
+/// solids attract: taken up on the way in, given on the way out.
+struct LegEnergies {
+    /// Of the interface's force on the mean height of the lowest layer, int F dz / A0. Empty at a
+    /// held top without time, where the mean height jumps at instabilities.
+    std::optional<double> interface_work;
+    /// Of what drives or holds the block: the top plane (in time with the medium that damps, which
+    /// moves along), or the holder of the mean height.
+    std::optional<double> drive_work;
+    /// Damped or dissipated, or left in vibrations at the end (in time). Empty with a thermostat,
+    /// and in time where the approach ends under a load, so that no state is known there.
+    std::optional<double> lost;
+    std::optional<double> uncertainty; ///< of each of these; without time only
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        for (auto* value : {&interface_work, &drive_work, &lost, &uncertainty})
+            visit_optional(v, "leg_energy", *value);
+    }
+};
+
 struct Findings {
     std::optional<ZeroLoad> zero_load; ///< where there are several: the first
     std::optional<StateList> states;   ///< where all were asked for
-    std::optional<double> approach;    ///< work of adhesion, meV/Å^2
-    std::optional<double> pull_off;
-    double approach_uncertainty = 0.0, pull_off_uncertainty = 0.0; ///< without time, meV/Å^2
+    LegEnergies approach, pull_off;
+    std::optional<double> lost_in_cycle;   ///< meV/Å^2
     double attraction_in = 0.0;            ///< largest attraction on the way in, eV/Å
     double attraction_out = 0.0;           ///< on the way out
     std::optional<double> contact_made;    ///< when the approach ended, fs
@@ -81,27 +110,17 @@ struct Findings {
     /// By name, for checkpoints: visitor(name, double&).
     template <class Visitor>
     void visit(Visitor& v) {
-        optional(v, "approach", approach);
-        optional(v, "pull_off", pull_off);
-        v("approach_uncertainty", approach_uncertainty);
-        v("pull_off_uncertainty", pull_off_uncertainty);
+        approach.visit(v);
+        pull_off.visit(v);
+        visit_optional(v, "lost_in_cycle", lost_in_cycle);
         v("attraction_in", attraction_in);
         v("attraction_out", attraction_out);
-        optional(v, "contact_made", contact_made);
+        visit_optional(v, "contact_made", contact_made);
         double has = zero_load ? 1.0 : 0.0;
         v("zero_load", has);
         ZeroLoad z = zero_load.value_or(ZeroLoad{});
         z.visit(v);
         if (has != 0.0) zero_load = z;
-    }
-
-private:
-    template <class Visitor>
-    static void optional(Visitor& v, const char* name, std::optional<double>& value) {
-        double has = value ? 1.0 : 0.0, number = value.value_or(0.0);
-        v("has", has);
-        v(name, number);
-        if (has != 0.0) value = number;
     }
 };
 

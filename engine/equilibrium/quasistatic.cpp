@@ -19,7 +19,7 @@ QuasistaticPath::QuasistaticPath(Equilibrium& block, Interface& interface, PathO
       points_(block, interface,
               {options_.along, 0.25 * options_.tolerance, options_.site_stiffness,
                options_.reference_height}),
-      length_(options_.step) {}
+      length_(options_.step), scale_(50.0 * allowed_uncertainty()) {}
 
 void QuasistaticPath::start() {
     // Out of reach the block follows the top plane as a whole: that is what the first steps
@@ -212,12 +212,10 @@ QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, dou
 
 void QuasistaticPath::accept(const RelaxedState& state, double top, const StepCheck& step,
                              Leg leg) {
-    // int F dz over the mean height: z_top plus the stretch of the block, whose spring F obeys.
-    const double stretch = record_.mean_height - options_.reference_height - record_.top;
-    const double next_stretch = state.mean_height - top;
-    double& interface_work = leg == Leg::approach ? approach_ : pull_off_;
-    interface_work +=
-        -step.work + 0.5 * (state.top_force * next_stretch - record_.top_force * stretch);
+    if (leg == Leg::approach)
+        approach_ -= step.work;
+    else
+        pull_off_ += step.work;
     LegError& error = leg == Leg::approach ? approach_error_ : pull_off_error_;
     error.gap += std::abs(step.gap);
     error.squares += step.uncertain * step.uncertain;

@@ -69,11 +69,11 @@ public:
 
     /// The last point. Without time: step counts points, damped is what was dissipated.
     const StepRecord& now() const { return record_; }
-    /// int F dz of the mean height over the last approach and pull-off, eV. Within an instability
-    /// under a prescribed top plane, F is what the block's spring exerts.
-    double approach_work() const { return approach_; }
-    double pull_off_work() const { return pull_off_; }
-    /// What these, and what was dissipated on the leg, may be wrong by, eV: the sum of the gaps in
+    /// Work of what is held over the last leg of this kind, eV: what it took up on the approach,
+    /// what it gave on the pull-off; positive where the solids attract. At a held mean height it is
+    /// that of the interface's force, for the mean height does not jump.
+    double work(Leg leg) const { return leg == Leg::approach ? approach_ : pull_off_; }
+    /// What this, and what was dissipated on the leg, may be wrong by, eV: the sum of the gaps in
     /// the energy balance of its steps, and three times the root of the sum of squares of what the
     /// work of each step with an instability is not known by. (Three, for these errors are not
     /// independent: measured in docs/relaxation.md.)
@@ -82,6 +82,8 @@ public:
         return e.gap + 3.0 * std::sqrt(e.squares);
     }
     const Dissipation& dissipation() const { return dissipation_; }
+    /// What the force of the last point may be wrong by, eV/Å.
+    double slack() const { return slack(record_.in_contact); }
     long long iterations() const { return points_.iterations(); }
     /// Puts the block back to the last point, from wherever it was taken.
     void put_back() { points_.put_back(); }
@@ -148,7 +150,9 @@ private:
     double strongest_ = 0.0; ///< attraction so far, eV/Å
     double approach_ = 0.0, pull_off_ = 0.0;
     LegError approach_error_, pull_off_error_;
-    double energy_at_start_ = 0.0, scale_ = 0.0;
+    double energy_at_start_ = 0.0;
+    double
+        scale_; ///< largest energy seen, for the residual; at first 50 times what a step may miss
     Dissipation dissipation_;
 };
 

@@ -42,27 +42,16 @@ PathSeries read_path(const std::string& file) {
     };
     return {.leg = column("leg"),
             .time = run.exists("/series/time") ? column("time") : std::vector<double>{},
-            .height = column("mean_height"),
             .force = column("force"),
             .contact_fraction = column("contact_fraction")};
 }
 
-void add_cycle(const PathSeries& path, const Scene& scene, io::Result& result) {
+void add_sphere_path(const PathSeries& path, const Scene& scene, io::Result& result) {
     const std::size_t rows = path.leg.size();
     const std::size_t turn = static_cast<std::size_t>(
         std::find(path.leg.begin(), path.leg.end(), 1.0) - path.leg.begin());
-    if (turn == 0 || turn >= rows) return; // no cycle
-    const auto approach = result.number("work_of_adhesion.approach"),
-               pull_off = result.number("work_of_adhesion.pull_off"),
-               state = result.number("binding_energy");
-    if (!approach || !pull_off) return; // not to its end
-    const double area = scene.edge() * scene.edge() / units::milli_per_unit;
-    result.set("hysteresis.loop", (*pull_off - *approach) * area);
-    if (state && scene.drive.load == 0.0) {
-        result.set("hysteresis.approach", (*state - *approach) * area);
-        result.set("hysteresis.pull_off", (*pull_off - *state) * area);
-    }
-    if (!scene.surface.radius) return;
+    if (turn == 0 || turn >= rows) return;                // no cycle
+    if (!result.number("work_of_drive.pull_off")) return; // not to its end
     const auto strongest =
         std::min_element(path.force.begin() + static_cast<std::ptrdiff_t>(turn), path.force.end());
     const double fraction =

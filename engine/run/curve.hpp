@@ -14,17 +14,16 @@ namespace asperity {
 
 /// The series of a run, a value a row.
 struct PathSeries {
-    std::vector<double> leg;    ///< 0 approach, 1 pull-off
-    std::vector<double> time;   ///< ps; empty for a quasi-static path
-    std::vector<double> height; ///< Å
-    std::vector<double> force;  ///< eV/Å, positive pushes
+    std::vector<double> leg;   ///< 0 approach, 1 pull-off
+    std::vector<double> time;  ///< ps; empty for a quasi-static path
+    std::vector<double> force; ///< eV/Å, positive pushes
     std::vector<double> contact_fraction;
 };
 /// From run.h5. Throws io::FileError.
 PathSeries read_path(const std::string& file);
 
-/// What a path of approach and pull-off adds to a result: hysteresis.*, and for curved scenes
-/// jkr.in_averaged, jkr.out_averaged and contact_radius.pull_off.
-void add_cycle(const PathSeries& path, const Scene& scene, io::Result& result);
+/// What a whole path of approach and pull-off over a sphere adds to a result: jkr.in_averaged,
+/// jkr.out_averaged and contact_radius.pull_off.
+void add_sphere_path(const PathSeries& path, const Scene& scene, io::Result& result);
 
 } // namespace asperity

@@ -7,6 +7,7 @@
 #include "engine/dynamics/approach_start.hpp"
 #include "engine/equilibrium/equilibrium.hpp"
 #include "engine/run/checkpoint.hpp"
+#include "engine/run/guard.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/units.hpp"
@@ -24,8 +25,6 @@ namespace asperity {
 
 namespace {
 
-/// Largest relative error of the energy balance that counts as physics.
-constexpr double energy_limit = 0.02;
 /// Observed steps between two states kept in memory for the guard.
 constexpr long long rows_between_snapshots = 10;
 
@@ -76,6 +75,7 @@ private:
             // energy balance before anything is concluded.
             const bool due = simulation_.steps() % scene_.output.series == 0;
             const StepRecord& now = simulation_.step(due || ended_ || next_step_is_last());
+            if (now.step == 0) kinetic_at_start_ = now.kinetic_energy;
             guard(now);
             if (now.observed) record_row();
             watch_step(now);
@@ -105,7 +105,11 @@ private:
             std::max(run_.findings.attraction_in, run_.findings.attraction_out);
         const bool gone = out_of_reach(now.top, now.force, strongest, start_.force);
         if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
-        if (leg == Leg::approach) run_.findings.contact_made = now.time;
+        if (leg == Leg::approach) {
+            require_load_reached(simulation_.options().drive.load_force, attraction,
+                                 scene_.edge() * scene_.edge());
+            run_.findings.contact_made = now.time;
+        }
         return leg;
     }
 
@@ -133,14 +137,10 @@ private:
 
     /// What a leg has shown. False: stopped on the way to it.
     bool conclude(Leg leg) {
-        // Beyond the first and the last step the block comes and goes rigidly.
-        const double area = scene_.edge() * scene_.edge(), per_area = units::milli_per_unit / area;
         if (leg == Leg::pull_off) {
-            run_.findings.pull_off =
-                -per_area * (simulation_.ledger().pull_off + simulation_.now().interface_energy);
+            conclude_pull_off();
             return true;
         }
-        run_.findings.approach = per_area * (simulation_.ledger().approach - start_.energy);
         // The relaxation works on a copy: a run that is stopped in it starts it again from here.
         run_.save_if_on(state_writer());
         run_.progress.say("contact is made; relaxing a copy of this state under zero load");
@@ -148,8 +148,58 @@ private:
             run_.stop_now(state_writer(), position());
             return false;
         }
+        conclude_approach();
         if (!simulation_.drive().done()) run_.progress.say("pull-off begins");
         return true;
+    }
+
+    // The path is taken from rest to rest, out of reach: the drive also sets the block in motion
+    // before the first step and stops it after the last, and brings it in and out as a rigid body
+    // where what binds it then is the interface's energy.
+
+    void conclude_approach() {
+        LegEnergies& in = run_.findings.approach;
+        turn_ = account();
+        in.interface_work = per_area_ * (simulation_.ledger().approach - start_.energy);
+        in.drive_work = -per_area_ * (turn_.drive_work + start_.energy + kinetic_at_start_);
+        if (reaches_the_state())
+            in.lost =
+                per_area_ * (turn_.damped + turn_.energy) + run_.findings.zero_load->binding_energy;
+    }
+    void conclude_pull_off() {
+        Findings& found = run_.findings;
+        const double bound = simulation_.now().interface_energy;
+        const Account end = account();
+        found.pull_off.interface_work = -per_area_ * (simulation_.ledger().pull_off + bound);
+        found.pull_off.drive_work =
+            per_area_ * (end.drive_work - turn_.drive_work - bound - kinetic_at_start_);
+        if (scene_.drive.temperature > 0.0) return; // heat goes both ways
+        found.lost_in_cycle = per_area_ * (end.damped + end.energy - bound - kinetic_at_start_);
+        if (reaches_the_state()) found.pull_off.lost = *found.lost_in_cycle - *found.approach.lost;
+    }
+    /// The approach ends, but for vibrations, in the state at zero load.
+    bool reaches_the_state() const {
+        return scene_.drive.temperature == 0.0 && scene_.drive.load == 0.0;
+    }
+
+    /// At an observed step, eV.
+    struct Account {
+        double drive_work = 0.0; ///< of the top plane and the damping medium, which move alike
+        double damped = 0.0;
+        double energy = 0.0; ///< kinetic, elastic and of the interface
+
+        template <class Visitor>
+        void visit(Visitor& v) {
+            v("turn.drive_work", drive_work);
+            v("turn.damped", damped);
+            v("turn.energy", energy);
+        }
+    };
+    Account account() const {
+        const StepRecord& now = simulation_.now();
+        const Ledger& ledger = simulation_.ledger();
+        return {ledger.top_work + ledger.drag_work, ledger.damped,
+                now.interface_energy + now.elastic_energy + now.kinetic_energy};
     }
 
     /// False: stopped before the state was found.
@@ -170,11 +220,8 @@ private:
     }
 
     void guard(const StepRecord& now) {
-        const bool finite = std::isfinite(now.force) && std::isfinite(now.mean_height) &&
-                            std::isfinite(now.top_force);
-        const double residual = now.observed ? now.residual : 0.0;
-        const bool balanced = std::isfinite(residual) && std::abs(residual) <= energy_limit;
-        if (finite && balanced) return;
+        const auto wrong = violation(now, run_.lowest_height(), fmt::format("step {}", now.step));
+        if (!wrong) return;
         failed_ = now; // what follows puts the simulation back
         const std::string where = fastest_site();
         std::string kept = "no earlier state was kept";
@@ -192,10 +239,7 @@ private:
         }
         const double limit = run_.setup.longest_timestep;
         throw io::PhysicsError(
-            finite ? fmt::format("the energy balance is off by {:.1f} % at step {}",
-                                 100.0 * residual, failed_->step)
-                   : fmt::format("the motion diverged at step {}: the force is {}", failed_->step,
-                                 failed_->force),
+            *wrong,
             fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
                         "contact, and less "
                         "where atoms are pressed into the wall or hit it fast",
@@ -285,6 +329,8 @@ private:
         leg("ended", ended_);
         leg("concluding", concluding_);
         start_.visit(v);
+        v("start.kinetic", kinetic_at_start_);
+        turn_.visit(v);
     }
 
     io::Progress::State progress_state(const StepRecord& now) const {
@@ -305,7 +351,10 @@ private:
     RunSession run_;
     const Scene& scene_;
     Simulation simulation_;
+    const double per_area_ = units::milli_per_unit / (scene_.edge() * scene_.edge());
     ApproachStart start_;
+    double kinetic_at_start_ = 0.0;    ///< of the block moving with the drive, eV
+    Account turn_;                     ///< where the approach ended
     std::optional<StepRecord> failed_; ///< the step that a guard ended the run at
     std::optional<Leg> ended_;         ///< the leg that the last step ended
     std::optional<Leg> concluding_;    ///< the leg that ended the step before

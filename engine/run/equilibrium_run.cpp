@@ -8,6 +8,7 @@
 #include "engine/equilibrium/equilibrium.hpp"
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/equilibrium/state_search.hpp"
+#include "engine/run/guard.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/units.hpp"
@@ -107,6 +108,7 @@ private:
             if (outcome == QuasistaticPath::Outcome::interrupted) return stop_at_last_point();
             at_end_ = outcome != QuasistaticPath::Outcome::point;
             note_point(leg);
+            guard();
         }
         return conclude(leg);
     }
@@ -136,6 +138,17 @@ private:
         if (run_.progress.due()) run_.progress.update(path_progress());
     }
 
+    void guard() const {
+        const auto wrong = violation(path_.now(), run_.lowest_height(), position());
+        if (!wrong) return;
+        throw io::PhysicsError(
+            *wrong,
+            fmt::format("a step may miss drive.tolerance = {:.3g} eV/Å for each site and Å, and "
+                        "these add up",
+                        scene_.drive.tolerance),
+            "take a smaller drive.tolerance, or a smaller drive.step");
+    }
+
     /// Of the last point; its steps are iterations.
     io::Progress::State path_progress() const {
         const StepRecord& now = path_.now();
@@ -145,16 +158,21 @@ private:
 
     /// What a leg has shown. False where it was stopped on the way to it.
     bool conclude(Leg leg) {
-        const double area = scene_.edge() * scene_.edge();
+        const double per_area = units::milli_per_unit / (scene_.edge() * scene_.edge());
+        const Dissipation& lost = path_.dissipation();
+        Findings& findings = run_.findings;
+        LegEnergies& here = leg == Leg::approach ? findings.approach : findings.pull_off;
+        here.drive_work = per_area * path_.work(leg);
+        here.lost = per_area * (leg == Leg::approach ? lost.approach : lost.pull_off);
+        here.uncertainty = per_area * path_.uncertainty(leg);
+        if (scene_.drive.hold == Hold::mean_height) here.interface_work = here.drive_work;
         if (leg == Leg::pull_off) {
-            run_.findings.pull_off = -units::milli_per_unit * path_.pull_off_work() / area;
-            run_.findings.pull_off_uncertainty =
-                units::milli_per_unit * path_.uncertainty(Leg::pull_off) / area;
+            if (findings.approach.lost)
+                findings.lost_in_cycle = *findings.approach.lost + *here.lost;
             return true;
         }
-        run_.findings.approach = units::milli_per_unit * path_.approach_work() / area;
-        run_.findings.approach_uncertainty =
-            units::milli_per_unit * path_.uncertainty(Leg::approach) / area;
+        require_load_reached(run_.setup.simulation.drive.load_force + path_.slack(),
+                             findings.attraction_in, scene_.edge() * scene_.edge());
         path_.put_back(); // as after a resume, to the same bits
         const bool found = find_state(0.0);
         path_.put_back();
@@ -283,7 +301,7 @@ private:
     double reference_height() const { return interface_.start_height(); }
     SequenceOptions sequence_options() {
         SequenceOptions o;
-        o.step = scene_.drive.step;
+        o.step = std::min(scene_.drive.step, run_.setup.longest_step);
         o.tolerance = scene_.drive.tolerance;
         o.site_stiffness = run_.setup.site_stiffness;
         o.load = run_.setup.simulation.drive.load_force;

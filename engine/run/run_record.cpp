@@ -46,35 +46,34 @@ void add_zero_load(const ZeroLoad& z, io::Result& result) {
 }
 
 void add_path(const Findings& findings, std::optional<double> radius, io::Result& result) {
-    result.set("work_of_adhesion.approach", findings.approach);
-    result.set("work_of_adhesion.pull_off", findings.pull_off);
-    if (findings.approach) result.set("approach_force", findings.attraction_in);
-    if (findings.pull_off) result.set("pull_off_force", findings.attraction_out);
+    const LegEnergies &in = findings.approach, &out = findings.pull_off;
+    result.set("work_of_adhesion.approach", in.interface_work);
+    result.set("work_of_adhesion.pull_off", out.interface_work);
+    result.set("work_of_drive.approach", in.drive_work);
+    result.set("work_of_drive.pull_off", out.drive_work);
+    result.set("lost.approach", in.lost);
+    result.set("lost.pull_off", out.lost);
+    result.set("lost.cycle", findings.lost_in_cycle);
+    if (in.interface_work) result.set("work_of_adhesion.uncertainty.approach", in.uncertainty);
+    if (out.interface_work) result.set("work_of_adhesion.uncertainty.pull_off", out.uncertainty);
+    result.set("work_of_drive.uncertainty.approach", in.uncertainty);
+    result.set("work_of_drive.uncertainty.pull_off", out.uncertainty);
+    result.set("lost.uncertainty.approach", in.uncertainty);
+    result.set("lost.uncertainty.pull_off", out.uncertainty);
+    if (in.drive_work) result.set("approach_force", findings.attraction_in);
+    if (out.drive_work) result.set("pull_off_force", findings.attraction_out);
     if (!radius) return;
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, *radius);
     };
-    if (findings.approach) result.set("jkr.in", as_work(findings.attraction_in));
-    if (findings.pull_off) result.set("jkr.out", as_work(findings.attraction_out));
+    if (in.drive_work) result.set("jkr.in", as_work(findings.attraction_in));
+    if (out.drive_work) result.set("jkr.out", as_work(findings.attraction_out));
 }
 
 void add_dissipation(const Findings& findings, const Scene& scene, io::Result& result) {
     const Dissipation& lost = *findings.dissipated;
-    const double area = scene.edge() * scene.edge();
     const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
-    result.set("dissipated.approach", units::milli_per_unit * lost.approach / area);
-    result.set("dissipated.pull_off", units::milli_per_unit * lost.pull_off / area);
     result.set("dissipated.energy", lost.total());
-    const auto uncertainty = [&](const std::optional<double>& work, double value, io::Key of_work,
-                                 io::Key of_loss) {
-        if (!work) return;
-        result.set(of_work, value);
-        result.set(of_loss, value);
-    };
-    uncertainty(findings.approach, findings.approach_uncertainty,
-                "work_of_adhesion.uncertainty.approach", "dissipated.uncertainty.approach");
-    uncertainty(findings.pull_off, findings.pull_off_uncertainty,
-                "work_of_adhesion.uncertainty.pull_off", "dissipated.uncertainty.pull_off");
     result.set("dissipated.events", lost.events);
     result.set_list("dissipated.jumps[]");
     for (std::size_t i = 0; i < lost.jumps.size(); ++i) {

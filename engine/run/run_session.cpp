@@ -338,9 +338,8 @@ io::Result RunSession::write_result(const Failure* failure, const AddToResult& a
         result.set("failure.exit_code", failure->code);
         result.set("failure.reason", failure->reason);
     }
-    if (recorder_) {
-        add_cycle(read_path(storage_.path() + "/run.h5"), scene, result);
-    }
+    if (recorder_ && scene.surface.radius)
+        add_sphere_path(read_path(storage_.path() + "/run.h5"), scene, result);
     io::write_result(storage_.directory(), result);
     if (failure || !stopped_.empty()) return result;
     storage_.remove_checkpoints();

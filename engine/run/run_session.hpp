@@ -81,6 +81,10 @@ public:
     void restore(const RunScalars& scalars);
     /// What may not change between a checkpoint and its resumption: the physics, as text.
     const std::string& fingerprint() const { return fingerprint_; }
+    /// Below this the mean height of the lowest layer is beyond the substrate, Å.
+    double lowest_height() const {
+        return surface.statistics.lowest - reach_of(setup.simulation.interface);
+    }
     /// A state for a look, beside the result.
     io::FilePlace file(const std::string& name) const;
 

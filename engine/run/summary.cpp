@@ -64,6 +64,33 @@ std::string named(const std::string& name, io::Key key) {
     return name + ", " + unit;
 }
 
+/// Works and losses of a whole path.
+void print_cycle(std::FILE* to, const Scene& scene, const Numbers& of, double flat) {
+    const double lost =
+        of("lost.cycle").value_or(*of("work_of_drive.pull_off") - *of("work_of_drive.approach"));
+    if (std::abs(lost) < std::max(0.01 * flat, 0.005))
+        fmt::print(to,
+                   "  The drive gives on the way out what it took up on the way in, to {:.2f} "
+                   "meV/Å²: nothing is lost.\n",
+                   std::abs(lost));
+    else
+        fmt::print(to,
+                   "  The drive gives {:.2f} meV/Å² more on the way out than it takes up on the "
+                   "way in: energy that is lost\n  where the surfaces snap together and apart.\n",
+                   lost);
+    if (scene.drive.load == 0.0 && scene.drive.temperature == 0.0)
+        fmt::print(to, "  Work of the drive on the approach + energy lost there = binding energy = "
+                       "work of the drive on the\n  pull-off - energy lost there.\n");
+    if (of("work_of_adhesion.approach") && !scene.without_time())
+        fmt::print(to,
+                   "  The work of the interface is that of its force on the mean height of the "
+                   "surface: a block that snaps\n  as a whole changes nothing of it, patches that "
+                   "snap on their own do.\n");
+    if (std::abs(lost) >= std::max(0.01 * flat, 0.005) && scene.drive.hold == Hold::top)
+        fmt::print(to, "  A thick block is a soft spring and snaps as a whole; a thinner one "
+                       "(block.thickness) less so.\n");
+}
+
 /// All states at zero load.
 void print_states(std::FILE* to, const StateList& states) {
     const ZeroLoad& deepest = states.deepest().numbers;
@@ -134,25 +161,44 @@ void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
                    const std::optional<StateList>& states, const std::string& directory) {
     const Numbers of{result};
     const double flat = of("delta_gamma").value_or(0.0);
-    io::Table table({"", "approach", "pull-off", "state at zero load"});
+    const bool loaded = scene.has(PathPart::zero_load) && scene.drive.load != 0.0;
+    const std::string at =
+        loaded ? fmt::format("under {:.6g} MPa", scene.drive.load) : std::string("at zero load");
+    io::Table table({"", "approach", "pull-off", "state " + at});
     const auto row = [&](const std::string& name, io::Key unit, int digits, Number approach,
                          Number pull_off, Number state) {
         table.row({named(name, unit), number(approach, digits), number(pull_off, digits),
                    number(state, digits)});
     };
-    const Number approach = of("work_of_adhesion.approach"),
-                 pull_off = of("work_of_adhesion.pull_off"), state = of("binding_energy");
-    row("work of adhesion", "binding_energy", 2, approach, pull_off, state);
-    const auto share = [&](Number v) { return v && flat != 0.0 ? Number(*v / flat) : Number(); };
+    const Number drive_in = of("work_of_drive.approach"), drive_out = of("work_of_drive.pull_off"),
+                 interface_in = of("work_of_adhesion.approach"),
+                 interface_out = of("work_of_adhesion.pull_off"), state = of("binding_energy");
+    const auto ratio = [&](Number v) { return v && flat != 0.0 ? Number(*v / flat) : Number(); };
     const bool anywhere = scene.surface.kind == SurfaceKind::atoms;
-    table.row(
-        {fmt::format("  over {} ({:.2f})", anywhere ? "one flat layer" : "flat on flat", flat),
-         number(share(approach), 4), number(share(pull_off), 4), number(share(state), 4)});
-    const bool quasistatic = of("dissipated.energy").has_value();
-    if (quasistatic)
-        row("dissipated at instabilities", "dissipated.approach", 2,
-            scene.has(PathPart::approach) ? of("dissipated.approach") : Number(),
-            scene.has(PathPart::pull_off) ? of("dissipated.pull_off") : Number(), {});
+    const auto over_flat = [&](Number in, Number out, Number of_state) {
+        table.row(
+            {fmt::format("  over {} ({:.2f})", anywhere ? "one flat layer" : "flat on flat", flat),
+             number(ratio(in), 4), number(ratio(out), 4), number(ratio(of_state), 4)});
+    };
+    row("binding energy", "binding_energy", 2, {}, {}, state);
+    over_flat({}, {}, state);
+    if (interface_in || interface_out) {
+        row("work of the interface", "work_of_adhesion.approach", 2, interface_in, interface_out,
+            {});
+        over_flat(interface_in, interface_out, {});
+    }
+    if (drive_in || drive_out) {
+        row("work of the drive", "work_of_drive.approach", 2, drive_in, drive_out, {});
+        over_flat(drive_in, drive_out, {});
+    }
+    const Number lost_in = of("lost.approach"), lost_out = of("lost.pull_off");
+    if (lost_in || lost_out) row("energy lost", "lost.approach", 2, lost_in, lost_out, {});
+    const auto plus_minus = [](Number v) { return v ? fmt::format("{:.1e}", *v) : "-"; };
+    if (state || drive_in)
+        table.row({named("uncertainty of the above", "binding_energy_uncertainty"),
+                   plus_minus(of("work_of_drive.uncertainty.approach")),
+                   plus_minus(of("work_of_drive.uncertainty.pull_off")),
+                   plus_minus(of("binding_energy_uncertainty"))});
     row("largest attraction", "pull_off_force", 1, of("approach_force"), of("pull_off_force"), 0.0);
     if (scene.surface.radius)
         row("  as a JKR sphere", "jkr.in", 2, of("jkr.in"), of("jkr.out"), {});
@@ -167,11 +213,11 @@ void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
     fmt::print(to, "\nHow to read it\n");
     if (state)
         fmt::print(to,
-                   "  The state at zero load has a binding energy of {:.2f} meV/Å²{}:\n"
+                   "  The state {} has a binding energy of {:.2f} meV/Å²{}:\n"
                    "  {:.2f} of the pairs across the interface, less {:.2f} of elastic energy in "
                    "the block.\n"
                    "  {:.1f} % of the block's surface atoms are in contact.\n",
-                   *state,
+                   at, *state,
                    flat > 0.0 ? fmt::format(", {:.1f} % of that of {}", 100.0 * *state / flat,
                                             anywhere ? "one flat layer of the block's lattice"
                                                      : "two flat surfaces")
@@ -179,40 +225,12 @@ void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
                    *of("work_of_adhesion.pairwise"), *of("zero_load.elastic_energy"),
                    100.0 * *of("contact_fraction"));
     if (states) print_states(to, *states);
-    if (approach && pull_off && state) {
-        const double loop = *pull_off - *approach;
-        fmt::print(to, "  Approach and pull-off are the work of the interface's force on the mean "
-                       "height of the surface.\n");
-        const bool agree = std::abs(loop) < std::max(0.01 * flat, 0.005);
-        if (scene.drive.load != 0.0)
-            fmt::print(
-                to,
-                "  They end and begin under the load, and the binding energy is that without "
-                "one.\n  They {} {:.2f} meV/Å²{}.\n",
-                agree ? "agree to" : "differ by", std::abs(loop),
-                agree ? "" : ", which is lost to vibrations");
-        else if (agree)
-            fmt::print(to,
-                       "  Without instabilities both equal the binding energy, as they do here to "
-                       "{:.2f} meV/Å².\n",
-                       std::abs(loop));
-        else
-            fmt::print(to,
-                       "  Without instabilities both equal the binding energy; their difference, "
-                       "{:.2f} meV/Å², is energy\n"
-                       "  that instabilities of snap-in and snap-off turn into vibrations "
-                       "(hysteresis).\n  {}\n",
-                       loop,
-                       scene.drive.hold == Hold::mean_height
-                           ? "At a held mean height they happen in patches of the surface."
-                           : "A thick block is a soft spring and becomes unstable as a whole; a "
-                             "thinner one (block.thickness) less so.");
-    }
+    if (drive_in && drive_out) print_cycle(to, scene, of, flat);
     if (const Number residual = of("energy.residual"))
         fmt::print(to,
                    "  Energy balance: work done = energy gained + energy {}, to {:.1e} of the "
                    "largest term.\n",
-                   quasistatic ? "dissipated" : "damped", std::abs(*residual));
+                   of("dissipated.energy") ? "dissipated" : "damped", std::abs(*residual));
     fmt::print(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

@@ -244,6 +244,39 @@ Setup make_setup(const Scene& scene, int ranks) {
         }
     }
 
+    // The width of the potential: its depth over its largest force.
+    const double tension = setup.largest_tension * units::gigapascal;
+    const double width = setup.flat.work_of_adhesion / units::milli_per_unit / tension;
+    if (tension > 0.0) {
+        setup.longest_step = 0.5 * width;
+        if (scene.without_time() && scene.drive.step > setup.longest_step)
+            setup.notes.push_back(
+                fmt::format("drive.step = {:.6g} Å: steps are {:.3g} Å at most, half the width of "
+                            "the potential (its depth over its largest force)",
+                            scene.drive.step, setup.longest_step));
+        const double pull = -scene.drive.load * units::megapascal;
+        if (pull > tension && scene.surface.kind != SurfaceKind::atoms)
+            problems.add(
+                "drive.load",
+                fmt::format("= {:.6g} MPa pulls harder than anything binds", scene.drive.load),
+                fmt::format("the largest tension of flat on flat is {:.4g} MPa",
+                            tension / units::megapascal),
+                "take a smaller pull");
+    }
+    if (on(Effect::inertia) && tension > 0.0) {
+        const double travel = scene.drive.velocity * units::metre_per_second * scene.drive.timestep;
+        if (travel > 0.1 * width)
+            problems.add(
+                "drive.velocity",
+                fmt::format("= {:.6g} m/s moves the block by {:.3g} Å in a time step",
+                            scene.drive.velocity, travel),
+                fmt::format("the potential is {:.3g} Å wide (its depth over its largest force), "
+                            "and a step must not jump over it",
+                            width),
+                fmt::format("take {:.3g} m/s or less with this time step",
+                            scene.drive.velocity * 0.1 * width / travel));
+    }
+
     if (on(Effect::device)) setup.simulation.device = device_of(scene);
 
     auto& drive = setup.simulation.drive;

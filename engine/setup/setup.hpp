@@ -12,6 +12,7 @@
 #include "engine/scene/surface.hpp"
 #include "engine/setup/effects.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,10 @@ struct Setup {
     SimulationOptions simulation;
     FlatReference flat; ///< flat on flat, same cutoff and lattices
     /// Bounds: of that, and of flat layers of each type of atoms (interface.pairs).
-    double site_stiffness = 0.0;   ///< eV/Å^2
-    double largest_tension = 0.0;  ///< GPa
-    double longest_timestep = 0.0; ///< stability limit 2/omega_max at the bottom of the well, fs
+    double site_stiffness = 0.0;    ///< eV/Å^2
+    double largest_tension = 0.0;   ///< GPa
+    double longest_step = HUGE_VAL; ///< of a path without time, Å: half the potential's width
+    double longest_timestep = 0.0;  ///< stability limit 2/omega_max at the bottom of the well, fs
     std::vector<LevelShape> levels;
     std::vector<std::string> notes; ///< worth knowing, not wrong
 };

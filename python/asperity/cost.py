@@ -42,7 +42,7 @@ def nothing() -> np.ndarray:
 def numbers_of(result: Values) -> np.ndarray:
     """One number a quantity; NaN: none."""
     flat, *numbers = (NAN if (v := result.number(key)) is None else v for key in (
-        "delta_gamma", "binding_energy", "contact_fraction", "work_of_adhesion.approach", "work_of_adhesion.pull_off",
+        "delta_gamma", "binding_energy", "contact_fraction", "work_of_drive.approach", "work_of_drive.pull_off",
         "pull_off_force"))
     flat = flat or NAN
     return np.array(numbers) / (flat, 1.0, flat, flat, 1.0)

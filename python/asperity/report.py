@@ -133,7 +133,7 @@ def _numbers(page: Page, run: Result) -> None:
         known = program.quantity(key)
         unit, meaning, flat = shown(run.unit(key) or known["unit"]), known["meaning"], words.reference(run, key)
         # Of a sphere, the nominal area says nothing, and so does an energy over it.
-        nominal = key.split(".")[0] in ("binding_energy", "work_of_adhesion", "states", "zero_load")
+        nominal = key.split(".")[0] in ("binding_energy", "work_of_adhesion", "work_of_drive", "lost", "states", "zero_load")
         over = unit == "meV/Å²" and flat > 0 and not (run.curved and nominal)
         rows.append(Row([f"{key}: {meaning}" if meaning else key, minus(f"{value:.6g}"), "" if unit == "1" else unit,
                          minus(f"{value / flat:.4f}") if over else ""]))

@@ -32,15 +32,14 @@ MOST_POINTS = 24
 MOST_CURVES = 6
 
 CAPTIONS = {
-    "gamma": "Binding energy over that of two flat surfaces: theory, and what was simulated. Of a sphere, γ by JKR from "
+    "gamma": "Binding energy and works over the binding energy of two flat surfaces: theory, and what was simulated. Of a sphere, γ by JKR from "
              "the largest attraction and from the energy at zero load. Bars: standard deviation over seeds and uncertainty of a run, "
              "added in squares.",
     "area": "Projected contact area over the nominal area.",
     "separation": "Mean height of the lowest layer above the substrate’s mean plane.",
     "radius": "Radius of a circle as large as the area in contact.",
     "pull-off": "What it takes to pull the block off.",
-    "hysteresis": "The area of the loop of force against separation: what a cycle of approach and pull-off turns into "
-                  "heat.",
+    "hysteresis": "Energy that approach, pull-off and both lose.",
     "readings": "Work of the interface’s force on the mean height, approach and pull-off; the work summed atom by atom, "
                 "which is the energy of the pairs and the same both ways; and the state’s energy.",
     "full-contact": "The full theory, and what it would be if contact were full."}

@@ -18,19 +18,22 @@ from .result import Values
 RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
 """Columns of a result whose path in result.json is that of a key of the scene."""
 RENAMED_BACK = {column: path for path, column in RENAMED.items()}
-OVER_FLAT = ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off", "work_of_adhesion.pairwise",
+OVER_FLAT = ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off", "work_of_drive.approach",
+             "work_of_drive.pull_off", "lost.cycle", "work_of_adhesion.pairwise",
              "jkr.in", "jkr.out", "jkr.in_averaged", "jkr.out_averaged", "jkr.zero_load", "sphere.maugis_images",
              "sphere.renormalised", "states.first.binding_energy", "states.deepest.binding_energy")
 """Energies of a result that also have a column of their ratio to the flat reference."""
 FIRST = ("delta_gamma", "binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off",
+         "work_of_drive.approach", "work_of_drive.pull_off", "lost.approach", "lost.pull_off", "lost.cycle",
          "work_of_adhesion.pairwise", "contact_fraction", "pushed_fraction", "pull_off_force", "jkr.in", "jkr.out",
          "jkr.in_averaged", "jkr.out_averaged", "jkr.zero_load", "sphere.maugis_images", "sphere.renormalised",
-         "contact_radius.zero_load", "contact_radius.pull_off", "hysteresis.loop", "hysteresis.approach", "hysteresis.pull_off", "realised_rms",
+         "contact_radius.zero_load", "contact_radius.pull_off", "realised_rms",
          "realised_rms_slope", "energy.residual", "run.wall_seconds")
 """Columns of results that come first; whatever else result.json holds follows."""
 THEORY_FIRST = ("delta_gamma", "gamma_eff", "gamma_eff_ratio", "contact_fraction", "gamma_full_contact",
                 "gamma_full_contact_ratio", "theta", "gamma_eff_ratio_error", "contact_fraction_error")
 OF_AREA = ("binding_energy_ratio", "work_of_adhesion.approach_ratio", "work_of_adhesion.pull_off_ratio",
+           "work_of_drive.approach_ratio", "work_of_drive.pull_off_ratio", "lost.cycle_ratio",
            "work_of_adhesion.pairwise_ratio", "states.deepest.binding_energy_ratio", "contact_fraction", "zero_load.mean_height")
 """Columns over the nominal area, which means nothing for a sphere."""
 
@@ -188,10 +191,11 @@ class Table(Columns):
 
 
 # The table as text: head, column and digits; columns without numbers are left out.
-OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("approach", "work_of_adhesion.approach_ratio", 4),
-                 ("pull-off", "work_of_adhesion.pull_off_ratio", 4), ("JKR in", "jkr.in_ratio", 4),
-                 ("JKR out", "jkr.out_ratio", 4), ("contact", "contact_fraction", 4),
-                 ("radius, Å", "contact_radius.zero_load", 1), ("loop, eV", "hysteresis.loop", 1),
+OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_of_adhesion.approach_ratio", 4),
+                 ("interface, out", "work_of_adhesion.pull_off_ratio", 4),
+                 ("drive, in", "work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
+                 ("JKR in", "jkr.in_ratio", 4), ("JKR out", "jkr.out_ratio", 4), ("contact", "contact_fraction", 4),
+                 ("radius, Å", "contact_radius.zero_load", 1), ("lost, meV/Å²", "lost.cycle", 4),
                  ("theory", "theory.gamma_eff_ratio", 4), ("its contact", "theory.contact_fraction", 4),
                  ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
 OF_THEORY = (("γ_eff, meV/Å²", "gamma_eff", 3), ("γ_eff/Δγ", "gamma_eff_ratio", 5), ("A/A0", "contact_fraction", 5),
@@ -217,7 +221,7 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
             row.append((f"{round(float(mean[group]), digits) + 0.0:.{digits}f}" if count[group] else "-") +
                        (f" ± {deviation[group]:.{digits}f}" if deviation[group] > 0.5 * 10.0**-digits else ""))
         rows.append([*row, _status([table.status[i] for i in places])])
-    meaning = "binding energies and works of adhesion over Δγ" if table.simulated else ""
+    meaning = "binding energies and works over Δγ" if table.simulated else ""
     if meaning and len(axes) < len(table.axes):
         meaning += ", mean ± standard deviation over the seeds"
     return [*axes, *(c[0] for c in cells), ""], rows, meaning

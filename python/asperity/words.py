@@ -92,7 +92,6 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             found.append(KeyNumber(minus(f"{value / flat:.3f}"), symbol, name, note))
 
     force = run.number("pull_off_force")
-    into, out = run.number("work_of_adhesion.approach"), run.number("work_of_adhesion.pull_off")
     if run.curved:  # energies over the nominal area mean nothing
         gamma("jkr.out", "from the pull-off force, by JKR", "γ_{JKR}/Δγ")
         gamma("jkr.in_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps", "γ_{JKR}/Δγ")
@@ -116,13 +115,15 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             found.append(KeyNumber(f"{force / run.edge**2 / GIGAPASCAL:.3g}", "GPa",
                                    "pull-off stress, the largest attraction on the way out",
                                    f"{force / NANONEWTON:.4g} nN in all"))
-    loop = run.number("hysteresis.loop")
-    if loop is not None and into is not None and out is not None:
-        found.append(KeyNumber(minus(f"{loop if run.curved else out - into:.4g}"), "eV" if run.curved else "meV/Å²",
-                               "lost in a cycle (hysteresis)", "where surfaces snap together and apart"))
+    lost = run.number("lost.cycle")
+    if lost is not None:
+        found.append(KeyNumber(minus(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}"),
+                               "eV" if run.curved else "meV/Å²", "lost in a cycle (hysteresis)",
+                               "where surfaces snap together and apart"))
     if not run.curved:
-        gamma("work_of_adhesion.approach", "work of adhesion, approach")
-        gamma("work_of_adhesion.pull_off", "work of adhesion, pull-off")
+        for key, name in (("work_of_adhesion", "work of the interface"), ("work_of_drive", "work of the drive")):
+            gamma(key + ".approach", name + ", approach")
+            gamma(key + ".pull_off", name + ", pull-off")
     gamma("theory.gamma_eff", f"Persson’s theory{pressed}" + ", of the flat surface" * run.curved)
     gamma("theory.renormalised.gamma_eff", f"renormalised theory{pressed}")
     theory = run.number("theory.contact_fraction")
@@ -156,26 +157,31 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
 
 
 def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
+    lost, *parts = (run.number("lost." + k) for k in ("cycle", "approach", "pull_off"))
+    if lost is None:
+        lost = out - into
     if run.curved:
-        parts = [run.number("hysteresis." + k) for k in ("loop", "approach", "pull_off")]
-        if any(p is None for p in parts):
-            return ""
-        loop, approach, pull_off = (minus(f"{p:.4g}") for p in parts)
-        return (f"A cycle of approach and pull-off loses {loop} eV: {approach} on the way in, where the contact spreads "
-                f"by itself, and {pull_off} on the way out, where it detaches.")
-    lost = out - into
-    text = f"Coming together the interface does a work of {energy(into)}; taking it apart costs {energy(out)}."
+        loop, *parts = ("" if p is None else minus(f"{p * run.edge**2 / 1e3:.4g}") for p in (lost, *parts))
+        return f"A cycle of approach and pull-off loses {loop} eV" + (
+            f": {parts[0]} on the way in, where the contact spreads by itself, and {parts[1]} on the way out, where it "
+            "detaches." if all(parts) else ".")
+    text = f"On the way in the drive takes up {energy(into)}; on the way out it gives {energy(out)}."
     if abs(lost) < 0.01 * flat:
-        return text + f" The two agree to {energy(abs(lost))}: hardly anything is lost on the way."
-    return text + (f" The difference, {energy(lost)}, is lost: where the surfaces snap together or apart, their energy "
-                   "goes into vibrations (hysteresis).")
+        text += f" The two agree to {energy(abs(lost))}: hardly anything is lost on the way."
+    else:
+        text += f" The difference, {energy(lost)}, is lost where the surfaces snap together and apart (hysteresis)."
+    own = [run.number("work_of_adhesion." + k) for k in ("approach", "pull_off")]
+    if None not in own and "time" in run.series:
+        text += (f" The work of the interface’s force on the mean height is {energy(own[0])} and {energy(own[1])}: a snap "
+                 "of the block as a whole changes nothing of it.")
+    return text
 
 
 def findings(run: Result) -> list[str]:
     """What the run came to, in sentences."""
     text: list[str] = []
     flat = run.number("delta_gamma") or 0.0
-    state, into, out = (run.number(k) for k in ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off"))
+    state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
     if state is not None and flat > 0:
         text.append(_state_sentence(run, state, flat))
     if into is not None and out is not None and flat > 0:

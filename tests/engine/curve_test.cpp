@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a path says of its hysteresis, and the curves of a smooth sphere beside it.
+// What a path over a sphere says, and the curves of a smooth sphere beside it.
 #include "engine/run/curve.hpp"
 
 #include "engine/run/smooth_sphere.hpp"
@@ -22,7 +22,7 @@
 namespace asperity {
 namespace {
 
-TEST(Paths, TellWhatTheyLose) {
+TEST(Paths, OfASphereTellItsRadiusAndItsMeanForce) {
     const Scene scene = read_scene_text(
         "[surface]\nsites = 10\nspacing = 10\nradius = 1000\n[interface]\ncutoff = 10\n", "s.toml");
     PathSeries path;
@@ -31,40 +31,20 @@ TEST(Paths, TellWhatTheyLose) {
         path.leg.push_back(out ? 1.0 : 0.0);
         // Eight rows in 2 ps. The first row of a leg may lie anywhere between two of the series.
         path.time.push_back(i == 15 ? 0.25 * 16 - 0.1 : 0.25 * i);
-        path.height.push_back(0.1 * i);
         path.force.push_back(i == 20 ? -90.0 : i >= 25 && i < 33 ? -50.0 : 0.0);
         path.contact_fraction.push_back(i == 20 ? 0.04 : 0.01);
     }
     io::Result result;
-    result.set("work_of_adhesion.approach", 5.0);
-    result.set("work_of_adhesion.pull_off", 8.0);
-    result.set("binding_energy", 6.0);
-    add_cycle(path, scene, result);
+    add_sphere_path(path, scene, result);
+    EXPECT_FALSE(result.number("contact_radius.pull_off")) << "the path has not come to its end";
+    result.set("work_of_drive.pull_off", 8.0);
+    add_sphere_path(path, scene, result);
     const io::Json json = result.json();
-    EXPECT_NEAR(io::find(json, "hysteresis.loop")->get<double>(), 3.0 * 100 * 100 / 1000, 1e-12);
-    EXPECT_NEAR(io::find(json, "hysteresis.approach")->get<double>(), 10.0, 1e-12);
-    EXPECT_NEAR(io::find(json, "hysteresis.pull_off")->get<double>(), 20.0, 1e-12);
     EXPECT_NEAR(io::find(json, "contact_radius.pull_off")->get<double>(),
                 std::sqrt(0.04 * 1e4 / M_PI), 1e-9);
     // The single spike of 90 counts for an eighth of it in the mean.
     EXPECT_NEAR(io::find(json, "jkr.out_averaged")->get<double>(), 1e3 * 50.0 / (1.5 * M_PI * 1000),
                 1e-9);
-}
-
-TEST(Paths, HaveNoPartsOfTheirHysteresisUnderALoad) {
-    PathSeries path;
-    path.leg = {0.0, 0.0, 1.0, 1.0};
-    path.height = path.force = path.contact_fraction = {0.0, 0.0, 0.0, 0.0};
-    io::Result result;
-    result.set("work_of_adhesion.approach", 5.0);
-    result.set("work_of_adhesion.pull_off", 8.0);
-    result.set("binding_energy", 6.0);
-    Scene scene;
-    scene.drive.load = 10.0;
-    add_cycle(path, scene, result);
-    EXPECT_TRUE(result.number("hysteresis.loop"));
-    EXPECT_FALSE(result.number("hysteresis.approach"));
-    EXPECT_FALSE(result.number("hysteresis.pull_off"));
 }
 
 /// The value of `key` for a path of rows every 0.1 ps whose force is -1 eV/Å from row `from` for
@@ -75,16 +55,14 @@ double averaged(std::size_t from, std::size_t count, io::Key key) {
         const std::size_t row = i % 200;
         path.leg.push_back(i < 200 ? 0.0 : 1.0);
         path.time.push_back(0.1 * static_cast<double>(i));
-        path.height.push_back(5.0);
         path.force.push_back(row >= from && row < from + count ? -1.0 : 0.0);
         path.contact_fraction.push_back(0.1);
     }
     Scene scene;
     scene.surface.radius = 100.0;
     io::Result result;
-    result.set("work_of_adhesion.approach", 1.0);
-    result.set("work_of_adhesion.pull_off", 1.0);
-    add_cycle(path, scene, result);
+    result.set("work_of_drive.pull_off", 1.0);
+    add_sphere_path(path, scene, result);
     const std::optional<double> value = result.number(key);
     EXPECT_TRUE(value) << key.quantity->name << " is missing";
     return value.value_or(std::nan(""));

@@ -283,8 +283,8 @@ TEST(FiniteQuasistatic, WorkIsEnergyPlusLossOnLevels) {
     const double out = follow(Leg::pull_off);
     const Dissipation& lost = path.dissipation();
     EXPECT_GT(state, 1.0);
-    EXPECT_NEAR(path.approach_work() + lost.approach, state, in);
-    EXPECT_NEAR(-path.pull_off_work() - lost.pull_off, state, out);
+    EXPECT_NEAR(path.work(Leg::approach) + lost.approach, state, in);
+    EXPECT_NEAR(path.work(Leg::pull_off) - lost.pull_off, state, out);
     // What a relaxation moves by is its own, not the block's.
     EXPECT_EQ(block->bytes(), Block(options, Communicator(), grid, Motion::at_rest).bytes());
 }

@@ -96,10 +96,10 @@ struct Contact {
     std::uint64_t trace() {
         std::uint64_t hash = 1;
         const StepRecord& r = path.now();
-        for (double value :
-             {r.top, r.mean_height, r.force, r.top_force, r.interface_energy, r.elastic_energy,
-              r.work, r.damped, r.residual, r.closest, static_cast<double>(r.in_contact),
-              path.approach_work(), path.pull_off_work(), static_cast<double>(path.iterations())})
+        for (double value : {r.top, r.mean_height, r.force, r.top_force, r.interface_energy,
+                             r.elastic_energy, r.work, r.damped, r.residual, r.closest,
+                             static_cast<double>(r.in_contact), path.work(Leg::approach),
+                             -path.work(Leg::pull_off), static_cast<double>(path.iterations())})
             hash = test::mix(hash, value);
         for (const Instability& jump : path.dissipation().jumps)
             for (double value : {jump.energy, jump.top, jump.site_x, jump.site_y, jump.sites_moved})

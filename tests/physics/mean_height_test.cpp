@@ -133,8 +133,8 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
             // Where pairs of a flat layer leave the cutoff together F jumps, and what a polynomial
             // misses there may be taken for a fall.
             EXPECT_LT(path.dissipation().total(), 0.1 * tolerance * c.sites() * way);
-            EXPECT_NEAR(path.approach_work(), state, tolerance * c.sites() * way);
-            EXPECT_NEAR(path.pull_off_work(), -state, tolerance * c.sites() * way);
+            EXPECT_NEAR(path.work(Leg::approach), state, tolerance * c.sites() * way);
+            EXPECT_NEAR(path.work(Leg::pull_off), state, tolerance * c.sites() * way);
             int unstable = 0;
             for (const auto* leg : {&in, &out})
                 for (const StepRecord& r : *leg) {
@@ -257,8 +257,8 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     const double bound = -state.interface_energy - state.elastic_energy;
     const double allowed = tolerance * c.sites() * (in.front().top - in.back().top);
     EXPECT_EQ(path.dissipation().total(), 0.0);
-    EXPECT_NEAR(path.approach_work(), bound, allowed);
-    EXPECT_NEAR(path.pull_off_work(), -bound, allowed);
+    EXPECT_NEAR(path.work(Leg::approach), bound, allowed);
+    EXPECT_NEAR(path.work(Leg::pull_off), bound, allowed);
 
     Case d(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"), true);
     QuasistaticPath falling = d.path(tolerance);
@@ -330,7 +330,7 @@ TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
         path.start();
         follow(path, Leg::approach);
         lost.push_back(path.dissipation());
-        EXPECT_NEAR(path.approach_work() + path.dissipation().total(), -energy(path.now()),
+        EXPECT_NEAR(path.work(Leg::approach) + path.dissipation().total(), -energy(path.now()),
                     path.uncertainty(Leg::approach));
         for (const Instability& fall : path.dissipation().jumps)
             EXPECT_GT(fall.energy, 0.0);
@@ -394,8 +394,8 @@ TEST(MeanHeight, WorkIsThatOfATighterPath) {
         path.start();
         follow(path, Leg::approach);
         follow(path, Leg::pull_off);
-        works.push_back({path.approach_work(), path.uncertainty(Leg::approach),
-                         path.pull_off_work(), path.uncertainty(Leg::pull_off)});
+        works.push_back({path.work(Leg::approach), path.uncertainty(Leg::approach),
+                         -path.work(Leg::pull_off), path.uncertainty(Leg::pull_off)});
     }
     EXPECT_NEAR(works[0][0], works[1][0], works[0][1] + works[1][1]);
     EXPECT_NEAR(works[0][2], works[1][2], works[0][3] + works[1][3]);
@@ -426,9 +426,9 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
         const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
         EXPECT_GE(lost.total(), m.least * state);
         const double allowed = 0.2 * tolerance * c.sites();
-        EXPECT_NEAR(path.approach_work() + lost.approach, state, allowed * way);
-        EXPECT_NEAR(-path.pull_off_work() - lost.pull_off, state, allowed * back);
-        EXPECT_NEAR(-path.approach_work() - path.pull_off_work(), lost.total(),
+        EXPECT_NEAR(path.work(Leg::approach) + lost.approach, state, allowed * way);
+        EXPECT_NEAR(path.work(Leg::pull_off) - lost.pull_off, state, allowed * back);
+        EXPECT_NEAR(-path.work(Leg::approach) - -path.work(Leg::pull_off), lost.total(),
                     allowed * (way + back));
         EXPECT_LT(std::abs(path.now().residual), 1e-3);
         EXPECT_NEAR(energy(path.now()), 0.0, 1e-3 * std::abs(state) + 1e-3);
@@ -502,6 +502,6 @@ TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     const double bound = -energy(path.now());
     const auto out = follow(path, Leg::pull_off);
     EXPECT_EQ(path.dissipation().total(), 0.0);
-    EXPECT_NEAR(path.pull_off_work(), -bound,
+    EXPECT_NEAR(path.work(Leg::pull_off), bound,
                 1e-4 * c.sites() * (out.back().top - out.front().top));
 }

@@ -16,7 +16,7 @@ from .. import program, scene
 from ..errors import Error, InputOutputError
 from ..result import Result, State, Values, load_words
 from ..units import GIGAPASCAL, NANONEWTON
-from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, YELLOW, curve, drawn_into, finish, image
+from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into, finish, image
 
 LEGS = (("approach", BLUE), ("pull-off", RED))
 
@@ -107,7 +107,7 @@ def energy(run: Result, ax: Axes) -> bool:
     unit = 1.0 if run.curved else 1e3 / run.edge**2
     for name, label, colour, line in (
             ("interface_energy", "interface", BLUE, "-"), ("elastic_energy", "elastic", RED, DASHES[1]),
-            ("kinetic_energy", "kinetic", GREEN, DASHES[3]), ("work", "work done", GREY, DASHES[2]),
+            ("kinetic_energy", "kinetic", GREEN, DASHES[3]), ("work", "work of the drive", GREY, DASHES[2]),
             ("damped", "damped", PINK, DASHES[4]), ("dissipated", "dissipated", PINK, DASHES[4])):
         if name in run.series:
             curve(ax, along[0], run.series[name] * unit, label, colour=colour, line=line)
@@ -151,12 +151,14 @@ def roughness(run: Result, ax: Axes) -> bool:
     for words, x, y, line in theory_over_roughness(run, rms):
         curve(ax, x, y, words + pressed, colour=GREY, line=line, behind=True)
     names = (("jkr.in_averaged", "approach, by JKR", BLUE, "o"), ("jkr.out", "pull-off, by JKR", RED, "s")) \
-        if run.curved else (("work_of_adhesion.approach", "approach", BLUE, "o"),
-                            ("work_of_adhesion.pull_off", "pull-off", RED, "s"),
+        if run.curved else (("work_of_adhesion.approach", "interface, approach", BLUE, "o"),
+                            ("work_of_adhesion.pull_off", "interface, pull-off", RED, "s"),
+                            ("work_of_drive.approach", "drive, approach", SKY, "<"),
+                            ("work_of_drive.pull_off", "drive, pull-off", YELLOW, ">"),
                             ("binding_energy", f"state {at}", GREEN, "^"))
     for key, label, colour, marker in names:
         if (value := run.number(key)) is not None:
-            curve(ax, [rms], [value / flat], label, colour=colour, line="", marker=marker, filled=marker != "s")
+            curve(ax, [rms], [value / flat], label, colour=colour, line="", marker=marker, filled=marker not in "s>")
     ax.set_xlim(left=0)
     lowest = min([0.0] + [np.nanmin(c.get_ydata()) for c in ax.lines if np.isfinite(c.get_ydata()).any()])
     ax.set_ylim(bottom=1.1 * lowest)

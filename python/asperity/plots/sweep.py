@@ -77,10 +77,14 @@ Spec = tuple[str, list[Trace], list[Trace]]
 
 SIMULATED: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED], [
-        Trace("approach", "work_of_adhesion.approach_ratio", BLUE, "", "o",
+        Trace("interface, approach", "work_of_adhesion.approach_ratio", BLUE, "", "o",
               uncertainty="work_of_adhesion.uncertainty.approach"),
-        Trace("pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False,
+        Trace("interface, pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False,
               uncertainty="work_of_adhesion.uncertainty.pull_off"),
+        Trace("drive, approach", "work_of_drive.approach_ratio", SKY, "", "<",
+              uncertainty="work_of_drive.uncertainty.approach"),
+        Trace("drive, pull-off", "work_of_drive.pull_off_ratio", YELLOW, "", ">", False,
+              uncertainty="work_of_drive.uncertainty.pull_off"),
         Trace("state {at}", "binding_energy_ratio", GREEN, "", "^",
               uncertainty="binding_energy_uncertainty"),
         Trace("deepest state", "states.deepest.binding_energy_ratio", GREEN, "", "^", False,
@@ -103,7 +107,10 @@ SIMULATED: dict[str, Spec] = {
         Trace("at the pull-off force", "contact_radius.pull_off", RED, "", "s", False)]),
     "pull-off": ("largest attraction on the way out (nN)", [],
                  [Trace("pull-off", "pull_off_force", RED, "", "s", False, unit=NANONEWTON)]),
-    "hysteresis": ("∮ $F$ d$z$ (eV)", [], [Trace("hysteresis loop", "hysteresis.loop", PINK, "", "o")])}
+    "hysteresis": ("energy lost (meV/Å² of the nominal area)", [], [
+        Trace("approach", "lost.approach", BLUE, "", "o", uncertainty="lost.uncertainty.approach"),
+        Trace("pull-off", "lost.pull_off", RED, "", "s", False, uncertainty="lost.uncertainty.pull_off"),
+        Trace("cycle", "lost.cycle", PINK, "", "D")])}
 OF_THEORY: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, FULL], []), "area": (CONTACT, AREA, []),
     "full-contact": (GAMMA, [THEORY, FULL], [])}

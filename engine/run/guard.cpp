@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/guard.hpp"
+
+#include "engine/units.hpp"
+#include "io/error.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace asperity {
+
+std::optional<std::string> violation(const StepRecord& now, double lowest_height,
+                                     const std::string& place) {
+    if (!std::isfinite(now.force) || !std::isfinite(now.mean_height) ||
+        !std::isfinite(now.top_force))
+        return fmt::format("the motion diverged at {}: the force is {}", place, now.force);
+    const double residual = now.observed ? now.residual : 0.0;
+    if (!(std::abs(residual) <= largest_energy_error))
+        return fmt::format("the energy balance is off by {:.1f} % at {}", 100.0 * residual, place);
+    if (now.mean_height < lowest_height)
+        return fmt::format("the block has passed through the substrate at {}: its lowest layer is "
+                           "at {:.4g} Å",
+                           place, now.mean_height);
+    return std::nullopt;
+}
+
+void require_load_reached(double load, double attraction, double area) {
+    if (load >= 0.0 || attraction >= -load) return;
+    const double to_megapascal = 1.0 / (area * units::megapascal);
+    throw io::PhysicsError(
+        fmt::format("the approach was to end under a pull of {:.6g} MPa (drive.load), and no "
+                    "attraction was that large",
+                    -load * to_megapascal),
+        fmt::format("the largest attraction on the way in was {:.4g} MPa",
+                    attraction * to_megapascal),
+        "take a smaller pull: a drive.load between that and 0");
+}
+
+} // namespace asperity

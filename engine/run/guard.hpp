@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What no path goes on from, in time or without.
+#pragma once
+
+#include "engine/dynamics/simulation.hpp"
+
+#include <optional>
+#include <string>
+
+namespace asperity {
+
+/// Largest relative error of the energy balance that counts as physics.
+inline constexpr double largest_energy_error = 0.02;
+
+/// What is wrong at a step or point, or nothing: a force or height that is no number, an energy
+/// balance off by more than largest_energy_error, or a lowest layer below this height (Å), beyond
+/// the substrate. place: "step 1200".
+std::optional<std::string> violation(const StepRecord& now, double lowest_height,
+                                     const std::string& place);
+
+/// At the end of an approach. Throws io::PhysicsError where it was to end under a pull (load, eV/Å,
+/// negative) larger than the largest attraction that it met. area: Å^2.
+void require_load_reached(double load, double attraction, double area);
+
+} // namespace asperity
