@@ -151,8 +151,9 @@ std::optional<ZeroLoad> find_zero_load(Equilibrium& block, Interface& interface,
             fmt::format("the zero-load state was not found in {} iterations", s.iterations),
             fmt::format("the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
                         s.residual, scene.drive.tolerance),
-            "look at run.h5 whether the surfaces touch at all; a looser drive.tolerance ends "
-            "earlier");
+            load < 0.0 ? "take a smaller pull (drive.load): under a large one there is no state"
+                       : "look at run.h5 whether the surfaces touch at all; a looser "
+                         "drive.tolerance ends earlier");
     const double area = scene.edge() * scene.edge();
     const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
     ZeroLoad z;

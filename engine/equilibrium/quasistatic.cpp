@@ -19,7 +19,7 @@ QuasistaticPath::QuasistaticPath(Equilibrium& block, Interface& interface, PathO
       points_(block, interface,
               {options_.along, 0.25 * options_.tolerance, options_.site_stiffness,
                options_.reference_height}),
-      length_(options_.step), scale_(50.0 * allowed_uncertainty()) {}
+      length_(options_.step) {}
 
 void QuasistaticPath::start() {
     // Out of reach the block follows the top plane as a whole: that is what the first steps
@@ -232,6 +232,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double top, const StepCh
     predicts_ = reversible_ = step.dissipated == 0.0;
     if (ahead_.known != 0.0 && direction_ * (ahead_.top - top) <= 0.0) ahead_.known = 0.0;
     ++record_.step;
+    allowed_ += options_.tolerance * sites_ * std::abs(top - record_.top);
     set_record(state, top);
     strongest_ = std::max(strongest_, -record_.force);
     // The error of a smooth step goes with the fourth power of its length, for each Å.
@@ -256,7 +257,11 @@ void QuasistaticPath::set_record(const RelaxedState& state, double top) {
     const double change = state.interface_energy + state.elastic_energy - energy_at_start_;
     scale_ = std::max(
         {scale_, std::abs(state.interface_energy), state.elastic_energy, std::abs(record_.work)});
-    record_.residual = scale_ > 0.0 ? (record_.work - change - record_.damped) / scale_ : 0.0;
+    // Of energies that are still small the balance says nothing: of those that what the steps may
+    // have missed is 2 % of, or a twentieth of flat surfaces'.
+    const double least = std::min(50.0 * allowed_, 0.05 * options_.depth);
+    const double scale = std::max(scale_, least);
+    record_.residual = scale > 0.0 ? (record_.work - change - record_.damped) / scale : 0.0;
 }
 
 Instability QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg) const {

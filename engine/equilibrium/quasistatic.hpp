@@ -48,6 +48,7 @@ namespace asperity {
 /// step: the largest; load: at which the approach ends.
 struct PathOptions : SequenceOptions {
     Constraint::Of along = Constraint::Of::top; ///< or mean_height
+    double depth = HUGE_VAL; ///< energy that flat surfaces of this area bind with, eV
 };
 
 class QuasistaticPath {
@@ -151,8 +152,8 @@ private:
     double approach_ = 0.0, pull_off_ = 0.0;
     LegError approach_error_, pull_off_error_;
     double energy_at_start_ = 0.0;
-    double
-        scale_; ///< largest energy seen, for the residual; at first 50 times what a step may miss
+    double scale_ = 0.0;   ///< largest energy seen, for the residual, eV
+    double allowed_ = 0.0; ///< what the steps so far may have missed, eV
     Dissipation dissipation_;
 };
 
@@ -191,6 +192,7 @@ void QuasistaticPath::visit(Visitor& v) {
     v("pull_off_squares", pull_off_error_.squares);
     v("energy_at_start", energy_at_start_);
     v("scale", scale_);
+    v("allowed", allowed_);
     dissipation_.visit(v);
 }
 

@@ -106,7 +106,7 @@ private:
         const bool gone = out_of_reach(now.top, now.force, strongest, start_.force);
         if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
         if (leg == Leg::approach) {
-            require_load_reached(simulation_.options().drive.load_force, attraction,
+            require_load_reached(simulation_.options().drive.load_force, attraction, 0.0,
                                  scene_.edge() * scene_.edge());
             run_.findings.contact_made = now.time;
         }

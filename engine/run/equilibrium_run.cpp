@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -171,8 +172,8 @@ private:
                 findings.lost_in_cycle = *findings.approach.lost + *here.lost;
             return true;
         }
-        require_load_reached(run_.setup.simulation.drive.load_force + path_.slack(),
-                             findings.attraction_in, scene_.edge() * scene_.edge());
+        require_load_reached(run_.setup.simulation.drive.load_force, findings.attraction_in,
+                             path_.slack(), scene_.edge() * scene_.edge());
         path_.put_back(); // as after a resume, to the same bits
         const bool found = find_state(0.0);
         path_.put_back();
@@ -320,8 +321,12 @@ private:
         return o;
     }
     PathOptions path_options() {
-        return {sequence_options(),
-                scene_.drive.hold == Hold::top ? Constraint::Of::top : Constraint::Of::mean_height};
+        PathOptions o{sequence_options()};
+        o.along =
+            scene_.drive.hold == Hold::top ? Constraint::Of::top : Constraint::Of::mean_height;
+        const double flat = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
+        if (flat > 0.0) o.depth = flat * scene_.edge() * scene_.edge();
+        return o;
     }
     StateSearchOptions search_options() {
         StateSearchOptions o{sequence_options()};

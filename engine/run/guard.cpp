@@ -26,8 +26,8 @@ std::optional<std::string> violation(const StepRecord& now, double lowest_height
     return std::nullopt;
 }
 
-void require_load_reached(double load, double attraction, double area) {
-    if (load >= 0.0 || attraction >= -load) return;
+void require_load_reached(double load, double attraction, double slack, double area) {
+    if (load >= 0.0 || attraction >= -load - slack) return;
     const double to_megapascal = 1.0 / (area * units::megapascal);
     throw io::PhysicsError(
         fmt::format("the approach was to end under a pull of {:.6g} MPa (drive.load), and no "

@@ -21,7 +21,8 @@ std::optional<std::string> violation(const StepRecord& now, double lowest_height
                                      const std::string& place);
 
 /// At the end of an approach. Throws io::PhysicsError where it was to end under a pull (load, eV/Å,
-/// negative) larger than the largest attraction that it met. area: Å^2.
-void require_load_reached(double load, double attraction, double area);
+/// negative) larger than the largest attraction that it met. slack: what a force may be wrong by,
+/// eV/Å; area: Å^2.
+void require_load_reached(double load, double attraction, double slack, double area);
 
 } // namespace asperity

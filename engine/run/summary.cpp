@@ -66,19 +66,24 @@ std::string named(const std::string& name, io::Key key) {
 
 /// Works and losses of a whole path.
 void print_cycle(std::FILE* to, const Scene& scene, const Numbers& of, double flat) {
+    if (scene.drive.temperature > 0.0) {
+        fmt::print(to, "  What the drive gives on the way out and takes up on the way in contains "
+                       "heat of the thermostat.\n");
+        return;
+    }
     const double lost =
         of("lost.cycle").value_or(*of("work_of_drive.pull_off") - *of("work_of_drive.approach"));
     if (std::abs(lost) < std::max(0.01 * flat, 0.005))
         fmt::print(to,
                    "  The drive gives on the way out what it took up on the way in, to {:.2f} "
-                   "meV/Å²: nothing is lost.\n",
+                   "meV/Å²: hardly anything is lost.\n",
                    std::abs(lost));
     else
         fmt::print(to,
                    "  The drive gives {:.2f} meV/Å² more on the way out than it takes up on the "
                    "way in: energy that is lost\n  where the surfaces snap together and apart.\n",
                    lost);
-    if (scene.drive.load == 0.0 && scene.drive.temperature == 0.0)
+    if (scene.drive.load == 0.0)
         fmt::print(to, "  Work of the drive on the approach + energy lost there = binding energy = "
                        "work of the drive on the\n  pull-off - energy lost there.\n");
     if (of("work_of_adhesion.approach") && !scene.without_time())

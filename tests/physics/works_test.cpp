@@ -11,6 +11,8 @@
 #include "io/hdf5_file.hpp"
 #include "support/run_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 #include <string>
@@ -24,14 +26,16 @@ namespace {
 class Path {
 public:
     explicit Path(const std::string& scene) : scene_(read_scene_text(scene, "path.toml")) {
-        json_ = test::run_scene(scene_, scratch_ / "run");
-        file_.emplace(scratch_ / "run/run.h5", io::Hdf5File::Mode::read);
+        static int number = 0; // tests hold several
+        const std::string directory = scratch_ / fmt::format("run-{}", ++number);
+        json_ = test::run_scene(scene_, directory);
+        file_.emplace(directory + "/run.h5", io::Hdf5File::Mode::read);
     }
-    std::optional<double> find(const char* name) const {
+    std::optional<double> find(const std::string& name) const {
         const io::Json* value = io::find(json_, name);
         return value && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
     }
-    double operator()(const char* name) const {
+    double operator()(const std::string& name) const {
         const auto value = find(name);
         EXPECT_TRUE(value) << name << " is missing";
         return value.value_or(NAN);
@@ -61,9 +65,9 @@ private:
 };
 
 std::string scene(const char* surface, int layers, const std::string& drive) {
-    return std::string("[surface]\nsites = 12\n") + surface +
-           "\n[block]\nthickness = " + std::to_string(layers) + "\n[drive]\n" + drive +
-           "\n[output]\nseries = 20\n";
+    return fmt::format("[surface]\nsites = 12\n{}\n[block]\nthickness = {}\n[drive]\n{}\n"
+                       "[output]\nseries = 20\n",
+                       surface, layers, drive);
 }
 const char* const flat = "kind = \"flat\"";
 const char* const rough = "rms = 0.5\nseed = 4";
@@ -76,7 +80,7 @@ TEST(Works, InTimeTheDrivesWorkAndTheLossesMakeTheState) {
             const Path path(scene(surface, 48, drive));
             path.expect_identities(1e-3 * path("delta_gamma"));
             EXPECT_GT(path("lost.approach"), 0.1 * path.state());
-            EXPECT_GT(path("lost.pull_off"), 0.1 * path.state());
+            EXPECT_GT(path("lost.cycle"), 0.1 * path.state());
             // The loss of the cycle from the series: damped, or left at the end in vibrations of a
             // block that comes to rest again where it started.
             const auto end = [&](const char* column) { return path.series(column, true); };
@@ -107,8 +111,8 @@ TEST(Works, WithoutTimeTheDrivesWorkAndTheLossesMakeTheState) {
     const Path held(scene(rough, 96, drive + "\"mean-height\""));
     held.expect_identities(0.02);
     for (const char* leg : {"approach", "pull_off"})
-        EXPECT_EQ(held(("work_of_adhesion." + std::string(leg)).c_str()),
-                  held(("work_of_drive." + std::string(leg)).c_str()));
+        EXPECT_EQ(held(fmt::format("work_of_adhesion.{}", leg)),
+                  held(fmt::format("work_of_drive.{}", leg)));
     EXPECT_LT(held("lost.cycle"), 0.2 * top("lost.cycle"))
         << "held so, the block does not snap as a whole";
 }
@@ -120,16 +124,16 @@ TEST(Works, OfTheDriveTendToThoseWithoutTime) {
     double before = 1.0;
     for (const char* velocity : {"20", "5"}) {
         const Path moving(
-            scene(flat, 48, std::string("timestep = 40\ndamping = 2\nvelocity = ") + velocity));
+            scene(flat, 48, std::string("timestep = 40\ndamping = 0.5\nvelocity = ") + velocity));
         const double in = std::abs(
                          moving("work_of_drive.approach") / still("work_of_drive.approach") - 1.0),
                      out = std::abs(
                          moving("work_of_drive.pull_off") / still("work_of_drive.pull_off") - 1.0);
-        EXPECT_LT(std::max(in, out), 0.5 * before) << velocity;
+        EXPECT_LT(std::max(in, out), 0.6 * before) << velocity;
         before = std::max(in, out);
         EXPECT_NEAR(moving("work_of_adhesion.pull_off"), moving.state(), 0.01 * moving.state());
     }
-    EXPECT_LT(before, 0.1);
+    EXPECT_LT(before, 0.25);
 }
 
 TEST(Works, WithHeatOrALoadAreNotComparedWithTheState) {
