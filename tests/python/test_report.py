@@ -108,7 +108,9 @@ def stored(tmp_path, path, load):
     tmp_path.joinpath("result.json").write_text(json.dumps({
         "scene": {"surface": {"sites": 32, "spacing": 2.6}, "drive": {"path": path, "load": load}},
         "delta_gamma": 80.0, "binding_energy": 40.0, "contact_fraction": 0.5,
-        "work_of_adhesion": {"approach": 30.0, "pull_off": 50.0, "uncertainty": {"approach": 3.0, "pull_off": 0.25}},
+        "work_of_adhesion": {"approach": 36.0, "pull_off": 44.0},
+        "work_of_drive": {"approach": 30.0, "pull_off": 50.0, "uncertainty": {"approach": 3.0, "pull_off": 0.25}},
+        "lost": {"cycle": 20.0},
         "theory": {"gamma_eff": 50.0, "delta_gamma": 100.0, "contact_fraction": 0.25, "gamma_full_contact": 20.0,
                    "renormalised": {"gamma_eff": 60.0}},
         "states": {"all": [{"mean_height": h, "binding_energy": -h} for h in (1.0, 2.0)]}}))
@@ -138,8 +140,13 @@ def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
     assert numbers["binding energy at zero load"].value == "0.500"
     assert "(50.0\u00a0% of its Δγ, 100.00 meV/Å²)" in words.findings(run)[2]
     assert "(75.0\u00a0% of Δγ)" in words.findings(run)[2]
-    assert numbers["work of adhesion, approach"].note == "30.00 meV/Å² ± 3"
-    assert numbers["work of adhesion, pull-off"].note == "50.00 meV/Å² ± 0.25"
+    assert numbers["work of the drive, approach"].note == "30.00 meV/Å² ± 3"
+    assert numbers["work of the drive, pull-off"].note == "50.00 meV/Å² ± 0.25"
+    assert numbers["work of the interface, pull-off"].note == "44.00 meV/Å²"
+    assert numbers["lost in a cycle (hysteresis)"].value == "20"
+    cycle = words.findings(run)[1]
+    assert "takes up 30.00 meV/Å²" in cycle and "gives 50.00 meV/Å²" in cycle and "20.00 meV/Å², is lost" in cycle
+    assert "interface’s force on the mean height is 36.00 meV/Å² and 44.00 meV/Å²" in cycle
     rows = re.findall(r"<tr>(.*?)</tr>", (tmp_path / "report.html").read_text() if page(tmp_path) else "", re.S)
     over = {cells[0].split(":")[0]: cells[-1] for row in rows if len(cells := re.findall(r"<td.*?>(.*?)</td>", row)) == 4}
     assert over["theory.gamma_full_contact"] == "0.2000" and over["theory.renormalised.gamma_eff"] == "0.7500"
@@ -159,7 +166,7 @@ def test_a_sphere_has_its_own_numbers_and_curves(sphere_run):
 
 def test_runs_that_failed_or_stopped_say_so_at_the_top(tmp_path):
     with pytest.raises(asperity.PhysicsError):
-        asperity.run(SMALL, {"drive.timestep": 70, "drive.velocity": 3000}, out=tmp_path / "failed")
+        asperity.run(SMALL, {"drive.load": -8500.0}, out=tmp_path / "failed")
     found = page(tmp_path / "failed")
     assert "This run failed" in found.text and "why:" in found.text
     assert found.text.index("This run failed") < found.text.index("Simulated")

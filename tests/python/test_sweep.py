@@ -488,10 +488,10 @@ def test_a_sweep_that_is_stopped_goes_on_to_the_same_table(place, number):
 
 
 def test_a_point_that_fails_is_told_and_the_others_go_on(place):
-    words = ["sweep", "path.toml", "--set", "drive.velocity=30,200", "drive.timestep=70", "drive.max_steps=3000",
+    words = ["sweep", "path.toml", "--set", "drive.load=0,-8500", "drive.velocity=100", "drive.timestep=40",
              "--progress", "off", "--out", "part"]
     said = command(*words, expect=3)
-    assert "failed: velocity=200 (exit 3)" in said and "1 of 2 points are done" in said
+    assert "failed: load=-8500 (exit 3)" in said and "1 of 2 points are done" in said
     assert [p["status"] for p in load_sweep("part").points] == ["done", "failed"]
     assert "1 failed before" in command(*words, expect=3)
 
