@@ -73,7 +73,8 @@ TEST(ResultNumbers, AreTheSameAfterAResume) {
         const io::Scratch scratch;
         const Json whole = test::run_scene(read_scene_text(text, "s.toml"), scratch / "whole");
         const auto steps = io::find(whole, "run.steps")->get<long long>();
-        // Stopped late on the pull-off: both legs' instabilities are behind, some of their work to come.
+        // Stopped late on the pull-off: both legs' instabilities are behind, some of their work to
+        // come.
         const Json parts = run_in_two_parts(text, steps - steps / 20, scratch / "parts");
         if (&text == &unstable) {
             EXPECT_GT(io::find(whole, listed_instabilities)->size(), 1u);
@@ -104,9 +105,8 @@ TEST(ResultNumbers, AnInstabilityLiesBetweenTwoRowsOfTheSeries) {
     for (const Json& jump : jumps) {
         std::size_t row = 0; // the last one before
         const double on_leg = jump.at("leg") == "approach" ? 0.0 : 1.0;
-        while (row + 1 < top.size() &&
-               !(top[row] == jump.at("top").get<double>() && leg[row + 1] == on_leg &&
-                 lost[row + 1] > lost[row]))
+        while (row + 1 < top.size() && !(top[row] == jump.at("top").get<double>() &&
+                                         leg[row + 1] == on_leg && lost[row + 1] > lost[row]))
             ++row;
         ASSERT_LT(row + 1, top.size()) << jump;
         EXPECT_NEAR(lost[row + 1] - lost[row], jump.at("energy").get<double>(), 1e-9 * lost.back());
@@ -152,7 +152,8 @@ TEST(ResultNumbers, TheDensityOfGapsIsTheHistogramOfTheirMap) {
                     scratch / "run");
     const io::Hdf5File file(scratch / "run/run.h5", io::Hdf5File::Mode::read);
     const std::string state = "/fields/zero-load/";
-    const auto gap = file.read<double>(state + "gap"), edges = file.read<double>(state + "gap_edges"),
+    const auto gap = file.read<double>(state + "gap"),
+               edges = file.read<double>(state + "gap_edges"),
                density = file.read<double>(state + "gap_density");
     const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
     ASSERT_EQ(edges.size(), density.size() + 1);
@@ -165,7 +166,8 @@ TEST(ResultNumbers, TheDensityOfGapsIsTheHistogramOfTheirMap) {
         const auto inside = std::count_if(gap.begin(), gap.end(), [&](double u) {
             return u >= edges[i] && (last || u < edges[i + 1]);
         });
-        EXPECT_NEAR(density[i], static_cast<double>(inside) / (width * static_cast<double>(gap.size())),
+        EXPECT_NEAR(density[i],
+                    static_cast<double>(inside) / (width * static_cast<double>(gap.size())),
                     1e-9 / width)
             << i;
     }

@@ -3,8 +3,8 @@
 //
 // What holds of every path, thin block or thick, top plane or mean height held, in time or without:
 // its pull-off ends apart, with nothing left of contact, force and energy; its stated errors only
-// grow along a leg, and cover what the balance of energy lacks; with the energy that is bound beyond
-// the reach of its ends, its works in time are those from out of reach.
+// grow along a leg, and cover what the balance of energy lacks; with the energy that is bound
+// beyond the reach of its ends, its works in time are those from out of reach.
 #include "io/hdf5_file.hpp"
 #include "support/path_case.hpp"
 #include "support/run_scene.hpp"
@@ -103,9 +103,9 @@ TEST(PathErrors, GrowAlongALegAndCoverTheBalance) {
 }
 
 TEST(PathErrors, AreThreeTimesWhatTheWorkOfAnInstabilityIsNotKnownBy) {
-    // A block that falls in and off as a whole. The energy of a fall is that of the last point before
-    // less that of the first one after and the work between them, which is known to lie between the
-    // forces of the two.
+    // A block that falls in and off as a whole. The energy of a fall is that of the last point
+    // before less that of the first one after and the work between them, which is known to lie
+    // between the forces of the two.
     Case c(test::paper_block(10, 40, 0), test::flat_surface(10), true);
     QuasistaticPath path = c.path(1e-4, 0.25);
     path.start();
@@ -118,8 +118,8 @@ TEST(PathErrors, AreThreeTimesWhatTheWorkOfAnInstabilityIsNotKnownBy) {
             gaps += std::abs(now.work - last.work - energy(now) + energy(last) - now.damped +
                              last.damped);
             if (now.damped > last.damped + 1.0) {
-                const double half = 0.5 * std::abs((now.top - last.top) *
-                                                   (now.top_force - last.top_force));
+                const double half =
+                    0.5 * std::abs((now.top - last.top) * (now.top_force - last.top_force));
                 squares += half * half;
             }
             last = now;
@@ -132,9 +132,9 @@ TEST(PathErrors, AreThreeTimesWhatTheWorkOfAnInstabilityIsNotKnownBy) {
 }
 
 TEST(WorkInTime, WithATailIsThatFromOutOfReach) {
-    // Flat on flat, the block stiffer than the interface anywhere: nothing is lost but what is damped
-    // on the way, and both works are the flat reference. Where the pull-off ends, the tail still binds
-    // a tenth of it.
+    // Flat on flat, the block stiffer than the interface anywhere: nothing is lost but what is
+    // damped on the way, and both works are the flat reference. Where the pull-off ends, the tail
+    // still binds a tenth of it.
     const io::Scratch scratch;
     const Scene scene = read_scene_text(
         "[surface]\nkind = \"flat\"\nsites = 8\n[block]\nmodel = \"lattice\"\nthickness = 3\n"
