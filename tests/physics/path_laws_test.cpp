@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -53,7 +54,7 @@ TEST(PathEnd, NothingIsLeftOfTheContact) {
             for (const StepRecord& r : follow(path, Leg::pull_off))
                 strongest = std::max(strongest, -r.force);
             const StepRecord& end = path.now();
-            EXPECT_GT(strongest, 100.0);
+            EXPECT_GT(strongest, 30.0);
             EXPECT_EQ(end.in_contact, 0);
             EXPECT_LE(std::abs(end.force), 1e-6 * strongest);
             EXPECT_LE(std::abs(end.interface_energy), 1e-6 * bound);
@@ -92,7 +93,9 @@ TEST(PathErrors, GrowAlongALegAndCoverTheBalance) {
         expect_errors_that_only_grow(path, Leg::approach);
         const double in = path.uncertainty(Leg::approach);
         expect_errors_that_only_grow(path, Leg::pull_off);
-        if (along == Constraint::Of::top) EXPECT_GT(path.dissipation().events, 1);
+        if (along == Constraint::Of::top) {
+            EXPECT_GT(path.dissipation().events, 1);
+        }
         EXPECT_EQ(path.uncertainty(Leg::approach), in) << "the other leg's";
         // The gaps in the balance of all steps add up to that of the cycle.
         const double lacks =
