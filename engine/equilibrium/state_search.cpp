@@ -105,7 +105,6 @@ StateSearch::Outcome StateSearch::advance() {
     return Outcome::point;
 }
 
-/// Energy under the load above the deepest point passed, eV.
 double StateSearch::climb() const {
     const auto enthalpy = [this](const Point& p) { return p.energy + options_.load * p.height; };
     double deepest = HUGE_VAL;

@@ -84,6 +84,8 @@ public:
     /// The block back in the first state.
     void restore_first();
     long long iterations() const { return points_.iterations(); }
+    /// U + P z of the last point above the deepest point passed, eV.
+    double climb() const;
 
     /// For checkpoints, as of a QuasistaticPath: all numbers, and the displacements.
     template <class Visitor>
@@ -124,7 +126,6 @@ private:
     void turn_outwards();
     void turn_inwards();
     bool joined() const;
-    double climb() const;
     StateList::End end();
     bool none_deeper_further_in();
     std::vector<std::int64_t> sites_by_distance();

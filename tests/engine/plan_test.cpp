@@ -76,3 +76,18 @@ TEST(Plan, StepsAndCostsFollowTheScene) {
     EXPECT_EQ(timeless.cost(Effect::inertia).bytes, 0.0);
     EXPECT_LT(timeless.bytes, plan.bytes);
 }
+
+TEST(Plan, AllWorkIsSharedAmongTheThreads) {
+    // Rates are measured anew for each plan: against a factor of a million they do not matter.
+    constexpr int many = 1'000'000;
+    const Scene scene = scene_with({"block.thickness=32", "output.checkpoint=0"});
+    const Plan one = make_plan(scene, 1, 1), shared = make_plan(scene, 1, many);
+    const auto expect_shared = [&](const EffectCost& cost, const EffectCost& alone) {
+        EXPECT_GT(alone.seconds, 0.0);
+        EXPECT_LT(shared.threads * cost.seconds, 1e3 * alone.seconds);
+        EXPECT_GT(shared.threads * cost.seconds, 1e-3 * alone.seconds);
+    };
+    expect_shared(shared.interface, one.interface);
+    for (const Effect effect : {Effect::inertia, Effect::relaxation, Effect::observation})
+        expect_shared(shared.cost(effect), one.cost(effect));
+}

@@ -471,6 +471,59 @@ TEST(StateSearch, ALoadThatStretchesTheBlockIsNoInstability) {
     EXPECT_EQ(states.instabilities, 0);
 }
 
+TEST(StateSearch, ALoadIsNoPartOfABarrier) {
+    // The same force along the same way: a load takes away what it holds.
+    constexpr double step = 0.05; // the largest force is that of a point
+    const auto barrier = [](double load) {
+        Case c = two_states();
+        without_friction(c);
+        Search s(c, step, true, load);
+        s.start();
+        const StateList states = s.finish();
+        EXPECT_EQ(states.all.size(), 2u) << load;
+        return states.all[0].barrier.value_or(0.0);
+    };
+    Case c = two_states();
+    const double pressure = 0.2 * units::gigapascal; // a good part of the barrier
+    const double alone = barrier(0.0), pressed = barrier(pressure * area(c)),
+                 pulled = barrier(-0.05 * pressure * area(c));
+    ASSERT_GT(pressure, 0.1 * alone);
+    ASSERT_LT(pressure, 0.9 * alone);
+    EXPECT_NEAR(pressed, alone - pressure, 5e-3 * alone);
+    EXPECT_NEAR(pulled, alone + 0.05 * pressure, 5e-3 * alone);
+}
+
+TEST(StateSearch, UnderALoadTheEnergyOfThePointsIsTheIntegralOfTheForceAboveIt) {
+    // U + P z rises on the way in by the integral of F - P, whatever the sign of the load.
+    for (const double pressure : {0.0, 0.05, -0.01}) { // GPa
+        Case c = two_states();
+        without_friction(c);
+        const double load = pressure * units::gigapascal * area(c);
+        Search s(c, 0.05, true, load);
+        s.start();
+        const double start = c.block->mean_height();
+        double height = start, above = 0.0, risen = 0.0, deepest = 0.0, highest = 0.0;
+        while (height > start - 3.0) {
+            ASSERT_EQ(s.search.advance(), StateSearch::Outcome::point);
+            const double now = c.block->mean_height();
+            const double force =
+                c.interface
+                    .sweep(c.block->lowest_layer(), c.block->interface_force(),
+                           c.interface.start_height(), false)
+                    .force_z.value() -
+                load;
+            risen += 0.5 * (force + above) * (height - now);
+            deepest = std::min(deepest, risen);
+            highest = std::max(highest, risen - deepest);
+            height = now;
+            above = force;
+            EXPECT_NEAR(s.search.climb(), risen - deepest, 0.01 * highest + 1e-3) << height;
+        }
+        // What a load of the other sign would make of it.
+        EXPECT_GT(highest, pressure == 0.0 ? 1.0 : 0.05 * std::abs(load)) << pressure;
+    }
+}
+
 TEST(StateSearch, FullContactIsTheOnlyState) {
     Case c(test::paper_block(32, 32, 0), hill(32, 2.0, 8.0), true);
     const StateList states = all_states(c);

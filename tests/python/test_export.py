@@ -95,6 +95,35 @@ def test_xdmf_points_to_what_is_there(path_run):
     assert frames == len(value) and maps == 8
 
 
+def test_maps_lie_where_the_atoms_are(path_run):
+    """Substrate and sites as a mesh (XDMF), as an image (VTK) and as atoms (XYZ): the same places, those of the sites at rest."""
+    place = path_run.directory
+    for kind in ("xyz", "xdmf", "vtk"):
+        command("export", place, "--to", kind)
+    (_, rows), = frames_of_xyz(place / "export/zero-load.xyz")
+    rigid, sites = rows[rows[:, 3] == 1, :2], rows[rows[:, 3] == 2]
+    atoms = {"substrate": rigid, "zero-load": sites[:, :2] - sites[:, 4:6]}
+
+    def places(origin, spacing, n):
+        y, x = np.divmod(np.arange(n * n), n)
+        return np.column_stack([origin[0] + spacing[0] * x, origin[1] + spacing[1] * y])
+
+    found = 0
+    for grid in tree.parse(place / "run.xdmf").iter("Grid"):
+        if grid.get("Name") not in atoms:
+            continue
+        found += 1
+        n = int(grid.find("Topology").get("Dimensions").split()[-1])
+        origin, spacing = ([float(v) for v in item.text.split()][::-1] for item in grid.find("Geometry"))  # z first
+        assert places(origin, spacing, n) == pytest.approx(atoms[grid.get("Name")], abs=1e-4), grid.get("Name")
+    assert found == 2
+    for name, expected in atoms.items():
+        image = tree.parse(place / f"export/{name}.vti").find("ImageData")
+        origin, spacing = ([float(v) for v in image.get(key).split()] for key in ("Origin", "Spacing"))
+        n = int(image.get("WholeExtent").split()[1]) + 1
+        assert places(origin, spacing, n) == pytest.approx(expected, abs=1e-4), name
+
+
 def test_the_h5md_has_what_the_specification_demands(path_run):
     """H5MD 1.1, nongnu.org/h5md: version, author, creator; box; elements with value, step, time and units."""
     with h5py.File(path_run.directory / "run.h5") as file:

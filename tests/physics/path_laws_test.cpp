@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What holds of every path, thin block or thick, top plane or mean height held, in time or without:
+// its pull-off ends apart, with nothing left of contact, force and energy; its stated errors only
+// grow along a leg, and cover what the balance of energy lacks; with the energy that is bound
+// beyond the reach of its ends, its works in time are those from out of reach.
+#include "io/hdf5_file.hpp"
+#include "support/path_case.hpp"
+#include "support/run_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace asperity;
+using test::energy;
+using test::follow;
+using Case = test::PathCase;
+using Outcome = QuasistaticPath::Outcome;
+
+namespace {
+
+/// Of a leg, point by point.
+void expect_errors_that_only_grow(QuasistaticPath& path, Leg leg) {
+    double before = 0.0;
+    for (Outcome outcome = Outcome::point; outcome == Outcome::point;) {
+        outcome = path.advance(leg);
+        const double now = path.uncertainty(leg);
+        ASSERT_GE(now, before) << name(leg) << ", point " << path.now().step;
+        before = now;
+    }
+    EXPECT_GT(before, 0.0);
+}
+
+} // namespace
+
+TEST(PathEnd, NothingIsLeftOfTheContact) {
+    // The thicker the block, the further it is stretched before its surface lets go: 68 Å of 512
+    // layers, while the reach of the atoms is 13 Å.
+    for (const auto along : {Constraint::Of::top, Constraint::Of::mean_height})
+        for (const int thickness : {3, 60, 512}) {
+            const bool held_top = along == Constraint::Of::top;
+            SCOPED_TRACE(std::to_string(thickness) + (held_top ? ", top" : ", mean height"));
+            Case c(test::paper_block(10, thickness, 0), test::flat_surface(10), true);
+            QuasistaticPath path = c.path(1e-3, 0.5, 0.0, along);
+            path.start();
+            follow(path, Leg::approach);
+            const double bound = -energy(path.now());
+            double strongest = 0.0;
+            for (const StepRecord& r : follow(path, Leg::pull_off))
+                strongest = std::max(strongest, -r.force);
+            const StepRecord& end = path.now();
+            EXPECT_GT(strongest, 30.0);
+            EXPECT_EQ(end.in_contact, 0);
+            EXPECT_LE(std::abs(end.force), 1e-6 * strongest);
+            EXPECT_LE(std::abs(end.interface_energy), 1e-6 * bound);
+            EXPECT_LE(end.elastic_energy, 1e-6 * bound);
+            EXPECT_GE(end.mean_height, c.interface.start_height() - 1e-3);
+        }
+}
+
+TEST(PathEnd, InTimeNothingIsLeftOfTheContact) {
+    const io::Scratch scratch;
+    const Scene scene = read_scene_text(
+        "[surface]\nkind = \"flat\"\nsites = 16\n[block]\nthickness = 128\n"
+        "[drive]\nvelocity = 100\ntimestep = 20\ndamping = 1\n[output]\nseries = 10\n",
+        "soft.toml");
+    test::run_scene(scene, scratch / "run");
+    const io::Hdf5File file(scratch / "run/run.h5", io::Hdf5File::Mode::read);
+    const auto last = [&](const char* column) {
+        return file.read<double>(std::string("/series/") + column).back();
+    };
+    const auto energies = file.read<double>("/series/interface_energy");
+    const double deepest = *std::min_element(energies.begin(), energies.end());
+    EXPECT_EQ(last("leg"), 1.0);
+    EXPECT_EQ(last("contact_fraction"), 0.0);
+    // The run ends at a step between two rows, as close as the approach began.
+    EXPECT_LE(std::abs(last("interface_energy")), 1e-3 * std::abs(deepest));
+    const double reached = last("mean_height"), begun = file.read<double>("/series/mean_height")[0];
+    EXPECT_GE(reached, begun - 0.2);
+}
+
+TEST(PathErrors, GrowAlongALegAndCoverTheBalance) {
+    for (const auto along : {Constraint::Of::top, Constraint::Of::mean_height}) {
+        Case c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"), true);
+        QuasistaticPath path = c.path(2e-4, 0.25, 0.0, along);
+        path.start();
+        const double start = energy(path.now());
+        expect_errors_that_only_grow(path, Leg::approach);
+        const double in = path.uncertainty(Leg::approach);
+        expect_errors_that_only_grow(path, Leg::pull_off);
+        if (along == Constraint::Of::top) {
+            EXPECT_GT(path.dissipation().events, 1);
+        }
+        EXPECT_EQ(path.uncertainty(Leg::approach), in) << "the other leg's";
+        // The gaps in the balance of all steps add up to that of the cycle.
+        const double lacks =
+            path.now().work - (energy(path.now()) - start) - path.dissipation().total();
+        EXPECT_LE(std::abs(lacks),
+                  path.uncertainty(Leg::approach) + path.uncertainty(Leg::pull_off) + 1e-9);
+    }
+}
+
+TEST(PathErrors, AreThreeTimesWhatTheWorkOfAnInstabilityIsNotKnownBy) {
+    // A block that falls in and off as a whole. The energy of a fall is that of the last point
+    // before less that of the first one after and the work between them, which is known to lie
+    // between the forces of the two.
+    Case c(test::paper_block(10, 40, 0), test::flat_surface(10), true);
+    QuasistaticPath path = c.path(1e-4, 0.25);
+    path.start();
+    for (const Leg leg : {Leg::approach, Leg::pull_off}) {
+        double gaps = 0.0, squares = 0.0;
+        StepRecord last = path.now();
+        for (Outcome outcome = Outcome::point; outcome == Outcome::point;) {
+            outcome = path.advance(leg);
+            const StepRecord& now = path.now();
+            gaps += std::abs(now.work - last.work - energy(now) + energy(last) - now.damped +
+                             last.damped);
+            if (now.damped > last.damped + 1.0) {
+                const double half =
+                    0.5 * std::abs((now.top - last.top) * (now.top_force - last.top_force));
+                squares += half * half;
+            }
+            last = now;
+        }
+        ASSERT_GT(squares, 0.0) << name(leg);
+        // Smaller losses, where the force stays smooth, have their own share.
+        EXPECT_GE(path.uncertainty(leg), (gaps + 3.0 * std::sqrt(squares)) * (1.0 - 1e-6));
+        EXPECT_LE(path.uncertainty(leg), 1.5 * (gaps + 3.0 * std::sqrt(squares)));
+    }
+}
+
+TEST(WorkInTime, WithATailIsThatFromOutOfReach) {
+    // Flat on flat, the block stiffer than the interface anywhere: nothing is lost but what is
+    // damped on the way, and both works are the flat reference. Where the pull-off ends, the tail
+    // still binds a tenth of it.
+    const io::Scratch scratch;
+    const Scene scene = read_scene_text(
+        "[surface]\nkind = \"flat\"\nsites = 8\n[block]\nmodel = \"lattice\"\nthickness = 3\n"
+        "[interface]\ncutoff = 6.56\ntail = true\n"
+        "[drive]\nvelocity = 10\ntimestep = 10\n[output]\nseries = 1\n",
+        "tail.toml");
+    const io::Json result = test::run_scene(scene, scratch / "run");
+    const double flat = io::find(result, "delta_gamma")->get<double>();
+    const double area = scene.edge() * scene.edge() / 1e3; // of meV/Å^2 in eV
+    const io::Hdf5File file(scratch / "run/run.h5", io::Hdf5File::Mode::read);
+    const double left = -file.read<double>("/series/interface_energy").back() / area;
+    EXPECT_GT(left, 0.002 * flat) << "the case must tell";
+    for (const char* work : {"work_of_adhesion.approach", "work_of_adhesion.pull_off"})
+        EXPECT_NEAR(io::find(result, work)->get<double>(), flat, 5e-4 * flat) << work;
+}
