@@ -79,7 +79,7 @@ def test_errors_of_the_program_are_exceptions(tmp_path):
     assert "did you mean surface.rms?" in str(error.value) and "surface.sites" in str(error.value)
     assert "nothing was written" not in str(error.value) and not (tmp_path / "bad").exists()
     with pytest.raises(asperity.PhysicsError, match="why:"):
-        asperity.run(SMALL, {"drive.load": -8500.0}, out=tmp_path / "fast")
+        asperity.run(SMALL, {"drive.timestep": 70, "drive.velocity": 200, "drive.load": 20000}, out=tmp_path / "fast")
     failed = asperity.load(tmp_path / "fast")
     assert "drive" in failed.failure_text
     assert f"at step {failed.run.steps}" in failed.failure_text  # not of the state that was put back
