@@ -24,9 +24,8 @@ ASPERITY_INLINE Pack<double> first_lanes(Pack<double> a, int count) {
 }
 
 ASPERITY_INLINE void collect(const BasicExactSum<Pack<double>>& lanes, ExactSum& into) {
-    for (int k = 0; k < ExactSum::bins; ++k)
-        for (int i = 0; i < Pack<double>::width; ++i)
-            into.bin[k] += lanes.bin[k][i];
+    for (int i = 0; i < Pack<double>::width; ++i)
+        into.merge({{lanes.bin[0][i], lanes.bin[1][i]}});
 }
 
 /// Drift u <- u + dt v of rows [y0, y1) of plane z.
@@ -65,6 +64,7 @@ ASPERITY_INLINE void cell_sum(const VectorVolume<const double>& u, int y0, int y
             const auto line = z * u.x.plane + y * u.x.row;
             for (int x = 0; x < u.x.nx; x += V::width)
                 lanes.add(first_lanes(energies(line + x), u.x.nx - x));
+            lanes.carry();
         }
     collect(lanes, into);
 }
@@ -72,9 +72,11 @@ ASPERITY_INLINE void cell_sum(const VectorVolume<const double>& u, int y0, int y
 inline void plane_sum(PlaneView<const double> plane, int y0, int y1, ExactSum& into) {
     using V = Pack<double>;
     BasicExactSum<V> lanes;
-    for (int y = y0; y < y1; ++y)
+    for (int y = y0; y < y1; ++y) {
         for (int x = 0; x < plane.nx; x += V::width)
             lanes.add(first_lanes(V::load(plane.line(y) + x), plane.nx - x));
+        lanes.carry();
+    }
     collect(lanes, into);
 }
 
