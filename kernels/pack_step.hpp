@@ -23,9 +23,13 @@ ASPERITY_INLINE Pack<double> first_lanes(Pack<double> a, int count) {
     return select(lane_numbers() < Pack<double>(static_cast<double>(count)), a, Pack<double>(0.0));
 }
 
+/// The lanes' runs together must not be longer than longest_run.
 ASPERITY_INLINE void collect(const BasicExactSum<Pack<double>>& lanes, ExactSum& into) {
-    for (int i = 0; i < Pack<double>::width; ++i)
-        into.merge({{lanes.bin[0][i], lanes.bin[1][i]}});
+    ExactSum mine;
+    for (int k = 0; k < ExactSum::bins; ++k)
+        for (int i = 0; i < Pack<double>::width; ++i)
+            mine.bin[k] += lanes.bin[k][i];
+    into.merge(mine);
 }
 
 /// Drift u <- u + dt v of rows [y0, y1) of plane z.
@@ -75,7 +79,7 @@ inline void plane_sum(PlaneView<const double> plane, int y0, int y1, ExactSum& i
     for (int y = y0; y < y1; ++y) {
         for (int x = 0; x < plane.nx; x += V::width)
             lanes.add(first_lanes(V::load(plane.line(y) + x), plane.nx - x));
-        lanes.carry();
+        if (y % 32 == 31) lanes.carry();
     }
     collect(lanes, into);
 }

@@ -132,7 +132,7 @@ private:
         double *to_before = nullptr, *to_after = nullptr, *from_before = nullptr,
                *from_after = nullptr;
         double* shared[3] = {};
-    } pinned_; ///< in pinned_memory_
+    } pinned_;            ///< in pinned_memory_
     bool direct_ = false; ///< MPI takes device memory
 
     StepParameters kicked_with_;

@@ -209,9 +209,8 @@ RunScalars read_checkpoint(const io::FilePlace& place, Simulation& simulation,
                            const std::string& fingerprint,
                            const std::vector<StateArray>& run_arrays) {
     Block& block = simulation.block_to_write();
-    const RunScalars scalars =
-        read_checkpoint(place, simulation.communicator(), block.grid(),
-                        joined(fields_of(block), run_arrays), fingerprint);
+    const RunScalars scalars = read_checkpoint(place, simulation.communicator(), block.grid(),
+                                               joined(fields_of(block), run_arrays), fingerprint);
     RestoreScalars restore{scalars};
     simulation.visit(restore);
     block.exchange();

@@ -245,8 +245,8 @@ private:
         if (!now.observed && !run_.field_is_due(now.step)) return;
         const auto t = run_.phases.time(Phase::output);
         run_.watch_fields(now.step, simulation_.leg(), now.observed ? -now.force : 0.0,
-                          simulation_.block().lowest_layer(),
-                          simulation_.interface(), simulation_.reference_height());
+                          simulation_.block().lowest_layer(), simulation_.interface(),
+                          simulation_.reference_height());
     }
 
     /// Goes on from a checkpoint if asked. True if it did.

@@ -15,9 +15,9 @@
 #include "io/hdf5_file.hpp"
 #include "io/journal.hpp"
 
+#include <array>
 #include <chrono>
 #include <functional>
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>

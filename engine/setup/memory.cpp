@@ -93,7 +93,7 @@ std::size_t level_relaxation_bytes(const BlockOptions& options, const ProcessGri
     const auto vectors = [&](std::size_t level, int planes) {
         return VectorField<double>::bytes_for(grid.tile(static_cast<int>(level)), planes);
     };
-    std::size_t bytes = vectors(0, 1); // the interface's forces before
+    std::size_t bytes = vectors(0, 1);     // the interface's forces before
     for (const LevelShape& level : levels) // forces and moves
         bytes += 2 * vectors(static_cast<std::size_t>(level.level), level.cells);
     // Grids over the levels (equilibrium/coarse_grids.cpp): planes that are thinned to every
@@ -167,8 +167,7 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
     need.snapshot = on(Effect::inertia) && on(Effect::observation) ? displacements + motion
                                                                    : copies * displacements;
     if (on(Effect::relaxation)) {
-        need.relaxation =
-            static_cast<double>(level_relaxation_bytes(setup.simulation.block, grid));
+        need.relaxation = static_cast<double>(level_relaxation_bytes(setup.simulation.block, grid));
         if (on(Effect::inertia)) need.relaxation += need.block; // of a copy of the block
     }
     if (on(Effect::finite_strain) && on(Effect::inertia))

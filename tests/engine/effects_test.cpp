@@ -98,7 +98,7 @@ TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
 
 TEST(Effects, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
     if (processor_level() < ProcessorLevel::v3) return; // refused for another reason
-    if (cuda_device_count() >= 8) return; // more have no number
+    if (cuda_device_count() >= 8) return;               // more have no number
     const std::string beyond = "numerics.device=" + std::to_string(cuda_device_count());
     try {
         make_setup(scene_with({beyond}), 1);
@@ -114,8 +114,7 @@ TEST(Effects, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
         EXPECT_EQ(setup.effects.on(Effect::device),
                   setup.simulation.device.kind != DeviceChoice::Kind::none)
             << path << ": " << setup.effects.why(Effect::device);
-        if (cuda_device_count() == 0)
-            EXPECT_FALSE(setup.effects.on(Effect::device)) << path;
+        if (cuda_device_count() == 0) EXPECT_FALSE(setup.effects.on(Effect::device)) << path;
     }
 }
 

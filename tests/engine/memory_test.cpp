@@ -105,8 +105,8 @@ TEST(Memory, IsWhatARunAllocates) {
     std::vector<std::string> at_rest = in_time;
     at_rest.emplace_back("drive.path=zero-load");
     std::vector<std::string> coarser = in_time;
-    for (const char* key : {"block.model=multiscale", "block.layers_per_level=16",
-                            "block.thickness=112"})
+    for (const char* key :
+         {"block.model=multiscale", "block.layers_per_level=16", "block.thickness=112"})
         coarser.emplace_back(key);
     for (const auto& keys : {in_time, at_rest, coarser}) {
         const Scene scene = scene_with(keys);

@@ -76,9 +76,9 @@ TEST(RunFiles, TheVelocityOfAFrameIsThatOfItsStep) {
     // error is of the order dt^2, to the single precision of positions. That of half a step before
     // is another.
     const Scratch scratch;
-    run_over_ridge(scratch,
-                   "velocity = \"400 m/s\"\ntimestep = \"10 fs\"\nramp = \"0 ps\"\nmax_steps = 150\n",
-                   "trajectory = 1\nvelocities = true\n");
+    run_over_ridge(
+        scratch, "velocity = \"400 m/s\"\ntimestep = \"10 fs\"\nramp = \"0 ps\"\nmax_steps = 150\n",
+        "trajectory = 1\nvelocities = true\n");
     const io::Hdf5File file(scratch / "out/run.h5", io::Hdf5File::Mode::read);
     const auto position = file.read<float>("/particles/trajectory/position/value");
     const auto velocity = file.read<float>("/particles/trajectory/velocity/value");
