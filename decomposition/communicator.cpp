@@ -8,15 +8,21 @@
 #endif
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace asperity {
 
 struct Communicator::Mpi {
-    MPI_Comm all, machine;
+    MPI_Comm all, machine, meeting;
+    explicit Mpi(MPI_Comm of) : all(of) {
+        MPI_Comm_split_type(all, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+        MPI_Comm_dup(all, &meeting);
+    }
 };
 
 namespace {
@@ -60,6 +66,17 @@ double Communicator::sum_on_machine(double value) const {
     if (mpi_) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, mpi_->machine);
     return value;
 }
+
+int Communicator::alike_on_machine(std::uint64_t number) const {
+    if (!mpi_) return 1;
+    int ranks = 0;
+    MPI_Comm_size(mpi_->machine, &ranks);
+    std::vector<std::uint64_t> all(static_cast<std::size_t>(ranks));
+    MPI_Allgather(&number, 1, MPI_UINT64_T, all.data(), 1, MPI_UINT64_T, mpi_->machine);
+    return static_cast<int>(std::count(all.begin(), all.end(), number));
+}
+
+int Communicator::handle() const { return MPI_Comm_c2f(mpi_->all); }
 
 double Communicator::max(double value) const {
     if (mpi_) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, mpi_->all);
@@ -122,6 +139,28 @@ void Communicator::barrier() const {
     if (mpi_) MPI_Barrier(mpi_->all);
 }
 
+bool Communicator::all_come(double seconds) const {
+    if (!mpi_) return true;
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    MPI_Request all;
+    MPI_Ibarrier(mpi_->meeting, &all);
+    for (;;) {
+        int they_have = 0;
+        MPI_Test(&all, &they_have, MPI_STATUS_IGNORE);
+        if (they_have) return true;
+        if (std::chrono::duration<double>(Clock::now() - start).count() >= seconds) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+}
+
+Communicator Communicator::split(int colour) const {
+    if (!mpi_) return *this;
+    MPI_Comm part;
+    MPI_Comm_split(mpi_->all, colour, rank_, &part);
+    return Communicator(std::make_shared<const Mpi>(part));
+}
+
 void Communicator::abort(int exit_code) const {
     if (mpi_) MPI_Abort(mpi_->all, exit_code);
     std::_Exit(exit_code);
@@ -151,10 +190,7 @@ ParallelSession::ParallelSession(int& argc, char**& argv) {
     int provided = MPI_THREAD_SINGLE;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     started_ = true;
-    MPI_Comm machine;
-    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-    world_ = Communicator(
-        std::make_shared<const Communicator::Mpi>(Communicator::Mpi{MPI_COMM_WORLD, machine}));
+    world_ = Communicator(std::make_shared<const Communicator::Mpi>(MPI_COMM_WORLD));
 }
 
 ParallelSession::~ParallelSession() {

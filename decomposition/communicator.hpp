@@ -47,6 +47,8 @@ public:
     bool root() const { return rank() == 0; }
     /// Whether messages may lie in the memory of a CUDA device.
     bool takes_device_memory() const;
+    /// MPI's communicator as a handle of Fortran (MPI_Comm_c2f); only with several ranks.
+    int handle() const;
 
     /// Element-wise sum over the ranks, in place. The values must be such that their sum is exact
     /// in any order (ExactSum bins, counts).
@@ -54,6 +56,8 @@ public:
     void sum(std::span<std::int64_t> values) const;
     /// Over the ranks of this machine.
     double sum_on_machine(double value) const;
+    /// How many ranks of this machine give the same number, this one included.
+    int alike_on_machine(std::uint64_t number) const;
     /// The greatest of the ranks' values.
     double max(double value) const;
     /// Root's bytes to all.
@@ -68,6 +72,11 @@ public:
     /// All messages at once; returns when all have arrived. A message to oneself is a copy.
     void exchange(std::span<const Message> messages) const;
     void barrier() const;
+    /// Whether all ranks call this within so many seconds. May be called while others are, or wait,
+    /// in another of these functions: it has messages of its own. After false only abort() is left.
+    bool all_come(double seconds) const;
+    /// The ranks that give the same colour, in the same order, until MPI ends.
+    Communicator split(int colour) const;
     /// Ends all ranks with this exit code, now.
     [[noreturn]] void abort(int exit_code) const;
 
@@ -77,7 +86,7 @@ public:
 
 private:
     friend class ParallelSession;
-    /// MPI's communicators: of all ranks, and of those of this machine.
+    /// MPI's communicators: of all ranks, of those of this machine, of all_come().
     struct Mpi;
     explicit Communicator(std::shared_ptr<const Mpi> mpi);
     void gather(std::span<const double> mine, std::span<const int> counts, std::span<double> all,

@@ -5,9 +5,11 @@
 // vectors.
 #pragma once
 
+#include "decomposition/rows_of_thread.hpp"
 #include "decomposition/tile.hpp"
 #include "kernels/views.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -53,14 +55,11 @@ public:
         if (!data_) throw std::bad_alloc();
         prefer_large_pages(data_.get(), size_ * sizeof(T));
         view_.origin = data_.get() + halo * view_.row + left;
-        // Rows are first touched by the threads that will work on them (static schedule over rows).
-        const std::ptrdiff_t rows = (tile.ny + 2 * halo) * static_cast<std::ptrdiff_t>(planes);
-#pragma omp parallel for schedule(static)
-        for (std::ptrdiff_t r = 0; r < rows; ++r)
-            for (std::ptrdiff_t i = 0; i < view_.row; ++i)
-                data_[static_cast<std::size_t>(r * view_.row + i)] = T(0);
-        for (std::size_t i = static_cast<std::size_t>(rows * view_.row); i < size_; ++i)
-            data_[i] = T(0);
+        T* const data = data_.get();
+        each_row_by_its_thread(tile.ny, halo, planes, [&](int z, int y) {
+            std::fill_n(data + z * view_.plane + (y + halo) * view_.row, view_.row, T(0));
+        });
+        std::fill(data + planes * view_.plane, data + size_, T(0));
     }
 
     VolumeView<T> view() { return view_; }

@@ -21,8 +21,11 @@ namespace detail {
 /// bins: room for those of all sums.
 inline void global_sums(const Communicator& ranks, std::span<const ExactSum> mine,
                         std::span<double> bins, std::span<double> values) {
-    for (std::size_t i = 0; i < mine.size(); ++i)
-        std::copy_n(mine[i].bin, ExactSum::bins, &bins[ExactSum::bins * i]);
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+        ExactSum sum = mine[i];
+        sum.carry();
+        std::copy_n(sum.bin, ExactSum::bins, &bins[ExactSum::bins * i]);
+    }
     ranks.sum(bins);
     for (std::size_t i = 0; i < mine.size(); ++i) {
         ExactSum sum;

@@ -56,6 +56,8 @@ struct FloatFftw {
 template <class T>
 using Fftw = std::conditional_t<std::is_same_v<T, double>, DoubleFftw, FloatFftw>;
 
+MPI_Comm mpi_of(const Communicator& ranks) { return MPI_Comm_f2c(ranks.handle()); }
+
 /// FFTW's threads are to start before its ranks.
 template <class T>
 bool start_threads() {
@@ -84,7 +86,7 @@ Slab::Slab(int n, const Communicator& communicator) : ranks(communicator), sites
     start_ranks<double>();
     std::ptrdiff_t its_rows = 0, its_first = 0;
     capacity = static_cast<std::size_t>(
-        fftw_mpi_local_size_2d(sites, columns(), MPI_COMM_WORLD, &its_rows, &its_first));
+        fftw_mpi_local_size_2d(sites, columns(), mpi_of(ranks), &its_rows, &its_first));
     if (its_rows != rows || its_first != first)
         throw std::logic_error("FFTW-MPI cuts the surface into other slabs than the process grid");
 }
@@ -132,9 +134,9 @@ SurfaceTransform<T>::SurfaceTransform(const Slab& slab, std::ptrdiff_t row)
     if (plans_->slabs) {
         start_ranks<T>();
         plans_->forward = F::slab_forward(slab.sites, slab.sites, waves.component(0), complex,
-                                          MPI_COMM_WORLD, FFTW_ESTIMATE);
+                                          mpi_of(slab.ranks), FFTW_ESTIMATE);
         plans_->backward = F::slab_backward(slab.sites, slab.sites, complex, waves.component(0),
-                                            MPI_COMM_WORLD, FFTW_ESTIMATE);
+                                            mpi_of(slab.ranks), FFTW_ESTIMATE);
     } else {
         Field<T> field(slab.tile(), 1, 0);
         const int n[2] = {slab.sites, slab.sites};

@@ -16,13 +16,17 @@
 #include "io/error.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <omp.h>
-#include <unistd.h>
+#include <sched.h>
 
 namespace asperity {
 namespace {
@@ -130,16 +134,25 @@ std::vector<Command> all_commands() {
     };
 }
 
+/// The processors that this process may use, as a number: FNV-1a of their mask.
+std::uint64_t processors_allowed() {
+    std::vector<cpu_set_t> mask(1);
+    // A mask that is too short for the kernel is refused.
+    while (sched_getaffinity(0, mask.size() * sizeof(cpu_set_t), mask.data()) != 0 &&
+           errno == EINVAL && mask.size() < 1024)
+        mask.resize(2 * mask.size());
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const std::byte byte : std::as_bytes(std::span(mask)))
+        hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3;
+    return hash;
+}
+
 /// Threads of this rank, where OMP_NUM_THREADS is not set: the processors it may use, shared with
-/// the ranks beside it unless the launcher has bound each to processors of its own.
-void choose_threads() {
-    if (std::getenv("OMP_NUM_THREADS")) return;
-    const char* beside = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
-    if (!beside) beside = std::getenv("MPI_LOCALNRANKS"); // MPICH's
-    const int ranks = beside ? std::max(1, std::atoi(beside)) : 1;
-    const int mine = omp_get_num_procs();
-    const bool bound = mine < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
-    omp_set_num_threads(bound ? mine : std::max(1, mine / ranks));
+/// the ranks beside it that may use the same ones.
+void choose_threads(const Communicator& world) {
+    const int ranks = world.alike_on_machine(processors_allowed());
+    if (!std::getenv("OMP_NUM_THREADS"))
+        omp_set_num_threads(std::max(1, omp_get_num_procs() / ranks));
 }
 
 } // namespace
@@ -153,6 +166,6 @@ int main(int argc, char** argv) {
     io::set_commit(build_commit);
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
-    choose_threads();
+    choose_threads(world);
     return ended_in_order(world, [&] { return carry_out(commands, argc, argv, world); });
 }

@@ -100,11 +100,10 @@ struct Totals {
         }
     }
     void give(InterfaceSums& sums) const {
-        for (int i = 0; i < Real::width; ++i)
-            for (int k = 0; k < ExactSum::bins; ++k) {
-                sums.force_z.bin[k] += force_z.bin[k][i];
-                sums.energy.bin[k] += energy.bin[k][i];
-            }
+        for (int i = 0; i < Real::width; ++i) {
+            sums.force_z.merge({{force_z.bin[0][i], force_z.bin[1][i]}});
+            sums.energy.merge({{energy.bin[0][i], energy.bin[1][i]}});
+        }
         sums.in_contact += in_contact;
         sums.repulsive += repulsive;
         sums.in_reach += in_reach;

@@ -56,7 +56,7 @@ void sweep_one_by_one(const InterfaceSites& sites, const Substrate& substrate,
                       const Potential& potential, int row_begin, int row_end, InterfaceSums& sums) {
     const auto& u = sites.displacement;
     const double a = sites.spacing;
-    for (int y = row_begin; y < row_end; ++y)
+    for (int y = row_begin; y < row_end; ++y) {
         for (int x = 0; x < u.x.nx; ++x) {
             const PairSum site =
                 pair_sum(substrate, potential, (sites.x0 + x + 0.5) * a + u.x(x, y),
@@ -73,6 +73,8 @@ void sweep_one_by_one(const InterfaceSites& sites, const Substrate& substrate,
             sums.in_reach += 1;
             if (site.nearest_r2 < sums.closest_r2) sums.closest_r2 = site.nearest_r2;
         }
+        sums.carry();
+    }
 }
 
 } // namespace
@@ -90,7 +92,7 @@ void reference_sweep(const InterfaceSites& sites, const SubstrateAtoms& atoms,
 void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
                 PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
                 InterfaceSums& sums) {
-    for (int y = row_begin; y < row_end; ++y)
+    for (int y = row_begin; y < row_end; ++y) {
         for (int x = 0; x < mean_height.nx; ++x) {
             const double gap =
                 sites.reference_height + sites.displacement.z(x, y) - mean_height(x, y);
@@ -103,6 +105,8 @@ void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
             force_z += force;
             sums.force_z.add(force);
         }
+        sums.carry();
+    }
 }
 
 } // namespace asperity

@@ -93,6 +93,7 @@ struct InterfaceSums {
         in_reach += other.in_reach;
         closest_r2 = other.closest_r2 < closest_r2 ? other.closest_r2 : closest_r2;
     }
+    void carry() { force_z.carry(), energy.carry(); }
 };
 
 /// The whole substrate as a periodic map of heights: what the reference loop needs.

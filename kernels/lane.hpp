@@ -94,8 +94,7 @@ ASPERITY_INLINE Lane<double> inverse_sqrt(Lane<double> a) { return 1.0 / std::sq
 
 ASPERITY_INLINE Lane<double> first_lanes(Lane<double> a, int) { return a; }
 ASPERITY_INLINE void collect(const BasicExactSum<Lane<double>>& lane, ExactSum& into) {
-    for (int k = 0; k < ExactSum::bins; ++k)
-        into.bin[k] += lane.bin[k].r;
+    into.merge({{lane.bin[0].r, lane.bin[1].r}});
 }
 
 /// Fixed-point numbers, whose differences are exact.

@@ -23,10 +23,13 @@ ASPERITY_INLINE Pack<double> first_lanes(Pack<double> a, int count) {
     return select(lane_numbers() < Pack<double>(static_cast<double>(count)), a, Pack<double>(0.0));
 }
 
+/// The lanes' runs together must not be longer than longest_run.
 ASPERITY_INLINE void collect(const BasicExactSum<Pack<double>>& lanes, ExactSum& into) {
+    ExactSum mine;
     for (int k = 0; k < ExactSum::bins; ++k)
         for (int i = 0; i < Pack<double>::width; ++i)
-            into.bin[k] += lanes.bin[k][i];
+            mine.bin[k] += lanes.bin[k][i];
+    into.merge(mine);
 }
 
 /// Drift u <- u + dt v of rows [y0, y1) of plane z.
@@ -65,6 +68,7 @@ ASPERITY_INLINE void cell_sum(const VectorVolume<const double>& u, int y0, int y
             const auto line = z * u.x.plane + y * u.x.row;
             for (int x = 0; x < u.x.nx; x += V::width)
                 lanes.add(first_lanes(energies(line + x), u.x.nx - x));
+            lanes.carry();
         }
     collect(lanes, into);
 }
@@ -72,9 +76,11 @@ ASPERITY_INLINE void cell_sum(const VectorVolume<const double>& u, int y0, int y
 inline void plane_sum(PlaneView<const double> plane, int y0, int y1, ExactSum& into) {
     using V = Pack<double>;
     BasicExactSum<V> lanes;
-    for (int y = y0; y < y1; ++y)
+    for (int y = y0; y < y1; ++y) {
         for (int x = 0; x < plane.nx; x += V::width)
             lanes.add(first_lanes(V::load(plane.line(y) + x), plane.nx - x));
+        if (y % 32 == 31) lanes.carry();
+    }
     collect(lanes, into);
 }
 

@@ -13,6 +13,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <optional>
 #include <span>
@@ -74,34 +76,60 @@ auto translated(const Work& work) {
     }
 }
 
-/// The root's code and text, on every rank. Collective.
-[[noreturn]] void throw_as_root(const asperity::Communicator& world, int code, std::string text) {
-    double head[] = {static_cast<double>(code), static_cast<double>(text.size())};
-    world.broadcast(std::span<double>(head));
-    text.resize(static_cast<std::size_t>(head[1]));
-    world.broadcast(std::as_writable_bytes(std::span<char>(text)));
-    throw Error(static_cast<int>(head[0]), text);
+/// How long an error waits for the other ranks, s.
+constexpr double patience = 10.0;
+
+[[noreturn]] void end_all(const asperity::Communicator& world, int code, const std::string& text) {
+    fmt::print(stderr, "rank {}: {}\n", world.rank(), text);
+    std::fflush(stderr);
+    world.abort(code);
 }
 
 /// Of several ranks: an error that all meet, or the root for all of them, is thrown on all of them.
 /// Any other ends them all at once, for the others may be waiting for this one
-/// (engine/commands/ending.hpp).
+/// (engine/commands/ending.hpp); so does one that not all meet.
 template <class Work>
-void agreed(const asperity::Communicator& world, const Work& work) {
+auto agreed(const asperity::Communicator& world, const Work& work) {
     if (world.size() == 1) return translated(work);
+    std::optional<decltype(work())> result;
+    int code = io::exit_code::done;
+    std::string text;
+    bool root_failed = false;
+    const auto fails = [&](const io::Error& error) {
+        code = error.code();
+        text = error.what();
+        if (!world.all_come(patience))
+            end_all(world, code, text + "\n    why: other ranks do not meet this, and wait for it");
+    };
     try {
-        work();
+        result = work();
+        world.all_come(HUGE_VAL);
     } catch (const io::SceneError& error) {
-        throw_as_root(world, error.code(), error.what());
+        fails(error);
     } catch (const io::PhysicsError& error) {
-        throw_as_root(world, error.code(), error.what());
+        fails(error);
     } catch (const asperity::RootFailure&) {
-        throw_as_root(world, 0, {});
+        root_failed = true;
+        world.all_come(HUGE_VAL);
     } catch (const std::exception& error) {
         const auto* known = dynamic_cast<const io::Error*>(&error);
-        fmt::print(stderr, "rank {}: {}\n", world.rank(), error.what());
-        world.abort(known ? known->code() : io::exit_code::internal);
+        const auto* ours = dynamic_cast<const Error*>(&error);
+        code = known ? known->code() : ours ? ours->code() : io::exit_code::internal;
+        end_all(world, code, error.what());
     }
+    const double worst = world.max(code), fine = world.max(result ? 1.0 : 0.0);
+    if (fine == 0.0) { // the root's code and text, on every rank
+        double head[] = {static_cast<double>(code), static_cast<double>(text.size())};
+        world.broadcast(std::span<double>(head));
+        text.resize(static_cast<std::size_t>(head[1]));
+        world.broadcast(std::as_writable_bytes(std::span<char>(text)));
+        throw Error(static_cast<int>(head[0]), text);
+    }
+    if (worst != 0.0) {
+        if (result || root_failed) text = "another rank failed, and has the reason";
+        end_all(world, static_cast<int>(worst), text);
+    }
+    return *std::move(result);
 }
 
 std::string contents(const std::string& path) {
@@ -217,7 +245,7 @@ Map Result::heights() const {
 Result run(const Scene& scene, const std::string& directory, const Options& options) {
     const asperity::Communicator world =
         parallel_world ? *parallel_world : asperity::Communicator();
-    agreed(world, [&] {
+    return agreed(world, [&] {
         if (directory.empty())
             throw io::SceneError(io::Problem{"libasperity::run", "is given no directory",
                                              "a run writes its result into one",
@@ -236,8 +264,8 @@ Result run(const Scene& scene, const std::string& directory, const Options& opti
                 options.progress({now.phase, now.steps, now.time_fs, now.fraction});
             };
         asperity::run(scene.inside().scene, inner, world);
+        return Result::load(directory);
     });
-    return Result::load(directory);
 }
 
 class Parallel::Inside {

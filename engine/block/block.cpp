@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace asperity {
@@ -21,54 +20,19 @@ CellElasticity BlockOptions::elasticity(int level) const {
 }
 
 double BlockOptions::highest_frequency(double site_stiffness) const {
-    // Dispersion of the bulk stencil: w = 2 inside, so the dynamical matrix follows from the
-    // filters of elastic_cell.hpp at a plane wave (phases p, q, r). Its largest eigenvalue, over a
-    // mesh of the Brillouin zone that holds all symmetry points, is bounded by power iteration at
-    // each of them.
+    // The largest eigenvalue of the bulk's dynamical matrix is that of a longitudinal wave, of
+    // phases (pi, 0, 0) or, below a Poisson ratio of about 0.12, (t, t, t). With c = cos t it is
+    // there (1 - c) (24 kappa (1 + c)^2 + k (10 + 8 c)), whose derivative vanishes at the root of
+    // 72 kappa c^2 + (48 kappa + 16 k) c + 2 k - 24 kappa that is -1/8 for kappa = 0. Surfaces and
+    // coarser levels have no higher one. tests/engine/block_test.cpp searches the whole zone.
     const CellElasticity e = elasticity(0);
-    double highest = 0.0;
-    constexpr int mesh = 12;
-    for (int i = 0; i <= mesh; ++i)
-        for (int j = 0; j <= i; ++j)
-            for (int k = 0; k <= j; ++k) {
-                const double pi = std::numbers::pi;
-                const std::array<double, 3> phase = {pi * i / mesh, pi * j / mesh, pi * k / mesh};
-                std::array<double, 3> c{}, s{};
-                for (std::size_t n = 0; n < 3; ++n)
-                    c[n] = std::cos(phase[n]), s[n] = std::sin(phase[n]);
-                double d[3][3];
-                for (std::size_t a = 0; a < 3; ++a)
-                    for (std::size_t b = 0; b < 3; ++b) {
-                        const std::size_t o = (a + 1) % 3, p = (a + 2) % 3;
-                        if (a == b) {
-                            const double theta = (2 - 2 * c[a]) * (2 + 2 * c[o]) * (2 + 2 * c[p]);
-                            const double springs =
-                                2 * (1 - c[a]) + 2 * (1 - c[a] * c[o]) + 2 * (1 - c[a] * c[p]);
-                            d[a][b] = e.kappa * theta + e.k * springs;
-                        } else {
-                            const std::size_t t = 3 - a - b;
-                            d[a][b] =
-                                e.kappa * 4 * s[a] * s[b] * (2 + 2 * c[t]) + 2 * e.k * s[a] * s[b];
-                        }
-                    }
-                std::array<double, 3> x = {1.0, 0.7, 0.4};
-                double value = 0.0;
-                for (int iteration = 0; iteration < 60; ++iteration) {
-                    std::array<double, 3> y{};
-                    double norm = 0.0;
-                    for (std::size_t a = 0; a < 3; ++a) {
-                        for (std::size_t b = 0; b < 3; ++b)
-                            y[a] += d[a][b] * x[b];
-                        norm += y[a] * y[a];
-                    }
-                    value = std::sqrt(norm);
-                    if (value == 0.0) break;
-                    for (std::size_t a = 0; a < 3; ++a)
-                        x[a] = y[a] / value;
-                }
-                highest = std::max(highest, value);
-            }
-    return std::sqrt((highest + site_stiffness) / atom_mass);
+    const double axis = 64.0 * e.kappa + 12.0 * e.k;
+    const double a = 72.0 * e.kappa, b = 48.0 * e.kappa + 16.0 * e.k,
+                 d = 2.0 * e.k - 24.0 * e.kappa;
+    const double c = -2.0 * d / (b + std::sqrt(b * b - 4.0 * a * d));
+    const double diagonal =
+        (1.0 - c) * (24.0 * e.kappa * (1.0 + c) * (1.0 + c) + e.k * (10.0 + 8.0 * c));
+    return std::sqrt((std::max(axis, diagonal) + site_stiffness) / atom_mass);
 }
 
 std::vector<LevelShape> level_shapes(const BlockOptions& options) {
@@ -260,6 +224,7 @@ Block::Memory Block::memory_for(const BlockOptions& options, const ProcessGrid& 
         };
         const std::size_t motion = planes(shape.cells);
         memory.motion += motion;
+        memory.displacements += planes(shape.cells + 1);
         const std::size_t level = motion + planes(shape.cells + 1) + 2 * planes(1);
         memory.bytes += level;
         if (shape.level > 0) memory.coarse += level;

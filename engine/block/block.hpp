@@ -25,6 +25,7 @@
 #include "decomposition/field.hpp"
 #include "decomposition/halo_exchange.hpp"
 #include "decomposition/process_grid.hpp"
+#include "decomposition/rows_of_thread.hpp"
 #include "kernels/elastic_level.hpp"
 #include "kernels/level_transfer.hpp"
 
@@ -84,7 +85,7 @@ enum class Motion { in_time, at_rest };
 class Block {
 public:
     /// Rows are worked on in bands of so many.
-    static constexpr int band = 8;
+    static constexpr int band = band_rows;
 
     struct Level {
         LevelShape shape;
@@ -171,9 +172,9 @@ public:
     /// Of these, what a path in time at finite strain needs: nothing before its first step.
     std::size_t finite_bytes() const;
     static std::size_t finite_bytes_for(const BlockOptions&, const ProcessGrid&, int threads);
-    /// The first three numbers, without making the block.
+    /// The first three numbers, and the displacements' share, without making the block.
     struct Memory {
-        std::size_t bytes = 0, motion = 0, coarse = 0;
+        std::size_t bytes = 0, motion = 0, coarse = 0, displacements = 0;
     };
     static Memory memory_for(const BlockOptions& options, const ProcessGrid& grid);
     std::size_t halo_bytes() const { return halo_.bytes_sent(); }

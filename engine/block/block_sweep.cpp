@@ -17,15 +17,6 @@ namespace {
 /// Below this many nodes a level's work is done sooner than threads are woken.
 constexpr long long worth_threads = 8192;
 
-/// The share of this thread: whole bands, next to each other.
-std::pair<int, int> rows_of_thread(int ny) {
-    const int bands = (ny + Block::band - 1) / Block::band;
-    const auto cut = [&](int thread) {
-        return std::min(ny, Block::band * (bands * thread / omp_get_num_threads()));
-    };
-    return {cut(omp_get_thread_num()), cut(omp_get_thread_num() + 1)};
-}
-
 } // namespace
 
 int Block::Level::first_plane_from(double share_of_thickness, int thickness) const {

@@ -26,9 +26,11 @@ double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<co
     interface.sweep(u, force_.plane(0), reference_height + step, false, true);
     const PlaneView<const double> here = force.z, there = std::as_const(force_).plane(0).z;
     ExactSum sum;
-    for (int y = 0; y < here.ny; ++y)
+    for (int y = 0; y < here.ny; ++y) {
         for (int x = 0; x < here.nx; ++x)
             sum.add(std::max(0.0, (here(x, y) - there(x, y)) / step));
+        sum.carry();
+    }
     return global_sum(ranks, sum) / (sites_ * sites_);
 }
 

@@ -3,6 +3,7 @@
 #include "engine/block/spectral_block.hpp"
 
 #include "decomposition/global_sum.hpp"
+#include "kernels/elastic_level.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -212,9 +213,7 @@ void SpectralBlock::restore_mean_height() {
     const double sites = options_.sites;
     const PlaneView<double> z = layer_.z.plane(0);
     ExactSum sum;
-    for (int y = 0; y < z.ny; ++y)
-        for (int x = 0; x < z.nx; ++x)
-            sum.add(z(x, y));
+    elastic_kernels().sum(z, 0, z.ny, sum);
     const double by = constraint_.value - global_sum(slab_.ranks, sum) / (sites * sites);
     for (int y = 0; y < z.ny; ++y)
         for (int x = 0; x < z.nx; ++x)

@@ -12,13 +12,15 @@
 #include <new>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include <fmt/format.h>
 
 namespace asperity {
 
 namespace {
+
+/// How long an error waits for the other ranks, s.
+constexpr double patience = 30.0;
 
 /// Says what went wrong, on rank 0, and with which code to end.
 int report(const std::exception& error, const Communicator& world) {
@@ -49,9 +51,6 @@ int report(const std::exception& error, const Communicator& world) {
     return code;
 }
 
-/// The root's exit code (or the only one there is), on every rank. Collective.
-int agreed(int code, const Communicator& world) { return static_cast<int>(world.max(code)); }
-
 /// An error inside a run of several ranks. The others give rank 0 time to report first;
 /// if it does not, the error is not one of rank 0.
 [[noreturn]] void end_together(const std::exception& error, const Communicator& world) {
@@ -64,17 +63,18 @@ int agreed(int code, const Communicator& world) { return static_cast<int>(world.
     world.abort(code);
 }
 
-/// A scene that only this rank cannot read: the others do not come to where all agree on the end.
-void end_if_alone(std::string what, const Communicator& world) {
-    std::thread([what = std::move(what), rank = world.rank()] {
-        std::this_thread::sleep_for(std::chrono::seconds(30));
+/// An error that every rank meets alike, or the root for all of them: they agree on the code. Where
+/// not all come, the others wait for this one elsewhere.
+int end_alike(const std::string& what, int code, const Communicator& world) {
+    if (!world.all_come(patience)) {
         fmt::print(stderr,
                    "rank {}: {}\n    why: other ranks do not meet this, and wait for it: are the "
                    "scene and its files on every machine?\n",
-                   rank, what);
+                   world.rank(), what);
         std::fflush(stderr);
-        std::_Exit(io::exit_code::scene); // the launcher ends the others
-    }).detach();
+        world.abort(code);
+    }
+    return static_cast<int>(world.max(code));
 }
 
 } // namespace
@@ -83,12 +83,11 @@ int ended_in_order(const Communicator& world, const std::function<int()>& work) 
     try {
         return work();
     } catch (const io::SceneError& error) { // on every rank, or on the root for all of them
-        if (!world.root()) end_if_alone(error.what(), world);
-        return agreed(report(error, world), world);
+        return end_alike(error.what(), report(error, world), world);
     } catch (const io::PhysicsError& error) { // guards compare global numbers: on every rank
-        return agreed(report(error, world), world);
-    } catch (const RootFailure&) { // the root has the reason and the code
-        return agreed(io::exit_code::done, world);
+        return end_alike(error.what(), report(error, world), world);
+    } catch (const RootFailure& error) { // the root has the reason and the code
+        return end_alike(error.what(), io::exit_code::done, world);
     } catch (const std::exception& error) {
         if (world.size() > 1) end_together(error, world);
         return report(error, world);

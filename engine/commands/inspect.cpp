@@ -40,7 +40,7 @@ namespace {
 
 /// For programs: a sweep calls it before it varies the scene, so that what a run of the scene
 /// itself would refuse is listed, not thrown.
-io::Json check_json(const Scene& scene, int ranks) {
+io::Json check_json(const Scene& scene, const Communicator& world) {
     io::Json all;
     all["name"] = scene.name;
     all["scene"] = scene_json(scene);
@@ -53,7 +53,7 @@ io::Json check_json(const Scene& scene, int ranks) {
     all["notes"] = io::Json::array();
     all["problems"] = io::Json::array();
     try {
-        const Setup setup = examine(scene, ranks);
+        const Setup setup = examine(scene, world.size(), world);
         all["longest_timestep"] = setup.longest_timestep;
         all["notes"] = setup.notes;
     } catch (const io::SceneError& error) {
@@ -120,11 +120,11 @@ int init_command(const std::string& asked, const Communicator& world) {
 
 int check_command(const Scene& scene, bool json, const Communicator& world) {
     if (json) {
-        const io::Json all = check_json(scene, world.size());
+        const io::Json all = check_json(scene, world);
         if (world.root()) fmt::print("{}\n", io::json_text(all));
         return io::exit_code::done;
     }
-    const Setup setup = examine(scene, world.size());
+    const Setup setup = examine(scene, world.size(), world);
     if (!world.root()) return io::exit_code::done;
     fmt::print("{}: nothing wrong\n", scene.file);
     fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
@@ -140,7 +140,7 @@ int check_command(const Scene& scene, bool json, const Communicator& world) {
 
 int plan_command(const Scene& scene, int ranks, const Communicator& world) {
     if (ranks <= 0) ranks = world.size();
-    examine(scene, ranks);
+    examine(scene, ranks, world);
     const int cores = omp_get_max_threads() * world.size();
     world.on_root(
         [&] { print_plan(stdout, scene, make_plan(scene, ranks, std::max(1, cores / ranks))); });
@@ -250,7 +250,7 @@ void write_surface(const Scene& scene, const Surface& surface, const std::string
 
 int surface_command(const Scene& scene, const std::string& out, const Communicator& world) {
     if (scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(scene); });
-    const Surface surface = scene_surface(scene);
+    const Surface surface = scene_surface(scene, world);
     world.on_root([&] { write_surface(scene, surface, out); });
     return io::exit_code::done;
 }

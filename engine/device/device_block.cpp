@@ -95,7 +95,7 @@ void DeviceBlock::check(const char* error, const char* doing) const {
 
 template <class T>
 T* DeviceBlock::place(std::size_t count) {
-    auto* at = reinterpret_cast<T*>(memory_ + used_);
+    auto* at = reinterpret_cast<T*>(memory_.get() + used_);
     used_ += rounded(count * sizeof(T));
     if (used_ > bytes_)
         throw std::logic_error("DeviceBlock: more memory is used than bytes_for() counts");
@@ -152,7 +152,9 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
     : choice_(own_device(choice, block.communicator())), device_(functions_of(choice)),
       bytes_(bytes_for(block.options(), block.grid(), interface.options(),
                        interface.substrate_sites())) {
-    check(device_.allocate(choice_.index, bytes_, &memory_), "the allocation of its memory");
+    std::byte* allocated = nullptr;
+    check(device_.allocate(choice_.index, bytes_, &allocated), "the allocation of its memory");
+    memory_.reset(allocated);
 
     std::vector<DeviceLevel> levels;
     const auto& host = block.levels();
@@ -228,8 +230,9 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
     const std::size_t size = rounded(2 * sizeof(PassSums)) +
                              rounded(levels.size() * sizeof(LevelKicks)) +
                              4 * rounded(strip * sizeof(double)) + 3 * rounded(shared_bytes_);
-    check(device_.allocate_pinned(size, &pinned_.memory), "the allocation of the host's part");
-    std::byte* next = pinned_.memory;
+    check(device_.allocate_pinned(size, &allocated), "the allocation of the host's part");
+    pinned_memory_.reset(allocated);
+    std::byte* next = allocated;
     const auto take = [&](auto*& region, std::size_t bytes) {
         region = reinterpret_cast<std::remove_reference_t<decltype(region)>>(next);
         next += rounded(bytes);
@@ -276,11 +279,6 @@ void DeviceBlock::take_tables(const Interface& interface) {
         step_.tail = tables.tail;
         step_.with_tail = true;
     }
-}
-
-DeviceBlock::~DeviceBlock() {
-    if (pinned_.memory) device_.release_pinned(pinned_.memory);
-    if (memory_) device_.release(memory_);
 }
 
 namespace {

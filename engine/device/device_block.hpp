@@ -19,6 +19,7 @@
 #include "engine/phases.hpp"
 #include "kernels/device/device.hpp"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,9 +47,6 @@ class DeviceBlock {
 public:
     /// Allocates; copies the tables. Throws io::FileError where the device or its memory fails.
     DeviceBlock(const DeviceChoice& choice, const Block& block, const Interface& interface);
-    ~DeviceBlock();
-    DeviceBlock(const DeviceBlock&) = delete;
-    DeviceBlock& operator=(const DeviceBlock&) = delete;
 
     /// Displacements and velocities, halos included.
     void upload(const Block& block);
@@ -107,9 +105,13 @@ private:
     template <class T>
     T* copy_of(std::span<const T> values);
 
+    /// Given back by the device's own function, also where the constructor throws.
+    using Memory = std::unique_ptr<std::byte, void (*)(std::byte*)>;
+
     DeviceChoice choice_;
     const DeviceFunctions& device_;
-    std::byte* memory_ = nullptr;
+    Memory memory_{nullptr, device_.release};
+    Memory pinned_memory_{nullptr, device_.release_pinned};
     std::size_t bytes_ = 0, used_ = 0;
     std::vector<LevelMemory> levels_;
     DeviceStep step_;
@@ -125,13 +127,12 @@ private:
 
     /// Memory of the host that the device copies from and to by itself.
     struct Pinned {
-        std::byte* memory = nullptr;
         PassSums* sums = nullptr; ///< of forces, of advance
         LevelKicks* kicks = nullptr;
         double *to_before = nullptr, *to_after = nullptr, *from_before = nullptr,
                *from_after = nullptr;
         double* shared[3] = {};
-    } pinned_;
+    } pinned_;            ///< in pinned_memory_
     bool direct_ = false; ///< MPI takes device memory
 
     StepParameters kicked_with_;

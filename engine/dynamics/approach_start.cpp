@@ -24,9 +24,11 @@ double yielded(Block& block, double force) {
     if (force == 0.0) return 0.0;
     const PlaneView<double> f = block.interface_force().z;
     ExactSum squares;
-    for (int y = 0; y < f.ny; ++y)
+    for (int y = 0; y < f.ny; ++y) {
         for (int x = 0; x < f.nx; ++x)
             squares.add(f(x, y) * f(x, y));
+        squares.carry();
+    }
     const double sum = global_sum(block.communicator(), squares);
     const BlockOptions& o = block.options();
     const double radius = o.spacing * std::abs(force) / std::sqrt(sum * std::numbers::pi);

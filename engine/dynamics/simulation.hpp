@@ -6,9 +6,9 @@
 // Velocity Verlet in its leapfrog form: positions at whole steps n, velocities at half steps. At
 // the start of step n the state is u(n), v(n-1/2), halos of u current.
 //
-// With a device the fields are there; block() is the gate. It brings them to the host where the
-// device's are newer, and what is asked for to be written goes back to the device before the next
-// step. A reference that is kept over a step is out of date.
+// With a device the fields are there; block() and block_to_write() are the gates. Both bring them
+// to the host where the device's are newer; what was asked for by block_to_write() goes back to the
+// device before the next step. A reference that is kept over a step is out of date.
 #pragma once
 
 #include "engine/block/block.hpp"
@@ -88,8 +88,8 @@ public:
         if (device_is_newer_) download();
         return block_;
     }
-    /// To be written to.
-    Block& block() {
+    /// With a device: goes up to it before the next step, which computes its forces anew.
+    Block& block_to_write() {
         if (device_is_newer_) download();
         host_is_newer_ = true;
         return block_;

@@ -38,6 +38,7 @@ ExactSum Thermostat::kick(Block& block, double dt, double damping_from, long lon
                     u.x(x, y, z) = place.x, u.y(x, y, z) = place.y, u.z(x, y, z) = place.z;
                     if (counted) mine.add(given);
                 }
+                mine.carry();
             }
         }
 #pragma omp critical(asperity_thermostat)

@@ -153,9 +153,11 @@ private:
     ExactSum power_sum() const {
         const auto f = nodes_.front().view()[0], v = std::as_const(moves_.front()).view()[0];
         ExactSum sum;
-        for (int y = 0; y < f.x.ny; ++y)
+        for (int y = 0; y < f.x.ny; ++y) {
             for (int x = 0; x < f.x.nx; ++x)
                 sum.add(f.x(x, y) * v.x(x, y) + f.y(x, y) * v.y(x, y) + f.z(x, y) * v.z(x, y));
+            sum.carry();
+        }
         return sum;
     }
     double largest_force() {

@@ -23,9 +23,8 @@ namespace {
 constexpr int format_version = 2;
 
 /// Displacements and half-step velocities of each level.
-std::vector<StateArray> fields_of(Simulation& simulation) {
+std::vector<StateArray> fields_of(Block& block) {
     std::vector<StateArray> list;
-    Block& block = simulation.block();
     for (const Block::Level& level : block.levels()) {
         const int n = level.shape.level, planes = level.shape.cells;
         const Block::Fields fields = block.fields(level);
@@ -33,6 +32,11 @@ std::vector<StateArray> fields_of(Simulation& simulation) {
         add_arrays(n, "v", fields.v, planes, list);
     }
     return list;
+}
+
+/// A list of arrays is for both ways; who gets this one only reads.
+std::vector<StateArray> fields_to_read(const Simulation& simulation) {
+    return fields_of(const_cast<Block&>(simulation.block()));
 }
 
 std::vector<StateArray> joined(std::vector<StateArray> list, const std::vector<StateArray>& more) {
@@ -198,18 +202,18 @@ void write_checkpoint(const io::FilePlace& place, Simulation& simulation, const 
     for (const auto& [name, value] : scalars)
         collect.values.emplace_back("run." + name, value);
     write_checkpoint(place, simulation.communicator(), simulation.block().grid(),
-                     joined(fields_of(simulation), run_arrays), collect.values, fingerprint);
+                     joined(fields_to_read(simulation), run_arrays), collect.values, fingerprint);
 }
 
 RunScalars read_checkpoint(const io::FilePlace& place, Simulation& simulation,
                            const std::string& fingerprint,
                            const std::vector<StateArray>& run_arrays) {
-    const RunScalars scalars =
-        read_checkpoint(place, simulation.communicator(), simulation.block().grid(),
-                        joined(fields_of(simulation), run_arrays), fingerprint);
+    Block& block = simulation.block_to_write();
+    const RunScalars scalars = read_checkpoint(place, simulation.communicator(), block.grid(),
+                                               joined(fields_of(block), run_arrays), fingerprint);
     RestoreScalars restore{scalars};
     simulation.visit(restore);
-    simulation.block().exchange();
+    block.exchange();
     RunScalars run;
     for (std::size_t i = restore.at; i < scalars.size(); ++i)
         run.emplace_back(scalars[i].first.substr(std::strlen("run.")), scalars[i].second);
@@ -217,7 +221,7 @@ RunScalars read_checkpoint(const io::FilePlace& place, Simulation& simulation,
 }
 
 void Snapshot::take(Simulation& simulation) {
-    fields_.take(fields_of(simulation));
+    fields_.take(fields_to_read(simulation));
     CollectScalars collect;
     simulation.visit(collect);
     scalars_ = std::move(collect.values);
@@ -225,7 +229,7 @@ void Snapshot::take(Simulation& simulation) {
 }
 
 void Snapshot::restore(Simulation& simulation) const {
-    fields_.restore(fields_of(simulation));
+    fields_.restore(fields_of(simulation.block_to_write()));
     RestoreScalars restore{scalars_};
     simulation.visit(restore);
 }

@@ -50,7 +50,7 @@ private:
     void start() {
         start_.height = simulation_.interface().start_height();
         if (scene_.drive.temperature == 0.0)
-            start_ = approach_start(simulation_.block(), simulation_.interface());
+            start_ = approach_start(simulation_.block_to_write(), simulation_.interface());
         simulation_.start(start_.height);
     }
 
@@ -70,13 +70,14 @@ private:
                 return;
             }
             if (run_.look_is_due() && run_.stop_here(state_writer(), position())) return;
-            if (frame_is_due()) record_frame();
+            const auto frame = begin_frame();
             // The step after a leg and the last of all are observed, so that the guard has seen the
             // energy balance before anything is concluded.
             const bool due = simulation_.steps() % scene_.output.series == 0;
             const StepRecord& now = simulation_.step(due || ended_ || next_step_is_last());
             if (now.step == 0) kinetic_at_start_ = now.kinetic_energy;
             guard(now);
+            if (frame) end_frame(*frame);
             if (now.observed) record_row();
             watch_step(now);
             if (ended_)
@@ -118,7 +119,7 @@ private:
         while (!delayed_fields_.empty() && is_due(delayed_fields_.front().first, time)) {
             const auto t = run_.phases.time(Phase::output);
             run_.recorder().fields(delayed_fields_.front().second,
-                                   std::as_const(simulation_).block().lowest_layer(), run_.grid,
+                                   simulation_.block().lowest_layer(), run_.grid,
                                    simulation_.interface(), simulation_.reference_height());
             delayed_fields_.erase(delayed_fields_.begin());
         }
@@ -271,9 +272,15 @@ private:
         snapshot_scalars_ = run_.scalars();
     }
 
-    void record_frame() {
+    /// Of the positions that the next step starts from, if one is due; else nothing.
+    std::optional<Recorder::Frame> begin_frame() {
+        if (!frame_is_due()) return std::nullopt;
         const auto t = run_.phases.time(Phase::output);
-        run_.recorder().frame(simulation_, scene_.output.velocities);
+        return run_.recorder().begin_frame(simulation_, scene_.output.velocities);
+    }
+    void end_frame(const Recorder::Frame& frame) {
+        const auto t = run_.phases.time(Phase::output);
+        run_.recorder().end_frame(frame, simulation_);
     }
 
     /// The block is a step further than what was observed: no more than it moves in one.
@@ -282,8 +289,8 @@ private:
         if (!now.observed && !run_.field_is_due(now.step)) return;
         const auto t = run_.phases.time(Phase::output);
         run_.watch_fields(now.step, simulation_.leg(), now.observed ? -now.force : 0.0,
-                          std::as_const(simulation_).block().lowest_layer(),
-                          simulation_.interface(), simulation_.reference_height());
+                          simulation_.block().lowest_layer(), simulation_.interface(),
+                          simulation_.reference_height());
     }
 
     /// Goes on from a checkpoint if asked. True if it did.

@@ -233,17 +233,30 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
     });
 }
 
-void Recorder::frame(const Simulation& simulation, bool velocities) {
-    const Block::Level& level = simulation.block().levels().front();
-    const ProcessGrid& grid = simulation.block().grid();
-    const auto whole_layer = [&](const VectorPlane<const double>& plane) {
-        return std::array{gather_plane(communicator_, grid, 0, plane.x),
-                          gather_plane(communicator_, grid, 0, plane.y),
-                          gather_plane(communicator_, grid, 0, plane.z)};
-    };
-    const auto u = whole_layer(level.u.view()[0]);
-    std::array<std::vector<double>, 3> v;
-    if (velocities) v = whole_layer(level.v.view()[0]);
+namespace {
+
+std::array<std::vector<double>, 3> whole_layer(const Communicator& ranks, const ProcessGrid& grid,
+                                               const VectorPlane<const double>& layer) {
+    return {gather_plane(ranks, grid, 0, layer.x), gather_plane(ranks, grid, 0, layer.y),
+            gather_plane(ranks, grid, 0, layer.z)};
+}
+
+} // namespace
+
+Recorder::Frame Recorder::begin_frame(const Simulation& simulation, bool velocities) const {
+    const Block& block = simulation.block();
+    const Block::Level& level = block.levels().front();
+    Frame frame{simulation.steps(), simulation.time(), velocities, {}, {}};
+    frame.u = whole_layer(communicator_, block.grid(), level.u.view()[0]);
+    if (velocities) frame.v_before = whole_layer(communicator_, block.grid(), level.v.view()[0]);
+    return frame;
+}
+
+void Recorder::end_frame(const Frame& frame, const Simulation& simulation) {
+    std::array<std::vector<double>, 3> v_after;
+    if (frame.velocities)
+        v_after = whole_layer(communicator_, simulation.block().grid(),
+                              simulation.block().levels().front().v.view()[0]);
     communicator_.on_root([&] {
         const auto& block = simulation.options().block;
         const auto sites = static_cast<std::size_t>(block.sites);
@@ -255,24 +268,26 @@ void Recorder::frame(const Simulation& simulation, bool velocities) {
                 (static_cast<double>(i / sites) + 0.5) * block.spacing,
                 simulation.reference_height()};
             for (std::size_t c = 0; c < 3; ++c)
-                position[3 * i + c] = static_cast<float>(rest[c] + u[c][i]);
+                position[3 * i + c] = static_cast<float>(rest[c] + frame.u[c][i]);
         }
-        if (velocities) {
+        if (frame.velocities) {
             velocity.resize(position.size());
             for (std::size_t i = 0; i < sites * sites; ++i)
-                for (std::size_t c = 0; c < 3; ++c)
-                    velocity[3 * i + c] = static_cast<float>(1e3 * v[c][i]); // Å/fs to Å/ps
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double v = 0.5 * (frame.v_before[c][i] + v_after[c][i]);
+                    velocity[3 * i + c] = static_cast<float>(1e3 * v); // Å/fs to Å/ps
+                }
         }
         const double edge = block.sites * block.spacing;
         const double height = 2.0 * simulation.interface().start_height() + // room for both ends
                               block.thickness * block.spacing;
         io::PayloadWriter record;
         record.put(static_cast<std::uint64_t>(sites * sites));
-        record.put<std::uint64_t>(velocities ? 1 : 0);
+        record.put<std::uint64_t>(frame.velocities ? 1 : 0);
         for (const double length : {edge, edge, height})
             record.put(length);
-        record.put<std::int64_t>(simulation.steps());
-        record.put(simulation.time() * 1e-3);
+        record.put<std::int64_t>(frame.step);
+        record.put(frame.time * 1e-3);
         record.put(position);
         record.put(velocity);
         journal_->append(frame_record, record.bytes());

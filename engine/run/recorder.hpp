@@ -15,6 +15,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/journal.hpp"
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -48,9 +49,17 @@ public:
     /// Once for each name.
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface, double reference_height);
-    /// One frame (H5MD): the lowest layer as it stands between two steps. Velocities are half a
-    /// step old.
-    void frame(const Simulation& simulation, bool velocities);
+    /// The lowest layer before a step, on the root, and its velocities half a step before.
+    struct Frame {
+        long long step = 0;
+        double time = 0.0; ///< fs
+        bool velocities = false;
+        std::array<std::vector<double>, 3> u, v_before; ///< Å, Å/fs
+    };
+    Frame begin_frame(const Simulation& simulation, bool velocities) const;
+    /// After the step: one frame (H5MD). Its velocity is the mean of those half a step before and
+    /// after, which is (u(n+1) - u(n-1)) / 2 dt.
+    void end_frame(const Frame& frame, const Simulation& simulation);
 
     /// Everything recorded so far, in the journal.
     Position position();

@@ -68,7 +68,8 @@ std::string physics_of(const Scene& scene, const Surface& surface) {
 
 RunSession::RunSession(const Scene& of, const RunOptions& options, const Communicator& on)
     : scene(of), ranks(on), options_(options), setup(make_setup(scene, ranks.size())),
-      surface(scene_surface(scene)), grid(make_grid(scene, setup, ranks.size(), ranks.rank())),
+      surface(scene_surface(scene, ranks)),
+      grid(make_grid(scene, setup, ranks.size(), ranks.rank())),
       storage_(options, scene.name, ranks), progress(options.progress, !ranks.root()),
       fingerprint_(physics_of(scene, surface)) {
     progress.tell(options.listener);

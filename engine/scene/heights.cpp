@@ -55,6 +55,23 @@ void remove_mean(std::vector<double>& h) {
         v -= mean;
 }
 
+Steps steps(const std::vector<double>& h, int n) {
+    double inside = 0.0, seam = 0.0;
+    const auto at = [&](int x, int y) {
+        return h[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) +
+                 static_cast<std::size_t>(x)];
+    };
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const double along_x = at((x + 1) % n, y) - at(x, y);
+            const double along_y = at(x, (y + 1) % n) - at(x, y);
+            (x + 1 < n ? inside : seam) += along_x * along_x;
+            (y + 1 < n ? inside : seam) += along_y * along_y;
+        }
+    const double pairs = 2.0 * n; // over the edges; n - 1 times as many inside
+    return {std::sqrt(inside / (pairs * std::max(1, n - 1))), std::sqrt(seam / pairs)};
+}
+
 void remove_plane(std::vector<double>& h, int nx, int ny) {
     remove_mean(h);
     double sx = 0.0, sy = 0.0, xx = 0.0, yy = 0.0;

@@ -16,6 +16,12 @@ void transform(std::vector<std::complex<double>>& data, int nx, int ny, int sign
 
 double rms_of(const std::vector<double>& h);
 void remove_mean(std::vector<double>& h);
+/// Steps from point to point of a map of n x n, rms: between neighbours inside, and over the edges
+/// of the periodic box. They are alike if the map repeats.
+struct Steps {
+    double inside, seam;
+};
+Steps steps(const std::vector<double>& h, int n);
 /// Removes the plane of least squares.
 void remove_plane(std::vector<double>& h, int nx, int ny);
 /// Makes a map periodic: takes off the smooth part (harmonic inside) that carries the jumps between

@@ -18,6 +18,9 @@ namespace asperity {
 
 namespace {
 
+/// A map does not repeat if steps over the box's edges are so many times those inside.
+constexpr double worst_seam = 2.0;
+
 using std::numbers::pi;
 using Complex = std::complex<double>;
 
@@ -234,10 +237,8 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
     }
     if (whole > o.sites) {
         h = heights::middle(h, whole, o.sites);
-        s.notes.push_back(
-            fmt::format("the middle {:.6g} Å of the map are taken; at the box's edges "
-                        "heights jump",
-                        o.length));
+        if (o.periodic) heights::remove_jumps(h, o.sites, o.sites);
+        s.notes.push_back(fmt::format("the middle {:.6g} Å of the map are taken", o.length));
     }
     if (o.rms > 0.0) {
         const double own = heights::rms_of(h);
@@ -252,6 +253,13 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
         heights::scale_to_rms(h, o.rms);
         s.notes.push_back(fmt::format("height map scaled from rms = {:g} Å to {:g} Å", own, o.rms));
     }
+    const auto [inside, seam] = heights::steps(h, o.sites);
+    if (seam > worst_seam * inside)
+        s.notes.push_back(fmt::format(
+            "the map does not repeat: over the box's edges heights jump by {:.3g} Å (rms), between "
+            "neighbours inside by {:.3g} Å. The surface keeps this cliff; "
+            "surface.detrend = \"periodic\" takes it off",
+            seam, inside));
     s.height = std::move(h);
     return finish(o, std::move(s));
 }

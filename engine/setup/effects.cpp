@@ -3,6 +3,7 @@
 #include "engine/setup/effects.hpp"
 
 #include "engine/block/block.hpp"
+#include "kernels/device/device.hpp"
 
 #include <fmt/format.h>
 
@@ -145,8 +146,13 @@ constexpr std::array<Rule, effect_count> rules = {{
      [](const Scene& s) {
          const int asked = s.numerics.device;
          if (asked == no_device) return Switch{false, "numerics.device = \"none\""};
-         if (asked == any_device)
-             return Switch{true, "numerics.device = \"auto\": if there is one that can"};
+         if (asked == any_device) {
+             const std::string any = "numerics.device = \"auto\"";
+             if (cuda_device_count() == 0) return Switch{false, any + ": no CUDA device is here"};
+             const auto problems = device_problems(s);
+             if (!problems.empty()) return Switch{false, any + ": it " + problems.front().what};
+             return Switch{true, any};
+         }
          return Switch{true, asked == emulated_device_asked
                                  ? "numerics.device = \"emulated\""
                                  : fmt::format("numerics.device = {}", asked)};

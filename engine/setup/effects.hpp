@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The effects that a scene switches on or off, decided once, from the scene alone.
+// The effects that a scene switches on or off, decided once, from the scene alone (and, for
+// numerics.device = "auto", from what devices there are).
 //
 // make_setup() and the runs build from these switches, `asperity plan` prints them with their
 // costs, and result.json lists them (run.effects). An effect that is off allocates no memory and

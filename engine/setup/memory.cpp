@@ -88,6 +88,32 @@ std::size_t spectral_relaxation_bytes(const Tile& tile, int components, bool wal
                     sizeof(float) * (3 * c + 1 + 4 * c + map + 4 * c));
 }
 
+std::size_t level_relaxation_bytes(const BlockOptions& options, const ProcessGrid& grid) {
+    const std::vector<LevelShape> levels = level_shapes(options);
+    const auto vectors = [&](std::size_t level, int planes) {
+        return VectorField<double>::bytes_for(grid.tile(static_cast<int>(level)), planes);
+    };
+    std::size_t bytes = vectors(0, 1);     // the interface's forces before
+    for (const LevelShape& level : levels) // forces and moves
+        bytes += 2 * vectors(static_cast<std::size_t>(level.level), level.cells);
+    // Grids over the levels (equilibrium/coarse_grids.cpp): planes that are thinned to every
+    // second one, the same between them with the nodes of the finer grid, stiffness, and forces.
+    int kept = 0;
+    for (std::size_t g = 0;; ++g) {
+        const Tile tile = grid.tile(static_cast<int>(g));
+        bytes += Field<double>::bytes_for(tile, 1);
+        if (g > 0) {
+            const int planes = kept + (g - 1 < levels.size() ? levels[g - 1].cells : 0);
+            kept = planes == 1 ? 1 : planes / 2;
+            const bool has_level = g < levels.size();
+            bytes += vectors(g, kept) + vectors(g - 1, kept + has_level);
+            if (has_level) bytes += vectors(g, 1);
+        }
+        const bool thinner = std::ldexp(1.0, static_cast<int>(g) + 1) <= options.thickness;
+        if (tile.sites % 2 != 0 || !(thinner || g + 1 < levels.size())) return bytes;
+    }
+}
+
 double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid) {
     return static_cast<double>(
         DeviceBlock::bytes_for(setup.simulation.block, grid, setup.simulation.interface,
@@ -136,8 +162,14 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
     const double motion = static_cast<double>(memory.motion);
     need.block = static_cast<double>(memory.bytes) - motion;
     if (on(Effect::inertia)) need.motion = motion;
-    need.snapshot = on(Effect::inertia) && on(Effect::observation) ? motion : copies * motion;
-    if (on(Effect::relaxation)) need.relaxation = need.block + motion;
+    // The energy guard's has velocities too.
+    const double displacements = static_cast<double>(memory.displacements);
+    need.snapshot = on(Effect::inertia) && on(Effect::observation) ? displacements + motion
+                                                                   : copies * displacements;
+    if (on(Effect::relaxation)) {
+        need.relaxation = static_cast<double>(level_relaxation_bytes(setup.simulation.block, grid));
+        if (on(Effect::inertia)) need.relaxation += need.block; // of a copy of the block
+    }
     if (on(Effect::finite_strain) && on(Effect::inertia))
         need.finite =
             static_cast<double>(Block::finite_bytes_for(setup.simulation.block, grid, threads));

@@ -34,6 +34,9 @@ MemoryNeed memory_of(const Scene& scene, const Setup& setup, int ranks, int thre
 /// What relaxing a spectral block takes beside it, for a tile of its surface.
 std::size_t spectral_relaxation_bytes(const Tile& tile, int components, bool wall);
 
+/// What relaxing a block of levels takes beside it, on one rank.
+std::size_t level_relaxation_bytes(const BlockOptions& options, const ProcessGrid& grid);
+
 /// Of the device of a rank, where the scene has devices take its steps.
 double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid);
 

@@ -7,14 +7,17 @@
 #include "io/atoms_file.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
+#include "io/json.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 
 namespace asperity {
@@ -101,9 +104,40 @@ Surface atoms_of_file(const Scene& scene, const SurfaceOptions& options) {
     return surface;
 }
 
+/// The map of the scene's file, on every rank. The root alone reads it: in a process of its own,
+/// where the HDF5 library may crash, and of many ranks' processes only one is wanted.
+io::HeightMap map_of_file(const Scene& scene, const Communicator& ranks) {
+    const auto& s = scene.surface;
+    io::HeightMap map;
+    std::string head;
+    ranks.on_root([&] {
+        map = io::read_height_map(s.map, {s.file_unit, s.file_missing == MapMissing::fill,
+                                          s.file_crop == MapCrop::middle});
+        if (ranks.size() == 1) return;
+        io::Json json = {{"sites", map.sites}, {"unit", map.unit}, {"origin", map.origin}};
+        json["notes"] = map.notes;
+        if (map.size) json["size"] = *map.size;
+        head = io::json_text(json);
+    });
+    if (ranks.size() == 1) return map;
+    std::array<std::uint64_t, 2> sizes = {head.size(), map.heights.size()};
+    ranks.broadcast(std::as_writable_bytes(std::span(sizes)));
+    head.resize(sizes[0]);
+    map.heights.resize(sizes[1]);
+    ranks.broadcast(std::as_writable_bytes(std::span(head)));
+    ranks.broadcast(std::span(map.heights));
+    const io::Json json = io::parse_json(head, s.file);
+    map.sites = json["sites"];
+    map.unit = json["unit"];
+    map.origin = json["origin"];
+    map.notes = json["notes"].get<std::vector<std::string>>();
+    if (json.contains("size")) map.size = json["size"].get<double>();
+    return map;
+}
+
 } // namespace
 
-Surface scene_surface(const Scene& scene) {
+Surface scene_surface(const Scene& scene, const Communicator& ranks) {
     require_memory_for_surface(scene);
     const auto& s = scene.surface;
     SurfaceOptions options;
@@ -120,9 +154,7 @@ Surface scene_surface(const Scene& scene) {
     try {
         if (s.kind == SurfaceKind::atoms) return atoms_of_file(scene, options);
         if (s.kind != SurfaceKind::file) return make_surface(options);
-        io::HeightMap map =
-            io::read_height_map(s.map, {s.file_unit, s.file_missing == MapMissing::fill,
-                                        s.file_crop == MapCrop::middle});
+        io::HeightMap map = map_of_file(scene, ranks);
         options.map_edge = s.file_size.value_or(map.size.value_or(0.0));
         const int covered = sites_of_map(options);
         if (map.sites != covered && s.resample == Resample::none)
@@ -160,13 +192,20 @@ Surface scene_surface(const Scene& scene) {
 
 namespace {
 
-/// "auto": a CUDA device if there is one and it can do what the scene asks for.
-DeviceChoice device_of(const Scene& scene) {
-    const int asked = scene.numerics.device;
+/// Of a scene whose steps a device takes.
+DeviceChoice device_of(const Scene& scene, io::Problems& problems) {
+    const int asked = scene.numerics.device, there = cuda_device_count();
     if (asked == emulated_device_asked) return {DeviceChoice::Kind::emulated, 0};
-    if (asked == any_device && (cuda_device_count() == 0 || !device_problems(scene).empty()))
-        return {};
-    return {DeviceChoice::Kind::cuda, std::max(asked, 0)};
+    const int index = asked == any_device ? 0 : asked;
+    if (index >= there)
+        problems.add("numerics.device",
+                     fmt::format("= {} asks for a CUDA device that is not there", index),
+                     !cuda_device() ? std::string("this program was built without CUDA")
+                     : there == 0   ? std::string("no CUDA device was found on this machine")
+                                    : fmt::format("this machine has {}, counted from 0", there),
+                     "take \"auto\" (a device if there is one), \"none\" or \"emulated\", or a "
+                     "machine that has the device");
+    return {DeviceChoice::Kind::cuda, index};
 }
 
 } // namespace
@@ -197,6 +236,46 @@ InterfaceOptions interface_options(const Scene& scene) {
                         i.stiffness.value_or(1000.0 * shortest_wave) * units::gigapascal * site);
     return options;
 }
+
+namespace {
+
+/// No step may jump over the potential, and no pull can be larger than what binds most.
+void limit_steps(const Scene& scene, Setup& setup, io::Problems& problems) {
+    // The width of the potential: its depth over its largest force.
+    const double tension = setup.largest_tension * units::gigapascal;
+    const double width = setup.flat.work_of_adhesion / units::milli_per_unit / tension;
+    if (tension > 0.0) {
+        setup.longest_step = 0.5 * width;
+        if (scene.without_time() && scene.drive.step > setup.longest_step)
+            setup.notes.push_back(
+                fmt::format("drive.step = {:.6g} Å: steps are {:.3g} Å at most, half the width of "
+                            "the potential (its depth over its largest force)",
+                            scene.drive.step, setup.longest_step));
+        const double pull = -scene.drive.load * units::megapascal;
+        if (pull > tension && scene.surface.kind != SurfaceKind::atoms)
+            problems.add(
+                "drive.load",
+                fmt::format("= {:.6g} MPa pulls harder than anything binds", scene.drive.load),
+                fmt::format("the largest tension of flat on flat is {:.4g} MPa",
+                            tension / units::megapascal),
+                "take a smaller pull");
+    }
+    if (setup.effects.on(Effect::inertia) && tension > 0.0) {
+        const double travel = scene.drive.velocity * units::metre_per_second * scene.drive.timestep;
+        if (travel > 0.1 * width)
+            problems.add(
+                "drive.velocity",
+                fmt::format("= {:.6g} m/s moves the block by {:.3g} Å in a time step",
+                            scene.drive.velocity, travel),
+                fmt::format("the potential is {:.3g} Å wide (its depth over its largest force), "
+                            "and a step must not jump over it",
+                            width),
+                fmt::format("take {:.3g} m/s or less with this time step",
+                            scene.drive.velocity * 0.1 * width / travel));
+    }
+}
+
+} // namespace
 
 Setup make_setup(const Scene& scene, int ranks) {
     Setup setup;
@@ -244,40 +323,8 @@ Setup make_setup(const Scene& scene, int ranks) {
         }
     }
 
-    // The width of the potential: its depth over its largest force.
-    const double tension = setup.largest_tension * units::gigapascal;
-    const double width = setup.flat.work_of_adhesion / units::milli_per_unit / tension;
-    if (tension > 0.0) {
-        setup.longest_step = 0.5 * width;
-        if (scene.without_time() && scene.drive.step > setup.longest_step)
-            setup.notes.push_back(
-                fmt::format("drive.step = {:.6g} Å: steps are {:.3g} Å at most, half the width of "
-                            "the potential (its depth over its largest force)",
-                            scene.drive.step, setup.longest_step));
-        const double pull = -scene.drive.load * units::megapascal;
-        if (pull > tension && scene.surface.kind != SurfaceKind::atoms)
-            problems.add(
-                "drive.load",
-                fmt::format("= {:.6g} MPa pulls harder than anything binds", scene.drive.load),
-                fmt::format("the largest tension of flat on flat is {:.4g} MPa",
-                            tension / units::megapascal),
-                "take a smaller pull");
-    }
-    if (on(Effect::inertia) && tension > 0.0) {
-        const double travel = scene.drive.velocity * units::metre_per_second * scene.drive.timestep;
-        if (travel > 0.1 * width)
-            problems.add(
-                "drive.velocity",
-                fmt::format("= {:.6g} m/s moves the block by {:.3g} Å in a time step",
-                            scene.drive.velocity, travel),
-                fmt::format("the potential is {:.3g} Å wide (its depth over its largest force), "
-                            "and a step must not jump over it",
-                            width),
-                fmt::format("take {:.3g} m/s or less with this time step",
-                            scene.drive.velocity * 0.1 * width / travel));
-    }
-
-    if (on(Effect::device)) setup.simulation.device = device_of(scene);
+    limit_steps(scene, setup, problems);
+    if (on(Effect::device)) setup.simulation.device = device_of(scene, problems);
 
     auto& drive = setup.simulation.drive;
     const double crossing = block.thickness * block.spacing / block.sound_speed();
@@ -322,7 +369,7 @@ Setup make_setup(const Scene& scene, int ranks) {
     return setup;
 }
 
-Setup examine(const Scene& scene, int ranks) {
+Setup examine(const Scene& scene, int ranks, const Communicator& world) {
     io::Problems problems = scene.problems();
     not_yet(scene, problems);
     Setup setup;
@@ -334,10 +381,13 @@ Setup examine(const Scene& scene, int ranks) {
     }
     if (scene.surface.reads_file()) {
         try {
-            scene_surface(scene);
+            const Surface surface = scene_surface(scene, world);
+            setup.notes.insert(setup.notes.end(), surface.notes.begin(), surface.notes.end());
         } catch (const io::SceneError& error) {
             for (const io::Problem& problem : error.problems())
                 problems.add(problem);
+        } catch (const RootFailure& error) { // whose reason the root has
+            problems.add("surface.file", std::string(": ") + error.what());
         }
     }
     problems.throw_if_any();

@@ -20,7 +20,7 @@ namespace asperity {
 
 /// The substrate that the scene describes. Throws io::SceneError (options, map contents) or
 /// io::FileError (file).
-Surface scene_surface(const Scene& scene);
+Surface scene_surface(const Scene& scene, const Communicator& ranks = Communicator());
 
 /// The scene's interface: its pairs, or its wall.
 InterfaceOptions interface_options(const Scene& scene);
@@ -45,7 +45,8 @@ Setup make_setup(const Scene& scene, int ranks);
 ProcessGrid make_grid(const Scene& scene, const Setup& setup, int ranks, int rank);
 
 /// Everything that a run would refuse, found without running: contradictions, what is not available
-/// yet, stability, ranks, the map. Throws io::SceneError with all of it.
-Setup examine(const Scene& scene, int ranks);
+/// yet, stability, ranks, the map. Throws io::SceneError with all of it. The notes are those of the
+/// surface too. Collective over the world, whose root reads the map.
+Setup examine(const Scene& scene, int ranks, const Communicator& world = Communicator());
 
 } // namespace asperity

@@ -5,6 +5,8 @@
 #include "kernels/device/limits.hpp"
 #include "kernels/device/passes.hpp"
 
+#include <utility>
+
 namespace asperity::cuda {
 
 namespace {
@@ -25,12 +27,22 @@ const char* describe(int index, std::string& name, std::size_t& free_bytes) {
     return error;
 }
 
-/// Queues and marks belong to a device.
+void drop_queues() {
+    for (cudaStream_t* stream : {&queue, &beside})
+        if (*stream) cudaStreamDestroy(std::exchange(*stream, nullptr));
+    for (cudaEvent_t& event : marks)
+        if (event) cudaEventDestroy(std::exchange(event, nullptr));
+    if (here) cudaEventDestroy(std::exchange(here, nullptr));
+}
+
+/// Queues and marks belong to a device. One that changes, or a failure, leaves none behind.
 const char* make_queues() {
     static int made_for = -1;
     int index = 0;
     if (const char* error = text_of(cudaGetDevice(&index))) return error;
     if (index == made_for) return nullptr;
+    made_for = -1;
+    drop_queues();
     for (cudaStream_t* stream : {&queue, &beside})
         if (const char* error = text_of(cudaStreamCreateWithFlags(stream, cudaStreamNonBlocking)))
             return error;

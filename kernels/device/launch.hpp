@@ -34,7 +34,8 @@ namespace asperity::cuda {
 inline constexpr int threads_per_block = 128;
 inline cudaStream_t queue = nullptr; ///< of the launches
 
-/// All threads of a block; adds up within warps, then over the block, then once to the total.
+/// All threads of a block; adds up within warps, then over the block, then once to the total
+/// (behind a carry, as exact_sum.hpp asks for: merge() ends with one).
 __device__ inline void reduce(PassSums& mine, PassSums* total) {
     constexpr int warps = threads_per_block / 32;
     __shared__ PassSums of_warp[warps];
@@ -91,6 +92,7 @@ const char* launch(const Body& body, long long count, PassSums* total) {
 
 #else
 
+#include <algorithm>
 #include <functional>
 
 namespace asperity::emulated {
@@ -107,6 +109,8 @@ public:
 /// Node number k of a launch over count of them, in the order asked for.
 long long node_in_order(long long k, long long count);
 
+inline constexpr long long nodes_per_block = 4096;
+
 /// Does the work now or later, as a device might.
 const char* enqueue(std::function<void()> work);
 
@@ -114,10 +118,12 @@ template <bool with_sums, class Body>
 const char* launch(const Body& body, long long count, PassSums* total) {
     return enqueue([=] {
         const OpenMemory open;
-        PassSums sums;
-        for (long long k = 0; k < count; ++k)
-            body(node_in_order(k, count), sums);
-        if constexpr (with_sums) merge(*total, sums);
+        for (long long k = 0; k < count;) { // a block of nodes at a time, as CUDA's
+            PassSums sums;
+            for (const long long end = std::min(count, k + nodes_per_block); k < end; ++k)
+                body(node_in_order(k, count), sums);
+            if constexpr (with_sums) merge(*total, sums);
+        }
     });
 }
 

@@ -74,7 +74,7 @@ public:
           grid_(ranks.size(), ranks.rank(), sites, 1),
           simulation_(options_, surface_, ranks, grid_) {
         simulation_.start(start_height);
-        Block& block = simulation_.block();
+        Block& block = simulation_.block_to_write();
         const Block::Level& level = block.levels().front();
         const auto u = block.fields(level).u.view();
         for (int z = 0; z < layers; ++z)
@@ -215,7 +215,7 @@ void write_lammps(Slab& slab, const std::string& directory, const VectorField<do
 
 /// Forces at the present positions, on all moving planes.
 void evaluate(Simulation& s, std::vector<VectorField<double>>& force) {
-    Block& block = s.block();
+    Block& block = s.block_to_write();
     block.interpolate();
     s.interface().sweep(block.lowest_layer(), block.interface_force(), s.reference_height(), false);
     block.forces(force);
@@ -238,7 +238,7 @@ int write(int sites, int layers, int steps, const std::string& directory) {
         const VectorVolume<double> f = force.front().view();
         std::string atoms;
         // step() moves on to the next positions; what it records belongs to these.
-        const auto u = std::as_const(s.block().levels().front().u).view();
+        const auto u = s.block().levels().front().u.view();
         for (int z = 0; z < layers; ++z)
             for (int y = 0; y < sites; ++y)
                 for (int x = 0; x < sites; ++x)

@@ -34,6 +34,8 @@ from .plots.run import map_of
 from .result import Result, State, expect
 
 TRAJECTORY = "/particles/trajectory"
+ASE_TIME = 0.010180505671156723
+"""ASE's unit of time, Å sqrt(u/eV), in ps."""
 FORMATS = ("xyz", "lammps", "xdmf", "vtk", "png")
 
 
@@ -49,6 +51,8 @@ class Atoms:
     step: int = 0
     time: float = 0.0
     """ps"""
+    mass: float = 1.0
+    """u"""
 
     @property
     def species(self) -> np.ndarray:
@@ -68,24 +72,36 @@ def _rows(file: IO[str], parts: list[tuple[str, np.ndarray]]) -> None:
     file.writelines(line % row for row in zip(*columns))
 
 
-def _columns(atoms: Atoms) -> list[tuple[str, np.ndarray]]:
+def _columns(columns: dict[str, np.ndarray]) -> list[tuple[str, np.ndarray]]:
     parts = []
-    for values in atoms.columns.values():
+    for values in columns.values():
         form = "%d" if values.dtype.kind in "iub" else "%.6g"
         parts += [(form, c) for c in (values.T if values.ndim == 2 else [values])]
     return parts
 
 
+def _xyz_columns(atoms: Atoms) -> dict[str, np.ndarray]:
+    """Velocities under the names that readers take for them: velo (Å/ps) is OVITO's; ASE makes its own of momenta
+    and masses, in its units."""
+    columns = dict(atoms.columns)
+    velocity = columns.pop("velocity", None)
+    if velocity is not None:
+        columns |= {"velo": velocity, "masses": np.full(len(atoms.types), atoms.mass),
+                    "momenta": atoms.mass * ASE_TIME * velocity}
+    return columns
+
+
 def write_xyz(file: IO[str], atoms: Atoms) -> None:
     """A frame of extended XYZ: the lattice, what the columns are, and what else is known."""
     low, high = atoms.box_z
+    columns = _xyz_columns(atoms)
     head = (f'{len(atoms.types)}\nLattice="{atoms.edge:.8g} 0 0 0 {atoms.edge:.8g} 0 0 0 {high - low:.8g}" '
             f'Origin="0 0 {low:.8g}" pbc="T T F" Properties=species:S:1:pos:R:3:type:I:1')
-    for name, values in atoms.columns.items():
+    for name, values in columns.items():
         head += f":{name}:{'I' if values.dtype.kind in 'iub' else 'R'}:{3 if values.ndim == 2 else 1}"
     file.write(f"{head} step={atoms.step} time={atoms.time:.8g}\n")
     _rows(file, [("%s", atoms.species), *(("%.8g", c) for c in atoms.positions.T), ("%d", atoms.types),
-                 *_columns(atoms)])
+                 *_columns(columns)])
 
 
 LAMMPS_NAMES = {"velocity": ("vx", "vy", "vz")}
@@ -103,7 +119,7 @@ def write_dump(file: IO[str], atoms: Atoms) -> None:
                f"ITEM: BOX BOUNDS pp pp ff\n0 {atoms.edge:.8g}\n0 {atoms.edge:.8g}\n{low:.8g} {high:.8g}\n"
                f"ITEM: ATOMS {names}\n")
     _rows(file, [("%d", np.arange(1, len(atoms.types) + 1)), ("%d", atoms.types), ("%s", atoms.species),
-                 *(("%.8g", c) for c in atoms.positions.T), *_columns(atoms)])
+                 *(("%.8g", c) for c in atoms.positions.T), *_columns(atoms.columns)])
 
 
 def write_data(file: IO[str], atoms: Atoms, name: str, mass: float) -> None:
@@ -143,6 +159,7 @@ class Export:
         for note in self.run.notes:
             print(f"note: {note}")
         self.spacing = self.run.number("scene.surface.spacing") or 0.0
+        self._mass = self.run.number("scene.block.atom_mass") or 1.0
         if not self.run.substrate or not self.spacing > 0:
             raise InputOutputError(str(directory / "run.h5"), "has nothing to export",
                                    "it holds no substrate, or result.json no scene",
@@ -210,7 +227,7 @@ class Export:
                 v = file.array(TRAJECTORY + "/velocity/value", 2, frame).astype(float)
                 columns["velocity"] = np.vstack([np.zeros_like(self.rigid), v])
             yield Atoms(np.vstack([self.rigid, layer]), self._types(len(layer)), self.run.edge,
-                        columns, int(steps[frame]), float(times[frame]))
+                        columns, int(steps[frame]), float(times[frame]), self._mass)
 
     def atoms(self, xyz: bool) -> list[Path]:
         """Every state, and the trajectory."""
@@ -230,7 +247,7 @@ class Export:
             if not xyz:
                 path = self._path(file_name(state.name) + ".data")
                 with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
-                    write_data(file, atoms, state.name, self.run.number("scene.block.atom_mass") or 1.0)
+                    write_data(file, atoms, state.name, self._mass)
                 written.append(path)
         if self._frames():
             save("trajectory", self._trajectory())

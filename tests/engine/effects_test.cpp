@@ -96,6 +96,28 @@ TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
         EXPECT_TRUE(effects.on(on)) << name(on);
 }
 
+TEST(Effects, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
+    if (processor_level() < ProcessorLevel::v3) return; // refused for another reason
+    if (cuda_device_count() >= 8) return;               // more have no number
+    const std::string beyond = "numerics.device=" + std::to_string(cuda_device_count());
+    try {
+        make_setup(scene_with({beyond}), 1);
+        ADD_FAILURE() << beyond << " was taken";
+    } catch (const io::SceneError& error) {
+        const io::Problem& p = error.problems().front();
+        EXPECT_NE(p.where.find("numerics.device"), std::string::npos) << p.where;
+        EXPECT_NE(p.what.find("not there"), std::string::npos) << p.what;
+        EXPECT_NE(p.fix.find("auto"), std::string::npos) << p.fix;
+    }
+    for (const char* path : {"drive.path=zero-load", "drive.path=[\"approach\"]"}) {
+        const Setup setup = make_setup(scene_with({"numerics.device=auto", path}), 1);
+        EXPECT_EQ(setup.effects.on(Effect::device),
+                  setup.simulation.device.kind != DeviceChoice::Kind::none)
+            << path << ": " << setup.effects.why(Effect::device);
+        if (cuda_device_count() == 0) EXPECT_FALSE(setup.effects.on(Effect::device)) << path;
+    }
+}
+
 TEST(Effects, EachHasAKeyThatSwitchesIt) {
     const std::vector<std::pair<Effect, std::string>> switched_on = {
         {Effect::damping, "drive.damping=0.1"},
@@ -176,7 +198,7 @@ TEST(Effects, DampingActsOnTheLayersItIsGivenAlone) {
     damped.emplace_back("drive.damping_from=0.5");
     Simulation plain = started(scene_with(lattice)), other = started(scene_with(damped));
     for (Simulation* s : {&plain, &other}) {
-        Block& block = s->block();
+        Block& block = s->block_to_write();
         auto& v = block.fields(block.levels().front()).v; // faster than the medium
         for (int z = 0; z < 8; ++z)
             v.plane(z).z(3, 5) = 1e-3;

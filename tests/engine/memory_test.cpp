@@ -9,10 +9,18 @@
 #include "engine/run/plan.hpp"
 #include "engine/run/run.hpp"
 #include "io/error.hpp"
+#include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <functional>
+#include <thread>
+
+#include <malloc.h>
 
 namespace asperity {
 namespace {
@@ -58,6 +66,58 @@ TEST(Memory, IsThatOfTheObjects) {
         EXPECT_EQ(need.motion, 0.0);
     }
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // have allocators of their own
+
+namespace {
+
+double in_use() {
+    const struct mallinfo2 info = ::mallinfo2();
+    return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+/// The most that is allocated at once while work() is done, beyond what was before.
+double most_allocated(const std::function<void()>& work) {
+    const double before = in_use();
+    std::atomic<bool> done = false;
+    double most = 0.0;
+    std::thread watch([&] {
+        while (!done) {
+            most = std::max(most, in_use() - before);
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+        }
+    });
+    work();
+    done = true;
+    watch.join();
+    return most;
+}
+
+} // namespace
+
+TEST(Memory, IsWhatARunAllocates) {
+    // Fields of 6 MB each, beside which files and plans are small. In time with a state, which is
+    // relaxed in a copy beside the guard's snapshot; and at rest.
+    const std::vector<std::string> in_time = {
+        "surface.sites=96",   "surface.rms=0.3",     "block.thickness=48", "block.model=lattice",
+        "drive.velocity=400", "drive.timestep=20",   "drive.ramp=0",       "drive.tolerance=1e-2",
+        "output.series=100",  "drive.path=approach", "output.fields=[]",   "output.checkpoint=0"};
+    std::vector<std::string> at_rest = in_time;
+    at_rest.emplace_back("drive.path=zero-load");
+    std::vector<std::string> coarser = in_time;
+    for (const char* key :
+         {"block.model=multiscale", "block.layers_per_level=16", "block.thickness=112"})
+        coarser.emplace_back(key);
+    for (const auto& keys : {in_time, at_rest, coarser}) {
+        const Scene scene = scene_with(keys);
+        const MemoryNeed need = memory_of_rank(scene, make_setup(scene, 1), 1, 0, 1);
+        const io::Scratch scratch;
+        const double most = most_allocated([&] { test::run_scene(scene, scratch / "out"); });
+        EXPECT_NEAR(most / need.most(), 1.0, 0.08) << keys.back();
+    }
+}
+
+#endif
 
 TEST(Memory, RanksShareTheBlockAndHaveTheSurfaceEach) {
     const Scene scene = scene_with({});

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -308,6 +309,47 @@ TEST(MapFromAFile, LosesItsJumpsAndNothingElse) {
         };
         EXPECT_NEAR(second(s.height), second(even), 0.02);
     }
+}
+
+TEST(MapFromAFile, SaysHowItsEdgesJump) {
+    const auto jump_note = [](const Surface& s) {
+        const auto note = std::find_if(s.notes.begin(), s.notes.end(), [](const std::string& text) {
+            return text.find("does not repeat") != std::string::npos;
+        });
+        return note == s.notes.end() ? std::string() : *note;
+    };
+    const int n = 32;
+    SurfaceOptions o = self_affine(n);
+    o.kind = SurfaceKind::file;
+    o.rms = 0.0;
+    // A ramp along x: steps of 0.3 Å along x and none along y, and jumps of 31 times as much.
+    std::vector<double> ramp;
+    for (int i = 0; i < n * n; ++i)
+        ramp.push_back(0.3 * (i % n));
+    const Surface tilted = surface_from_heights(o, ramp, n, n);
+    EXPECT_NE(jump_note(tilted).find("jump by 6.58 Å (rms)"), std::string::npos)
+        << jump_note(tilted) << ": 31 x 0.3 Å / sqrt 2";
+    EXPECT_NE(jump_note(tilted).find("inside by 0.212 Å"), std::string::npos) << jump_note(tilted);
+    EXPECT_NE(jump_note(tilted).find("surface.detrend = \"periodic\""), std::string::npos);
+    // What repeats says nothing: waves, self-affine surfaces of any roughness, the map made
+    // periodic.
+    EXPECT_EQ(jump_note(surface_from_heights(o, wavy(n, n), n, n)), "");
+    for (const double hurst : {0.1, 0.8, 1.0})
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            SurfaceOptions rough = self_affine(n);
+            rough.hurst = hurst;
+            rough.seed = seed;
+            const Surface made = make_surface(rough);
+            EXPECT_EQ(jump_note(surface_from_heights(o, made.height, n, n)), "") << hurst;
+        }
+    // Half of a self-affine surface does not, and the middle of a map does not either, until it is
+    // made periodic as it is taken.
+    const Surface large = make_surface(self_affine(2 * n));
+    o.map_edge = 2.0 * o.length;
+    const Surface middle = surface_from_heights(o, large.height, 2 * n, 2 * n);
+    EXPECT_NE(jump_note(middle), "");
+    o.periodic = true;
+    EXPECT_EQ(jump_note(surface_from_heights(o, large.height, 2 * n, 2 * n)), "");
 }
 
 TEST(BadSurfaces, SayWhatIsWrong) {

@@ -119,3 +119,84 @@ TEST(ExactSum, HoldsTheRangeItPromises) {
     doubled.add(-0x1p26 * term);
     EXPECT_EQ(doubled.value(), 0x1p-50) << "the last quantum beside a sum of 2^29";
 }
+
+namespace {
+
+/// 2^doublings equal terms, by merging.
+ExactSum many_equal(double term, int doublings) {
+    ExactSum sum;
+    sum.add(term);
+    for (int i = 0; i < doublings; ++i) {
+        const ExactSum half = sum;
+        sum.merge(half);
+    }
+    return sum;
+}
+
+ExactSum sum_of_sums(const std::vector<ExactSum>& parts) {
+    ExactSum sum;
+    for (const ExactSum& part : parts)
+        sum.merge(part);
+    return sum;
+}
+
+} // namespace
+
+TEST(ExactSum, HoldsForATrillionTerms) {
+    // The worst there is for the fine bin: all of a term, the last quantum too, is left to it. A
+    // bin without carries is full after 2^26 of them, and forgets the next last quantum.
+    const double worst = 0x1p-23 - 0x1p-50;
+    for (const int doublings : {25, 26, 27, 30, 40}) {
+        ExactSum sum = many_equal(worst, doublings);
+        EXPECT_EQ(sum.value(), std::ldexp(worst, doublings)) << doublings;
+        sum.add(0x1p-50);
+        sum.merge(many_equal(-worst, doublings));
+        EXPECT_EQ(sum.value(), 0x1p-50) << doublings;
+    }
+    // 2^40 terms of several kinds in any order and grouping: the same bits.
+    std::mt19937_64 random(7);
+    std::vector<ExactSum> parts;
+    for (const double term : {worst, 0x1.23456789abcdep-24, -0x1.fedcba9876543p-23, 0x1.8p-14,
+                              -0x1.fffffffffffffp-13, 0x1p-50})
+        for (const int doublings : {39, 33, 28, 27, 20, 3, 0})
+            parts.push_back(many_equal(term, doublings));
+    const auto expected = std::bit_cast<std::uint64_t>(sum_of_sums(parts).value());
+    for (int round = 0; round < 50; ++round) {
+        std::shuffle(parts.begin(), parts.end(), random);
+        const auto cut = static_cast<std::ptrdiff_t>(random() % parts.size());
+        ExactSum sum = sum_of_sums({parts.begin(), parts.begin() + cut});
+        sum.merge(sum_of_sums({parts.begin() + cut, parts.end()}));
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(sum.value()), expected);
+    }
+}
+
+TEST(ExactSum, TheLongestRunIsExact) {
+    // One by one, without a carry, behind a carry that left all it can; and two of them merged.
+    const double worst = 0x1p-23 - 0x1p-50;
+    ExactSum run;
+    run.add(worst);
+    run.carry();
+    for (long long i = 0; i < ExactSum::longest_run; ++i)
+        run.add(worst);
+    EXPECT_EQ(run.value(), (0x1p24 + 1) * worst);
+    ExactSum both = run;
+    both.merge(run);
+    both.add(0x1p-50);
+    both.merge(many_equal(-worst, 25));
+    both.add(-worst);
+    both.add(-worst);
+    EXPECT_EQ(both.value(), 0x1p-50);
+}
+
+TEST(ExactSum, ACarryChangesNoValue) {
+    for (double term : many_terms(2000, 8)) {
+        term *= 0x1p-24; // of the size of fine bins
+        ExactSum sum;
+        for (int i = 0; i < 100; ++i)
+            sum.add(term);
+        const double before = sum.value();
+        sum.carry();
+        EXPECT_EQ(sum.value(), before);
+        EXPECT_LE(std::abs(sum.bin[1]), 0x1p-23);
+    }
+}

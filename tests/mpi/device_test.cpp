@@ -130,7 +130,7 @@ void conclude(Simulation& s, Trace& trace) {
     const Ledger& l = s.ledger();
     for (double value : {l.top_work, l.drag_work, l.damped, l.heat, l.approach, l.pull_off})
         trace.records = test::mix(trace.records, value);
-    trace.state = test::fingerprint(std::as_const(s).block());
+    trace.state = test::fingerprint(s.block());
 }
 
 constexpr double height = 6.0;
@@ -223,13 +223,32 @@ TEST(Device, WhatTheHostWritesReachesTheDevice) {
         Trace& trace = traces[on_device];
         s.start(height);
         advance(s, 15, trace);
-        Block& block = s.block();
+        Block& block = s.block_to_write();
         block.fields(block.levels()[0]).v.view().x(1, 2, 0) =
             1e-3; // all ranks, each in its own tile
         advance(s, 15, trace);
         conclude(s, trace);
     }
     EXPECT_EQ(traces[0], traces[1]);
+}
+
+TEST(Device, ReadingCostsNoUploadAndNoLaunch) {
+    // The one upload is of the start. Looking at the state, in a checkpoint or a snapshot too, adds
+    // none, and throws away no forces that were launched for the next step.
+    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
+    Simulation s = make(cases[0], world(), true);
+    s.start(height);
+    Trace trace;
+    Snapshot snapshot;
+    for (int n = 0; n < 4; ++n) {
+        advance(s, 5, trace);
+        trace.state = test::fingerprint(s.block());
+        snapshot.take(s);
+    }
+    EXPECT_EQ(s.phases()[Phase::exchange].calls, 20 + 1);
+    s.block_to_write();
+    advance(s, 1, trace);
+    EXPECT_EQ(s.phases()[Phase::exchange].calls, 21 + 2);
 }
 
 TEST(Device, NoResultDependsOnTheOrderOfItsThreads) {
@@ -283,6 +302,16 @@ TEST(Device, ThatIsLostOrTooSmallIsSaid) {
     EXPECT_NE(text.find("resume from the last checkpoint"), std::string::npos) << text;
 }
 
+TEST(Device, ItsMemoryIsGivenBackWhereTheConstructorFails) {
+    // The copies of the tables fail. The emulated device has room for 64 blocks at a time.
+    if (!fuses() || world().size() > 1) return;
+    for (int n = 0; n < 100; ++n) {
+        const Emulated lost({.lost_after = 0});
+        EXPECT_THROW(make(cases[0], world(), true), io::FileError);
+    }
+    EXPECT_NO_THROW(make(cases[0], world(), true));
+}
+
 TEST(Device, TimesEveryStepByItsOwnClock) {
     if (!fuses()) return;
     Simulation s = make(cases[3], world(), true);
@@ -314,7 +343,7 @@ TEST(Device, NeverTouchesTheFieldsOfTheHost) {
             mprotect(reinterpret_cast<void*>(first), last - first, PROT_NONE);
             ++closed;
         };
-        for (const auto& level : std::as_const(s).block().levels())
+        for (const auto& level : s.block().levels())
             for (const VectorField<double>* field : {&level.u, &level.v})
                 for (const Field<double>* f : {&field->x, &field->y, &field->z})
                     close(f->storage());

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 using namespace asperity;
 
@@ -60,6 +61,31 @@ State relax_on(const Communicator& ranks, const BlockOptions& options, const Sur
 }
 
 } // namespace
+
+TEST(Slabs, AreOfTheRanksTheyAreGiven) {
+    // Two halves of the ranks, each with a surface of its own, of another size: waves there and
+    // back, against one rank's.
+    const Communicator& world = test::world();
+    const bool second = world.rank() >= (world.size() + 1) / 2;
+    const Communicator part = world.split(second);
+    const int sites = second ? 24 : 16;
+    const Slab slab(sites, part), whole(sites, Communicator());
+    auto mine = field_on<double>(slab, 1), all = field_on<double>(whole, 1);
+    Waves<double> waves(slab, 1), of_all(whole, 1);
+    const SurfaceTransform<double> transform(slab, mine[0].view().row),
+        alone(whole, all[0].view().row);
+    transform.forward(std::as_const(mine[0]).plane(0), waves, 0);
+    alone.forward(std::as_const(all[0]).plane(0), of_all, 0);
+    for (int y = 0; y < slab.rows; ++y)
+        for (int i = 0; i < 2 * slab.columns(); ++i)
+            EXPECT_NEAR(waves.row(0, y)[i], of_all.row(0, slab.first + y)[i], 1e-10 * sites);
+    const auto before = field_on<double>(slab, 1);
+    transform.backward(waves, 0, mine[0].plane(0));
+    for (int y = 0; y < slab.rows; ++y)
+        for (int x = 0; x < sites; ++x)
+            EXPECT_NEAR(mine[0].plane(0)(x, y),
+                        static_cast<double>(sites) * sites * before[0].view()(x, y, 0), 1e-9);
+}
 
 TEST(Slabs, HoldEveryRowOnce) {
     const Communicator& world = test::world();

@@ -121,7 +121,7 @@ struct Retraced {
 /// lead back. What remains is rounding, grown by the contact's instability over 200 steps.
 Retraced retrace(const SimulationOptions& options) {
     FreeContact contact(options);
-    Block& block = contact.simulation.block();
+    Block& block = contact.simulation.block_to_write();
     std::vector<double> first;
     const auto positions = [&] {
         std::vector<double> all;

@@ -69,6 +69,13 @@ def test_states_and_trajectory_as_atoms(path_run):
     for k in (0, len(value) - 1):
         assert texts[k][1][1024:, :3] == pytest.approx(value[k], abs=1e-4)
         assert np.array([dumps[k][1][v][1024:] for v in ("vx", "vy", "vz")], float).T == pytest.approx(velocity[k], abs=1e-5)
+        # What OVITO and ASE take for velocities (test_viewers.py asks them).
+        head, rows = texts[k]
+        assert ":velo:R:3:masses:R:1:momenta:R:3" in head
+        assert rows[1024:, 4:7] == pytest.approx(velocity[k], rel=1e-5, abs=1e-5)
+        assert (rows[:, 7] == 197.0).all() and (rows[:1024, 4:7] == 0.0).all()
+        # u Å/ps in sqrt(u eV): 1 u Å²/ps² is 1.036427e-4 eV.
+        assert rows[1024:, 8:] == pytest.approx(197.0 * np.sqrt(1.036427e-4) * velocity[k], rel=1e-5, abs=1e-5)
     assert "time=" in texts[0][0]
 
 

@@ -52,6 +52,11 @@ def test_ase_reads_extended_xyz(path_run, exported, block, frames):
     films = io.read(exported / "trajectory.xyz", index=":")
     assert len(films) == len(frames)
     assert films[-1].positions[SITES:] == pytest.approx(frames[-1], abs=1e-4)
+    units = pytest.importorskip("ase.units")
+    velocity = path_run.file.array("/particles/trajectory/velocity/value", 3)[-1]
+    assert films[-1].get_velocities()[SITES:] * 1e3 * units.fs == pytest.approx(velocity, rel=1e-4, abs=1e-5)
+    kinetic = films[-1].get_kinetic_energy()  # eV; u Å²/ps² is 1.0364e-4 of it
+    assert kinetic == pytest.approx(0.5 * 197.0 * (velocity.astype(float)**2).sum() * 1.036427e-4, rel=1e-4)
 
 
 @pytest.mark.parametrize("end", ["xyz", "dump"])
@@ -67,8 +72,7 @@ def test_ovito_reads_atoms(path_run, exported, block, frames, end):
     assert film.source.num_frames == len(frames)
     last = film.compute(len(frames) - 1)
     assert last.particles.positions[SITES:] == pytest.approx(frames[-1], abs=1e-4)
-    velocity = last.particles.velocities if end == "dump" else last.particles["velocity"]
-    assert velocity[SITES:] == pytest.approx(
+    assert last.particles.velocities[SITES:] == pytest.approx(
         path_run.file.array("/particles/trajectory/velocity/value", 3)[-1], rel=1e-4, abs=1e-5)
 
 

@@ -108,9 +108,9 @@ TEST(TimeStep, TheLimitIsSharp) {
         for (int z = 0; z < block.thickness; ++z)
             for (int y = 0; y < 8; ++y)
                 for (int x = 0; x < 8; ++x)
-                    s.block().fields(s.block().levels()[0]).u.z.view()(x, y, z) =
+                    s.block_to_write().fields(s.block().levels()[0]).u.z.view()(x, y, z) =
                         (z % 2 ? 1e-3 : -1e-3) * (1 + x % 3);
-        s.block().exchange();
+        s.block_to_write().exchange();
         double early = 0.0, late = 0.0;
         for (int n = 0; n < 4000; ++n) {
             const StepRecord& now = s.step(n < 500 || n >= 3500);
