@@ -353,7 +353,7 @@ def test_points_over_another_content_of_a_file_are_refused(place):
     """The same path with other bytes, for a map and for atoms; the same content in other bytes is the same."""
     a_map("map.npy", 1)
     keys = {"surface.kind": "file", "surface.file": place / "map.npy", "block.thickness": 12}
-    scene = {**STATE, "name": "mapped"}
+    scene = {**STATE, "name": "mapped", "theory": {"renormalised": False}}
     first = asperity.sweep(scene, {**keys, "drive.load": [0, 20]}, out="mapped")
     assert len(set(first.table["binding_energy"])) == 2
     np.savetxt("map.txt", np.load("map.npy"), fmt="%.17g")
@@ -398,7 +398,7 @@ def test_points_over_other_atoms_of_a_file_are_refused(place):
 def test_a_map_may_be_given_beside_the_scene(place):
     """A scene that is none without it; as run takes it."""
     (place / "mapped.toml").write_text('[surface]\nkind = "file"\nsites = 24\n[block]\nmodel = "spectral"\nthickness = 12\n'
-                                       '[drive]\npath = ["zero-load"]\n')
+                                       '[drive]\npath = ["zero-load"]\n[theory]\nrenormalised = false\n')
     a_map("a.npy", 1)
     a_map("b.npy", 2)
     words = ["sweep", "mapped.toml", "--progress", "off", "--out"]
@@ -412,12 +412,12 @@ def test_a_map_may_be_given_beside_the_scene(place):
 def test_values_are_whatever_can_be_gone_through(place):
     for values in ([1, 2, 3], (1, 2, 3), range(1, 4), np.arange(1, 4), np.array([1.0, 2.0, 3.0]), (i for i in (1, 2, 3)),
                    np.arange(1, 4).tolist(), "1:3:1", "1,2,3", [np.int64(1), np.float32(2), 3]):
-        table = asperity.sweep(STATE, {"surface.rms": values, "surface.hurst": np.float64(0.7)}, theory_only=True).table
+        table = asperity.sweep({**STATE, "theory": {"renormalised": False}}, {"surface.rms": values, "surface.hurst": np.float64(0.7)}, theory_only=True).table
         assert table["surface.rms"].tolist() == [1, 2, 3], values
 
 
 def test_a_damaged_point_is_told_and_run_again(place):
-    words = ["sweep", "state.toml", "--progress", "off", "--out", "one"]
+    words = ["sweep", "state.toml", "--set", "theory.renormalised=false", "--progress", "off", "--out", "one"]
     command(*words)
     before = numbers("one")
     for damage in (lambda path: path.write_bytes(path.read_bytes()[:200]), lambda path: path.write_text(
