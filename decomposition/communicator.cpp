@@ -29,14 +29,13 @@ namespace {
 
 int count(std::size_t n) { return static_cast<int>(n); }
 
-/// True if a launcher put this process among others.
-bool launched_in_parallel() {
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "MPI_LOCALNRANKS"})
-        if (std::getenv(name)) return true;
-    return false;
-}
-
 } // namespace
+
+bool launched_in_parallel() {
+    for (const char* size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
+        if (const char* ranks = std::getenv(size)) return std::atoi(ranks) > 1;
+    return std::getenv("PMIX_RANK") != nullptr;
+}
 
 Communicator::Communicator(std::shared_ptr<const Mpi> mpi) : mpi_(std::move(mpi)) {
     MPI_Comm_rank(mpi_->all, &rank_);

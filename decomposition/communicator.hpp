@@ -96,7 +96,14 @@ private:
     int rank_ = 0, size_ = 1, local_rank_ = 0;
 };
 
-/// Starts MPI if the process was launched by mpirun (or srun), and ends it. One in main().
+/// True if a launcher says that it has started more than one rank: mpirun of Open MPI, that of
+/// MPICH and its like, or srun. Within a batch job SLURM sets SLURM_PROCID and SLURM_NTASKS for the
+/// one process of the script too, but SLURM_STEP_NUM_TASKS for what srun starts only. PMIx alone
+/// does not tell how many there are: then MPI has to be asked. python/asperity/terminal.py has the
+/// same rule.
+bool launched_in_parallel();
+
+/// Starts MPI if the process is launched_in_parallel(), and ends it. One in main().
 class ParallelSession {
 public:
     ParallelSession(int& argc, char**& argv);

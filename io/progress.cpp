@@ -60,15 +60,13 @@ std::optional<ProgressMode> progress_mode(std::string_view name) {
     return std::nullopt;
 }
 
-bool under_mpirun() {
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
-        if (std::getenv(name)) return true;
-    return false;
+bool is_terminal(std::FILE* stream) {
+    return ::isatty(::fileno(stream)) != 0 && !std::getenv("OMPI_COMM_WORLD_SIZE");
 }
 
 Progress::Progress(ProgressMode mode, bool quiet, std::FILE* to)
     : mode_(mode), quiet_(quiet), to_(to), start_(Clock::now()), last_print_(start_) {
-    const bool terminal = ::isatty(::fileno(to)) != 0 && !under_mpirun();
+    const bool terminal = is_terminal(to);
     if (quiet)
         mode_ = ProgressMode::off;
     else if (mode == ProgressMode::automatic || (mode == ProgressMode::bar && !terminal))

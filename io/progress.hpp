@@ -20,8 +20,9 @@ namespace asperity::io {
 enum class ProgressMode { automatic, bar, lines, off };
 std::optional<ProgressMode> progress_mode(std::string_view name); ///< "auto", "bar", "lines", "off"
 
-/// This process was started by mpirun or its like.
-bool under_mpirun();
+/// Somebody sees what is written there at once. Open MPI's mpirun gives its ranks a terminal of
+/// their own, wherever the output goes in the end: that is none.
+bool is_terminal(std::FILE* stream);
 
 class Progress {
 public:

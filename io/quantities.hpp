@@ -185,6 +185,9 @@ inline constexpr Quantity result_quantities[] = {
     {"surface.max", "Å", "", "its highest"},
     {"surface.atoms", "1", "", "number of atoms of a substrate of atoms anywhere"},
     {"surface.origin", "", "", "whose measurement a map is, where its file says so"},
+    {"surface.file_digest", "", "",
+     "digest of what was read from surface.file: heights and width of a map, positions and types "
+     "of atoms. A sweep takes a result again only if the file still holds the same"},
     {"accuracy.target", "1", "", "relative error asked for (numerics.accuracy)"},
     {"accuracy.expected_error", "1", "", "relative error expected with the settings chosen"},
     {"accuracy.chosen", "", "", "settings chosen, \"key = value\""},

@@ -69,6 +69,10 @@ std::string choose(const ResultRequest& request, std::vector<std::string>& notes
         if (fs::exists(request.asked, error) && !fs::is_directory(request.asked, error))
             throw SceneError(Problem{"--out " + request.asked, "is not a directory",
                                      "a file of that name is there", "name another directory"});
+        if (fs::equivalent(request.asked, "/", error))
+            throw SceneError(Problem{"--out " + request.asked, "is the root of all directories",
+                                     "a result has a directory of its own",
+                                     "name another directory"});
         return request.asked;
     }
     const fs::path first = fs::path("results") / request.name;

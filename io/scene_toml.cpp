@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 //
 // From TOML text and overrides to the keys of a schema. The one unit that includes toml++.
-#include "io/progress.hpp"
 #include "io/scene_reader.hpp"
 
 #include "io/spelling.hpp"
@@ -348,8 +347,6 @@ std::string read_scene_file(const std::string& file) {
     };
     std::error_code error;
     const bool piped = file == standard_input;
-    if (piped && under_mpirun())
-        throw cannot("only rank 0 would have it", "write the scene to a file and name that");
     if (!piped && !std::filesystem::exists(file, error))
         throw cannot("there is no such file",
                      "check the path; `asperity init` writes a scene to start from");

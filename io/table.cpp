@@ -25,8 +25,7 @@ int visible_width(std::string_view text) {
 bool colours(std::FILE* stream) {
     const char* const no_color = std::getenv("NO_COLOR");
     const char* const term = std::getenv("TERM");
-    // mpirun gives its ranks a terminal of their own, wherever the output goes in the end.
-    return ::isatty(::fileno(stream)) != 0 && !under_mpirun() && !(no_color && *no_color) &&
+    return is_terminal(stream) && !(no_color && *no_color) &&
            !(term && std::strcmp(term, "dumb") == 0);
 }
 

@@ -6,6 +6,7 @@
 #include "engine/run/stop_signals.hpp"
 #include "io/build_info.hpp"
 #include "io/error.hpp"
+#include "io/scene_reader.hpp"
 #include "io/spelling.hpp"
 
 #include <algorithm>
@@ -111,6 +112,8 @@ void add(CLI::App& command, const Option& option, Arguments& given) {
     if (option.name == takes::scene.name) added.required();
     if (option.name == takes::set.name) added.allow_extra_args(false);
     if (std::holds_alternative<int Arguments::*>(option.into)) added.check(CLI::Range(1, 1 << 20));
+    if (std::holds_alternative<std::string Arguments::*>(option.into)) // as of a variable not set
+        added.check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
 }
 
 } // namespace
@@ -153,6 +156,11 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
     }
     for (const Command& command : commands)
         if (app.got_subcommand(command.name)) {
+            if (world.size() > 1 && std::find(given.words.begin(), given.words.end(),
+                                              io::standard_input) != given.words.end())
+                throw io::SceneError(io::Problem{"stdin", "the scene cannot be read",
+                                                 "only rank 0 would have it",
+                                                 "write the scene to a file and name that"});
             if (!command.looks_at_signals) stop_signals::release();
             return command.act(given, world);
         }

@@ -26,15 +26,14 @@ using io::Json;
 /// Of several scenes in turn: a surface is generated anew only where more than its rms changes.
 class SurfaceCache {
 public:
-    const Surface* of(const Scene& scene) {
-        if (!theory_needs_surface(scene)) return nullptr;
+    const Surface& of(const Scene& scene) {
         Json keys = scene_json(scene)["surface"];
         if (scene.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
         if (const std::string text = io::json_text(keys); !surface_ || text != keys_) {
             surface_ = scene_surface(scene);
             keys_ = text;
         }
-        return &*surface_;
+        return *surface_;
     }
 
 private:
@@ -63,7 +62,8 @@ std::vector<std::string> overrides_of(const std::string& line, const std::string
 }
 
 Json point_json(const Scene& scene, SurfaceCache& surfaces) {
-    const TheoryCase what = theory_case(scene, surfaces.of(scene));
+    const TheoryCase what =
+        theory_case(scene, theory_needs_surface(scene) ? &surfaces.of(scene) : nullptr);
     const TheoryNumbers numbers = solve_theory(what);
     io::Result values = scene_result(scene);
     values.set("delta_gamma", what.flat);
@@ -129,6 +129,8 @@ int theory_points_command(const TheoryPoints& what) {
             const Scene scene = read_scene_text(text, what.scene, overrides);
             if (what.runnable) examine(scene, 1);
             point = what.runnable ? simulated_point(scene, surfaces) : point_json(scene, surfaces);
+            if (what.runnable && scene.surface.reads_file()) // what it holds now
+                point["surface"] = surface_result(scene, surfaces.of(scene)).json()["surface"];
         } catch (const io::SceneError& error) {
             point = problems_json(error.problems());
         }

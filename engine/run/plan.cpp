@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/plan.hpp"
 
-#include "engine/run/plan_rates.hpp"
 #include "engine/scene/accuracy.hpp"
 #include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
@@ -112,7 +111,8 @@ Scene smaller_box(const Scene& scene) {
 /// Fills in a plan: the work of a scene times the rates of this process.
 class Estimate {
 public:
-    Estimate(Plan& plan, const Scene& scene) : plan_(plan), scene_(scene) {
+    Estimate(Plan& plan, const Scene& scene, const std::optional<Rates>& rates)
+        : plan_(plan), scene_(scene) {
         const auto begin = std::chrono::steady_clock::now();
         const bool whole = scene.surface.reads_file() || scene.surface.sites <= largest_surface;
         surface_ = scene_surface(whole ? scene : smaller_box(scene));
@@ -128,7 +128,7 @@ public:
                            : highest_over_rms * scene.surface.rms;
         }
         need_ = memory_of(scene, plan.setup, plan.ranks, plan.threads);
-        rates_ = measure_rates(scene, plan.setup, surface_);
+        rates_ = rates ? *rates : measure_rates(scene, plan.setup, surface_);
         plan.rates = rates_.origin;
         count_work();
         coarse_bytes_ = coarse_bytes();
@@ -264,12 +264,12 @@ private:
 
 } // namespace
 
-Plan make_plan(const Scene& scene, int ranks, int threads) {
+Plan make_plan(const Scene& scene, int ranks, int threads, const std::optional<Rates>& rates) {
     Plan plan;
     plan.setup = make_setup(scene, ranks);
     plan.ranks = ranks;
     plan.threads = threads;
-    Estimate estimate(plan, scene);
+    Estimate estimate(plan, scene, rates);
     estimate.making();
     estimate.interface();
     estimate.motion();

@@ -9,11 +9,13 @@
 // (instabilities, iterations of a relaxation) are typical ones and are called that.
 #pragma once
 
+#include "engine/run/plan_rates.hpp"
 #include "engine/scene/surface.hpp"
 #include "engine/setup/setup.hpp"
 
 #include <array>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 namespace asperity {
@@ -49,8 +51,10 @@ struct Plan {
 };
 
 /// Throws io::SceneError with all that is wrong with the scene on that number of ranks.
-/// threads: of a rank. Measures on this process alone.
-Plan make_plan(const Scene& scene, int ranks, int threads);
+/// threads: of a rank. rates: of a process with omp_get_max_threads() threads; none: measured on
+/// this process alone.
+Plan make_plan(const Scene& scene, int ranks, int threads,
+               const std::optional<Rates>& rates = std::nullopt);
 void print_plan(std::FILE* to, const Scene& scene, const Plan& plan);
 
 } // namespace asperity

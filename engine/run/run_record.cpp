@@ -31,6 +31,8 @@ void add_surface(const Surface& surface, io::Result& result) {
     if (surface.atoms.size() > 0)
         result.set("surface.atoms", static_cast<long long>(surface.atoms.size()));
     if (!surface.origin.empty()) result.set("surface.origin", surface.origin);
+    if (surface.file_digest)
+        result.set("surface.file_digest", fmt::format("crc32:{:08x}", *surface.file_digest));
 }
 
 void add_zero_load(const ZeroLoad& z, io::Result& result) {

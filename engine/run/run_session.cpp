@@ -8,7 +8,6 @@
 #include "engine/run/stop_signals.hpp"
 #include "engine/run/summary.hpp"
 #include "io/described.hpp"
-#include "io/digest.hpp"
 #include "io/json.hpp"
 
 #include <fmt/format.h>
@@ -53,14 +52,7 @@ std::string physics_of(const Scene& scene, const Surface& surface) {
         part["output"]["delayed"].push_back(name);
     if (scene.surface.radius) part["output"]["series"] = scene.output.series; // averaged over time
     part["output"]["velocities"] = scene.output.trajectory && scene.output.velocities;
-    if (scene.surface.kind == SurfaceKind::file || scene.surface.kind == SurfaceKind::atoms) {
-        io::Digest digest;
-        for (const auto* values :
-             {&surface.height, &surface.atoms.x, &surface.atoms.y, &surface.atoms.z})
-            digest.update(std::as_bytes(std::span(*values)));
-        digest.update(std::as_bytes(std::span(surface.atoms.type)));
-        part["surface"]["content_of_file"] = digest.value();
-    }
+    if (surface.file_digest) part["surface"]["content_of_file"] = *surface.file_digest;
     return io::json_text(part);
 }
 

@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,7 +74,9 @@ struct Surface {
                                 ///< where there are `atoms`, of the topmost one near it
     AtomPositions atoms;        ///< in the box [0, length); empty: one for each height
     SurfaceStatistics statistics;
-    std::string origin;             ///< of a measured map: whose it is, where its file says so
+    std::string origin; ///< of a measured map: whose it is, where its file says so
+    /// Of a map or atoms from a file: CRC-32 of what was read, before anything was made of it.
+    std::optional<std::uint32_t> file_digest;
     std::vector<std::string> notes; ///< what was clipped or resampled, in words
 };
 

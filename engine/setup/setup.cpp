@@ -5,6 +5,7 @@
 #include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 #include "io/atoms_file.hpp"
+#include "io/digest.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
 #include "io/json.hpp"
@@ -91,6 +92,10 @@ Surface atoms_of_file(const Scene& scene, const SurfaceOptions& options) {
         for (const std::int32_t t : file.type)
             type.push_back(rows[static_cast<std::size_t>(t)]);
     }
+    io::Digest digest;
+    for (const auto* values : {&file.x, &file.y, &file.z})
+        digest.update(std::as_bytes(std::span(*values)));
+    digest.update(std::as_bytes(std::span(std::as_const(type))));
     Surface surface = surface_from_atoms(
         options, {std::move(file.x), std::move(file.y), std::move(file.z), std::move(type)});
     surface.notes.insert(surface.notes.begin(),
@@ -101,6 +106,7 @@ Surface atoms_of_file(const Scene& scene, const SurfaceOptions& options) {
                                                              : " of type " + shown(file.types[0]),
                                      file.format));
     surface.notes.insert(surface.notes.begin() + 1, file.notes.begin(), file.notes.end());
+    surface.file_digest = digest.value();
     return surface;
 }
 
@@ -171,9 +177,14 @@ Surface scene_surface(const Scene& scene, const Communicator& ranks) {
             map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as "
                                             "wide as the box, {:.6g} Å (surface.file_size)",
                                             edge));
+        io::Digest digest;
+        digest.update(std::as_bytes(std::span(std::as_const(map.heights))));
+        const double width = map.size.value_or(0.0);
+        digest.update(std::as_bytes(std::span(&width, 1)));
         Surface surface =
             surface_from_heights(options, std::move(map.heights), map.sites, map.sites);
         surface.origin = std::move(map.origin);
+        surface.file_digest = digest.value();
         surface.notes.insert(
             surface.notes.begin(),
             fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",

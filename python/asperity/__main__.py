@@ -12,7 +12,9 @@ import argparse
 import os
 import sys
 
+from . import program
 from .errors import Error, SceneError
+from .terminal import launched
 
 EXIT = "Exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard, 4 files, 75 stopped early."
 
@@ -45,7 +47,7 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("words", nargs="*", metavar="SCENE", help="the scene file (TOML)")
         command.add_argument("--set", action="append", default=[], metavar="key=value", dest="sets",
                              help="override a key of the scene: section.key=value; repeatable")
-        command.add_argument("--out", default="", metavar="DIR", help=f"result directory (default: {out})")
+        command.add_argument("--out", metavar="DIR", help=f"result directory (default: {out})")
         command.add_argument("--progress", default="auto", metavar="MODE", help="auto, bar, lines or off")
 
     sweep = add("sweep", "a scene over several values of its keys: runs, theory, one table",
@@ -120,16 +122,15 @@ def _carry_out(given: argparse.Namespace) -> int:
 
 
 def main(words: list[str]) -> int:
-    if any(name in os.environ for name in ("OMPI_COMM_WORLD_RANK", "PMI_RANK")) and \
-            os.environ.get("OMPI_COMM_WORLD_RANK", os.environ.get("PMI_RANK")) != "0":
-        return 0  # of mpirun's ranks one does the work
     parser = _parser()
     commands = next(a for a in parser._actions if isinstance(a, argparse._SubParsersAction)).choices
     if not words or words[0] not in commands:
-        from . import program
-
         os.execv(program.path(), [program.path(), *words])
+    rank, several = launched()
+    if several and rank != 0:
+        return SceneError.code  # the first of them says why
     try:
+        program.refuse_ranks()
         # Options and scenes in any order.
         return _carry_out(commands[words[0]].parse_intermixed_args(words[1:], argparse.Namespace(command=words[0])))
     except Error as error:

@@ -12,7 +12,6 @@ from __future__ import annotations
 import difflib
 import json
 import math
-import os
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -22,7 +21,7 @@ import numpy as np
 from . import files, program, terminal
 from .cost_knobs import CostCase, Knob, KnobValue, Setting, cost_case, joined
 from .errors import SceneError
-from .pool import DONE, FAILED, STOPPED, WAITING, Job, Outcome, Pool, PoolOptions, look_at
+from .pool import DONE, FAILED, STOPPED, WAITING, Job, Outcome, Pool, PoolOptions, look_at_all
 from .result import Values
 
 QUANTITIES = ("gamma", "contact", "approach", "pull-off", "force")
@@ -209,8 +208,8 @@ class _Runs:
         for row, given, point in zip(rows, overrides, points):
             name = ",".join(one.partition(".")[2] for one in sorted(row.setting)) or "scene"
             key = json.dumps(point["scene"])
-            jobs[key] = self.made.setdefault(key, Job(name, self.directory / name, self.scene, given, point["scene"]))
-        outcomes = [look_at(job) for job in jobs.values()]
+            jobs[key] = self.made.setdefault(key, Job.of(name, self.directory / name, self.scene, given, point))
+        outcomes = look_at_all(list(jobs.values()), print)
         there = sum(o.status != WAITING for o in outcomes)
         print(f"{len(jobs)} runs in {self.directory}" + (f"; {there} are there already" if there else ""), flush=True)
         complete = Pool(list(jobs.values()), outcomes, self.options).run()
@@ -240,12 +239,8 @@ def _row(knob: Knob, value: KnobValue) -> CostRow:
                    judged=knob.name != "thickness")
 
 
-def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str, options: PoolOptions) -> int:
+def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str | None, options: PoolOptions) -> int:
     """Returns the exit code: 75 if stopped before the end, that of the reference if it failed."""
-    if "OMPI_COMM_WORLD_SIZE" in os.environ:
-        raise SceneError("asperity cost", "it is not started under mpirun", "it starts its runs itself, each with one "
-                         "thread, so that their times can be compared",
-                         "asperity cost SCENE --jobs 2 runs two side by side")
     found = program.check(scene, overrides)
     case = cost_case(found["scene"], found.get("longest_timestep", 0.0))
     if found["problems"]:
@@ -256,7 +251,7 @@ def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str, o
                  CostRow("scene", "as it is", [], [])]
     cost.rows += [_row(knob, value) for knob in case.knobs
                   for value in [*knob.values, *([knob.twin] if knob.twin else [])]]
-    directory = Path(out or f"results/{cost.name}-cost")
+    directory = files.chosen(out, f"results/{cost.name}-cost")
     print(f"reference: {case.reference_text}", flush=True)
     with files.in_use(directory):
         runs = _Runs(scene, overrides, directory, options)

@@ -23,7 +23,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from .errors import InputOutputError
+from .errors import InputOutputError, SceneError
 
 
 def _refuse(path: Path, error: OSError, what: str = "cannot be written") -> InputOutputError:
@@ -67,12 +67,33 @@ def write(path: Path, content: str | bytes) -> None:
         beside.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
+def set_aside(path: Path) -> None:
+    """Of a damaged file: "result.json" becomes "result-damaged.json"."""
+    try:
+        path.replace(path.with_name(f"{path.stem}-damaged{path.suffix}"))
+    except OSError as error:
+        raise _refuse(path, error, "cannot be set aside") from None
+
+
 def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
     """Lines of comma-separated values: numbers with so many digits, those that are not finite as nothing."""
     stream = io.StringIO()
     csv.writer(stream, lineterminator="\n").writerows(
         [v if isinstance(v, str) else f"{v:.{digits}g}" if math.isfinite(v) else "" for v in row] for row in rows)
     return stream.getvalue()
+
+
+def chosen(out: str | None, otherwise: str) -> Path:
+    """The directory that --out names, or else the default one. Raises SceneError for what can be none."""
+    place = Path(otherwise if out is None else out)
+    if out == "":
+        raise SceneError("--out", "is empty", "it names the directory of the results", f"leave it out for {otherwise}")
+    if place.exists() and not place.is_dir():
+        raise SceneError(f"--out {place}", "is not a directory", "a file of that name is there", "name another directory")
+    if place.resolve() == Path("/"):
+        raise SceneError(f"--out {place}", "is the root of all directories", "results have a directory of their own",
+                         "name another directory")
+    return place
 
 
 LOCK = "run.lock"
@@ -153,7 +174,8 @@ def in_use(place: Path) -> Iterator[None]:
         yield
     finally:
         with contextlib.suppress(OSError), _turn(place):
-            os.unlink(place / LOCK)
+            if os.path.samestat(os.fstat(handle), os.lstat(place / LOCK)):  # else it is another's by now
+                os.unlink(place / LOCK)
         os.close(handle)
         with contextlib.suppress(OSError):  # something is in it
             for path in made:

@@ -23,12 +23,13 @@ from pathlib import Path
 from typing import Any
 
 from . import files, program
-from .errors import InputOutputError, SceneError
+from .errors import Error, InputOutputError, SceneError
 from .result import Values, read_json
 from .terminal import Progress, duration
 
 WAITING, DONE, FAILED = "waiting", "done", "failed"
 PHYSICS, STOPPED = 3, 75
+RESULT = "result.json"
 _libc = ctypes.CDLL(None, use_errno=True)
 _PR_SET_PDEATHSIG = 1
 
@@ -43,6 +44,14 @@ class Job:
     overrides: list[str]
     scene: dict[str, Any]
     """what these make of the file"""
+    file_digest: str = ""
+    """of surface.file as it is now; "": the scene reads none"""
+
+    @classmethod
+    def of(cls, name: str, directory: Path, file: str, overrides: list[str], answer: dict[str, Any]) -> Job:
+        """answer: of program.theory_points(runnable=True)."""
+        return cls(name, directory, file, overrides, answer["scene"],
+                   Values(answer).text("surface.file_digest"))
 
 
 @dataclass
@@ -53,6 +62,8 @@ class Outcome:
     result: Values = field(default_factory=lambda: Values({}))
     exit_code: int = 0
     reason: str = ""
+    damaged: str = ""
+    """why result.json cannot be read"""
 
 
 @dataclass
@@ -69,18 +80,26 @@ class PoolOptions:
 
 
 def look_at(job: Job) -> Outcome:
-    """What is there of a job. Failed physics counts as an outcome; another failure is tried again.
+    """What is there of a job. Failed physics counts as an outcome; another failure, or a result that cannot be read, is
+    tried again.
 
-    Raises SceneError if there is a result of another scene.
+    Raises SceneError if there is a result of another scene, or of another content of surface.file.
     """
-    path = job.directory / "result.json"
+    path = job.directory / RESULT
     if not path.exists():
         return Outcome()
-    result = Values(read_json(path))
+    try:
+        result = Values(read_json(path))
+    except InputOutputError as error:
+        return Outcome(damaged=str(error).split("why: ")[-1].splitlines()[0])
+    remedy = "name another directory (--out), or remove this one"
     if result.find("scene") != job.scene:
         raise SceneError(str(job.directory), "holds the result of another scene",
-                         "results that are there are used again, and this one does not belong here",
-                         "name another directory (--out), or remove this one")
+                         "results that are there are used again, and this one does not belong here", remedy)
+    if (digest := result.text("surface.file_digest")) != job.file_digest:
+        raise SceneError(str(job.directory), f"holds the result of another content of {result.text('scene.surface.file')}",
+                         f"the file's digest is {job.file_digest} now, and was {digest} then" if digest else
+                         "it does not tell the file's digest, as results of earlier versions do not", remedy)
     outcome = Outcome(result=result)
     code = result.number("failure.exit_code")
     if code is not None:
@@ -90,6 +109,15 @@ def look_at(job: Job) -> Outcome:
     elif result.text("run.stopped") in ("", "max_steps"):
         outcome.status = DONE
     return outcome
+
+
+def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
+    """What is there of each; a result that cannot be read is told."""
+    outcomes = [look_at(job) for job in jobs]
+    for job, outcome in zip(jobs, outcomes):
+        if outcome.damaged:
+            say(f"note: {job.directory / RESULT} cannot be read ({outcome.damaged}): this run is repeated")
+    return outcomes
 
 
 class _Signals:
@@ -166,7 +194,13 @@ class Pool:
 
     def _start(self, i: int) -> None:
         job = self.jobs[i]
-        files.directory(job.directory)
+        try:
+            files.directory(job.directory)
+            if self.outcomes[i].damaged:  # a result that is there would be refused
+                files.set_aside(job.directory / RESULT)
+        except Error as error:
+            self._fail(i, error.code, str(error).splitlines()[0])
+            return
         words = [*self.options.launch, program.path(), "run", job.file, "--out", str(job.directory),
                  "--progress", "lines", "--resume", "auto", *program.sets(job.overrides)]
         environment = dict(os.environ)
@@ -190,9 +224,7 @@ class Pool:
                 child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=environment,
                                          start_new_session=True, preexec_fn=prepare)
         except FileNotFoundError:
-            self.outcomes[i] = Outcome(FAILED, exit_code=127,
-                                       reason=f"'{words[0]}' of --launch cannot be started")
-            self._say(i, f"FAILED (exit 127): {self.outcomes[i].reason}")
+            self._fail(i, 127, f"'{words[0]}' of --launch cannot be started")
             return
         except OSError as error:
             raise InputOutputError(str(job.directory), "cannot be run", error.strerror or str(error),
@@ -211,12 +243,13 @@ class Pool:
             saved = (self.jobs[i].directory / "checkpoint.h5").exists()
             self._say(i, "stopped, with a checkpoint" if saved else "stopped before its first checkpoint")
         else:
-            outcome.status = FAILED
-            outcome.exit_code = code if code > 0 else 1
-            if not outcome.reason:
-                outcome.reason = (f"ended by signal {-code} ({signal.strsignal(-code)})" if died
-                                  else _last_line(self.jobs[i]))
-            self._say(i, f"FAILED (exit {outcome.exit_code}): {outcome.reason}")
+            self._fail(i, code if code > 0 else 1, outcome.reason or outcome.damaged or (
+                f"ended by signal {-code} ({signal.strsignal(-code)})" if died else _last_line(self.jobs[i])))
+
+    def _fail(self, i: int, code: int, reason: str) -> None:
+        outcome = self.outcomes[i]
+        outcome.status, outcome.exit_code, outcome.reason = FAILED, code, reason
+        self._say(i, f"FAILED (exit {code}): {reason}")
 
     def _stop_if_told(self, interruptions: int) -> None:
         limit = self.options.wall_limit

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import BY_CODE, InputOutputError, InternalError, SceneError
+from .terminal import launched
 
 
 @functools.lru_cache(maxsize=None)
@@ -49,8 +50,17 @@ def raise_for(code: int, text: str) -> None:
     raise BY_CODE.get(code, InternalError)(text.strip() or f"asperity ended with exit code {code}")
 
 
+def refuse_ranks() -> None:
+    """Raises SceneError in one of several ranks: programs started from it would take themselves for that rank."""
+    if launched()[1]:
+        raise SceneError("asperity", "this command is one process, not one of several ranks of mpirun or srun",
+                         "it starts its runs itself, each as a program of its own",
+                         'start it alone (srun -n 1); for ranks of each point: asperity sweep SCENE --launch "mpirun -n 2"')
+
+
 def call(arguments: Iterable[str], *, text: str | None = None) -> str:
     """Runs the program to its end and returns what it printed."""
+    refuse_ranks()
     words = [path(), *arguments]
     try:
         done = subprocess.run(words, input=text, capture_output=True, text=True, encoding="utf-8")

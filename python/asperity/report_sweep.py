@@ -213,6 +213,6 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
         page.add("preformatted", toml_of(sweep.scene).strip())
     end(page, Values({"run": sweeps[0].run}),
         f"The scene {sweeps[0].name}" if len(sweeps) > 1 else "The scene that the points vary", sweeps[0].scene,
-        "Every key with its value; the swept ones as they stand in the file.")
+        "Every key with its value; the swept ones with their first.")
     page.said = page.write()
     return page

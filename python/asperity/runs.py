@@ -10,8 +10,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from . import program
-from .errors import InputOutputError
+from . import files, program
+from .errors import InputOutputError, SceneError
 from .result import Result
 from .scene import Overrides, SceneLike, assignments, scene_file
 
@@ -45,8 +45,11 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
     An interruption (Ctrl-C) lets the run write a checkpoint first. Raises SceneError, PhysicsError,
     InputOutputError or Stopped with the program's message.
     """
+    program.refuse_ranks()
+    if ranks < 1:
+        raise SceneError(f"ranks = {ranks}", "is no number of ranks", "a run has at least one", "leave it out for one")
     with scene_file(scene) as file:
-        place = Path(out) if out is not None else default_directory(Path(file).stem)
+        place = default_directory(Path(file).stem) if out is None else files.chosen(str(out), "")
         words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "off",
                  *program.sets(assignments(overrides))]
         with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as said:

@@ -15,7 +15,7 @@ import math
 import os
 import time
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -26,9 +26,9 @@ import numpy as np
 from . import files, program, terminal
 from .errors import Error, InputOutputError, SceneError
 from .grid import Axis, axes_of, is_seed, points_of, shown
-from .pool import DONE, FAILED, STOPPED, Job, Outcome, Pool, PoolOptions, look_at
+from .pool import DONE, FAILED, STOPPED, Job, Outcome, Pool, PoolOptions, look_at_all
 from .result import Result, Values, read_json
-from .scene import SceneLike, assignments, scene_file
+from .scene import SceneLike, scene_file
 from .tables import Columns, Table, columns_of, text_of
 
 TABLES = "sweep.csv, sweep.json, sweep.h5"
@@ -151,8 +151,11 @@ def _build() -> dict[str, str]:
 
 
 def load_sweep(directory: str | os.PathLike) -> Sweep:
-    """The sweep in a directory. Raises InputOutputError where there is none."""
+    """The sweep in a directory. Raises InputOutputError where there is none, or those of several scenes."""
     path = Path(directory) / "sweep.json"
+    if not path.exists() and (several := sorted(path.parent.glob("*/sweep.json"))):
+        raise InputOutputError(str(directory), "holds a sweep for each of several scenes",
+                               ", ".join(p.parent.name for p in several), f"load one of them: {several[0].parent}")
     found = Values(read_json(path))
 
     def listed(name: str) -> list[dict[str, Any]]:
@@ -199,9 +202,10 @@ def _default_axis(file: str, fixed: list[str]) -> Axis:
 
 def _axes(file: str, sets: list[str], of_scene: list[dict[str, str]], theory_only: bool,
           say: Callable[[str], None]) -> tuple[list[Axis], list[str], dict]:
-    """The axes, the overrides of every point, and the scene as the program reads it with these."""
+    """The axes, the overrides of every point, and the scene as the program reads it with these and the first values of
+    the axes (the file alone need be no scene: it may lack what is swept)."""
     axes, fixed = axes_of(sets, of_scene)
-    base = program.check(file, fixed)
+    base = program.check(file, fixed + points_of(axes)[0])
     if theory_only and not base["theory_needs_surface"]:
         axes = [axis for axis in axes if not axis.is_seed]  # the theory of a target spectrum knows no seeds
     if not axes:
@@ -272,21 +276,19 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
         if name in jobs:
             raise SceneError("asperity sweep", f"two points are the same: {name}",
                              "every point has a directory of its own", "give every value once")
-        jobs[name] = Job(prefix + name, place / name, file, given, answer["scene"])
+        jobs[name] = Job.of(prefix + name, place / name, file, given, answer)
     sweep.theory = _theory_curves(file, axes, fixed, sweep.points, base["theory_needs_surface"])
     return sweep, list(jobs.values())
 
 
 # Carrying them out.
 
-def _directory(asked: str, name: str, theory_only: bool, say: Callable[[str], None]) -> Path:
+def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[str], None]) -> Path:
     """Where the sweep goes. Of the theory alone, nothing is resumed: a directory of its own."""
-    place = Path(asked or f"results/{name}{'-theory' * theory_only}-sweep")
-    if place.exists() and not place.is_dir():
-        raise SceneError(f"--out {place}", "is not a directory", "a file of that name is there", "name another directory")
+    place = files.chosen(asked, f"results/{name}{'-theory' * theory_only}-sweep")
     if not theory_only or not (place / "sweep.json").exists():
         return place
-    if asked:
+    if asked is not None:
         raise SceneError(f"--out {asked}", "already holds a sweep", "results are not written over",
                          "name another directory, or remove this one")
     first, number = place, 2
@@ -299,9 +301,10 @@ def _directory(asked: str, name: str, theory_only: bool, say: Callable[[str], No
 class _Carried:
     """The sweeps of some scenes, carried out. complete: every point was run."""
 
-    def __init__(self, scenes: list[str], sets: list[str], out: str, theory_only: bool, options: PoolOptions,
+    def __init__(self, scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
                  say: Callable[[str], None]):
-        found = {file: program.check(file) for file in scenes}
+        axes, fixed = axes_of(sets, [])
+        found = {file: program.check(file, fixed + points_of(axes)[0]) for file in scenes}
         names = [found[file]["name"] for file in scenes]
         for i, file in enumerate(scenes):
             if names[i] in names[:i]:
@@ -315,7 +318,7 @@ class _Carried:
                                  f"{name}/" * several, theory_only, say) for file, name in zip(scenes, names)]
             self.sweeps = [sweep for sweep, _ in prepared]
             self.jobs = [job for _, jobs in prepared for job in jobs]
-            self.outcomes = [look_at(job) for job in self.jobs]
+            self.outcomes = look_at_all(self.jobs, say)
             self.complete = True
             if self.jobs:
                 there, failed = (sum(o.status == s for o in self.outcomes) for s in (DONE, FAILED))
@@ -347,14 +350,10 @@ class _Carried:
             sweep.write()
 
 
-def sweep_command(scenes: list[str], sets: list[str], out: str, theory_only: bool, options: PoolOptions) -> int:
+def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
     """`asperity sweep`: its exit code, 75 if stopped before the end, else that of the first failure."""
     from .plots.sweep import write_plots
 
-    if not theory_only and "OMPI_COMM_WORLD_SIZE" in os.environ:
-        raise SceneError("asperity sweep", "a sweep of simulations is not started under mpirun",
-                         "it starts its points itself, each as a run of its own",
-                         'asperity sweep SCENE --launch "mpirun -n 2" gives every point two ranks')
     done = _Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True))
     plots, note = write_plots(done.place, done.sweeps)
     for sweep in done.sweeps:
@@ -381,18 +380,25 @@ def sweep_command(scenes: list[str], sets: list[str], out: str, theory_only: boo
     return next((outcome.exit_code for _, outcome in failed), 0)
 
 
+def _values(given: Any) -> str:
+    """As behind --set: of several values, in whatever holds them, each; of one, it."""
+    given = given.tolist() if hasattr(given, "tolist") else given  # numpy's
+    if isinstance(given, (str, os.PathLike)) or not isinstance(given, Iterable):
+        given = [given]
+    return ",".join(str(v) if isinstance(v, os.PathLike) else shown(v.item() if hasattr(v, "item") else v) for v in given)
+
+
 def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | os.PathLike | None = None,
           jobs: int = 1, theory_only: bool = False) -> Sweep:
     """Simulates a scene for every combination of the values; returns its Sweep, whose table has all points.
 
-    values     {"surface.rms": [0.5, 1, 2], "surface.seed": "1:3:1", "drive.load": 0}; beside the scene's [sweep]
+    values     {"surface.rms": np.linspace(0.5, 2, 4), "surface.seed": range(1, 4), "surface.hurst": [0.7, 0.8],
+               "drive.load": "0:100:20", "surface.radius": 200}; beside the scene's [sweep]
     out        the directory; None: results/<scene>-sweep. Points that are there are not run again.
     jobs       points side by side; they share the processors
     theory_only   the theory alone, no simulation
     """
-    given = [f"{key}={','.join(shown(v) for v in value) if isinstance(value, (list, tuple)) else value}"
-             if not isinstance(value, (int, float)) else f"{key}={shown(value)}"
-             for key, value in (values or {}).items()]
+    given = [f"{key}={_values(value)}" for key, value in (values or {}).items()]
     with scene_file(scene) as file:
-        return _Carried([file], assignments(given), str(out or ""), theory_only, PoolOptions(jobs=jobs, progress="off"),
-                        lambda text: None).sweeps[0]
+        return _Carried([file], given, None if out is None else str(out), theory_only,
+                        PoolOptions(jobs=jobs, progress="off"), lambda text: None).sweeps[0]

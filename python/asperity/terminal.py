@@ -54,8 +54,14 @@ def parse_duration(text: str) -> float:
     return seconds
 
 
-def under_mpirun() -> bool:
-    return any(name in os.environ for name in ("OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"))
+def launched() -> tuple[int, bool]:
+    """The rank of this process, and whether a launcher says that it has started more than one. The rule is that of
+    launched_in_parallel() of the program (decomposition/communicator.hpp)."""
+    for size, rank in (("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"), ("PMI_SIZE", "PMI_RANK"),
+                       ("SLURM_STEP_NUM_TASKS", "SLURM_PROCID")):
+        if size in os.environ:
+            return int(os.environ.get(rank, "0")), int(os.environ[size]) > 1
+    return int(os.environ.get("PMIX_RANK", "0")), "PMIX_RANK" in os.environ
 
 
 class Progress:
@@ -64,7 +70,7 @@ class Progress:
     def __init__(self, mode: str = "auto"):
         if mode not in PROGRESS_MODES:
             raise SceneError(f"--progress {mode}", "is none of its choices", "choices: " + ", ".join(PROGRESS_MODES))
-        terminal = sys.stderr.isatty() and not under_mpirun()
+        terminal = sys.stderr.isatty()
         if mode == "auto" or (mode == "bar" and not terminal):
             mode = "bar" if terminal else "lines"
         self.mode = mode

@@ -7,6 +7,8 @@
 # docs/validation.md; and the contact fraction under load, p over p* = πE*h/λ, at α = 0.3.
 #
 #     scenes/validation/sine.sh results/sine [sites ...]      # 128 256: half a minute; 512: a minute more
+#
+# Results that are there are neither read nor written over: name another directory.
 set -eu
 root=$(cd -- "$(dirname "$0")/../.." && pwd)
 place=${1:-results/sine}
@@ -26,7 +28,7 @@ point() {
     load=$(awk -v n="$1" -v h="$amplitude" -v p="$3" 'BEGIN { print p * atan2(0, -1) * 77200 / (1 - 0.42 ^ 2) * h / (n * 2.6) }')
     awk -v n="$1" -v h="$amplitude" 'BEGIN { for (i = 0; i < n; i++) row = row sprintf("%.8f ", h * cos(2 * atan2(0, -1) * i / n))
         for (j = 0; j < n; j++) print row }' >"$place/$name.txt"
-    [ -f "$place/$name/result.json" ] || "$root/asperity" run "$root/scenes/paper/flat-3A.toml" --progress off --out "$place/$name" \
+    "$root/asperity" run "$root/scenes/paper/flat-3A.toml" --progress off --out "$place/$name" \
         --set numerics.precision=double drive.path=zero-load block.model=spectral interface.frictionless=true output.checkpoint=0 surface.kind=file \
         surface.file="$(realpath "$place/$name.txt")" surface.rms="$rms" surface.sites="$1" block.thickness="$1" drive.load="$load" >/dev/null
     rm "$place/$name.txt"

@@ -49,7 +49,14 @@ says "stdin: nothing wrong"
 out=$(printf '[surface]\nsites = -1\n' | "$asperity" check - 2>&1)
 [ $? -eq 2 ] || fail "check - of a wrong scene"
 says "stdin:2:"
-out=$(PMI_RANK=0 "$asperity" check - <scene.toml 2>&1) && fail "check - under mpirun"
+out=$(SLURM_NTASKS=4 SLURM_PROCID=0 "$asperity" check - <scene.toml) || fail "check - in a batch job: $out"
+if command -v mpirun >/dev/null; then
+    mpi=(mpirun --oversubscribe) root=(env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
+    out=$("${root[@]}" "${mpi[@]}" -n 1 "$asperity" check - <scene.toml) || fail "check - of one rank: $out"
+    says "stdin: nothing wrong"
+    out=$("${root[@]}" "${mpi[@]}" -n 2 "$asperity" check - <scene.toml 2>&1) && fail "check - of two ranks"
+    says "only rank 0 would have it"
+fi
 cd .. && rm -r new
 
 expect 2
@@ -64,6 +71,12 @@ expect 2 run plain.toml --wall-limit soon
 says "--wall-limit soon: is no length of time"
 expect 2 run plain.toml --progress loud
 says "choices: auto, bar, lines, off"
+for option in --out --resume --wall-limit --progress; do
+    expect 2 run plain.toml $option ""
+    says "$option: is empty"
+done
+expect 2 run plain.toml --out /
+says "is the root of all directories"
 expect 2 run plain.toml --resume gone.h5
 says "there is no such file"
 expect 2 check plain.toml --set

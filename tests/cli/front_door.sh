@@ -77,6 +77,63 @@ rm -rf calls installed "../a house/build"
 ASPERITY_INSTALL=1 expect 0 check
 grep -q "apt-get install" calls || fail "ASPERITY_INSTALL=1 installs nothing"
 
+# Every start builds what is out of date, in a batch job of several tasks too (SLURM gives its script rank 0 and the
+# number of tasks), and after a failed build the next start tries again and says why.
+builds=$PWD/builds broken=$PWD/broken
+stand_in ninja 'case " $* " in *" -n "*) ;; *) echo "error: built" | tee -a "'"$builds"'"; [ ! -e "'"$broken"'" ] ;; esac'
+export SLURM_JOB_ID=7 SLURM_NTASKS=4 SLURM_NPROCS=4 SLURM_PROCID=0
+built() { [ "$(wc -l <"$builds")" -eq "$1" ] || fail "$(wc -l <"$builds") builds, not $1: $2"; }
+expect 0 check
+expect 0 check
+built 2 "two starts of one shell in a batch job"
+touch "$broken"
+for count in 3 4; do
+    expect 1 check
+    says "error: built"
+    says "the build failed"
+    built $count "a start after a failed build"
+done
+rm "$broken"
+expect 0 check
+built 5 "a start after the build was mended"
+unset SLURM_JOB_ID SLURM_NTASKS SLURM_NPROCS SLURM_PROCID
+
+# Of starts that wait for one another, as ranks of one mpirun do, one builds; all end as it does.
+stand_in flock "echo waits >>'$PWD/waiting'; exec $(command -v flock) \"\$@\""
+together() { # CODE
+    local pids=() pid rank
+    : >"$builds"
+    : >waiting
+    (
+        failures=0
+        flock 9
+        for rank in 0 1 2 3; do "$asperity" check >"rank-$rank" 2>&1 9>&- & pids+=($!); done
+        until [ "$(wc -l <waiting)" -eq 5 ]; do sleep 0.05; done
+        flock -u 9
+        for pid in "${pids[@]}"; do
+            wait "$pid"
+            [ $? -eq "$1" ] || fail "a rank ends otherwise: $(cat rank-*)"
+        done
+        exit $((failures > 0))
+    ) 9>"../a house/build/.lock" || fail "not all ranks end with $1"
+    built 1 "four starts at once"
+}
+together 0
+touch "$broken"
+together 1
+[ "$(grep -l "the build failed" rank-* | wc -l)" -eq 4 ] || fail "a rank ends without a word: $(cat rank-*)"
+rm "$broken" bin/flock "$builds" waiting rank-*
+stand_in ninja 'true'
+
+# Under a limit on open files it says so, and builds nothing anywhere.
+for limit in 5 20 63; do
+    out=$(bash -c 'ulimit -n $1; exec bash "$2" check' - $limit "$asperity" 2>&1)
+    [ $? -eq 4 ] || fail "ulimit -n $limit: $out"
+    says "too few files may be open"
+done
+[ ! -e calls ] || [ "$(grep -c '^cmake in' calls)" -eq 1 ] || fail "a limit configures again: $(cat calls)"
+[ ! -e /build ] || fail "a limit makes /build"
+
 # The build of a copied tree is made anew: it holds the paths of the old place.
 rm calls
 expect 0 check

@@ -34,9 +34,18 @@ TEST(Plan, MemoryIsThatOfTheBlock) {
 TEST(Plan, FiniteStrainHasItsLine) {
     const Scene scene = scene_with({"block.thickness=32", "block.strain=finite"});
     const int threads = omp_get_max_threads();
-    const Plan plan = make_plan(scene, 1, threads);
-    EXPECT_GT(plan.cost(Effect::finite_strain).seconds, 0.0);
-    EXPECT_LT(plan.cost(Effect::finite_strain).seconds, plan.seconds);
+    Rates rates;
+    rates.node = 3e-9;
+    rates.finite = 2e-9;
+    rates.iteration = 5e-9;
+    const auto seconds = [&](const Plan& plan) { // of each node, at each step or iteration
+        return static_cast<double>(plan.steps + plan.iterations) * nodes_of(plan.setup.levels) *
+               rates.finite;
+    };
+    const Plan plan = make_plan(scene, 1, threads, rates);
+    EXPECT_GT(plan.steps, 0);
+    EXPECT_GT(plan.iterations, 0);
+    EXPECT_NEAR(plan.cost(Effect::finite_strain).seconds, seconds(plan), 1e-12 * seconds(plan));
     const BlockOptions& options = plan.setup.simulation.block;
     Block block(options, Communicator(), test::serial_grid(options));
     KickSums sums;
@@ -44,10 +53,12 @@ TEST(Plan, FiniteStrainHasItsLine) {
     EXPECT_EQ(plan.cost(Effect::finite_strain).bytes, static_cast<double>(block.finite_bytes()));
     // A path without time keeps its forces anyway, and needs no memory more.
     const Plan timeless =
-        make_plan(scene_with({"drive.path=zero-load", "block.strain=finite"}), 1, threads);
-    EXPECT_GT(timeless.cost(Effect::finite_strain).seconds, 0.0);
+        make_plan(scene_with({"drive.path=zero-load", "block.strain=finite"}), 1, threads, rates);
+    EXPECT_EQ(timeless.steps, 0);
+    EXPECT_NEAR(timeless.cost(Effect::finite_strain).seconds, seconds(timeless),
+                1e-12 * seconds(timeless));
     EXPECT_EQ(timeless.cost(Effect::finite_strain).bytes, 0.0);
-    const Plan linear = make_plan(scene_with({"block.thickness=32"}), 1, threads);
+    const Plan linear = make_plan(scene_with({"block.thickness=32"}), 1, threads, rates);
     EXPECT_EQ(linear.cost(Effect::finite_strain).seconds, 0.0);
     EXPECT_EQ(linear.cost(Effect::finite_strain).bytes, 0.0);
 }

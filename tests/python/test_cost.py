@@ -116,7 +116,7 @@ def test_cost_runs_stops_and_goes_on(tmp_path, monkeypatch):
     assert "did you mean layers?" in command("cost", "tiny.toml", "--knobs", "layer", "--out", "bad", expect=2)
     assert "those of their noise" in command("cost", "tiny.toml", "--set", "drive.temperature=300", "--out", "bad", expect=2)
     command("cost", "tiny.toml", "--jobs", "0", "--out", "bad", expect=2)
-    command("cost", "tiny.toml", "--out", "bad", expect=2, env={"OMPI_COMM_WORLD_SIZE": "1"})
+    command("cost", "tiny.toml", "--out", "bad", expect=2, env={"OMPI_COMM_WORLD_SIZE": "2"})
     assert [p.name for p in tmp_path.iterdir()] == ["tiny.toml"]
     words = ["cost", "tiny.toml", "--knobs", "timestep,precision", "--progress", "off", "--out"]
     said = command(*words, "whole", "--jobs", "2")

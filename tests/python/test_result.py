@@ -102,6 +102,13 @@ def test_a_directory_that_is_taken_is_not_written_over(tmp_path, monkeypatch):
         asperity.run(SMALL, short, out=first.directory)
 
 
+@pytest.mark.parametrize("ranks", [0, -1])
+def test_no_rank_is_an_error(tmp_path, ranks):
+    with pytest.raises(asperity.SceneError, match="is no number of ranks"):
+        asperity.run(STATE, out=tmp_path / "none", ranks=ranks)
+    assert not any(tmp_path.iterdir())
+
+
 def test_ranks_change_nothing_but_their_number(tmp_path):
     few = {"drive.max_steps": 20, "output.series": 5}
     one, two = (asperity.run(SMALL, few, out=tmp_path / str(n), ranks=n) for n in (1, 2))

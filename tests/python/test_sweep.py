@@ -168,6 +168,8 @@ def test_csv_hdf5_and_json_hold_the_same(tmp_path):
     back.write()
     assert written == {p.name: p.read_bytes() for p in sweep.directory.glob("*.csv")}
     assert [s.name for s in load_sweeps(tmp_path)] == ["s"]  # in a folder of its own
+    with pytest.raises(asperity.InputOutputError, match="holds a sweep for each of several scenes"):
+        load_sweep(tmp_path)
 
 
 def test_a_table_knows_what_means_nothing():
@@ -342,6 +344,125 @@ def test_points_are_known_by_their_result(tmp_path):
         pool.look_at(job)
 
 
+def a_map(file, seed):
+    """A rough map of 24 x 24 points."""
+    np.save(file, 0.3 * np.random.default_rng(seed).standard_normal((24, 24)))
+
+
+def test_points_over_another_content_of_a_file_are_refused(place):
+    """The same path with other bytes, for a map and for atoms; the same content in other bytes is the same."""
+    a_map("map.npy", 1)
+    keys = {"surface.kind": "file", "surface.file": place / "map.npy", "block.thickness": 12}
+    scene = {**STATE, "name": "mapped", "theory": {"renormalised": False}}
+    first = asperity.sweep(scene, {**keys, "drive.load": [0, 20]}, out="mapped")
+    assert len(set(first.table["binding_energy"])) == 2
+    np.savetxt("map.txt", np.load("map.npy"), fmt="%.17g")
+    shutil.copy("map.npy", "kept.npy")
+    with open("map.npy", "wb") as file:  # another header
+        np.lib.format.write_array(file, np.load("kept.npy"), version=(2, 0))
+    again = asperity.sweep(scene, {**keys, "drive.load": [0, 20, 40]}, out="mapped")
+    assert (again.table["binding_energy"][:2] == first.table["binding_energy"]).all()
+    a_map("map.npy", 2)
+    with pytest.raises(asperity.SceneError, match="holds the result of another content of .*map.npy"):
+        asperity.sweep(scene, {**keys, "drive.load": [0, 20]}, out="mapped")
+    assert len(load_sweep("mapped").points) == 3  # as it was
+    other = asperity.sweep(scene, {**keys, "drive.load": [0, 20]}, out="other")
+    assert (other.table["binding_energy"] != first.table["binding_energy"]).all()
+    digests = {run.surface.file_digest for run in [*first.results(), *again.results()]}
+    assert len(digests) == 1 and digests != {other.results()[0].surface.file_digest}
+    # Of a result that tells no digest nothing is known.
+    path = place / "other/load=0/result.json"
+    result = json.loads(path.read_text())
+    del result["surface"]["file_digest"], result["digest"]
+    path.write_text(files.sealed_json(result))
+    with pytest.raises(asperity.SceneError, match="does not tell the file's digest"):
+        asperity.sweep(scene, {**keys, "drive.load": [0, 20]}, out="other")
+
+
+def test_points_over_other_atoms_of_a_file_are_refused(place):
+    def write(height):
+        grid = 2.6 * np.arange(12)
+        lines = [f"Au {x:.6f} {y:.6f} {height * ((i + j) % 2):.6f}" for i, x in enumerate(grid) for j, y in enumerate(grid)]
+        Path("atoms.xyz").write_text(f'144\nLattice="31.2 0 0 0 31.2 0 0 0 60" Properties=species:S:1:pos:R:3\n' +
+                                     "\n".join(lines) + "\n")
+    write(0.2)
+    scene = {"name": "atoms", "surface": {"sites": 12, "kind": "atoms", "file": str(place / "atoms.xyz")},
+             "block": {"model": "spectral", "thickness": 12}, "drive": {"path": ["zero-load"]}}
+    first = asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms")
+    assert (asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms").table["binding_energy"] == first.table["binding_energy"]).all()
+    write(0.4)
+    with pytest.raises(asperity.SceneError, match="holds the result of another content of .*atoms.xyz"):
+        asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms")
+
+
+def test_a_map_may_be_given_beside_the_scene(place):
+    """A scene that is none without it; as run takes it."""
+    (place / "mapped.toml").write_text('[surface]\nkind = "file"\nsites = 24\n[block]\nmodel = "spectral"\nthickness = 12\n'
+                                       '[drive]\npath = ["zero-load"]\n[theory]\nrenormalised = false\n')
+    a_map("a.npy", 1)
+    a_map("b.npy", 2)
+    words = ["sweep", "mapped.toml", "--progress", "off", "--out"]
+    command(*words, "loads", "--set", "surface.file=a.npy", "drive.load=0,20")
+    command(*words, "maps", "--set", "surface.file=a.npy,b.npy")
+    loads, maps = load_sweep("loads").results(), load_sweep("maps").results()
+    assert loads[0].binding_energy == maps[0].binding_energy != maps[1].binding_energy
+    assert "there is no such file" in command(*words, "none", "--set", "surface.file=no.npy", "drive.load=0,20", expect=2)
+
+
+def test_values_are_whatever_can_be_gone_through(place):
+    for values in ([1, 2, 3], (1, 2, 3), range(1, 4), np.arange(1, 4), np.array([1.0, 2.0, 3.0]), (i for i in (1, 2, 3)),
+                   np.arange(1, 4).tolist(), "1:3:1", "1,2,3", [np.int64(1), np.float32(2), 3]):
+        table = asperity.sweep({**STATE, "theory": {"renormalised": False}}, {"surface.rms": values, "surface.hurst": np.float64(0.7)}, theory_only=True).table
+        assert table["surface.rms"].tolist() == [1, 2, 3], values
+
+
+def test_a_damaged_point_is_told_and_run_again(place):
+    words = ["sweep", "state.toml", "--set", "theory.renormalised=false", "--progress", "off", "--out", "one"]
+    command(*words)
+    before = numbers("one")
+    for damage in (lambda path: path.write_bytes(path.read_bytes()[:200]), lambda path: path.write_text(
+            path.read_text().replace('"binding_energy": ', '"binding_energy": 1')), lambda path: path.write_bytes(b"")):
+        damage(place / "one/rms=0.4,seed=1/result.json")
+        said = command(*words)
+        assert "note: one/rms=0.4,seed=1/result.json cannot be read" in said and "4 of 4 points are done" in said
+        assert "3 are there already" in said and numbers("one") == before
+        assert (place / "one/rms=0.4,seed=1/result-damaged.json").exists()
+    # What cannot be run again is told as failed, and the others go on.
+    shutil.rmtree("one/rms=0.2,seed=1")
+    point = place / "one/rms=0.4,seed=1"
+    (point / "result.json").unlink()
+    (point / "result.json").mkdir()
+    (point / "result-damaged.json").unlink()
+    (point / "result-damaged.json").mkdir()
+    (point / "result-damaged.json/x").touch()
+    said = command(*words, expect=4)
+    assert "failed: rms=0.4,seed=1 (exit 4)" in said and "3 of 4 points are done" in said
+
+
+def test_a_lock_that_is_anothers_by_now_stays(tmp_path):
+    lock = tmp_path / "run.lock"
+    with files.in_use(tmp_path):
+        lock.unlink()  # by somebody who is certain that no such process lives
+        lock.write_text("host elsewhere\nprocess 7\nsince 2026-01-01 00:00:00\n")
+    assert "elsewhere" in lock.read_text()
+    lock.unlink()
+    with files.in_use(tmp_path):
+        assert lock.exists()
+    assert not lock.exists()
+
+
+@pytest.mark.parametrize("out, says", [("", "is empty"), ("/", "root of all directories"), ("/../", "root of all directories")])
+def test_a_directory_that_can_be_none_is_refused(place, out, says):
+    for words in (["sweep", "state.toml"], ["cost", "path.toml"], ["run", "path.toml"], ["theory", "path.toml"],
+                  ["surface", "path.toml"]):
+        assert says in command(*words, "--out", out, expect=2), words
+    for call in (asperity.run, asperity.sweep):
+        with pytest.raises(asperity.SceneError, match=says):
+            call("state.toml", out=out)
+    assert sorted(p.name for p in place.iterdir()) == ["path.toml", "state.toml"]
+    assert not Path("/result.json").exists()
+
+
 def test_the_time_left_counts_each_scene_by_its_own_points(tmp_path):
     jobs = [pool.Job(str(i), tmp_path / str(i), file, [], {}) for i, file in enumerate(["slow"] * 3 + ["fast"] * 10)]
     many = pool.Pool(jobs, [pool.Outcome() for _ in jobs], pool.PoolOptions(jobs=2, progress="off"))
@@ -375,8 +496,35 @@ def test_what_is_wrong_is_said_before_anything_runs(place, words, says):
     assert sorted(p.name for p in place.iterdir()) == ["path.toml", "state.toml"]
 
 
-def test_a_sweep_is_not_started_under_mpirun(place):
-    assert "not started under mpirun" in command("sweep", "state.toml", expect=2, env={"OMPI_COMM_WORLD_SIZE": "1"})
+ALONE = [{}, {"OMPI_COMM_WORLD_SIZE": "1", "OMPI_COMM_WORLD_RANK": "0", "PMIX_RANK": "0"}, {"PMI_SIZE": "1", "PMI_RANK": "0"},
+         # What SLURM sets in the script of a batch job, whatever its number of tasks, and in a step of one task.
+         {"SLURM_JOB_ID": "7", "SLURM_NTASKS": "4", "SLURM_NPROCS": "4", "SLURM_PROCID": "0"},
+         {"SLURM_NTASKS": "4", "SLURM_PROCID": "0", "SLURM_STEP_NUM_TASKS": "1", "PMIX_RANK": "0"}]
+AMONG_OTHERS = [{"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX_RANK": "0"}, {"PMI_SIZE": "2", "PMI_RANK": "0"},
+                {"SLURM_STEP_NUM_TASKS": "2", "SLURM_PROCID": "0"}, {"PMIX_RANK": "0"}]
+
+
+@pytest.mark.parametrize("env", ALONE)
+def test_one_process_of_a_launcher_is_one_process(place, env):
+    command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2,0.4", env=env)
+    assert "nothing wrong" in subprocess.run([os.environ["ASPERITY_PROGRAM"], "check", "-"], input=SCENE, text=True,
+                                             capture_output=True, env={**os.environ, **env}).stdout
+
+
+@pytest.mark.parametrize("env", AMONG_OTHERS)
+@pytest.mark.parametrize("words", [["sweep", "state.toml"], ["sweep", "state.toml", "--theory-only"]])
+def test_a_sweep_is_not_one_of_several_ranks(place, env, words):
+    assert "not one of several ranks" in command(*words, expect=2, env=env)
+    other = {name: "1" if "RANK" in name or "PROCID" in name else value for name, value in env.items()}
+    assert command(*words, expect=2, env=other) == ""  # one of them says it
+    assert not (place / "results").exists()
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in env.items():
+            patch.setenv(name, value)
+        with pytest.raises(asperity.SceneError, match="not one of several ranks"):
+            asperity.sweep("path.toml", {"surface.rms": [1, 2]}, out="none")
+        with pytest.raises(asperity.SceneError, match="not one of several ranks"):
+            asperity.run("path.toml", out="none")
 
 
 def test_the_table_is_the_same_for_any_number_of_jobs_and_from_python(place):
