@@ -293,10 +293,12 @@ struct WallRule {
     double momentum;         ///< z = u + momentum step
     double norm;
     double load;  ///< on each site, pressing down, eV/Å
-    double bound; ///< of next - z, Å
+    double bound; ///< of next - z, Å: this much, or
+    double share; ///< this share of the gap beyond `near`, where that is more
+    double near;  ///< Å
 };
 struct WallSums {
-    double furthest = 0.0; ///< |next - z|, Å
+    double furthest = 0.0; ///< |next - z| and the force left on a site over the spring, Å
     double turn = 0.0;     ///< sum of (z - next) (next - u), Å^2
     double height = 0.0;   ///< sum of next, Å
 };

@@ -51,7 +51,8 @@ template <class Law, class T>
 WallSums settle_row(const Law& given, const WallRow<T>& row, const WallRule& rule, int sites) {
     const Law law = given;
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
-    const Real compliance(1.0 / rule.spring), bound(rule.bound), load(rule.load), norm(rule.norm);
+    const Real compliance(1.0 / rule.spring), load(rule.load), norm(rule.norm);
+    const Real least_bound(rule.bound), share(rule.share), near(rule.near);
     Real furthest(0.0), turn(0.0), height(0.0);
     for (int x = 0; x < sites; x += interface_block) {
         const int count = sites - x < interface_block ? sites - x : interface_block;
@@ -66,10 +67,13 @@ WallSums settle_row(const Law& given, const WallRow<T>& row, const WallRule& rul
             const Real base = reference - Real::load_first(row.below + x + lane, here);
             const Real z = u + momentum * Real::load(step + lane);
             const Real force = norm * Real::load(elastic + lane) + load;
-            const Real gap = law.settle(u + base, z + base - compliance * force, spring);
+            const Real bound = max(least_bound, share * (z + base - near));
+            const Real goal = z + base - compliance * force;
+            const Real gap = law.settle(u + base, goal, spring, bound);
             const Real way = max(-bound, min(bound, gap - base - z)), next = z + way;
             next.store_first(row.next + x + lane, here);
-            furthest = max(furthest, first_lanes(max(way, -way), here));
+            const Real left = goal - next - base + compliance * law.force(next + base);
+            furthest = max(furthest, first_lanes(max(way, -way) + max(left, -left), here));
             turn = turn - first_lanes(way * (next - u), here);
             height = height + first_lanes(next, here);
         }

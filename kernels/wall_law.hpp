@@ -13,7 +13,10 @@
 // the same attraction over a hard wall; stiffness -> infinity is that limit):
 //
 //     U(g) = -A exp(-g/rho)                   g > 0,
-//     U(g) = -A (1 - g/rho) + K g^2 / 2       g <= 0.
+//     U(g) = -A (1 - g/rho) + K g^2 / 2       g <= 0,
+//
+// deepest at g = -A / (rho K), by A + A^2 / (2 rho^2 K). A is such that this is the work of
+// adhesion W, however soft the repulsion: A = 2 W / (1 + sqrt(1 + 2 W / (rho^2 K))).
 //
 // Each law is one text for a number and for a SIMD register: V is double or a Pack of the variant
 // that compiles it. A gap that is not a number gives a force that is none.
@@ -24,6 +27,7 @@
 #include "kernels/annotations.hpp"
 #include "kernels/lennard_jones.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <variant>
@@ -35,8 +39,15 @@ ASPERITY_INLINE double select(bool mask, double a, double b) { return mask ? a :
 ASPERITY_INLINE double min(double a, double b) { return a < b ? a : b; }
 ASPERITY_INLINE double max(double a, double b) { return a > b ? a : b; }
 
-/// Of a site's own equation, from where it was an iteration before.
-inline constexpr int newton_steps = 3;
+/// Of a site that comes to rest under its own law and a spring.
+struct SiteDescent {
+    /// Newton's steps, from where the site was an iteration before.
+    static constexpr int steps = 3;
+    /// Where law and spring together are unstable, or nearly, a site goes downhill as if this share
+    /// of the spring held it. So it never passes a barrier, also where the spring is softer than
+    /// the law's attraction.
+    static constexpr double least_held = 0.05;
+};
 
 class LennardJonesWall {
 public:
@@ -71,16 +82,19 @@ public:
         const V deeper = below * (force(g) + V(0.5 * stiffness_) * below);
         return select(gap > V(reach_), V(0.0), plane + deeper);
     }
-    /// Where a spring to the gap `goal` leaves a site, from a gap near by: spring (goal - g) +
-    /// force(g) = 0 by Newton's method. The spring is stiffer than softest() is negative.
+    /// Where a spring to the gap `goal` lets a site come to rest, downhill from a gap near by:
+    /// spring (goal - g) + force(g) = 0 by Newton's method, no step of which is longer than
+    /// `bound`.
     template <class V>
-    ASPERITY_INLINE V settle(V gap, V goal, V spring) const {
+    ASPERITY_INLINE V settle(V gap, V goal, V spring, V bound) const {
         V g = max(V(floor_), gap);
-        for (int i = 0; i < newton_steps; ++i) {
+        const V least = V(SiteDescent::least_held) * spring;
+        for (int i = 0; i < SiteDescent::steps; ++i) {
             const V s2 = V(r0_squared_) / (g * g), s6 = s2 * s2 * s2;
             const V stiffness = V(plane_) * (V(well_) * s6 * (V(11.0) * s6 - V(5.0)) + V(shift_));
             const V held = spring + select(g > V(reach_), V(0.0), stiffness);
-            g = max(V(floor_), g + (spring * (goal - g) + force(g)) / held);
+            const V way = (spring * (goal - g) + force(g)) / max(least, held);
+            g = max(V(floor_), g + max(-bound, min(bound, way)));
         }
         // Below the floor the law is linear.
         const V push = spring * (goal - V(floor_)) + force(V(floor_));
@@ -88,6 +102,8 @@ public:
     }
     /// The least stiffness -dF/dg of a site, eV/Å^2: negative.
     double softest() const { return plane_ * (shift_ - 25.0 / 44.0 * well_); }
+    /// Over which the attraction fades, Å: about the largest tension over -softest().
+    double range() const { return 0.5 * std::sqrt(r0_squared_); }
     /// Sites nearer than this, the largest tension, are in contact: (11/5)^(1/6) r0.
     ASPERITY_INLINE double contact_gap() const { return contact_; }
     double reach() const { return reach_; }
@@ -110,9 +126,11 @@ private:
 class ExponentialWall {
 public:
     ExponentialWall() = default;
-    /// adhesion: A, eV; range: rho, Å; stiffness: K, eV/Å^2.
+    /// adhesion: W, eV; range: rho, Å; stiffness: K, eV/Å^2.
     ExponentialWall(double adhesion, double range, double stiffness)
-        : adhesion_(adhesion), range_(range), stiffness_(stiffness), tension_(adhesion / range) {}
+        : adhesion_(2.0 * adhesion /
+                    (1.0 + std::sqrt(1.0 + 2.0 * adhesion / (range * range * stiffness)))),
+          range_(range), stiffness_(stiffness), tension_(adhesion_ / range) {}
 
     template <class V>
     ASPERITY_INLINE V force(V gap) const {
@@ -126,20 +144,22 @@ public:
     }
     /// As above; exact where the site ends in the repulsion.
     template <class V>
-    ASPERITY_INLINE V settle(V gap, V goal, V spring) const {
+    ASPERITY_INLINE V settle(V gap, V goal, V spring, V bound) const {
         V g = max(V(0.0), gap);
-        for (int i = 0; i < newton_steps; ++i) {
-            const V pull = V(tension_) * decay(g);
-            g = max(V(0.0), g + (spring * (goal - g) - pull) / (spring - V(1.0 / range_) * pull));
+        const V least = V(SiteDescent::least_held) * spring;
+        for (int i = 0; i < SiteDescent::steps; ++i) {
+            const V pull = V(tension_) * decay(g), held = spring - V(1.0 / range_) * pull;
+            const V way = (spring * (goal - g) - pull) / max(least, held);
+            g = max(V(0.0), g + max(-bound, min(bound, way)));
         }
-        const V excess = spring * goal - V(tension_);
-        return select(excess < V(0.0), excess / (spring + V(stiffness_)), g);
+        const V inside = (spring * goal - V(tension_)) / (spring + V(stiffness_));
+        return select(g > V(0.0), g, min(V(0.0), inside));
     }
     double softest() const { return -tension_ / range_; }
+    double range() const { return range_; }
     /// Sites that touch the repulsion are in contact.
     ASPERITY_INLINE double contact_gap() const { return 0.0; }
     double reach() const { return adhesion_ > 0.0 ? ranges * range_ : 0.0; }
-    double adhesion() const { return adhesion_; }
     double stiffness() const { return stiffness_; }
     double tension() const { return tension_; } ///< the largest, at g = 0
 
@@ -161,7 +181,8 @@ private:
         return select(x > V(ranges), V(0.0), e);
     }
 
-    double adhesion_ = 0.0, range_ = 1.0, stiffness_ = 0.0, tension_ = 0.0;
+    double adhesion_ = 0.0; ///< A
+    double range_ = 1.0, stiffness_ = 0.0, tension_ = 0.0;
 };
 
 using WallLaw = std::variant<LennardJonesWall, ExponentialWall>;

@@ -22,7 +22,7 @@ int registries(int sites, int substrate_sites) {
     return std::min(sites / std::gcd(sites, substrate_sites), 24);
 }
 
-/// In closed form: the repulsion holds the tension A/rho at g = -A / (rho K).
+/// In closed form: the repulsion holds the tension at g = -tension / K.
 FlatReference flat_reference(const ExponentialWall& law, double area) {
     FlatReference flat;
     flat.separation = -law.tension() / law.stiffness();

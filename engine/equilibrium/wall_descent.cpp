@@ -13,8 +13,7 @@ namespace asperity {
 
 namespace {
 
-/// Elastic forces of single precision let sites rest this much off, Å.
-constexpr double rounding = 2e-5;
+using Constants = WallDescentConstants;
 
 double stiffest_wave(const SpectralBlock& block) {
     double stiffest = 0.0;
@@ -32,18 +31,21 @@ WallDescent::WallDescent(SpectralBlock& block, const Interface& interface, doubl
       phases_(phases), waves_(block.new_waves<double>()), single_waves_(block.new_waves<float>()),
       field_(block.new_field<double>()), single_field_(block.new_field<float>()),
       next_(block.tile(), 1, 0), step_(block.tile(), 1, 0) {
-    const double softest =
-        std::visit([](const auto& law) { return law.softest(); }, *interface.options().wall);
-    spring_ = std::max(stiffest_wave(block), -1.25 * softest);
-    estimate_ = spring_ * options.max_move;
+    range_ = std::visit([](const auto& law) { return law.range(); }, *interface.options().wall);
+    spring_ = stiffest_wave(block);
+    estimate_ = spring_ * range_;
     mean_ = block.mean_height();
+    const Constraint& constraint = block.constraint();
+    const double n = block.options().sites;
+    uniform_force_ = constraint.is_top() ? block.stiffness(0, 0).zz * (mean_ - constraint.value)
+                                         : constraint.load() / (n * n);
 }
 
 bool WallDescent::step() {
     if (options_.start == Start::predicted) return false;
     const auto t = phases_.time(Phase::advance);
     double turn = 0.0;
-    single_ = single_ && estimate_ > rounding * spring_;
+    single_ = single_ && estimate_ > Constants::rounding * spring_;
     if (single_) {
         elastic_forces(single_waves_, single_field_);
         turn = settle_sites(single_field_);
@@ -102,18 +104,19 @@ void WallDescent::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
 template <class T>
 double WallDescent::settle_sites(const SiteField<T>& elastic) {
     const Constraint& constraint = block_.constraint();
-    const double n = block_.options().sites, sites = n * n;
+    const double n = block_.options().sites, sites = n * n, load = constraint.load() / sites;
     const PlaneView<double> u = block_.moving_layer(0);
     WallRule rule{.reference_height = height_,
                   .spring = spring_,
                   .momentum = momentum_,
                   .norm = 1.0 / sites,
-                  .load = constraint.load() / sites,
-                  .bound = options_.max_move};
-    if (constraint.is_top()) rule.load = block_.stiffness(0, 0).zz * (mean_ - constraint.value);
+                  .load = 0.0,
+                  .bound = Constants::reach * range_,
+                  .share = Constants::share,
+                  .near = Constants::near * range_};
     double turn = 0.0, mean = 0.0;
-    const auto settle = [&](double load) {
-        rule.load = load;
+    const auto settle = [&](double force) {
+        rule.load = force;
         RowSums sums(block_.slab(), 2);
         double furthest = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : furthest)
@@ -130,22 +133,36 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
         const std::vector<double> total = sums.total();
         turn = total[0];
         mean = total[1] / (sites * sites); // RowSums multiplies by the sites
-        return mean - constraint.value;
     };
-    if (!constraint.is_mean_height()) {
-        settle(rule.load);
-        mean_ = mean;
-        return turn;
-    }
-    // The uniform force that keeps the mean height, by the secant from the last one. The mean falls
-    // as the force grows; a secant that leaves what is known of the root is replaced by a halving.
-    // Where all sites move as far as they may, the force changes nothing, and stays.
+    // What the block's spring and the load ask for, less the force, and less what L adds to the
+    // uniform wave; or what lifts the mean to where it is held.
+    const double from = mean_ + momentum_ * mean_step_;
+    const double spring = constraint.is_top() ? block_.stiffness(0, 0).zz : 0.0;
+    const auto excess = [&](double force) {
+        settle(force);
+        if (constraint.is_mean_height()) return spring_ * (mean - constraint.value);
+        const double top = constraint.is_top() ? spring * (mean - constraint.value) : load;
+        return top - spring_ * (mean - from) - force;
+    };
+    balance(excess, constraint.is_mean_height() ? 1e-13 * spring_
+                                                : Constants::closure * options_.tolerance);
+    mean_step_ = mean - mean_;
+    mean_ = mean;
+    return turn;
+}
+
+/// Finds the uniform force at which excess(force), eV/Å, is no more than enough, by the secant from
+/// the last one, downhill: the sites follow the excess, which falls as the force grows. A secant
+/// that leaves what is known of the root is replaced by a halving. Where all sites move as far as
+/// they may, the force may change nothing, and stays.
+template <class Excess>
+void WallDescent::balance(const Excess& excess_at, double enough) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    double force = uniform_force_, excess = settle(force), low = -infinite, high = infinite;
-    double next = force + spring_ * excess;
-    for (int i = 0; i < 60 && std::abs(excess) > 1e-13; ++i) {
+    double force = uniform_force_, excess = excess_at(force), low = -infinite, high = infinite;
+    double next = force + excess;
+    for (int i = 0; i < 60 && std::abs(excess) > enough; ++i) {
         (excess > 0.0 ? low : high) = force;
-        const double now = settle(next);
+        const double now = excess_at(next);
         if (now == excess) break;
         const double before = std::exchange(force, next);
         next = force - now * (force - before) / (now - excess);
@@ -153,11 +170,9 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
         (excess > 0.0 ? low : high) = force;
         if (next > low && next < high) continue;
         const bool between = low > -infinite && high < infinite;
-        next = between ? 0.5 * (low + high) : force + 2.0 * spring_ * excess;
+        next = between ? 0.5 * (low + high) : force + 2.0 * excess;
     }
     uniform_force_ = force;
-    mean_ = mean;
-    return turn;
 }
 
 /// u <- next.

@@ -12,17 +12,44 @@
 //     z = u + beta (u - u_before),    u <- rest of each site under its law and a spring L to
 //                                          z - (S z + load) / L,
 //
-// L at least the stiffness S of the block's stiffest wave and 5/4 of the law's most negative
-// stiffness. The residual force of the state u is (L - S) (z - u), so L |z - u| measures it. beta
-// follows Nesterov's sequence and starts anew where the step turns against the gradient. The number
-// of iterations goes with the root of the number of sites across the box; each takes a transform
-// there and one back, in single precision until the residual is near its rounding.
+// L the stiffness of the block's stiffest wave. Where the law is softer than -L a site has two
+// places to rest; it goes downhill to one, no further in an iteration than a part of the law's
+// range (of the gap, where that is wide). So the number of iterations does not depend on how steep
+// the law is beside the block: over rubber an attraction is ten thousand times as steep.
+//
+// Where every site has come to rest the residual force of the state u is (L - S) (z - u), so
+// L |z - u| measures it. beta follows Nesterov's sequence and starts anew where the step turns
+// against the gradient. The number of iterations goes with the root of the number of sites across
+// the box; each takes a transform there and one back, in single precision until the residual is
+// near its rounding.
+//
+// The uniform wave is not taken step by step: forces too small for a site's tolerance add up over
+// the sites to a force on the top plane, which would have one sign as long as the block is on its
+// way. In every iteration the uniform force on the sites is found by which the interface's force is
+// that of the block's spring, or the load, or by which the mean height is what it is held at.
 #pragma once
 
 #include "engine/block/spectral_block.hpp"
 #include "engine/equilibrium/relaxation.hpp"
 
 namespace asperity {
+
+/// (Measured at zero load on walls of w = 100 meV/Å², range 1 Å, E 1 to 77 GPa, and of rubber of
+/// 2 MPa, spacing 39 Å, 50 mJ/m², range 10 Å.)
+struct WallDescentConstants {
+    /// How far a site may go in an iteration, in ranges of the law. 0.01 to 0.1, and 0.3 without
+    /// momentum, end in one state; with 0.3 momentum carries sites of soft blocks over barriers (1
+    /// GPa: 43.6 for 38.8 meV/Å²). Less only takes longer (0.03: two to three times at 1 GPa).
+    static constexpr double reach = 0.1;
+    /// Beyond `near` ranges, where there is no barrier: a share of what the gap exceeds that by.
+    /// Without it a rubber takes a fifth more iterations, and ends in the same state.
+    static constexpr double share = 0.25, near = 4.0;
+    /// What may be left of the mean force, in tolerances. Steps of the secant more than this asks
+    /// for are few: it converges faster than linearly.
+    static constexpr double closure = 1e-3;
+    /// Elastic forces of single precision let sites rest this much off, Å.
+    static constexpr double rounding = 2e-5;
+};
 
 class WallDescent {
 public:
@@ -43,6 +70,8 @@ private:
     void elastic_forces(Waves<T>& waves, SiteField<T>& field);
     template <class T>
     double settle_sites(const SiteField<T>& elastic);
+    template <class Excess>
+    void balance(const Excess& excess_at, double enough);
     void accept();
 
     SpectralBlock& block_;
@@ -53,8 +82,10 @@ private:
     double spring_ = 0.0;        ///< L, eV/Å^2
     double sequence_ = 1.0;      ///< Nesterov's t
     double momentum_ = 0.0;      ///< beta
+    double range_ = 0.0;         ///< of the law, Å
     double mean_ = 0.0;          ///< of u, Å
-    double uniform_force_ = 0.0; ///< that holds a prescribed mean height, on each site, eV/Å
+    double mean_step_ = 0.0;     ///< of the last step, Å
+    double uniform_force_ = 0.0; ///< by which the uniform wave is in balance, on each site, eV/Å
     double estimate_;
     double doubt_ = 1.0; ///< halved where the estimate was below the tolerance and the residual not
     bool single_ = true;

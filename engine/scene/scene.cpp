@@ -116,15 +116,18 @@ io::Schema bind(Scene& scene) {
     schema.choice<WallLawKind>(
         "law", interface.law,
         {{"exponential", WallLawKind::exponential}, {"lennard-jones", WallLawKind::lennard_jones}},
-        "of a wall: -w exp(-gap/range) over a linear repulsion, or the substrate's atoms smeared "
-        "over their layer (epsilon, r0, cutoff, tail)");
-    schema.number("adhesion", interface.adhesion, "meV/Å^2", at_least(0.0),
-                  "w of the exponential law; 0: no attraction");
+        "of a wall: an attraction exp(-gap/range) over a linear repulsion, or the substrate's "
+        "atoms "
+        "smeared over their layer (epsilon, r0, cutoff, tail)");
+    schema.number(
+        "adhesion", interface.adhesion, "meV/Å^2", at_least(0.0),
+        "work of adhesion of flat surfaces, Δγ, of the exponential law; 0: no attraction");
     schema.number("range", interface.range, "Å", positive(), "of the exponential law");
     schema.number_or(
         "stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
-        "of the exponential law's repulsion; \"auto\": a thousand times that of the block "
-        "for its shortest wave, 500 π E* / spacing, nearly a hard wall");
+        "of the exponential law's repulsion; \"auto\": nearly a hard wall, a thousand times that "
+        "of the block for its shortest wave, 500 π E* / spacing, and at least 50 adhesion / "
+        "range²");
 
     auto& drive = scene.drive;
     schema.section("drive", "What is done to the top plane, and how time passes.");

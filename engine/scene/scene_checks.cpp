@@ -6,6 +6,7 @@
 #include "engine/scene/scene.hpp"
 
 #include "engine/scene/sweep_limits.hpp"
+#include "engine/units.hpp"
 #include "kernels/variant.hpp"
 
 #include <fmt/format.h>
@@ -294,6 +295,24 @@ std::vector<std::string> notes(const Scene& scene) {
         list.push_back(fmt::format("the \"zero-load\" state carries drive.load = {:.6g} MPa; its "
                                    "binding energy leaves out the load's potential",
                                    scene.drive.load));
+    const bool wall = scene.interface.kind == InterfaceKind::wall;
+    const bool exponential = wall && scene.interface.law == WallLawKind::exponential;
+    if (exponential) {
+        // The gap opens as the root of the distance from the edge of a contact.
+        const double modulus = scene.block.young * units::gigapascal /
+                               (1.0 - scene.block.poisson * scene.block.poisson);
+        const double adhesion = scene.interface.adhesion / units::milli_per_unit;
+        const double range = scene.interface.range, strip = modulus * range * range / adhesion;
+        const double enough = std::sqrt(2.0 * surface.spacing * adhesion / modulus);
+        if (strip < 2.0 * surface.spacing)
+            list.push_back(fmt::format(
+                "the attraction reaches {:.2g} Å beside the edge of a contact (E* range^2 / "
+                "adhesion), less than two spacings: single rows of sites hold the edge in place, "
+                "and "
+                "a sphere's pull-off force can be 12 % off; interface.range = {:.3g} Å or more, or "
+                "surface.spacing = {:.3g} Å or less, avoids that",
+                strip, enough, 0.5 * strip));
+    }
     const auto idle = [&](const std::string& key, const std::string& reason) {
         if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
     };
@@ -309,8 +328,6 @@ std::vector<std::string> notes(const Scene& scene) {
     else
         idle("drive.step", "drive.mode is \"dynamic\"");
     if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
-    const bool wall = scene.interface.kind == InterfaceKind::wall;
-    const bool exponential = wall && scene.interface.law == WallLawKind::exponential;
     if (!wall) idle("interface.law", "interface.kind is not \"wall\"");
     for (const char* key : {"interface.adhesion", "interface.range", "interface.stiffness"})
         if (!exponential) idle(key, "there is no wall with the exponential law");

@@ -239,12 +239,15 @@ InterfaceOptions interface_options(const Scene& scene) {
         options.wall = LennardJonesWall(options.potential, 1.0 / site, i.tail);
         return options;
     }
-    // E* q/2 of the shortest wave along an axis, q = pi / a.
-    const double modulus = scene.block.young / (1.0 - scene.block.poisson * scene.block.poisson);
+    const double adhesion = i.adhesion / units::milli_per_unit;
+    // E* q/2 of the shortest wave along an axis, q = pi / a, and the attraction's own curvature.
+    const double modulus =
+        scene.block.young * units::gigapascal / (1.0 - scene.block.poisson * scene.block.poisson);
     const double shortest_wave = 0.5 * std::numbers::pi * modulus / a;
-    options.wall =
-        ExponentialWall(i.adhesion * site / units::milli_per_unit, i.range,
-                        i.stiffness.value_or(1000.0 * shortest_wave) * units::gigapascal * site);
+    const double curvature = adhesion / (i.range * i.range);
+    const double stiffness = i.stiffness ? *i.stiffness * units::gigapascal
+                                         : std::max(1000.0 * shortest_wave, 50.0 * curvature);
+    options.wall = ExponentialWall(adhesion * site, i.range, stiffness * site);
     return options;
 }
 

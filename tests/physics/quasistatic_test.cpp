@@ -206,6 +206,31 @@ TEST(Quasistatic, RoughWorkOverAWallIsEnergyPlusLoss) {
         }
 }
 
+/// The spring's force is the interface's at every point: what is left has no sign along a leg, and
+/// does no work of its own. (A block that is still on its way leaves some of the tolerance at every
+/// site, all of one sign.)
+TEST(Quasistatic, HeldTopOverAWallIsInBalance) {
+    for (const double tolerance : {1e-3, 1e-4}) {
+        BlockOptions o = test::paper_block(32, 24, 0);
+        o.young = 90.5 * units::gigapascal;
+        o.poisson = 0.275;
+        const double site = o.spacing * o.spacing;
+        Case c(o, test::reference_surface("c3_N32_T32_rms1.5", 2.0),
+               ExponentialWall(0.0754 * site, 1.25, 50.0));
+        QuasistaticPath path = c.path(tolerance, 0.2);
+        path.start();
+        for (const Leg leg : {Leg::approach, Leg::pull_off}) {
+            double sum = 0.0;
+            const auto points = follow(path, leg);
+            ASSERT_GT(points.size(), 20u);
+            for (const StepRecord& r : points)
+                sum += r.top_force - r.force;
+            EXPECT_NEAR(sum / static_cast<double>(points.size()), 0.0,
+                        1e-2 * tolerance * c.sites());
+        }
+    }
+}
+
 TEST(Quasistatic, AgainTheSameCycle) {
     // Apart, nothing is left of the contact: a second cycle is the first.
     Case c(test::paper_block(10, 40, 0), test::flat_surface(10), true);

@@ -3,10 +3,12 @@
 //
 // A wall in place of atoms: its laws, the states over it, and problems with closed forms.
 #include "engine/equilibrium/equilibrium.hpp"
+#include "engine/equilibrium/quasistatic.hpp"
 #include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
+#include "support/path_case.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +18,7 @@
 #include <vector>
 
 using namespace asperity;
+using test::over;
 
 namespace {
 
@@ -27,12 +30,6 @@ std::vector<WallLaw> laws() {
     return {LennardJonesWall(pair, 1.0 / (a * a), false),
             LennardJonesWall(pair, 1.0 / (a * a), true), ExponentialWall(0.7, 1.3, 24.0),
             ExponentialWall(0.0, 1.0, 24.0)};
-}
-
-InterfaceOptions over(const WallLaw& law) {
-    InterfaceOptions o = test::paper_interface();
-    o.wall = law;
-    return o;
 }
 
 Surface wave(int sites, double spacing, double amplitude) {
@@ -52,6 +49,12 @@ Surface rough(int sites, double rms) {
     return make_surface(o);
 }
 
+BlockOptions paper_block_of(int sites, double spacing) {
+    BlockOptions o = test::paper_block(sites, sites, 0);
+    o.spacing = spacing;
+    return o;
+}
+
 /// The relaxed state of a frictionless block over a wall, from the strongest attraction.
 struct AtWall {
     Surface surface;
@@ -61,9 +64,9 @@ struct AtWall {
     RelaxOptions options;
 
     AtWall(const Surface& s, double spacing, const WallLaw& law)
-        : surface(s), interface(s, Tile{0, 0, s.sites, s.sites, s.sites}, spacing, over(law)) {
-        BlockOptions o = test::paper_block(s.sites, s.sites, 0);
-        o.spacing = spacing;
+        : AtWall(s, paper_block_of(s.sites, spacing), law) {}
+    AtWall(const Surface& s, const BlockOptions& o, const WallLaw& law)
+        : surface(s), interface(s, Tile{0, 0, s.sites, s.sites, s.sites}, o.spacing, over(law)) {
         block = spectral_at_rest(o, Communicator(), true, true);
         height = height_of_strongest_attraction(
             *block, interface, *std::min_element(s.height.begin(), s.height.end()), Communicator());
@@ -121,11 +124,51 @@ TEST(WallLaw, SiteComesToRestUnderItsSpring) {
                 for (double goal = -1.0; goal < 9.0; goal += 0.217) {
                     double g = std::max(goal, 2.0);
                     for (int i = 0; i < 20; ++i)
-                        g = law.settle(g, goal, spring);
+                        g = law.settle(g, goal, spring, 0.3);
                     EXPECT_NEAR(spring * (goal - g) + law.force(g), 0.0, 1e-9) << goal << " " << g;
                 }
             },
             any);
+}
+
+/// Held by less than the attraction's steepest, a site may rest at two places: it stays on its side
+/// of what lies between them. The place downhill of a start, by a walk in short steps.
+TEST(WallLaw, SiteGoesDownhillToTheNearestRest) {
+    for (const WallLaw& any : laws())
+        std::visit(
+            [](const auto& law) {
+                if (law.softest() == 0.0) return; // does not attract
+                const double spring = -0.05 * law.softest();
+                for (double goal = -1.0; goal < 12.0; goal += 0.593)
+                    for (double from = 3.0; from < 9.0; from += 0.371) {
+                        const auto pull = [&](double g) {
+                            return spring * (goal - g) + law.force(g);
+                        };
+                        const double way = pull(from) > 0.0 ? 1e-3 : -1e-3;
+                        double rest = from;
+                        while (pull(rest + way) * way > 0.0)
+                            rest += way;
+                        double g = from;
+                        for (int i = 0; i < 2000; ++i)
+                            g = law.settle(g, goal, spring, 0.1 * law.range());
+                        EXPECT_NEAR(g, rest, 2e-3) << goal << " from " << from;
+                    }
+            },
+            any);
+}
+
+/// The well of the exponential law is as deep as it says, however soft the repulsion.
+TEST(WallLaw, DeepestByItsWorkOfAdhesion) {
+    for (const double stiffness : {1e5, 24.0, 1.0, 0.05}) {
+        const ExponentialWall law(0.7, 1.3, stiffness);
+        double least = 0.0, at = 0.0;
+        for (double g = -20.0; g < 1.0; g += 1e-3)
+            if (law.energy(g) < least) least = law.energy(g), at = g;
+        EXPECT_NEAR(law.force(-law.tension() / stiffness), 0.0, 1e-12);
+        EXPECT_NEAR(at, -law.tension() / stiffness, 1.1e-3);
+        EXPECT_NEAR(law.energy(-law.tension() / stiffness), -0.7, 1e-12) << stiffness;
+        EXPECT_LE(-least, 0.7 + 1e-12);
+    }
 }
 
 /// Two flat solids: closed forms.
@@ -138,16 +181,131 @@ TEST(Wall, FlatOnFlat) {
     EXPECT_NEAR(smeared.separation, 3.28, 1e-9);
     const ExponentialWall law(0.7, 1.3, 24.0);
     const FlatReference found = flat(law);
-    const double tension = 0.7 / 1.3, area = a * a;
-    EXPECT_NEAR(found.separation, -tension / 24.0, 1e-12);
-    EXPECT_NEAR(found.work_of_adhesion, 1e3 * (0.7 + 0.5 * tension * tension / 24.0) / area, 1e-9);
-    EXPECT_NEAR(found.largest_tension, tension / area / units::gigapascal, 1e-9);
+    // Of the attraction A and its work A + A²/(2 ρ² K).
+    const double area = a * a, hard = 1.3 * 1.3 * 24.0;
+    const double attraction = hard * (std::sqrt(1.0 + 2.0 * 0.7 / hard) - 1.0);
+    EXPECT_NEAR(found.separation, -attraction / 1.3 / 24.0, 1e-12);
+    EXPECT_NEAR(found.work_of_adhesion, 1e3 * 0.7 / area, 1e-9);
+    EXPECT_NEAR(found.largest_tension, attraction / 1.3 / area / units::gigapascal, 1e-9);
     // A block over a flat wall ends there.
     AtWall state(test::flat_surface(16), a, law);
     const RelaxedState s = state.relax(Constraint::load(0.0));
     EXPECT_NEAR(-1e3 * (s.interface_energy + s.elastic_energy) / (256 * area),
                 found.work_of_adhesion, 1e-6);
     EXPECT_EQ(s.in_contact, 256);
+}
+
+/// Δγ of a scene is its interface.adhesion, with a block as soft as rubber and one as hard as gold.
+TEST(Wall, WorkOfAdhesionIsTheScenes) {
+    for (const char* young : {"2 MPa", "77 GPa"})
+        for (const char* range : {"2.5 Å", "10 Å"}) {
+            const std::vector<std::string> keys = {"interface.kind=wall",
+                                                   "block.model=spectral",
+                                                   "drive.path=zero-load",
+                                                   "interface.adhesion=3.12",
+                                                   std::string("interface.range=") + range,
+                                                   std::string("block.young=") + young};
+            const Scene scene =
+                read_scene_text("[surface]\nsites = 32\nspacing = \"39 Å\"\n", "wall.toml", keys);
+            EXPECT_NEAR(make_setup(scene, 1).flat.work_of_adhesion, 3.12, 3.12e-9)
+                << young << " " << range;
+        }
+}
+
+/// Where the relaxation starts: the strongest attraction of all heights, by a scan of its own.
+TEST(Wall, StartsWhereTheAttractionIsStrongest) {
+    const Surface s = rough(32, 2.0);
+    for (const WallLaw& law : laws()) {
+        const AtWall at(s, a, law);
+        const auto force = [&](double height) {
+            double sum = 0.0;
+            for (const double below : s.height)
+                sum += std::visit([&](const auto& l) { return l.force(height - below); }, law);
+            return sum;
+        };
+        double strongest = 0.0, where = at.interface.attraction_grows_down_to();
+        for (double height = 20.0; height > -10.0; height -= 0.01)
+            if (force(height) < strongest) strongest = force(height), where = height;
+        EXPECT_NEAR(at.height, where, 0.1);
+    }
+}
+
+/// The closest distance is the least gap, and nothing where a site is pressed in; so are the maps.
+TEST(Wall, ClosestIsTheLeastGap) {
+    const Surface s = rough(32, 1.0);
+    const double highest = *std::max_element(s.height.begin(), s.height.end());
+    for (const WallLaw& law : laws()) {
+        AtWall at(s, a, law);
+        at.block->set_uniform(0.0);
+        for (const double gap : {2.0, 0.25, -0.25}) {
+            const InterfaceSums sums = at.interface.sweep(
+                at.block->lowest_layer(), at.block->interface_force(), highest + gap, true);
+            EXPECT_NEAR(count_contacts(sums, Communicator()).closest, std::max(gap, 0.0), 1e-12);
+            const InterfaceMaps maps = at.interface.maps(at.block->lowest_layer(), highest + gap);
+            for (std::size_t i = 0; i < s.height.size(); ++i)
+                EXPECT_NEAR(maps.distance[i], std::max(highest + gap - s.height[i], 0.0), 1e-12);
+        }
+    }
+}
+
+/// A block of this modulus over a wall as rough as a scene says.
+struct SoftOverRough {
+    Scene scene;
+    Setup setup;
+    AtWall at;
+    explicit SoftOverRough(const std::vector<std::string>& keys)
+        : scene(of(keys)), setup(make_setup(scene, 1)),
+          at(scene_surface(scene), setup.simulation.block, *setup.simulation.interface.wall) {}
+
+private:
+    static Scene of(const std::vector<std::string>& keys) {
+        return read_scene_text(R"(
+[surface]
+sites = 32
+rolloff = 2
+[block]
+model = "spectral"
+thickness = 32
+poisson = 0.49
+[interface]
+kind = "wall"
+[drive]
+path = ["zero-load"]
+)",
+                               "wall.toml", keys);
+    }
+};
+
+/// Rubber: its attraction is ten thousand times as steep as the block is stiff.
+TEST(Wall, SoftAndRoughComesToRest) {
+    for (const char* young : {"2 MPa", "100 MPa"})
+        for (const char* range : {"2.5 Å", "10 Å"}) {
+            SoftOverRough soft({std::string("block.young=") + young, "surface.spacing=39",
+                                "surface.rms=100", "interface.adhesion=3.12",
+                                std::string("interface.range=") + range});
+            soft.at.options.tolerance = 1e-3;
+            const RelaxedState s = soft.at.relax(Constraint::load(0.0));
+            EXPECT_LT(s.iterations, 20000) << young << " " << range;
+            EXPECT_NEAR(s.force, 0.0, 1e-2 * soft.at.sites() * 1e-3);
+            EXPECT_LT(s.interface_energy + s.elastic_energy, 0.0);
+        }
+}
+
+/// Without the inertia of its iterations: momentum does not take sites over barriers.
+TEST(Wall, RelaxationEndsWhereASlowApproachEnds) {
+    SoftOverRough soft({"block.young=1", "surface.rms=6", "surface.spacing=2.6"});
+    const double reference = soft.at.interface.start_height();
+    const RelaxedState found = soft.at.relax(Constraint::load(0.0));
+    PathOptions o;
+    o.along = Constraint::Of::mean_height;
+    o.tolerance = 1e-4;
+    o.reference_height = reference;
+    QuasistaticPath path(*soft.at.block, soft.at.interface, o);
+    path.start();
+    test::follow(path, Leg::approach);
+    const double at_end = test::energy(path.now());
+    EXPECT_LT(at_end, 0.0);
+    EXPECT_NEAR(found.interface_energy + found.elastic_energy, at_end, 1e-3 * std::abs(at_end));
 }
 
 /// A state is one of equilibrium, whatever is held to get there; energies change by the work done.
