@@ -16,7 +16,7 @@ import pytest
 
 import asperity
 from asperity import program, scene
-from conftest import SMALL, command, unsealed
+from conftest import SMALL, STATE, command, unsealed
 
 
 def test_a_result_is_what_the_files_hold(path_run):
