@@ -102,6 +102,18 @@ def test_a_directory_that_is_taken_is_not_written_over(tmp_path, monkeypatch):
         asperity.run(SMALL, short, out=first.directory)
 
 
+@pytest.mark.parametrize("closed", [False, True])
+def test_a_run_file_that_another_program_writes_to_says_so(state_run, tmp_path, closed):
+    shutil.copytree(state_run.directory, tmp_path / "copy")
+    with h5py.File(tmp_path / "copy/run.h5", "r+") as file:
+        if closed:
+            file.close()
+        result = asperity.load(tmp_path / "copy")
+        for missing in (lambda: result.fields["zero-load"], lambda: result.series["force"]):
+            with pytest.raises(KeyError, match="run.h5 cannot be read to its end"):
+                missing()
+
+
 @pytest.mark.parametrize("ranks", [0, -1])
 def test_no_rank_is_an_error(tmp_path, ranks):
     with pytest.raises(asperity.SceneError, match="is no number of ranks"):
