@@ -158,8 +158,14 @@ class RunFile:
     The first read compares the file with the digest at its end, if it was written with one.
     """
 
-    def __init__(self, path: Path):
+    def __init__(self, path: Path, unread: str = ""):
         self.path = path
+        self.unread = unread
+        """why nothing of it is here"""
+
+    def lacks(self, what: str, there: list[str]) -> KeyError:
+        return KeyError(f"no {what}" + (f"; there are {', '.join(there)}" if there else "") +
+                        (f". {self.unread}" if self.unread else ""))
 
     @functools.cached_property
     def _whole(self) -> bool | None:
@@ -235,7 +241,7 @@ class Group(Mapping):
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._names:
-            raise KeyError(name)
+            raise self._file.lacks(f"{name} in {self._path}", self._names)
         if name not in self._read:
             self._read[name] = self._array(name)
         return self._read[name]
@@ -329,6 +335,17 @@ class Substrate(Group):
         return self._file.array(f"{self._path}/type", 1).astype(int) if "type" in self._all else np.ones(len(self.atoms), int)
 
 
+class States(dict):
+    """Of a run file, its states by name."""
+
+    def __init__(self, file: RunFile):
+        super().__init__({name: State(file, name) for name in file.members("/fields")})
+        self._file = file
+
+    def __missing__(self, name: str) -> State:
+        raise self._file.lacks(f"state {name}", list(self))
+
+
 class Result(Values):
     """One run: the keys of result.json as attributes, and
 
@@ -349,12 +366,12 @@ class Result(Values):
             self._open("run.h5")
         except InputOutputError as error:
             self.notes.append(f"run.h5 cannot be read to its end ({str(error).split('why: ')[-1].splitlines()[0]}).")
-            self._open("no run.h5")
+            self._open("no run.h5", self.notes[-1])
 
-    def _open(self, name: str) -> None:
-        file = self.file = RunFile(self.directory / name)
+    def _open(self, name: str, unread: str = "") -> None:
+        file = self.file = RunFile(self.directory / name, unread)
         self.series, self.substrate = Series(file), Substrate(file)
-        self.fields = {state: State(file, state) for state in file.members("/fields")}
+        self.fields = States(file)
 
     @property
     def units(self) -> Values:

@@ -16,7 +16,7 @@ import pytest
 
 import asperity
 from asperity import program, scene
-from conftest import SMALL, command, unsealed
+from conftest import SMALL, STATE, command, unsealed
 
 
 def test_a_result_is_what_the_files_hold(path_run):
@@ -100,6 +100,18 @@ def test_a_directory_that_is_taken_is_not_written_over(tmp_path, monkeypatch):
     assert [str(r.directory) for r in (first, second)] == ["results/small", "results/small-2"]
     with pytest.raises(asperity.SceneError):
         asperity.run(SMALL, short, out=first.directory)
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_a_run_file_that_another_program_writes_to_says_so(state_run, tmp_path, closed):
+    shutil.copytree(state_run.directory, tmp_path / "copy")
+    with h5py.File(tmp_path / "copy/run.h5", "r+") as file:
+        if closed:
+            file.close()
+        result = asperity.load(tmp_path / "copy")
+        for missing in (lambda: result.fields["zero-load"], lambda: result.series["force"]):
+            with pytest.raises(KeyError, match="run.h5 cannot be read to its end"):
+                missing()
 
 
 @pytest.mark.parametrize("ranks", [0, -1])

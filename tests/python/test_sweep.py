@@ -420,13 +420,16 @@ def test_a_damaged_point_is_told_and_run_again(place):
     words = ["sweep", "state.toml", "--set", "theory.renormalised=false", "--progress", "off", "--out", "one"]
     command(*words)
     before = numbers("one")
-    for damage in (lambda path: path.write_bytes(path.read_bytes()[:200]), lambda path: path.write_text(
-            path.read_text().replace('"binding_energy": ', '"binding_energy": 1')), lambda path: path.write_bytes(b"")):
-        damage(place / "one/rms=0.4,seed=1/result.json")
-        said = command(*words)
-        assert "note: one/rms=0.4,seed=1/result.json cannot be read" in said and "4 of 4 points are done" in said
-        assert "3 are there already" in said and numbers("one") == before
-        assert (place / "one/rms=0.4,seed=1/result-damaged.json").exists()
+    path = place / "one/rms=0.4,seed=1/result.json"
+    whole = path.read_bytes()
+    for damaged in (b"", whole.replace(b'"binding_energy": ', b'"binding_energy": 1'), whole[:200]):
+        path.write_bytes(damaged)
+        outcome = pool.look_at(pool.Job("rms=0.4,seed=1", path.parent, "state.toml", [], json.loads(whole)["scene"]))
+        assert outcome.status == pool.WAITING and outcome.damaged
+    said = command(*words)
+    assert "note: one/rms=0.4,seed=1/result.json cannot be read" in said and "4 of 4 points are done" in said
+    assert "3 are there already" in said and numbers("one") == before
+    assert (path.parent / "result-damaged.json").read_bytes() == whole[:200]
     # What cannot be run again is told as failed, and the others go on.
     shutil.rmtree("one/rms=0.2,seed=1")
     point = place / "one/rms=0.4,seed=1"
@@ -453,8 +456,8 @@ def test_a_lock_that_is_anothers_by_now_stays(tmp_path):
 
 @pytest.mark.parametrize("out, says", [("", "is empty"), ("/", "root of all directories"), ("/../", "root of all directories")])
 def test_a_directory_that_can_be_none_is_refused(place, out, says):
-    for words in (["sweep", "state.toml"], ["cost", "path.toml"], ["run", "path.toml"], ["theory", "path.toml"],
-                  ["surface", "path.toml"]):
+    for words in (["sweep", "state.toml"], ["cost", "path.toml", "--set", "drive.max_steps=0"], ["run", "path.toml"],
+                  ["theory", "path.toml"], ["surface", "path.toml"]):
         assert says in command(*words, "--out", out, expect=2), words
     for call in (asperity.run, asperity.sweep):
         with pytest.raises(asperity.SceneError, match=says):
