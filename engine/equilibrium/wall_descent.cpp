@@ -134,15 +134,15 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
         turn = total[0];
         mean = total[1] / (sites * sites); // RowSums multiplies by the sites
     };
-    // What the block's spring and the load ask for, less the force, and less what L adds to the
-    // uniform wave; or what lifts the mean to where it is held.
-    const double from = mean_ + momentum_ * mean_step_;
+    // What the block's spring and the load ask for, less the force, and less what S and L have of
+    // the uniform wave; or what lifts the mean to where it is held.
+    const double ahead = momentum_ * mean_step_;
     const double spring = constraint.is_top() ? block_.stiffness(0, 0).zz : 0.0;
     const auto excess = [&](double force) {
         settle(force);
         if (constraint.is_mean_height()) return spring_ * (mean - constraint.value);
-        const double top = constraint.is_top() ? spring * (mean - constraint.value) : load;
-        return top - spring_ * (mean - from) - force;
+        const double top = constraint.is_top() ? spring * (mean - ahead - constraint.value) : load;
+        return top - spring_ * (mean - mean_ - ahead) - force;
     };
     balance(excess, constraint.is_mean_height() ? 1e-13 * spring_
                                                 : Constants::closure * options_.tolerance);
