@@ -125,11 +125,11 @@ FlatInterface FlatInterface::wall(std::function<double(double)> energy, double c
 }
 
 FlatInterface::Terms FlatInterface::terms(int ring, double u) const {
-    if (wall_) return {wall_(u), 0, 0};
+    if (wall_) return {wall_(u), 0, 0, 0};
     const double R = radii_[static_cast<std::size_t>(ring)];
     const double density = densities_[static_cast<std::size_t>(ring)];
     const PairDerivatives d = derivatives(pair_, R * R + u * u);
-    return {density * d.energy, density * d.second * R * u,
+    return {density * d.energy, density * (d.first + d.second * u * u), density * d.second * R * u,
             density * 0.5 * (2 * d.first + d.second * R * R)};
 }
 

@@ -34,6 +34,7 @@ public:
     /// What one ring gives at a separation, per area.
     struct Terms {
         double energy = 0;   ///< V [energy/length²]
+        double bend = 0;     ///< ∂²V/∂u² [energy/length⁴]; not the kink at a cutoff
         double tilt = 0;     ///< ∂²V/∂R∂u [energy/length⁴]
         double sideways = 0; ///< ½ (V_RR + V_R/R) [energy/length⁴]
     };
@@ -48,6 +49,7 @@ public:
                               double contact);
 
     [[nodiscard]] const std::vector<double>& rings() const { return radii_; } ///< R [length]
+    [[nodiscard]] bool has_atoms() const { return !wall_; }
     [[nodiscard]] Terms terms(int ring, double u) const;
     [[nodiscard]] double energy(double u) const; ///< φ(u) [energy/length²]
 

@@ -98,6 +98,11 @@ double wavevector_at(const Spectrum& spectrum, double t, double low, double high
 /// Of S + φ″: below it the equation is continued by its tangent.
 double smallest(double S, double D) { return 1e-4 * (S + std::abs(D)); }
 
+/// dφ/dh² of a shell.
+double rate(double S, double D, double curvature) {
+    return 0.5 * (S + 2 * D - (S + D) * (S + D) / std::max(S + curvature, smallest(S, D)));
+}
+
 /// One flow of φ and its observables on one grid.
 class Flow {
 public:
@@ -105,7 +110,12 @@ public:
     void run();
 
     std::vector<double> u, phi;
-    [[nodiscard]] double contact(std::size_t i) const { return observed_[i * columns_]; }
+    /// Of each point: contact fraction, φ_tt, what tilt has cost and lateral forces have stiffened
+    /// of φ so far (expected errors), then V_uu of each ring and V_Ru of each ring.
+    enum Column : std::size_t { touching, sideways, tilt_cost, stiffening, rings_from };
+    [[nodiscard]] double observed(std::size_t i, Column c) const {
+        return observed_[i * columns_ + c];
+    }
     /// About the values that run() computes: at each shell and point the observables, and φ as
     /// often as Newton's method iterates.
     [[nodiscard]] double work() const {
@@ -113,24 +123,25 @@ public:
     }
 
 private:
-    using Column = std::vector<double>;
+    using Values = std::vector<double>;
 
     void make_grid(double spacing);
-    [[nodiscard]] double curvature(const Column& f, std::size_t i) const {
+    [[nodiscard]] double curvature(const Values& f, std::size_t i) const {
         return left_[i] * (f[i - 1] - f[i]) + right_[i] * (f[i + 1] - f[i]);
     }
-    void set_coefficients(double q, const Column& observed);
-    void solve_potential(Column& f, const Column& from, double dt);
-    void solve_observables(Column& x, const Column& f, double dt);
+    void set_coefficients(double q, const Values& observed);
+    void solve_potential(Values& f, const Values& from, double dt);
+    void solve_observables(Values& x, const Values& f, double dt);
     [[nodiscard]] double rate_at_wall() const;
 
     const RoughInterface& rough_;
     Shells shells_;
     std::size_t points_ = 0, columns_ = 0, rings_ = 0;
-    Column left_, right_; // second derivative: left (f[i-1] - f[i]) + right (f[i+1] - f[i])
-    Column observed_;     // [point][column]: contact, φ_tt, V_uu of each ring, V_Ru of each ring
-    Column stiffness_, tilt_; // S and D of the shell at each point
-    Column below_, scale_, above_, right_side_;
+    Values left_, right_; // second derivative: left (f[i-1] - f[i]) + right (f[i+1] - f[i])
+    Values observed_;     // [point][column]
+    Values stiffness_, tilt_, unrelieved_; // S, D and D without the gain of the shell, by point
+    double frictionless_ = 0;              // S without friction
+    Values below_, scale_, above_, right_side_;
     double wall_curvature_ = 0;
 };
 
@@ -140,32 +151,27 @@ Flow::Flow(const RoughInterface& rough, const RenormalisedOptions& options, int 
     const double well = flat.inflection() - flat.separation();
     shells_ = cut_shells(rough.spectrum, options.steps, well, refinement);
     make_grid(options.spacing * well / (1 << refinement));
-    rings_ = flat.rings().size();
-    if (rings_ == 1 && flat.rings()[0] == 0) rings_ = 0;
-    columns_ = 2 + 2 * rings_;
+    rings_ = flat.has_atoms() ? flat.rings().size() : 0;
+    columns_ = rings_from + 2 * rings_;
     points_ = u.size();
     phi.resize(points_);
     observed_.assign(points_ * columns_, 0);
     const double slopes = std::pow(rough.spectrum.rms_slope(), 2);
-    Column ring(points_);
     for (std::size_t i = 0; i < points_; ++i)
-        observed_[i * columns_] = flat.contact(u[i], slopes);
+        observed_[i * columns_ + touching] = flat.contact(u[i], slopes);
     for (std::size_t k = 0; k < flat.rings().size(); ++k) {
         for (std::size_t i = 0; i < points_; ++i) {
             const FlatInterface::Terms terms = flat.terms(static_cast<int>(k), u[i]);
-            ring[i] = terms.energy;
             phi[i] += terms.energy;
             if (rings_ == 0) continue;
-            observed_[i * columns_ + 1] += terms.sideways;
-            observed_[i * columns_ + 2 + rings_ + k] = terms.tilt;
+            double* row = &observed_[i * columns_];
+            row[sideways] += terms.sideways;
+            row[rings_from + k] = terms.bend;
+            row[rings_from + rings_ + k] = terms.tilt;
         }
-        // The same second difference as of φ, so that the rings sum to φ″ as it is used.
-        for (std::size_t i = 1; rings_ > 0 && i + 1 < points_; ++i)
-            observed_[i * columns_ + 2 + k] = curvature(ring, i);
-        if (rings_ > 0) observed_[2 + k] = observed_[columns_ + 2 + k];
     }
     wall_curvature_ = curvature(phi, 1);
-    for (Column* c : {&stiffness_, &tilt_, &below_, &scale_, &above_, &right_side_})
+    for (Values* c : {&stiffness_, &tilt_, &unrelieved_, &below_, &scale_, &above_, &right_side_})
         c->assign(points_, 0);
 }
 
@@ -199,12 +205,13 @@ void Flow::make_grid(double spacing) {
 }
 
 /// S and D at every separation, from the observables of the rings.
-void Flow::set_coefficients(double q, const Column& observed) {
+void Flow::set_coefficients(double q, const Values& observed) {
     const WaveStiffness s = rough_.stiffness(q);
     const bool friction = rough_.friction && rings_ > 0;
+    frictionless_ = s.free_zz;
     std::fill(stiffness_.begin(), stiffness_.end(), s.free_zz);
     if (rings_ == 0) return;
-    Column tilted(rings_), bessel1(rings_);
+    Values tilted(rings_), bessel1(rings_);
     for (std::size_t k = 0; k < rings_; ++k) {
         const double x = q * rough_.flat.rings()[k];
         tilted[k] = 1 - boost::math::cyl_bessel_j(0, x);
@@ -214,26 +221,23 @@ void Flow::set_coefficients(double q, const Column& observed) {
         const double* row = &observed[i * columns_];
         double d = 0, kappa = 0;
         for (std::size_t k = 0; k < rings_; ++k) {
-            d += row[2 + k] * tilted[k];
-            kappa += row[2 + rings_ + k] * bessel1[k];
+            d += row[rings_from + k] * tilted[k];
+            kappa += row[rings_from + rings_ + k] * bessel1[k];
         }
-        tilt_[i] = d;
+        tilt_[i] = unrelieved_[i] = d;
         if (!friction) continue;
-        stiffness_[i] = s.zz - s.xz * s.xz / (s.xx + std::max(row[1], 0.0));
+        stiffness_[i] = s.zz - s.xz * s.xz / (s.xx + std::max(row[sideways], 0.0));
         kappa = std::abs(kappa);
-        const double K = s.xx + row[1], furthest = u[i] * q;
+        const double K = s.xx + row[sideways], furthest = u[i] * q;
         const double v = K * furthest > kappa ? kappa / K : furthest;
         tilt_[i] = d - std::clamp((kappa - 0.5 * K * v) * v, 0.0, std::max(d, 0.0));
     }
 }
 
-double Flow::rate_at_wall() const {
-    const double a = stiffness_[0] + tilt_[0];
-    return 0.5 * (stiffness_[0] + 2 * tilt_[0] - a * a / (stiffness_[0] + wall_curvature_));
-}
+double Flow::rate_at_wall() const { return rate(stiffness_[0], tilt_[0], wall_curvature_); }
 
 /// f - dt F(f″) = from by Newton's method; the first value of f is given, the last stays zero.
-void Flow::solve_potential(Column& f, const Column& from, double dt) {
+void Flow::solve_potential(Values& f, const Values& from, double dt) {
     const double small = 1e-10 * rough_.flat.work_of_adhesion();
     for (int iteration = 0; iteration < 1000; ++iteration) {
         double before = 0, largest = 0;
@@ -264,13 +268,15 @@ void Flow::solve_potential(Column& f, const Column& from, double dt) {
                 "iterations; this is a defect of the solver, please report the input"));
 }
 
-/// x - dt W x″ = x for all columns at once, W = ½ [(S + D)/(S + f″)]².
-void Flow::solve_observables(Column& x, const Column& f, double dt) {
+/// x - dt W x″ = x for all columns at once, W = ½ [(S + D)/(S + f″)]². It is the equation of a
+/// small change of φ too: what a term of the rate has contributed to φ follows with that term
+/// added.
+void Flow::solve_observables(Values& x, const Values& f, double dt) {
     above_[0] = 0;
     for (std::size_t i = 1; i + 1 < points_; ++i) {
-        const double total =
-            std::max(stiffness_[i] + curvature(f, i), smallest(stiffness_[i], tilt_[i]));
-        const double w = (stiffness_[i] + tilt_[i]) / total;
+        const double S = stiffness_[i], bend = curvature(f, i);
+        const double total = std::max(S + bend, smallest(S, tilt_[i]));
+        const double w = (S + tilt_[i]) / total;
         const double lower = dt * 0.5 * w * w * left_[i], upper = dt * 0.5 * w * w * right_[i];
         const double pivot = 1 / (1 + lower + upper - lower * above_[i - 1]);
         below_[i] = lower;
@@ -278,6 +284,10 @@ void Flow::solve_observables(Column& x, const Column& f, double dt) {
         above_[i] = upper * pivot;
         double* row = &x[i * columns_];
         const double* last = row - columns_;
+        if (rings_ > 0) {
+            row[tilt_cost] += dt * (rate(S, unrelieved_[i], bend) - rate(S, 0, bend));
+            row[stiffening] += dt * (rate(S, tilt_[i], bend) - rate(frictionless_, tilt_[i], bend));
+        }
         for (std::size_t k = 0; k < columns_; ++k)
             row[k] = (row[k] + lower * last[k]) * pivot;
     }
@@ -294,7 +304,7 @@ void Flow::solve_observables(Column& x, const Column& f, double dt) {
 /// they are extrapolated from the last two steps, which keeps the order.
 void Flow::run() {
     const double gamma = 1 - 1 / std::sqrt(2.0), ratio = (1 - gamma) / gamma;
-    Column older = observed_, stage_observed(observed_.size()), stage(points_), from(points_);
+    Values older = observed_, stage_observed(observed_.size()), stage(points_), from(points_);
     double older_step = 0;
     for (std::size_t s = 0; s + 1 < shells_.q.size(); ++s) {
         const double start = shells_.variance[s], step = shells_.variance[s + 1] - start;
@@ -313,7 +323,7 @@ void Flow::run() {
         solve_potential(stage, phi, gamma * step);
         stage_observed = observed_;
         solve_observables(stage_observed, stage, gamma * step);
-        Column next(observed_.size());
+        Values next(observed_.size());
         for (std::size_t i = 0; i < next.size(); ++i)
             next[i] = observed_[i] + ratio * (stage_observed[i] - observed_[i]);
         // Where φ″ is about to reach -S, φ follows from that bound and not from a rate: carried
@@ -338,6 +348,7 @@ void Flow::run() {
 
 struct Point {
     double gamma, contact, separation, tension;
+    double tilt_cost, stiffening; // of γ
 };
 
 /// Value at x of the parabola through three points.
@@ -391,18 +402,39 @@ Point state_of(const Flow& flow, double pressure) {
                                  " the surfaces come closer than ", u[0],
                                  ", where their interaction is not looked at; press less"));
     at = std::clamp<std::size_t>(at, 1, n - 2);
-    double x[3], y[3], chi[3], total[3];
+    double x[3], y[3], total[3];
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t i = at - 1 + k;
         x[k] = u[i];
         y[k] = phi[i];
-        chi[k] = flow.contact(i);
         total[k] = energy(i);
     }
     point.separation = std::clamp(extremum(x, total), x[0], x[2]);
     point.gamma = -parabola(x, y, point.separation);
-    point.contact = parabola(x, chi, point.separation);
+    const auto observed = [&](Flow::Column c) {
+        double at_points[3];
+        for (std::size_t k = 0; k < 3; ++k)
+            at_points[k] = flow.observed(at - 1 + k, c);
+        return parabola(x, at_points, point.separation);
+    };
+    point.contact = observed(Flow::touching);
+    point.tilt_cost = observed(Flow::tilt_cost);
+    point.stiffening = observed(Flow::stiffening);
     return point;
+}
+
+ExpectedError expected_error(const RoughInterface& rough, const RenormalisedState& state) {
+    const double lost = 1 - std::clamp(state.gamma_ratio, 0.0, 1.0);
+    const double scatter = lost / std::sqrt(rough.spectrum.waves());
+    const double slopes = std::pow(rough.spectrum.rms_slope(), 2);
+    const bool atoms = rough.flat.has_atoms();
+    const double spread = std::sqrt(state.contact_fraction * (1 - state.contact_fraction));
+    return {
+        std::hypot((rough.ensemble ? 1.5 : 0.5) * scatter, 3.2 * slopes * state.tilt_cost,
+                   1.2 * state.stiffening) +
+            state.gamma_ratio_error,
+        std::hypot((rough.ensemble ? 1.1 : 0.8) * scatter, atoms ? 1.6 * slopes * spread : 0.0) +
+            state.contact_error};
 }
 
 void check(const RoughInterface& rough, const RenormalisedOptions& options) {
@@ -445,6 +477,7 @@ RenormalisedState solve(const RoughInterface& rough, const RenormalisedOptions& 
         state.gamma_ratio = state.contact_fraction = 1;
         state.separation = rough.flat.separation();
         state.tension = rough.flat.largest_tension();
+        state.expected = ExpectedError{};
         return state;
     }
     Point coarse{}, best{};
@@ -455,8 +488,12 @@ RenormalisedState solve(const RoughInterface& rough, const RenormalisedOptions& 
         const auto extrapolate = [&](double Point::*value) {
             return level == 0 ? point.*value : (4 * (point.*value) - coarse.*value) / 3;
         };
-        const Point now{extrapolate(&Point::gamma), extrapolate(&Point::contact),
-                        extrapolate(&Point::separation), extrapolate(&Point::tension)};
+        const Point now{extrapolate(&Point::gamma),
+                        extrapolate(&Point::contact),
+                        extrapolate(&Point::separation),
+                        extrapolate(&Point::tension),
+                        point.tilt_cost,
+                        point.stiffening};
         const auto error = [&](double Point::*value) { return std::abs(now.*value - best.*value); };
         state.gamma_ratio_error = error(&Point::gamma) / depth;
         state.contact_error = error(&Point::contact);
@@ -490,6 +527,9 @@ RenormalisedState solve(const RoughInterface& rough, const RenormalisedOptions& 
     state.contact_fraction = std::clamp(best.contact, 0.0, 1.0);
     state.separation = best.separation;
     state.tension = best.tension;
+    state.tilt_cost = best.tilt_cost / depth;
+    state.stiffening = best.stiffening / depth;
+    if (rough.pressure == 0) state.expected = expected_error(rough, state);
     return state;
 }
 
@@ -500,7 +540,7 @@ RenormalisedPotential renormalised_potential(const RoughInterface& rough, int re
     if (!rough.spectrum.smooth()) flow.run();
     RenormalisedPotential result{flow.u, flow.phi, {}};
     for (std::size_t i = 0; i < flow.u.size(); ++i)
-        result.contact.push_back(flow.contact(i));
+        result.contact.push_back(flow.observed(i, Flow::touching));
     return result;
 }
 

@@ -24,6 +24,7 @@
 // Units: any consistent set.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "theory/flat_interface.hpp"
@@ -57,8 +58,9 @@ struct RoughInterface {
     Spectrum spectrum;
     FlatInterface flat;
     StiffnessTable stiffness;
-    bool friction = true; ///< sites follow lateral forces (a wall has none)
-    double pressure = 0;  ///< p, positive pressing [stress]
+    bool friction = true;  ///< sites follow lateral forces (a wall has none)
+    double pressure = 0;   ///< p, positive pressing [stress]
+    bool ensemble = false; ///< the spectrum is that of an ensemble and not of one surface's waves
 };
 
 struct RenormalisedOptions {
@@ -71,6 +73,17 @@ struct RenormalisedOptions {
         0.125; ///< of the coarsest grid at the minimum, over its distance to inflection
 };
 
+/// Within these 19 of 20 simulated surfaces lie (calibrated; docs/theory.md has how). With N waves
+/// of equal variance (Spectrum::waves), s the rms slope, T and F the state's tilt_cost and
+/// stiffening, A its contact fraction:
+///     γ_eff/Δγ: √[ (m (1 - γ_eff/Δγ)/√N)² + (3.2 s² T)² + (1.2 F)² ],      m = 0.5, ensemble 1.5
+///     A:        √[ (m (1 - γ_eff/Δγ)/√N)² + (1.6 s²)² A (1 - A) ],         m = 0.8, ensemble 1.1
+/// T, F and the second term of A are those of atoms; a wall has none of them. Each has the
+/// numerical error added.
+struct ExpectedError {
+    double gamma_ratio = 0, contact = 0;
+};
+
 struct RenormalisedState {
     double gamma_eff = 0;                            ///< -φ(u) [energy/area]
     double gamma_ratio = 0;                          ///< over -min φ of the flat interface
@@ -79,6 +92,10 @@ struct RenormalisedState {
     double tension = 0;                              ///< max φ′ [stress]
     double gamma_ratio_error = 0, contact_error = 0; ///< estimated, see above
     bool converged = true;                           ///< both errors within the tolerance
+    /// Of γ_eff/Δγ, to first order in each: what tilt has cost before sites slide, and what lateral
+    /// forces have cost by a stiffer block. Zero for a wall.
+    double tilt_cost = 0, stiffening = 0;
+    std::optional<ExpectedError> expected; ///< none under a pressure
 };
 
 /// InvalidInput for what makes no sense; NoSolution for a pull beyond the tension that is borne,

@@ -155,6 +155,15 @@ double Spectrum::rms_height() const {
 
 double Spectrum::rms_slope() const { return std::sqrt(2 * std::numbers::pi * last().slope); }
 
+double Spectrum::waves() const {
+    if (smooth()) return 0;
+    double squares = 0; // ∫ q (C / ∫ q C dq)² dq: no overflow for heights of any size
+    for (const Segment& s : segments_)
+        squares += std::pow(s.c / height_, 2) * s.qa * s.qa *
+                   power_integral(2 + 2 * s.exponent, s.log_width);
+    return 2 * std::numbers::pi / (q_smallest_ * q_smallest_ * squares);
+}
+
 double Spectrum::height_variance_above(double q) const {
     double below = 0;
     if (const Segment* s = segment_below(q))

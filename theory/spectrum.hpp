@@ -63,6 +63,10 @@ public:
     [[nodiscard]] double rms_height() const; ///< √(2π ∫ q C dq) [length]
     [[nodiscard]] double rms_slope() const;  ///< √(2π ∫ q³ C dq) [1]
 
+    /// Number of waves of equal variance with the same (Σ variance)² / Σ variance², on a square
+    /// periodic over 2π/q_L: <h²>² / (q_L² 2π ∫ q C² dq). Zero for a smooth surface.
+    [[nodiscard]] double waves() const;
+
     /// <h²> carried by wavevectors above q [length²].
     [[nodiscard]] double height_variance_above(double q) const;
 

@@ -146,6 +146,15 @@ void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumber
         fmt::print("                 (in eV and Å: {})\n", n.state.reason);
     if (!n.state.converged)
         fmt::print("                 NOT converged to 1e-5: see the errors in the table\n");
+    if (n.renormalised && n.renormalised->numbers &&
+        n.renormalised->numbers->gamma_eff_expected_error) {
+        const RenormalisedNumbers& r = *n.renormalised->numbers;
+        fmt::print(
+            "  renormalised   γ_eff {:.3f} ± {:.3f} Δγ, contact area {:.3f} ± {:.3f}: 19 of 20 "
+            "simulated surfaces at zero load\n",
+            r.gamma_eff_ratio, *r.gamma_eff_expected_error / what.flat, r.contact_fraction,
+            *r.contact_fraction_expected_error);
+    }
     if (n.renormalised && n.renormalised->numbers)
         fmt::print("  renormalised   mean separation {}, largest tension {:.4g} GPa\n",
                    n.renormalised->numbers->separation

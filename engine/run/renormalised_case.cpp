@@ -22,7 +22,7 @@ namespace asperity {
 namespace {
 
 /// The steepest roughness at which the theory was held against simulations (docs/theory.md).
-constexpr double compared_slope = 0.5;
+constexpr double compared_slope = 0.6;
 
 WavePhase phase_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
@@ -100,11 +100,12 @@ theory::StiffnessTable lattice_stiffness(const Scene& scene) {
     return theory::StiffnessTable(std::move(table));
 }
 
-RenormalisedCase renormalised_case(const Scene& scene, const theory::Spectrum& spectrum) {
+RenormalisedCase renormalised_case(const Scene& scene, const theory::Spectrum& spectrum,
+                                   bool realised) {
     try {
         return {theory::RoughInterface{spectrum, flat_interface(scene), lattice_stiffness(scene),
                                        !scene.interface.frictionless,
-                                       scene.drive.load * units::megapascal},
+                                       scene.drive.load * units::megapascal, !realised},
                 ""};
     } catch (const std::exception& error) {
         return {std::nullopt, error.what()};
@@ -125,6 +126,10 @@ RenormalisedResult solve_renormalised(const RenormalisedCase& what) {
         n.gamma_eff_error = depth * state.gamma_ratio_error;
         n.contact_fraction = state.contact_fraction;
         n.contact_fraction_error = state.contact_error;
+        if (state.expected) {
+            n.gamma_eff_expected_error = depth * state.expected->gamma_ratio;
+            n.contact_fraction_expected_error = state.expected->contact;
+        }
         // Below this the potential is rounding, and its minimum anywhere.
         if (state.gamma_ratio > 1e-9 || rough.pressure > 0.0) n.separation = state.separation;
         n.tension = state.tension / units::gigapascal;
@@ -134,10 +139,11 @@ RenormalisedResult solve_renormalised(const RenormalisedCase& what) {
                 "contact only, on the finest grid that is tried",
                 state.gamma_ratio_error, state.contact_error);
         if (const double slope = rough.spectrum.rms_slope(); slope > compared_slope)
-            result.note += fmt::format(
-                "{}the theory is of second order in the slope and was compared with simulations up "
-                "to an rms slope of {} (up to 0.06 Δγ low there); here it is {:.2f}",
-                result.note.empty() ? "renormalised theory: " : "; ", compared_slope, slope);
+            result.note += fmt::format("{}the theory is of second order in the slope, and its "
+                                       "expected error is calibrated "
+                                       "up to an rms slope of {}; here it is {:.2f}",
+                                       result.note.empty() ? "renormalised theory: " : "; ",
+                                       compared_slope, slope);
         result.numbers = n;
     } catch (const std::exception& error) {
         result.note = error.what();
@@ -155,6 +161,11 @@ void record_renormalised(const RenormalisedResult& renormalised, io::Result& res
         result.set("theory.renormalised.tension", n.tension);
         result.set("theory.renormalised.gamma_eff_error", n.gamma_eff_error);
         result.set("theory.renormalised.contact_fraction_error", n.contact_fraction_error);
+        if (n.gamma_eff_expected_error) {
+            result.set("theory.renormalised.gamma_eff_expected_error", *n.gamma_eff_expected_error);
+            result.set("theory.renormalised.contact_fraction_expected_error",
+                       *n.contact_fraction_expected_error);
+        }
     }
     if (!renormalised.note.empty()) result.set("theory.renormalised.note", renormalised.note);
 }

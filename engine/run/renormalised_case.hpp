@@ -25,13 +25,17 @@ struct RenormalisedCase {
     std::optional<theory::RoughInterface> rough;
     std::string note;
 };
-RenormalisedCase renormalised_case(const Scene& scene, const theory::Spectrum& spectrum);
+/// realised: the spectrum is that of the surface itself.
+RenormalisedCase renormalised_case(const Scene& scene, const theory::Spectrum& spectrum,
+                                   bool realised);
 
 /// Energies in meV/Å^2, lengths in Å, stress in GPa.
 struct RenormalisedNumbers {
     double gamma_eff = 0.0, gamma_eff_error = 0.0;
     double gamma_eff_ratio = 0.0; ///< over the flat reference of the same interface
     double contact_fraction = 0.0, contact_fraction_error = 0.0;
+    /// Of the theory (theory::ExpectedError); none under a load.
+    std::optional<double> gamma_eff_expected_error, contact_fraction_expected_error;
     std::optional<double> separation; ///< of the mean planes; none where nothing binds
     double tension = 0.0;             ///< the largest that the rough interface bears
 };

@@ -161,7 +161,8 @@ TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional
         theory::check(out.contact);
     });
     if (scene.theory.renormalised)
-        out.renormalised = renormalised_case(scene, out.contact.spectrum);
+        out.renormalised =
+            renormalised_case(scene, out.contact.spectrum, theory_needs_surface(scene));
     return out;
 }
 

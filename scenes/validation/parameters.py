@@ -4,6 +4,7 @@
 """The renormalised theory against states at zero load over many sets of parameters (docs/theory.md).
 
     scenes/validation/parameters.py [SET ...] [--out results/parameters]     # all: a quarter of an hour of one core
+    scenes/validation/parameters.py --draw 100 [--from 33] --out results/drawn    # scenes drawn at random: an hour
 
 Each set is parameters.toml with some keys changed, at its roughnesses, for its surfaces, over three interfaces: the atoms with lateral
 forces (friction), without (frictionless), and the substrate's atoms smeared over their layer (wall), where there is no registry
@@ -16,13 +17,16 @@ The sets "drawn-1" to "drawn-10" were drawn at random once (uniform: Hurst expon
 """
 import argparse
 import csv
+import math
 import pathlib
+import random
 import statistics
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import asperity  # noqa: E402
+from asperity import program  # noqa: E402
 
 
 def drawn(hurst, epsilon, young, poisson, rolloff, r0, rms):
@@ -71,37 +75,125 @@ def interfaces(name: str) -> list[str]:
     return ["friction"] if name.startswith("sites") else list(INTERFACES)
 
 
-def state(name: str, interface: str, rms: float, seed: int, place: pathlib.Path) -> dict:
-    """The row of one state."""
+SCENE = ROOT / "scenes/validation/parameters.toml"
+
+
+def state(name: str, keys: dict, interface: str, rms: float, seed: int, place: pathlib.Path) -> dict:
+    """The row of one state. Numbers of a theory that has none are nan."""
     where = place / f"{name}-{interface}" / f"rms={rms:g},seed={seed}"
-    settings = {**SETS[name][0], **INTERFACES[interface], "output.checkpoint": 0, "output.fields": [],
+    settings = {**keys, **INTERFACES[interface], "output.checkpoint": 0, "output.fields": [],
                 "surface.rms": rms, "surface.seed": seed}
-    result = asperity.run(ROOT / "scenes/validation/parameters.toml", settings, where)
+    result = asperity.run(SCENE, settings, where)
     flat, theory = result["delta_gamma"], result["theory"]
-    renormalised = theory["renormalised"]
+    found = theory["renormalised"]
+    renormalised = {key: found.get(key, math.nan) for key in (
+        "gamma_eff_ratio", "gamma_eff_error", "gamma_eff_expected_error", "contact_fraction", "contact_fraction_expected_error")}
     return {"set": name, "interface": interface, "rms": rms, "seed": seed, "rms_slope": result["surface"]["rms_slope"],
             "delta_gamma": flat, "binding_energy_ratio": result["binding_energy"] / flat,
             "contact_fraction": result["contact_fraction"], "theory.gamma_eff_ratio": theory["gamma_eff"] / flat,
             "theory.contact_fraction": theory["contact_fraction"],
-            "theory.renormalised.gamma_eff_ratio": renormalised["gamma_eff_ratio"],
-            "theory.renormalised.gamma_eff_error": renormalised["gamma_eff_error"],
-            "theory.renormalised.contact_fraction": renormalised["contact_fraction"]}
+            **{"theory.renormalised." + key: value for key, value in renormalised.items()}}
+
+
+DRAWN = {"surface.sites": "sites", "surface.hurst": "hurst", "surface.rolloff": "rolloff", "block.young": "young",
+         "block.poisson": "poisson", "interface.epsilon": "epsilon", "interface.r0": "r0"}  # key: column
+
+
+def scenes_drawn(number: int, from_seed: int):
+    """Scenes drawn at random: (name, keys, rms, surface's seed). Uniform over the ranges below (Young's modulus in its
+    logarithm), the rms over 0.2 to 1.3 of that at which full contact costs all of the adhesion; those steeper than 0.6, or with
+    γ_eff of both theories below 0.05 or above 0.95 of the flat one, are drawn again. No state is looked at."""
+    chance = random.Random(from_seed)
+    for i in range(1, number + 1):
+        while True:
+            r0, sites = round(chance.uniform(2.2, 5), 2), chance.choice([96, 128, 160, 192])
+            keys = {"surface.sites": sites, "block.thickness": sites, "surface.hurst": round(chance.uniform(0.3, 0.95), 2),
+                    "surface.rolloff": round(chance.uniform(2, 6), 1),
+                    "block.young": round(math.exp(chance.uniform(math.log(20), math.log(200)))),
+                    "block.poisson": round(chance.uniform(-0.3, 0.48), 2),
+                    "interface.epsilon": round(chance.uniform(0.05, 0.25), 3),
+                    "interface.r0": r0, "interface.cutoff": round(4 * r0, 2)}
+            seed, share = chance.randint(1, 10**6), chance.uniform(0.2, 1.3)
+
+            def theory(rms: float, *more: str) -> dict:
+                return program.theory(str(SCENE), [f"{k}={v}" for k, v in keys.items()] + [
+                    f"surface.rms={rms}", f"surface.seed={seed}", *more])
+            one = theory(1, "theory.renormalised=false", "theory.area_factor=none")
+            cost = 1 - one["theory"]["gamma_full_contact"] / one["delta_gamma"]
+            rms = round(share / math.sqrt(cost), 2)
+            if one["theory"]["rms_slope"] * rms > 0.6:
+                continue
+            both = theory(rms)
+            ratios = [both["theory"]["gamma_eff"] / both["delta_gamma"],
+                      both["theory"]["renormalised"].get("gamma_eff_ratio", 0.5)]
+            if any(0.05 < ratio < 0.95 for ratio in ratios):
+                break
+        yield f"{from_seed}-{i:03}", keys, rms, seed
+
+
+def judge_drawn(options: argparse.Namespace) -> None:
+    """Draws, runs, writes drawn.csv and says how many states lie within the expected errors of the theory."""
+    rows = []
+    for i, (name, keys, rms, seed) in enumerate(scenes_drawn(options.draw, options.from_seed)):
+        for interface in INTERFACES if i % 4 == 0 else ["friction"]:
+            try:
+                row = state(name, keys, interface, rms, seed, options.out)
+            except asperity.PhysicsError as error:  # the state was not found
+                print(name, interface, error, flush=True)
+                continue
+            rows.append({**row, **{column: keys[key] for key, column in DRAWN.items()}})
+            print(*(f"{v:.4g}" if isinstance(v, float) else v for v in rows[-1].values()), flush=True)
+    write_rows(rows, options.out / "drawn.csv")
+    covered(rows)
+
+
+def covered(rows: list[dict]) -> None:
+    """States within the expected errors, by interface."""
+    print("| drawn from | interface | states | gamma_eff: within, median ±, largest difference | contact: the same |\n|" + "---|" * 5)
+    for of, interface in sorted({(r["set"].partition("-")[0], r["interface"]) for r in rows}):
+        text = []
+        chosen = [r for r in rows if r["set"].partition("-")[0] == of and r["interface"] == interface
+                  and not math.isnan(float(r["theory.renormalised.gamma_eff_ratio"]))]
+        for simulated, theory, flat in (("binding_energy_ratio", "gamma_eff", True), ("contact_fraction", "contact_fraction", False)):
+            errors = [float(r[f"theory.renormalised.{theory}_expected_error"]) / (float(r["delta_gamma"]) if flat else 1)
+                      for r in chosen]
+            off = [float(r["theory.renormalised." + theory + "_ratio" * flat]) - float(r[simulated]) for r in chosen]
+            text.append(f"{sum(abs(d) <= e for d, e in zip(off, errors))}, {statistics.median(errors):.3f}, "
+                        f"{max(off, key=abs):.3f}")
+        print(f"| {of} | {interface} | {len(chosen)} | {text[0]} | {text[1]} |")
+
+
+def write_rows(rows: list[dict], file: pathlib.Path) -> None:
+    with open(file, "w", newline="") as out:
+        writer = csv.DictWriter(out, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({k: v if isinstance(v, str) else f"{v:.6g}" for k, v in row.items()} for row in rows)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("sets", nargs="*", metavar="SET", help=f"of {', '.join(SETS)}")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/parameters"))
+    parser.add_argument("--draw", type=int, metavar="N", help="N scenes drawn at random, in place of the sets")
+    parser.add_argument("--from", dest="from_seed", type=int, default=33, metavar="SEED", help="of the random draw")
+    parser.add_argument("--covered", type=pathlib.Path, metavar="CSV", help="only say how many states of a drawn.csv are within")
     options = parser.parse_args()
     if unknown := [s for s in options.sets if s not in SETS]:
         parser.error(f"no set {', '.join(unknown)}: choose from {', '.join(SETS)}")
+    if options.covered:
+        with open(options.covered, newline="") as file:
+            covered(list(csv.DictReader(file)))
+        return
     options.out.mkdir(parents=True, exist_ok=True)
+    if options.draw:
+        judge_drawn(options)
+        return
     found = []
     print("| set | rms, Å | rms slope | surfaces | simulated | renormalised | difference (worst surface) | frictionless | wall "
           "| paper's theory, difference | contact, simulated | renormalised |\n|" + "---|" * 12)
     for name in options.sets or SETS:
         for rms in SETS[name][1]:
-            of = {interface: [state(name, interface, rms, seed, options.out) for seed in SURFACES.get(name, (1, 2, 3))]
+            of = {interface: [state(name, SETS[name][0], interface, rms, seed, options.out) for seed in SURFACES.get(name, (1, 2, 3))]
                   for interface in interfaces(name)}
             found += [row for rows in of.values() for row in rows]
             mean = {c: statistics.fmean(r[c] for r in of["friction"]) for c in of["friction"][0] if c not in ("set", "interface")}
@@ -112,10 +204,7 @@ def main() -> None:
                   f"| {mean['theory.renormalised.gamma_eff_ratio']:.3f} | {differences} "
                   f"| {mean['theory.gamma_eff_ratio'] - mean['binding_energy_ratio']:.3f} | {mean['contact_fraction']:.3f} "
                   f"| {mean['theory.renormalised.contact_fraction']:.3f} |", flush=True)
-    with open(options.out / "parameters.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, list(found[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows({k: v if isinstance(v, str) else f"{v:.6g}" for k, v in row.items()} for row in found)
+    write_rows(found, options.out / "parameters.csv")
 
 
 if __name__ == "__main__":

@@ -133,7 +133,8 @@ TEST(TheoryOfAScene, RenormalisedIsLeftOutWhereTheSceneSaysSo) {
     add_theory(s, scene_surface(s), 98.0, result);
     const io::Json json = result.json();
     for (const char* key : {"gamma_eff", "gamma_eff_ratio", "contact_fraction", "separation",
-                            "tension", "gamma_eff_error", "contact_fraction_error"})
+                            "tension", "gamma_eff_error", "contact_fraction_error",
+                            "gamma_eff_expected_error", "contact_fraction_expected_error"})
         EXPECT_NE(io::find(json, std::string("theory.renormalised.") + key), nullptr) << key;
 }
 
@@ -162,6 +163,60 @@ TEST(TheoryOfAScene, RenormalisedSaysHowWellItIsKnown) {
     EXPECT_FALSE(answered);
     EXPECT_NE(reason.find("; choose less roughness"), std::string::npos) << reason;
     EXPECT_EQ(reason.find("known to"), std::string::npos) << reason;
+}
+
+/// States at zero load of docs/data/drawn.csv, none of them in the calibration: within the expected
+/// errors, and not within half of them.
+TEST(TheoryOfAScene, ExpectedErrorCoversSimulatedStates) {
+    struct Row {
+        int sites;
+        double hurst, rolloff, young, poisson, epsilon, r0, rms;
+        unsigned seed;
+        bool wall;
+        double gamma, contact; // simulated
+    };
+    int beyond_half = 0, beyond_half_contact = 0;
+    for (const Row& row :
+         {Row{128, 0.40, 2.1, 44, 0.18, 0.198, 2.32, 1.93, 118610, false, 0.6496, 0.9941},
+          Row{128, 0.65, 2.8, 131, 0, 0.226, 4.5, 0.94, 959416, false, 0.9381, 1.0000},
+          Row{96, 0.55, 4.2, 127, -0.09, 0.234, 2.8, 0.92, 608408, false, 0.7561, 0.9894},
+          Row{128, 0.91, 5.3, 137, 0.38, 0.173, 3.56, 2.93, 810533, true, 0.2245, 0.3400}}) {
+        Scene s;
+        s.surface.sites = s.block.thickness = row.sites;
+        s.surface.hurst = row.hurst;
+        s.surface.rolloff = row.rolloff;
+        s.surface.rms = row.rms;
+        s.surface.seed = row.seed;
+        s.block.young = row.young;
+        s.block.poisson = row.poisson;
+        s.interface.epsilon = row.epsilon;
+        s.interface.r0 = row.r0;
+        s.interface.cutoff = 4 * row.r0;
+        if (row.wall) {
+            s.interface.kind = InterfaceKind::wall;
+            s.interface.law = WallLawKind::lennard_jones;
+        }
+        s.theory.spectrum = TheorySpectrum::realised;
+        const TheoryCase what = theory_case(s);
+        const RenormalisedResult result = solve_renormalised(*what.renormalised);
+        ASSERT_TRUE(result.numbers && result.numbers->gamma_eff_expected_error) << result.note;
+        const RenormalisedNumbers& n = *result.numbers;
+        const double off = std::abs(n.gamma_eff_ratio - row.gamma),
+                     expected = *n.gamma_eff_expected_error / what.flat;
+        EXPECT_LE(off, expected) << row.seed;
+        const double off_contact = std::abs(n.contact_fraction - row.contact);
+        EXPECT_LE(off_contact, *n.contact_fraction_expected_error) << row.seed;
+        beyond_half += off > 0.5 * expected;
+        beyond_half_contact += off_contact > 0.5 * *n.contact_fraction_expected_error;
+        // For the surfaces of the ensemble it is larger.
+        s.theory.spectrum = TheorySpectrum::target;
+        if (row.wall)
+            EXPECT_GT(
+                *solve_renormalised(*theory_case(s).renormalised).numbers->gamma_eff_expected_error,
+                2 * *n.gamma_eff_expected_error);
+    }
+    EXPECT_GE(beyond_half, 2);
+    EXPECT_GE(beyond_half_contact, 1);
 }
 
 TEST(TheoryOfAScene, RealisedSpectrumHasTheRmsAndTheFullContactEnergyOfTheMap) {

@@ -300,6 +300,124 @@ TEST(Renormalised, TiltCostIsThatOfTheTiltedLattice) {
     EXPECT_NEAR(area_factor({AreaFactor::lattice, 1.9}, 0.04), 0.929, 1e-3);
 }
 
+// Waves on a square lattice of wavevectors with the spacing q_L, all of one variance: as many as
+// there are. The self-affine one by the trapezoidal rule.
+TEST(ExpectedError, CountsTheWavesOfTheSpectrum) {
+    const std::vector<double> edges = {0.5, 3, 7}, one = {2e-3, 2e-3};
+    EXPECT_NEAR(Spectrum::rings(edges, one).waves(), pi * (49 - 0.25) / 0.25, 1e-9);
+    const Spectrum s = surface(3);
+    double height = 0, squares = 0;
+    const int points = 200000;
+    for (int i = 0; i < points; ++i) {
+        const double q = s.q_L() * std::pow(s.q1() / s.q_L(), (i + 0.5) / points);
+        const double dq = q * std::log(s.q1() / s.q_L()) / points;
+        height += q * s(q) * dq;
+        squares += q * s(q) * s(q) * dq;
+    }
+    EXPECT_NEAR(s.waves(), 2 * pi * height * height / (squares * s.q_L() * s.q_L()),
+                1e-3 * s.waves());
+    EXPECT_NEAR(surface(30).waves(), s.waves(), 1e-9 * s.waves());
+    EXPECT_EQ(surface(0).waves(), 0);
+}
+
+// Small amplitudes: without friction γ is lower than over a wall with the same φ(u) by the tilt.
+TEST(ExpectedError, TiltCostIsWhatAtomsLoseAgainstTheirWall) {
+    const RoughInterface atoms = rough(1, 0, false);
+    RoughInterface same = atoms;
+    same.flat =
+        FlatInterface::wall([flat = atoms.flat](double u) { return flat.energy(u); },
+                            atoms.flat.closest(), atoms.flat.reach(), atoms.flat.inflection());
+    const RenormalisedState a = solve(atoms), w = solve(same);
+    EXPECT_GT(a.tilt_cost, 2e-3);
+    EXPECT_NEAR(a.tilt_cost, w.gamma_ratio - a.gamma_ratio, 0.1 * a.tilt_cost);
+    EXPECT_EQ(w.tilt_cost, 0);
+    EXPECT_EQ(a.stiffening, 0);
+    EXPECT_EQ(w.stiffening, 0);
+}
+
+// A block slightly stiffer under lateral forces than without them: to first order γ falls by it.
+TEST(ExpectedError, StiffeningIsWhatAStifferBlockCosts) {
+    const double S = paper::contact_modulus / 2, more = 0.02;
+    for (const double rms : {2.0, 4.0}) {
+        RoughInterface same = rough(rms), stiffer = same;
+        same.stiffness = StiffnessTable({{1, S, S, 0, S}});
+        stiffer.stiffness = StiffnessTable({{1, S * (1 + more), S, 0, S}});
+        const RenormalisedState a = solve(same), b = solve(stiffer);
+        EXPECT_NEAR(a.stiffening, 0, 1e-12);
+        EXPECT_NEAR(b.stiffening, a.gamma_ratio - b.gamma_ratio, 0.05 * b.stiffening + 2e-5);
+        EXPECT_GT(b.stiffening, 1e-3);
+        // More of it: a larger expected error.
+        RoughInterface stiffest = same;
+        stiffest.stiffness = StiffnessTable({{1, S * (1 + 10 * more), S, 0, S}});
+        EXPECT_GT(solve(stiffest).expected->gamma_ratio, a.expected->gamma_ratio);
+    }
+}
+
+// Over a wall only few waves matter: none on a smooth one, and half of it on a square twice as
+// wide.
+TEST(ExpectedError, OfAWallFallsWithItsSize) {
+    const auto of = [](double length, double rms, bool ensemble) {
+        RoughInterface r = wall(rms, morse);
+        r.spectrum = Spectrum::self_affine({.q_L = paper::q_L / length,
+                                            .q0 = 3 * paper::q_L,
+                                            .q1 = 256 * paper::q_L,
+                                            .hurst = 0.8,
+                                            .h_rms = rms});
+        r.ensemble = ensemble;
+        return solve(r);
+    };
+    EXPECT_EQ(of(1, 0, false).expected->gamma_ratio, 0);
+    EXPECT_EQ(of(1, 0, false).expected->contact, 0);
+    const RenormalisedState small = of(3, 3, false), wide = of(30, 3, false),
+                            ensemble = of(3, 3, true);
+    const auto scatter = [](const RenormalisedState& s) {
+        return s.expected->gamma_ratio - s.gamma_ratio_error;
+    };
+    EXPECT_NEAR(scatter(wide), 0.1 * scatter(small), 0.02 * scatter(small));
+    EXPECT_LT(wide.expected->gamma_ratio, 0.004);
+    EXPECT_LT(wide.expected->contact, 0.006);
+    EXPECT_GT(scatter(ensemble), 2 * scatter(small));
+    EXPECT_LT(solve(wall(0.3, morse)).expected->gamma_ratio, 1e-3);
+}
+
+TEST(ExpectedError, GrowsWithTheSlopeAndIsZeroWithoutRoughness) {
+    double gamma = 0, contact = 0;
+    for (const double rms : {0.0, 1.0, 2.0, 4.0}) {
+        const RenormalisedState s = solve(rough(rms));
+        ASSERT_TRUE(s.expected);
+        EXPECT_GE(s.expected->gamma_ratio, gamma);
+        EXPECT_GE(s.expected->contact, contact);
+        gamma = s.expected->gamma_ratio;
+        contact = s.expected->contact;
+    }
+    EXPECT_GT(gamma, 0.01);
+    EXPECT_LT(gamma, 0.1);
+    // More than the scatter that a wall of the same γ would have.
+    const RenormalisedState s = solve(rough(4));
+    const double scatter = (1 - s.gamma_ratio) / std::sqrt(surface(4).waves());
+    EXPECT_GT(s.expected->gamma_ratio, 0.5 * scatter + s.gamma_ratio_error + 1e-3);
+    EXPECT_FALSE(solve(rough(4, 1e-4)).expected);
+}
+
+TEST(ExpectedError, HasNoUnits) {
+    const double length = 3, energy = 7;
+    RoughInterface here = rough(3), there = here;
+    const PairPotential pair{0.1 * energy, 3.28 * length, 13.12 * length};
+    there.flat = FlatInterface::hollow_sites(pair, 2.6 * length);
+    there.spectrum = Spectrum::self_affine({.q_L = paper::q_L / length,
+                                            .q0 = 3 * paper::q_L / length,
+                                            .q1 = 256 * paper::q_L / length,
+                                            .hurst = 0.8,
+                                            .h_rms = 3 * length});
+    there.stiffness =
+        StiffnessTable::half_space(paper::contact_modulus * energy / std::pow(length, 3), 0.42);
+    const RenormalisedState a = solve(here), b = solve(there);
+    EXPECT_NEAR(b.gamma_ratio, a.gamma_ratio, 1e-6);
+    EXPECT_NEAR(b.expected->gamma_ratio, a.expected->gamma_ratio,
+                1e-3 * a.expected->gamma_ratio + 1e-6);
+    EXPECT_NEAR(b.expected->contact, a.expected->contact, 1e-3 * a.expected->contact + 1e-6);
+}
+
 TEST(Renormalised, HardInputs) {
     // Wide and narrow spectra, soft and stiff blocks, long and short reach: an error or a bound.
     int answers = 0, refusals = 0;
