@@ -110,11 +110,13 @@ TEST(Effects, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
         EXPECT_NE(p.fix.find("auto"), std::string::npos) << p.fix;
     }
     for (const char* path : {"drive.path=zero-load", "drive.path=[\"approach\"]"}) {
-        const Setup setup = make_setup(scene_with({"numerics.device=auto", path}), 1);
+        const auto setup = make_setup(scene_with({"numerics.device=auto", path}), 1);
         EXPECT_EQ(setup.effects.on(Effect::device),
                   setup.simulation.device.kind != DeviceChoice::Kind::none)
             << path << ": " << setup.effects.why(Effect::device);
-        if (cuda_device_count() == 0) EXPECT_FALSE(setup.effects.on(Effect::device)) << path;
+        if (cuda_device_count() == 0) {
+            EXPECT_FALSE(setup.effects.on(Effect::device)) << path;
+        }
     }
 }
 

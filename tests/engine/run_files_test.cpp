@@ -77,17 +77,17 @@ TEST(RunFiles, TheVelocityOfAFrameIsThatOfItsStep) {
     // is another.
     const Scratch scratch;
     run_over_ridge(
-        scratch, "velocity = \"400 m/s\"\ntimestep = \"10 fs\"\nramp = \"0 ps\"\nmax_steps = 150\n",
+        scratch, "velocity = \"800 m/s\"\ntimestep = \"10 fs\"\nramp = \"0 ps\"\nmax_steps = 300\n",
         "trajectory = 1\nvelocities = true\n");
     const io::Hdf5File file(scratch / "out/run.h5", io::Hdf5File::Mode::read);
     const auto position = file.read<float>("/particles/trajectory/position/value");
     const auto velocity = file.read<float>("/particles/trajectory/velocity/value");
     const auto time = file.read<double>("/particles/trajectory/position/time");
     constexpr std::size_t frame = 3 * n * n;
-    ASSERT_EQ(position.size(), 150 * frame);
-    ASSERT_EQ(velocity.size(), 150 * frame);
+    ASSERT_EQ(position.size(), 300 * frame);
+    ASSERT_EQ(velocity.size(), 300 * frame);
     double central = 0.0, backward = 0.0;
-    for (std::size_t k = 1; k + 1 < 150; ++k) {
+    for (std::size_t k = 1; k + 1 < 300; ++k) {
         const double dt = time[k] - time[k - 1];
         EXPECT_NEAR(dt, 0.01, 1e-12);
         for (std::size_t i = k * frame; i < (k + 1) * frame; ++i) {
