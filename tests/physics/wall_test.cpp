@@ -214,7 +214,7 @@ TEST(Wall, WorkOfAdhesionIsTheScenes) {
 
 /// Where the relaxation starts: the strongest attraction of all heights, by a scan of its own.
 TEST(Wall, StartsWhereTheAttractionIsStrongest) {
-    const Surface s = rough(32, 2.0);
+    const Surface s = rough(16, 2.0);
     for (const WallLaw& law : laws()) {
         const AtWall at(s, a, law);
         const auto force = [&](double height) {
@@ -224,9 +224,9 @@ TEST(Wall, StartsWhereTheAttractionIsStrongest) {
             return sum;
         };
         double strongest = 0.0, where = at.interface.attraction_grows_down_to();
-        for (double height = 20.0; height > -10.0; height -= 0.01)
-            if (force(height) < strongest) strongest = force(height), where = height;
-        EXPECT_NEAR(at.height, where, 0.1);
+        for (double height = 15.0; height > -8.0; height -= 0.02)
+            if (const double now = force(height); now < strongest) strongest = now, where = height;
+        EXPECT_NEAR(at.height, where, 0.11); // found in steps of 0.1 Å
     }
 }
 
@@ -291,21 +291,38 @@ TEST(Wall, SoftAndRoughComesToRest) {
         }
 }
 
-/// Without the inertia of its iterations: momentum does not take sites over barriers.
+/// Momentum does not take sites over barriers. (To a hundredth: where the surface falls in patches
+/// the two ways down need not take every site alike.)
 TEST(Wall, RelaxationEndsWhereASlowApproachEnds) {
-    SoftOverRough soft({"block.young=1", "surface.rms=6", "surface.spacing=2.6"});
-    const double reference = soft.at.interface.start_height();
+    SoftOverRough soft({"surface.sites=16", "block.thickness=16", "block.young=1", "surface.rms=3",
+                        "surface.spacing=2.6"});
+    soft.at.options.tolerance = 1e-4;
     const RelaxedState found = soft.at.relax(Constraint::load(0.0));
     PathOptions o;
     o.along = Constraint::Of::mean_height;
-    o.tolerance = 1e-4;
-    o.reference_height = reference;
+    o.tolerance = 1e-3;
+    o.reference_height = soft.at.interface.start_height();
     QuasistaticPath path(*soft.at.block, soft.at.interface, o);
     path.start();
     test::follow(path, Leg::approach);
     const double at_end = test::energy(path.now());
     EXPECT_LT(at_end, 0.0);
-    EXPECT_NEAR(found.interface_energy + found.elastic_energy, at_end, 1e-3 * std::abs(at_end));
+    EXPECT_NEAR(found.interface_energy + found.elastic_energy, at_end, 1e-2 * std::abs(at_end));
+}
+
+/// An attraction that fades within two spacings of a contact's edge is named.
+TEST(Wall, NarrowAttractionIsNoted) {
+    const auto narrow = [](const char* range) {
+        const SoftOverRough soft(
+            {"block.young=77", "surface.spacing=2.6", std::string("interface.range=") + range});
+        const auto& notes = soft.setup.notes;
+        return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+            return note.find("less than two spacings") != std::string::npos;
+        });
+    };
+    // E* = 77 / (1 - 0.49²) GPa, 100 meV/Å²: two spacings at 0.907 Å.
+    EXPECT_TRUE(narrow("0.89"));
+    EXPECT_FALSE(narrow("0.92"));
 }
 
 /// A state is one of equilibrium, whatever is held to get there; energies change by the work done.
