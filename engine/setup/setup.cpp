@@ -253,6 +253,23 @@ InterfaceOptions interface_options(const Scene& scene) {
 
 namespace {
 
+/// Forces that the tolerance lets pass, in the block's longest wave, beside the work of adhesion.
+void note_coarse_tolerance(const Scene& scene, Setup& setup) {
+    constexpr double coarse = 0.01;
+    const BlockOptions& block = setup.simulation.block;
+    const double tolerance = scene.drive.tolerance, area = block.spacing * block.spacing;
+    const double energy =
+        units::milli_per_unit * 0.5 * tolerance * tolerance / (block.softest_wave() * area * area);
+    const double share = energy / setup.flat.work_of_adhesion;
+    if (!scene.without_time() || !(share > coarse) || !std::isfinite(share)) return;
+    setup.notes.push_back(fmt::format(
+        "drive.tolerance = {:.2g} eV/Å, {:.2g} MPa on a site, is coarse for this block: in its "
+        "longest wave such forces stand for {:.2g} meV/Å², {:.2g} of the work of adhesion; take "
+        "{:.1g} or less",
+        tolerance, tolerance / area / units::megapascal, energy, share,
+        tolerance * std::sqrt(coarse / share)));
+}
+
 /// No step may jump over the potential, and no pull can be larger than what binds most.
 void limit_steps(const Scene& scene, Setup& setup, io::Problems& problems) {
     // The width of the potential: its depth over its largest force.
@@ -338,6 +355,7 @@ Setup make_setup(const Scene& scene, int ranks) {
     }
 
     limit_steps(scene, setup, problems);
+    note_coarse_tolerance(scene, setup);
     if (on(Effect::device)) setup.simulation.device = device_of(scene, problems);
 
     auto& drive = setup.simulation.drive;

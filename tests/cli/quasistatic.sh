@@ -34,11 +34,11 @@ mode = "quasistatic"
 fields = ["zero-load", "pull-off", "every:40"]
 EOF
 expect 0 run path.toml --progress off --out whole
-says "dissipated at instabilities"
+says "energy gained + energy dissipated"
 # The balance of the legs: approach + lost = state = pull-off - lost, to the tolerance on the way.
 state=$(number whole binding_energy)
-awk -v s="$state" -v a="$(sed -n '/"work_of_adhesion"/,/}/s/.*"approach": \([0-9.]*\),*/\1/p' whole/result.json)" \
-    -v l="$(sed -n '/"dissipated"/,/"pull_off"/s/.*"approach": \([0-9.]*\),*/\1/p' whole/result.json)" \
+awk -v s="$state" -v a="$(sed -n '/"work_of_drive"/,/}/s/.*"approach": \([0-9.]*\),*/\1/p' whole/result.json)" \
+    -v l="$(sed -n '/"lost"/,/"pull_off"/s/.*"approach": \([0-9.]*\),*/\1/p' whole/result.json)" \
     'BEGIN { d = a + l - s; exit !(l > 1 && d * d < 0.1 * 0.1) }' || fail "the approach's balance: $out"
 for object in fields/zero-load fields/pull-off fields/step-40 series/dissipated; do
     objects whole | grep -qx "$object" || fail "no $object"
@@ -99,7 +99,7 @@ says "drive.hold has no effect"
 # Over a wall: the balance, and the same when stopped and resumed.
 wall=(--set interface.kind=wall interface.adhesion=60 'output.fields=["zero-load"]')
 expect 0 run path.toml --progress off --out wall "${wall[@]}"
-says "dissipated at instabilities"
+says "energy gained + energy dissipated"
 expect 75 run path.toml --progress off --out wall-parts --wall-limit 0.02s "${wall[@]}"
 expect 0 run path.toml --progress off --out wall-parts --resume auto "${wall[@]}"
 same wall wall-parts

@@ -325,6 +325,19 @@ TEST(Wall, NarrowAttractionIsNoted) {
     EXPECT_FALSE(narrow("0.92"));
 }
 
+/// So is a tolerance that is coarse beside the forces of a soft block.
+TEST(Wall, CoarseToleranceIsNoted) {
+    const auto coarse = [](const char* young) {
+        const SoftOverRough at({std::string("block.young=") + young, "drive.tolerance=1e-4"});
+        const auto& notes = at.setup.notes;
+        return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+            return note.find("is coarse for this block") != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(coarse("0.0001"));
+    EXPECT_FALSE(coarse("77"));
+}
+
 /// A state is one of equilibrium, whatever is held to get there; energies change by the work done.
 TEST(Wall, OneStateUnderThreeConstraints) {
     for (const WallLaw& law : laws()) {
