@@ -44,21 +44,34 @@ WallDescent::WallDescent(SpectralBlock& block, const Interface& interface, doubl
 bool WallDescent::step() {
     if (options_.start == Start::predicted) return false;
     const auto t = phases_.time(Phase::advance);
-    double turn = 0.0;
     single_ = single_ && estimate_ > Constants::rounding * spring_;
-    if (single_) {
-        elastic_forces(single_waves_, single_field_);
-        turn = settle_sites(single_field_);
-    } else {
-        elastic_forces(waves_, field_);
-        turn = settle_sites(field_);
+    const double force = uniform_force_;
+    double turn = settle_all();
+    if (!balanced_) { // momentum has carried sites further than a step can turn them back
+        momentum_ = 0.0;
+        sequence_ = 1.0;
+        uniform_force_ = force;
+        turn = settle_all();
+        if (!balanced_) uniform_force_ = force;
     }
+    mean_step_ = next_mean_ - mean_;
+    mean_ = next_mean_;
     accept();
     if (turn > 0.0) sequence_ = 1.0;
     const double following = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * sequence_ * sequence_));
     momentum_ = (sequence_ - 1.0) / following;
     sequence_ = following;
     return true;
+}
+
+/// Elastic forces and sites, in single precision as long as that is good enough.
+double WallDescent::settle_all() {
+    if (single_) {
+        elastic_forces(single_waves_, single_field_);
+        return settle_sites(single_field_);
+    }
+    elastic_forces(waves_, field_);
+    return settle_sites(field_);
 }
 
 double WallDescent::conclude() {
@@ -111,7 +124,9 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
                   .momentum = momentum_,
                   .norm = 1.0 / sites,
                   .load = 0.0,
-                  .bound = Constants::reach * range_,
+                  .bound = (constraint.of == Constraint::Of::load ? Constants::reach
+                                                                  : Constants::held_reach) *
+                           range_,
                   .share = Constants::share,
                   .near = Constants::near * range_};
     double turn = 0.0, mean = 0.0;
@@ -146,8 +161,7 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
     };
     balance(excess, constraint.is_mean_height() ? 1e-13 * spring_
                                                 : Constants::closure * options_.tolerance);
-    mean_step_ = mean - mean_;
-    mean_ = mean;
+    next_mean_ = mean;
     return turn;
 }
 
@@ -173,6 +187,7 @@ void WallDescent::balance(const Excess& excess_at, double enough) {
         next = between ? 0.5 * (low + high) : force + 2.0 * excess;
     }
     uniform_force_ = force;
+    balanced_ = std::abs(excess) <= std::max(enough, Constants::unbalanced * spring_ * range_);
 }
 
 /// u <- next.

@@ -291,8 +291,9 @@ TEST(Wall, SoftAndRoughComesToRest) {
         }
 }
 
-/// Momentum does not take sites over barriers. (To a hundredth: where the surface falls in patches
-/// the two ways down need not take every site alike.)
+/// Momentum does not take sites over barriers: the relaxation ends where a slow approach does. (To
+/// a twentieth: where the surface falls in patches the two ways down need not take every site
+/// alike.)
 TEST(Wall, RelaxationEndsWhereASlowApproachEnds) {
     SoftOverRough soft({"surface.sites=16", "block.thickness=16", "block.young=1", "surface.rms=3",
                         "surface.spacing=2.6"});
@@ -307,7 +308,7 @@ TEST(Wall, RelaxationEndsWhereASlowApproachEnds) {
     test::follow(path, Leg::approach);
     const double at_end = test::energy(path.now());
     EXPECT_LT(at_end, 0.0);
-    EXPECT_NEAR(found.interface_energy + found.elastic_energy, at_end, 1e-2 * std::abs(at_end));
+    EXPECT_NEAR(found.interface_energy + found.elastic_energy, at_end, 0.05 * std::abs(at_end));
 }
 
 /// An attraction that fades within two spacings of a contact's edge is named.
