@@ -34,20 +34,18 @@
 
 namespace asperity {
 
-/// (Measured at zero load on walls of w = 100 meV/Å², range 1 Å, E 1 to 77 GPa, and of rubber of
-/// 2 MPa, spacing 39 Å, 50 mJ/m², range 10 Å.)
+/// (reach, share and near were chosen with a prototype on few surfaces, before the load was
+/// balanced.)
 struct WallDescentConstants {
     /// How far a site may go in an iteration, in ranges of the law, from where its momentum takes
-    /// it. Under a load 0.01 to 0.1, and 0.3 without momentum, end in one state; with 0.3 momentum
-    /// carries sites of soft blocks over barriers (1 GPa: 43.6 for 38.8 meV/Å²). Less only takes
-    /// longer (0.03: two to three times at 1 GPa).
+    /// it. Larger ones let momentum carry sites of soft blocks over barriers. Which of several
+    /// states of a soft block (1 GPa and less) is found still depends on it.
     static constexpr double reach = 0.1;
     /// The same where the top or the mean height is held: points of a path start next to the last
     /// one, and where patches fall 0.1 takes a hundred times the iterations (32 sites, 61 GPa,
     /// range 1.04 Å: 195 000 for 213 points, with 0.3 5500 for 377).
     static constexpr double held_reach = 0.3;
     /// Beyond `near` ranges, where there is no barrier: a share of what the gap exceeds that by.
-    /// Without it a rubber takes a fifth more iterations, and ends in the same state.
     static constexpr double share = 0.25, near = 4.0;
     /// What may be left of the mean force, in tolerances. Steps of the secant more than this asks
     /// for are few: it converges faster than linearly.
