@@ -292,10 +292,7 @@ struct WallRule {
     double spring;           ///< eV/Å^2: of each site to z - (elastic force) / spring
     double momentum;         ///< z = u + momentum step
     double norm;
-    double load;  ///< on each site, pressing down, eV/Å
-    double bound; ///< of next - z, Å: this much, or
-    double share; ///< this share of the gap beyond `near`, where that is more
-    double near;  ///< Å
+    double load; ///< on each site, pressing down, eV/Å
 };
 struct WallSums {
     double furthest = 0.0; ///< |next - z| and the force left on a site over the spring, Å

@@ -52,7 +52,6 @@ WallSums settle_row(const Law& given, const WallRow<T>& row, const WallRule& rul
     const Law law = given;
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
     const Real compliance(1.0 / rule.spring), load(rule.load), norm(rule.norm);
-    const Real least_bound(rule.bound), share(rule.share), near(rule.near);
     Real furthest(0.0), turn(0.0), height(0.0);
     for (int x = 0; x < sites; x += interface_block) {
         const int count = sites - x < interface_block ? sites - x : interface_block;
@@ -67,12 +66,11 @@ WallSums settle_row(const Law& given, const WallRow<T>& row, const WallRule& rul
             const Real base = reference - Real::load_first(row.below + x + lane, here);
             const Real z = u + momentum * Real::load(step + lane);
             const Real force = norm * Real::load(elastic + lane) + load;
-            const Real bound = max(least_bound, share * (z + base - near));
             const Real goal = z + base - compliance * force;
-            const Real gap = law.settle(u + base, goal, spring, bound);
-            const Real way = max(-bound, min(bound, gap - base - z)), next = z + way;
+            const Real gap = law.settle(z + base, goal, spring);
+            const Real next = gap - base, way = next - z;
             next.store_first(row.next + x + lane, here);
-            const Real left = goal - next - base + compliance * law.force(next + base);
+            const Real left = goal - gap + compliance * law.force(gap);
             furthest = max(furthest, first_lanes(max(way, -way) + max(left, -left), here));
             turn = turn - first_lanes(way * (next - u), here);
             height = height + first_lanes(next, here);

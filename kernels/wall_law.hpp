@@ -43,10 +43,6 @@ ASPERITY_INLINE double max(double a, double b) { return a > b ? a : b; }
 struct SiteDescent {
     /// Newton's steps, from where the site was an iteration before.
     static constexpr int steps = 3;
-    /// Where law and spring together are unstable, or nearly, a site goes downhill as if this share
-    /// of the spring held it. So it never passes a barrier, also where the spring is softer than
-    /// the law's attraction.
-    static constexpr double least_held = 0.05;
 };
 
 class LennardJonesWall {
@@ -60,6 +56,10 @@ public:
           well_(4.0 * pair.epsilon) {
         contact_ = std::pow(2.2, 1.0 / 6.0) * pair.r0;
         at_reach_ = integral(tail ? 0.0 : r0_squared_ / (pair.cutoff * pair.cutoff));
+        // Where well s6 (11 s6 - 5) + shift = 0.
+        const double s6 = (5.0 + std::sqrt(25.0 - 44.0 * shift_ / well_)) / 22.0;
+        steepest_ = pair.r0 * std::pow(s6, -1.0 / 6.0);
+        force_there_ = force(steepest_);
         const double h = 1e-4 * floor_;
         stiffness_ = (force(floor_) - force(floor_ + h)) / h;
     }
@@ -82,23 +82,25 @@ public:
         const V deeper = below * (force(g) + V(0.5 * stiffness_) * below);
         return select(gap > V(reach_), V(0.0), plane + deeper);
     }
-    /// Where a spring to the gap `goal` lets a site come to rest, downhill from a gap near by:
-    /// spring (goal - g) + force(g) = 0 by Newton's method, no step of which is longer than
-    /// `bound`.
+    /// Where a spring to the gap `goal` lets a site come to rest: spring (goal - g) + force(g) = 0,
+    /// the attraction's decay beyond its steepest place taken as it is at `gap`. By Newton's
+    /// method, of which a few steps are taken.
     template <class V>
-    ASPERITY_INLINE V settle(V gap, V goal, V spring, V bound) const {
-        V g = max(V(floor_), gap);
-        const V least = V(SiteDescent::least_held) * spring;
+    ASPERITY_INLINE V settle(V gap, V goal, V spring) const {
+        const V steepest(steepest_), floor(floor_), from = max(steepest, gap);
+        const V outside = goal + force(from) / spring; // if the site ends in the decay
+        const V pull = force(from) - V(force_there_);
+        V g = max(floor, min(steepest, gap));
         for (int i = 0; i < SiteDescent::steps; ++i) {
             const V s2 = V(r0_squared_) / (g * g), s6 = s2 * s2 * s2;
             const V stiffness = V(plane_) * (V(well_) * s6 * (V(11.0) * s6 - V(5.0)) + V(shift_));
-            const V held = spring + select(g > V(reach_), V(0.0), stiffness);
-            const V way = (spring * (goal - g) + force(g)) / max(least, held);
-            g = max(V(floor_), g + max(-bound, min(bound, way)));
+            const V way = (spring * (goal - g) + force(g) + pull) / (spring + stiffness);
+            g = max(floor, min(steepest, g + way));
         }
         // Below the floor the law is linear.
-        const V push = spring * (goal - V(floor_)) + force(V(floor_));
-        return select(push < V(0.0), V(floor_) + push / (spring + V(stiffness_)), g);
+        const V push = spring * (goal - floor) + force(floor) + pull;
+        const V inside = select(push < V(0.0), floor + push / (spring + V(stiffness_)), g);
+        return select(outside > steepest, outside, inside);
     }
     /// The least stiffness -dF/dg of a site, eV/Å^2: negative.
     double softest() const { return plane_ * (shift_ - 25.0 / 44.0 * well_); }
@@ -118,8 +120,9 @@ private:
     static constexpr double two_pi = 2.0 * std::numbers::pi;
 
     double r0_squared_ = 1.0, reach_ = 0.0, shift_ = 0.0;
-    double floor_ = 0.5;     ///< below this the force goes on linearly
-    double stiffness_ = 0.0; ///< there
+    double floor_ = 0.5;                        ///< below this the force goes on linearly
+    double stiffness_ = 0.0;                    ///< there
+    double steepest_ = 0.0, force_there_ = 0.0; ///< of the attraction's largest
     double plane_ = 0.0, well_ = 0.0, at_reach_ = 0.0, contact_ = 0.0;
 };
 
@@ -142,18 +145,11 @@ public:
         const V into = min(V(0.0), gap);
         return into * (V(tension_) + V(0.5 * stiffness_) * into) - V(adhesion_) * decay(gap);
     }
-    /// As above; exact where the site ends in the repulsion.
+    /// As above, exactly.
     template <class V>
-    ASPERITY_INLINE V settle(V gap, V goal, V spring, V bound) const {
-        V g = max(V(0.0), gap);
-        const V least = V(SiteDescent::least_held) * spring;
-        for (int i = 0; i < SiteDescent::steps; ++i) {
-            const V pull = V(tension_) * decay(g), held = spring - V(1.0 / range_) * pull;
-            const V way = (spring * (goal - g) - pull) / max(least, held);
-            g = max(V(0.0), g + max(-bound, min(bound, way)));
-        }
-        const V inside = (spring * goal - V(tension_)) / (spring + V(stiffness_));
-        return select(g > V(0.0), g, min(V(0.0), inside));
+    ASPERITY_INLINE V settle(V gap, V goal, V spring) const {
+        const V pull = spring * goal - V(tension_) * decay(gap);
+        return select(pull > V(0.0), pull / spring, pull / (spring + V(stiffness_)));
     }
     double softest() const { return -tension_ / range_; }
     double range() const { return range_; }

@@ -31,9 +31,9 @@ WallDescent::WallDescent(SpectralBlock& block, const Interface& interface, doubl
       phases_(phases), waves_(block.new_waves<double>()), single_waves_(block.new_waves<float>()),
       field_(block.new_field<double>()), single_field_(block.new_field<float>()),
       next_(block.tile(), 1, 0), step_(block.tile(), 1, 0) {
-    range_ = std::visit([](const auto& law) { return law.range(); }, *interface.options().wall);
     spring_ = stiffest_wave(block);
-    estimate_ = spring_ * range_;
+    estimate_ = spring_ *
+                std::visit([](const auto& law) { return law.range(); }, *interface.options().wall);
     mean_ = block.mean_height();
     const Constraint& constraint = block.constraint();
     const double n = block.options().sites;
@@ -45,33 +45,20 @@ bool WallDescent::step() {
     if (options_.start == Start::predicted) return false;
     const auto t = phases_.time(Phase::advance);
     single_ = single_ && estimate_ > Constants::rounding * spring_;
-    const double force = uniform_force_;
-    double turn = settle_all();
-    if (!balanced_) { // momentum has carried sites further than a step can turn them back
-        momentum_ = 0.0;
-        sequence_ = 1.0;
-        uniform_force_ = force;
-        turn = settle_all();
-        if (!balanced_) uniform_force_ = force;
+    double turn = 0.0;
+    if (single_) { // as long as that is good enough
+        elastic_forces(single_waves_, single_field_);
+        turn = settle_sites(single_field_);
+    } else {
+        elastic_forces(waves_, field_);
+        turn = settle_sites(field_);
     }
-    mean_step_ = next_mean_ - mean_;
-    mean_ = next_mean_;
     accept();
     if (turn > 0.0) sequence_ = 1.0;
     const double following = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * sequence_ * sequence_));
     momentum_ = (sequence_ - 1.0) / following;
     sequence_ = following;
     return true;
-}
-
-/// Elastic forces and sites, in single precision as long as that is good enough.
-double WallDescent::settle_all() {
-    if (single_) {
-        elastic_forces(single_waves_, single_field_);
-        return settle_sites(single_field_);
-    }
-    elastic_forces(waves_, field_);
-    return settle_sites(field_);
 }
 
 double WallDescent::conclude() {
@@ -123,12 +110,7 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
                   .spring = spring_,
                   .momentum = momentum_,
                   .norm = 1.0 / sites,
-                  .load = 0.0,
-                  .bound = (constraint.of == Constraint::Of::load ? Constants::reach
-                                                                  : Constants::held_reach) *
-                           range_,
-                  .share = Constants::share,
-                  .near = Constants::near * range_};
+                  .load = 0.0};
     double turn = 0.0, mean = 0.0;
     const auto settle = [&](double force) {
         rule.load = force;
@@ -149,26 +131,24 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
         turn = total[0];
         mean = total[1] / (sites * sites); // RowSums multiplies by the sites
     };
-    // What the block's spring and the load ask for, less the force, and less what S and L have of
-    // the uniform wave; or what lifts the mean to where it is held.
-    const double ahead = momentum_ * mean_step_;
+    // What the block's spring and the load ask for, less the force, and less what L adds to the
+    // uniform wave; or what lifts the mean to where it is held.
     const double spring = constraint.is_top() ? block_.stiffness(0, 0).zz : 0.0;
     const auto excess = [&](double force) {
         settle(force);
         if (constraint.is_mean_height()) return spring_ * (mean - constraint.value);
-        const double top = constraint.is_top() ? spring * (mean - ahead - constraint.value) : load;
-        return top - spring_ * (mean - mean_ - ahead) - force;
+        const double top = constraint.is_top() ? spring * (mean - constraint.value) : load;
+        return top - spring_ * (mean - mean_) - force;
     };
     balance(excess, constraint.is_mean_height() ? 1e-13 * spring_
                                                 : Constants::closure * options_.tolerance);
     next_mean_ = mean;
-    return turn;
+    return turn + sites * sites * (mean - mean_) * (mean - mean_); // without the uniform wave
 }
 
 /// Finds the uniform force at which excess(force), eV/Å, is no more than enough, by the secant from
-/// the last one, downhill: the sites follow the excess, which falls as the force grows. A secant
-/// that leaves what is known of the root is replaced by a halving. Where all sites move as far as
-/// they may, the force may change nothing, and stays.
+/// the last one. The sites follow the force, so the excess falls steadily as the force grows. A
+/// secant that leaves what is known of the root is replaced by a halving.
 template <class Excess>
 void WallDescent::balance(const Excess& excess_at, double enough) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -177,7 +157,7 @@ void WallDescent::balance(const Excess& excess_at, double enough) {
     for (int i = 0; i < 60 && std::abs(excess) > enough; ++i) {
         (excess > 0.0 ? low : high) = force;
         const double now = excess_at(next);
-        if (now == excess) break;
+        if (now == excess) break; // as near as numbers are to each other
         const double before = std::exchange(force, next);
         next = force - now * (force - before) / (now - excess);
         excess = now;
@@ -187,18 +167,19 @@ void WallDescent::balance(const Excess& excess_at, double enough) {
         next = between ? 0.5 * (low + high) : force + 2.0 * excess;
     }
     uniform_force_ = force;
-    balanced_ = std::abs(excess) <= std::max(enough, Constants::unbalanced * spring_ * range_);
 }
 
 /// u <- next.
 void WallDescent::accept() {
+    const double lift = next_mean_ - mean_;
+    mean_ = next_mean_;
     const PlaneView<double> u = block_.moving_layer(0);
     const PlaneView<const double> next = std::as_const(next_).plane(0);
     const PlaneView<float> step = step_.plane(0);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < u.ny; ++y)
         for (int x = 0; x < u.nx; ++x) {
-            step(x, y) = static_cast<float>(next(x, y) - u(x, y));
+            step(x, y) = static_cast<float>(next(x, y) - u(x, y) - lift);
             u(x, y) = next(x, y);
         }
 }

@@ -12,21 +12,25 @@
 //     z = u + beta (u - u_before),    u <- rest of each site under its law and a spring L to
 //                                          z - (S z + load) / L,
 //
-// L the stiffness of the block's stiffest wave. Where the law is softer than -L a site has two
-// places to rest; it goes downhill to one, no further in an iteration than a part of the law's
-// range (of the gap, where that is wide). So the number of iterations does not depend on how steep
-// the law is beside the block: over rubber an attraction is ten thousand times as steep.
+// L the stiffness of the block's stiffest wave. The law's attraction, beyond the place where it is
+// steepest, is taken as it is at z: that part of the law's energy lies below its tangents, so the
+// energy still falls with every step of no momentum (the convex-concave procedure of Yuille and
+// Rangarajan, Neural Comput. 15, 915 (2003)). A site is pulled no further than its own law and the
+// spring L would take it, so it does not pass a barrier of these two; and it follows the force on
+// it steadily, without a jump. So the number of iterations does not depend on how steep the law is
+// beside the block: over rubber an attraction is ten thousand times as steep.
 //
-// Where every site has come to rest the residual force of the state u is (L - S) (z - u), so
-// L |z - u| measures it. beta follows Nesterov's sequence and starts anew where the step turns
-// against the gradient. The number of iterations goes with the root of the number of sites across
-// the box; each takes a transform there and one back, in single precision until the residual is
-// near its rounding.
+// Where every site has come to rest the residual force of the state u is (L - S) (z - u) and what
+// the attraction at u differs by from that at z, so L |z - u| and the latter measure it. beta
+// follows Nesterov's sequence and starts anew where the step turns against the gradient. The number
+// of iterations goes with the root of the number of sites across the box; each takes a transform
+// there and one back, in single precision until the residual is near its rounding.
 //
 // The uniform wave is not taken step by step: forces too small for a site's tolerance add up over
 // the sites to a force on the top plane, which would have one sign as long as the block is on its
 // way. In every iteration the uniform force on the sites is found by which the interface's force is
-// that of the block's spring, or the load, or by which the mean height is what it is held at.
+// that of the block's spring, or the load, or by which the mean height is what it is held at. So
+// the mean needs no momentum, and has none: with it, a held top oscillates.
 #pragma once
 
 #include "engine/block/spectral_block.hpp"
@@ -34,24 +38,10 @@
 
 namespace asperity {
 
-/// (reach, share and near were chosen with a prototype on few surfaces, before the load was
-/// balanced.)
 struct WallDescentConstants {
-    /// How far a site may go in an iteration, in ranges of the law, from where its momentum takes
-    /// it. Larger ones let momentum carry sites of soft blocks over barriers. Which of several
-    /// states of a soft block (1 GPa and less) is found still depends on it.
-    static constexpr double reach = 0.1;
-    /// The same where the top or the mean height is held: points of a path start next to the last
-    /// one, and where patches fall 0.1 takes a hundred times the iterations (32 sites, 61 GPa,
-    /// range 1.04 Å: 195 000 for 213 points, with 0.3 5500 for 377).
-    static constexpr double held_reach = 0.3;
-    /// Beyond `near` ranges, where there is no barrier: a share of what the gap exceeds that by.
-    static constexpr double share = 0.25, near = 4.0;
     /// What may be left of the mean force, in tolerances. Steps of the secant more than this asks
     /// for are few: it converges faster than linearly.
     static constexpr double closure = 1e-3;
-    /// A mean force of which more is left, in those that move a site by the range, is not balanced.
-    static constexpr double unbalanced = 1e-6;
     /// Elastic forces of single precision let sites rest this much off, Å.
     static constexpr double rounding = 2e-5;
 };
@@ -73,7 +63,6 @@ public:
 private:
     template <class T>
     void elastic_forces(Waves<T>& waves, SiteField<T>& field);
-    double settle_all();
     template <class T>
     double settle_sites(const SiteField<T>& elastic);
     template <class Excess>
@@ -88,15 +77,12 @@ private:
     double spring_ = 0.0;        ///< L, eV/Å^2
     double sequence_ = 1.0;      ///< Nesterov's t
     double momentum_ = 0.0;      ///< beta
-    double range_ = 0.0;         ///< of the law, Å
     double mean_ = 0.0;          ///< of u, Å
     double next_mean_ = 0.0;     ///< of next_, Å
-    double mean_step_ = 0.0;     ///< of the last step, Å
     double uniform_force_ = 0.0; ///< by which the uniform wave is in balance, on each site, eV/Å
     double estimate_;
     double doubt_ = 1.0; ///< halved where the estimate was below the tolerance and the residual not
     bool single_ = true;
-    bool balanced_ = true; ///< a uniform force was found by the last step
     Waves<double> waves_;
     Waves<float> single_waves_;
     SiteField<double> field_;
