@@ -19,8 +19,7 @@ namespace asperity {
 namespace {
 
 std::string levels_text(const Scene& scene, const Setup& setup) {
-    if (scene.block.model == BlockModel::spectral)
-        return "static response of the lattice, wave by wave";
+    if (scene.without_time()) return "static response of the lattice, wave by wave";
     const auto& levels = setup.levels;
     const char* strain = scene.block.strain == Strain::finite ? "; finite strain" : "";
     if (levels.size() == 1)

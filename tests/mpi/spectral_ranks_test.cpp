@@ -3,7 +3,7 @@
 //
 // The spectral block in slabs over the ranks against the same on one: every rank holds both, the
 // slab it shares and a whole surface of its own. Sizes that the ranks divide, and that they do not.
-#include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/equilibrium/relaxation.hpp"
 #include "support/cases.hpp"
 #include "support/world.hpp"
 
@@ -47,14 +47,12 @@ State relax_on(const Communicator& ranks, const BlockOptions& options, const Sur
     InterfaceOptions over = test::paper_interface();
     over.wall = wall;
     const Interface interface(surface, block.tile(), options.spacing, over);
-    block.constrain(constraint);
-    block.settle();
     RelaxOptions relaxation;
-    relaxation.tolerance = 1e-7;
-    relaxation.max_move = 0.2;
+    relaxation.tolerance = 1e-8;
     Phases phases;
     State state;
-    state.relaxed = relax(block, interface, surface.statistics.highest + 2.5, relaxation, phases);
+    state.relaxed =
+        relax(block, interface, surface.statistics.highest + 2.5, constraint, relaxation, phases);
     state.top = block.top();
     state.top_force = state.relaxed.top_force;
     return state;
