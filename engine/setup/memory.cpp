@@ -106,14 +106,15 @@ MemoryNeed& MemoryNeed::operator+=(const MemoryNeed& other) {
 
 std::size_t relaxation_bytes(const Tile& tile, int components, bool wall) {
     const std::size_t sites = static_cast<std::size_t>(tile.nx) * static_cast<std::size_t>(tile.ny);
-    // Waves, elastic forces in both precisions; next in double, the step in single.
-    if (wall) return sites * (3 * sizeof(double) + 3 * sizeof(float));
-    // Vectors of the sites: in double, the gradient, a displaced layer with its force; in single,
-    // the ball's goals, momenta, waves and gain, Newton's four and its map, its direction twice,
-    // and three fields of sites.
+    // Waves, elastic forces in both precisions; next in double, the step in single; S u for the
+    // energy at the end.
+    if (wall) return sites * (4 * sizeof(double) + 3 * sizeof(float));
+    // Vectors of the sites: in double, the gradient, S u, a displaced layer with its force; in
+    // single, the ball's goals, momenta, waves and gain, Newton's four and its map, its direction
+    // twice, and three fields of sites.
     const auto c = static_cast<std::size_t>(components);
     const std::size_t map = c == 1 ? 1 : 6;
-    return sites * (sizeof(double) * (c + (c == 1 ? 3 : 6)) +
+    return sites * (sizeof(double) * (2 * c + (c == 1 ? 3 : 6)) +
                     sizeof(float) * (3 * c + 1 + 4 * c + map + 4 * c));
 }
 

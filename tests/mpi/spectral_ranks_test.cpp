@@ -48,7 +48,7 @@ State relax_on(const Communicator& ranks, const BlockOptions& options, const Sur
     over.wall = wall;
     const Interface interface(surface, block.tile(), options.spacing, over);
     RelaxOptions relaxation;
-    relaxation.tolerance = 1e-8;
+    relaxation.tolerance = 1e-7;
     Phases phases;
     State state;
     state.relaxed =
@@ -171,14 +171,18 @@ TEST(SpectralBlock, RelaxesOverAWallLikeOneRank) {
             const State shared = relax_on(test::world(), options, surface, constraint, true, wall);
             const State alone = relax_on(Communicator(), options, surface, constraint, true, wall);
             ASSERT_TRUE(shared.relaxed.converged && alone.relaxed.converged);
-            const double energy = alone.relaxed.interface_energy + alone.relaxed.elastic_energy;
+            // With the load's potential it is stationary.
+            const auto energy = [&](const State& s) {
+                return s.relaxed.interface_energy + s.relaxed.elastic_energy +
+                       constraint.load() * s.top;
+            };
             const double size =
                 std::abs(alone.relaxed.interface_energy) + alone.relaxed.elastic_energy;
             ASSERT_GT(size, 0.1);
-            EXPECT_NEAR(shared.relaxed.interface_energy + shared.relaxed.elastic_energy, energy,
-                        1e-9 * size);
+            EXPECT_NEAR(energy(shared), energy(alone), 1e-9 * size);
             EXPECT_EQ(shared.relaxed.in_contact, alone.relaxed.in_contact);
-            EXPECT_NEAR(shared.relaxed.mean_height, alone.relaxed.mean_height, 1e-8);
+            // The block's softest springs let a residual of 1e-7 eV/Å be 1e-6 Å.
+            EXPECT_NEAR(shared.relaxed.mean_height, alone.relaxed.mean_height, 1e-7);
             EXPECT_NEAR(shared.relaxed.force, alone.relaxed.force, 1e-7 * 256);
             EXPECT_NEAR(shared.top_force, alone.top_force, 1e-7 * 256);
         }
