@@ -5,7 +5,7 @@
 it is bent, coloured by pressure, raised above the substrate, coloured by height. Heights are drawn three times as
 large as widths.
 
-    ./asperity run scenes/first-contact.toml --set drive.path=zero-load block.model=spectral surface.sites=96 --out results/maps
+    ./asperity run scenes/first-contact.toml --set drive.path=zero-load surface.sites=96 --out results/maps
     ./asperity export results/maps --to vtk
     python3 docs/gallery/maps.py results/maps/export docs/gallery/maps.png
 """

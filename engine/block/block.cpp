@@ -65,8 +65,7 @@ ElasticLevel Block::Level::view(double a) {
             inner,       upper,    cell(a)};
 }
 
-Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid,
-             Motion motion)
+Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid)
     : options_(options), communicator_(communicator), grid_(grid), halo_(communicator, grid) {
     double depth = 0.0;
     for (const LevelShape& shape : level_shapes(options)) {
@@ -83,20 +82,10 @@ Block::Block(const BlockOptions& options, const Communicator& communicator, cons
         level.u = VectorField<double>(level.tile, shape.cells + 1);
         level.incoming = VectorField<double>(level.tile, 1);
         level.upper_force = VectorField<double>(level.tile, 1);
-        if (motion == Motion::in_time) level.v = VectorField<double>(level.tile, shape.cells);
+        level.v = VectorField<double>(level.tile, shape.cells);
         depth += shape.cells * static_cast<double>(1 << shape.level);
         levels_.push_back(std::move(level));
     }
-}
-
-Block Block::copy_at_rest() const {
-    Block copy(options_, communicator_, grid_, Motion::at_rest);
-    for (std::size_t l = 0; l < levels_.size(); ++l) {
-        copy.levels_[l].u.copy_from(levels_[l].u);
-        copy.levels_[l].incoming.copy_from(levels_[l].incoming);
-    }
-    copy.top_ = top_;
-    return copy;
 }
 
 void Block::set_uniform(double z, double w) {
@@ -108,8 +97,8 @@ void Block::set_uniform(double z, double w) {
                 for (int x = -h; x < level.tile.nx + h; ++x) {
                     u.x(x, y, k) = u.y(x, y, k) = 0.0;
                     u.z(x, y, k) = z;
-                    if (!level.v.empty() && k < level.shape.cells && x >= 0 && x < level.tile.nx &&
-                        y >= 0 && y < level.tile.ny) {
+                    if (k < level.shape.cells && x >= 0 && x < level.tile.nx && y >= 0 &&
+                        y < level.tile.ny) {
                         v.x(x, y, k) = v.y(x, y, k) = 0.0;
                         v.z(x, y, k) = w;
                     }

@@ -79,9 +79,6 @@ struct StepParameters {
     bool operator==(const StepParameters&) const = default;
 };
 
-/// What a block is for: a path in time needs velocities; a state at rest has none.
-enum class Motion { in_time, at_rest };
-
 class Block {
 public:
     /// Rows are worked on in bands of so many.
@@ -96,7 +93,7 @@ public:
         CellElasticity elasticity;
         Stencil lower, inner, upper;
         VectorField<double> u, incoming;
-        VectorField<double> v;           ///< in time only
+        VectorField<double> v;
         VectorField<double> upper_force; ///< on the prescribed plane; one plane
 
         std::size_t bytes() const;
@@ -113,11 +110,7 @@ public:
         ElasticLevel view(double a);
     };
 
-    Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid,
-          Motion motion = Motion::in_time);
-
-    /// A deep copy of the state, without its motion.
-    Block copy_at_rest() const;
+    Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid);
 
     const BlockOptions& options() const { return options_; }
     const ProcessGrid& grid() const { return grid_; }

@@ -148,15 +148,17 @@ template void SpectralBlock::stiffen_row(int, const Waves<double>&, double, Wave
 
 double SpectralBlock::elastic_energy() const {
     // Half u.(S u), u measured from a prescribed top plane, and what a load stretches the block by.
-    Waves<double> u = new_waves<double>(), su = new_waves<double>();
-    combine(1.0, waves_, 0.0, u);
-    if (constraint_.is_top() && slab_.holds_uniform())
-        u.row(components_ - 1, 0)[0] -= constraint_.value;
+    const double from = constraint_.is_top() ? constraint_.value : 0.0;
+    Waves<double> su = new_waves<double>();
+    combine(1.0, waves_, 0.0, su);
+    if (slab_.holds_uniform()) su.row(components_ - 1, 0)[0] -= from;
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < slab_.rows; ++y)
-        stiffen_row(y, u, 0.0, su);
+        stiffen_row(y, su, 0.0, su);
+    double twice = dot(waves_, su);
+    if (from != 0.0) twice -= from * spring() * (mean_height() - from);
     const double load = constraint_.load();
-    return 0.5 * (dot(u, su) + load * load / spring());
+    return 0.5 * (twice + load * load / spring());
 }
 
 template <class T>

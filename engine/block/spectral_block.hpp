@@ -111,6 +111,11 @@ public:
     /// displacements, which in single precision leave 1e-7 of what has been moved between them. A
     /// prescribed mean height is then what it should be. Collective.
     void settle();
+    /// The same under another constraint.
+    void settle(const Constraint& constraint) {
+        constrain(constraint);
+        settle();
+    }
 
     /// S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2. Frictionless: its one number, as zz.
     SurfaceMatrix stiffness(int nx, int ny) const;

@@ -9,19 +9,19 @@
 namespace asperity {
 
 void Continuation::begin(double at) {
-    last_.take(block_.state());
+    last_.take(state_of(block_));
     at_ = before_at_ = at;
 }
 
 void Continuation::accept(double at) {
     moved_ = largest_move().value;
     std::swap(before_, last_);
-    last_.take(block_.state());
+    last_.take(state_of(block_));
     before_at_ = std::exchange(at_, at);
 }
 
 void Continuation::put_back() {
-    last_.restore(block_.state());
+    last_.restore(state_of(block_));
     block_.settle(constraint(at_));
 }
 
@@ -32,7 +32,7 @@ bool Continuation::predicts(double at) const {
 
 RelaxedState Continuation::relax_at(double at, bool predicted, const Report& report,
                                     const ForceWindow& window) {
-    const auto arrays = block_.state();
+    const auto arrays = state_of(block_);
     last_.restore(arrays);
     RelaxOptions options;
     options.start = predicted ? Start::predicted : Start::near;
@@ -42,7 +42,7 @@ RelaxedState Continuation::relax_at(double at, bool predicted, const Report& rep
     options.report = report;
     options.force_window = window;
     const RelaxedState state =
-        block_.relax(interface_, options_.reference_height, constraint(at), options, phases_);
+        relax(block_, interface_, options_.reference_height, constraint(at), options, phases_);
     iterations_ += state.iterations;
     return state;
 }
@@ -57,7 +57,7 @@ std::function<double(int, int)> Continuation::moves() const {
 }
 
 std::vector<StateArray> Continuation::states() {
-    const auto arrays = block_.state();
+    const auto arrays = state_of(block_);
     if (last_.empty()) last_.take(arrays);
     if (before_.empty()) before_.take(arrays);
     std::vector<StateArray> list = last_.arrays(arrays, "");

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "decomposition/global_largest.hpp"
-#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 
 #include <functional>
 #include <vector>
@@ -36,13 +36,13 @@ public:
         double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
         double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
     };
-    Continuation(Equilibrium& block, Interface& interface, const Options& options)
+    Continuation(SpectralBlock& block, Interface& interface, const Options& options)
         : block_(block), interface_(interface), options_(options) {}
 
     /// The block as it is becomes the last point, the only one known.
     void begin(double at);
     /// The block as it is becomes the last point, at the same coordinate.
-    void replace() { last_.take(block_.state()); }
+    void replace() { last_.take(state_of(block_)); }
     /// The block as it is becomes the next point.
     void accept(double at);
     /// Puts the block back to the last point, from wherever it was taken.
@@ -57,7 +57,7 @@ public:
     RelaxedState relax_at(double at, bool predicted, const Report& report,
                           const ForceWindow& window = {});
     /// Towards the last point from where the block is: this share of the way.
-    void retreat(double share) { last_.extrapolate(-share, block_.state()); }
+    void retreat(double share) { last_.extrapolate(-share, state_of(block_)); }
 
     Constraint constraint(double at) const { return {options_.along, at}; }
     long long iterations() const { return iterations_; }
@@ -80,7 +80,7 @@ public:
     std::vector<StateArray> states();
 
 private:
-    Equilibrium& block_;
+    SpectralBlock& block_;
     Interface& interface_;
     Options options_;
     Phases phases_; ///< of the relaxations; their lines are not lines of the step

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/equilibrium/heavy_ball.hpp"
 
+#include "engine/equilibrium/relaxation.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,10 +19,11 @@ HeavyBall::HeavyBall(SpectralBlock& block)
 
 double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
     block_.respond(preconditioner, waves_, goal_);
-    const BallRule rule{.keep = 0.7f,
-                        .cut = 0.7f,
-                        .raise = 1.06f,
-                        .most = 2.0f,
+    using Constants = RelaxationConstants;
+    const BallRule rule{.keep = Constants::keep,
+                        .cut = Constants::cut,
+                        .raise = Constants::raise,
+                        .most = Constants::most_gain,
                         .bound = static_cast<float>(bound)};
     const int components = block_.components();
     const PlaneView<float> gain = gain_.plane(0);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/equilibrium/newton.hpp"
 
+#include "engine/equilibrium/relaxation.hpp"
+
 namespace asperity {
 
 Newton::Newton(const SpectralBlock& block, const Preconditioner& preconditioner)
@@ -18,7 +20,7 @@ bool Newton::direction(const Interface& interface, double reference_height, doub
     double rz = advance(0.0, d);
     combine(1.0, z_, 0.0, p_);
     const double enough = forcing * forcing * rz;
-    for (int i = 0; i < most_products && rz > enough; ++i) {
+    for (int i = 0; i < RelaxationConstants::most_products && rz > enough; ++i) {
         const double curvature = multiply();
         if (!(curvature > 0.0)) return false;
         const double next = advance(rz / curvature, d);

@@ -29,7 +29,6 @@ private:
     /// d <- d + a p, r <- r - a q, z <- P r. Returns r.z.
     double advance(double a, Waves<float>& d);
 
-    static constexpr int most_products = 100;
     const SpectralBlock& block_;
     const Preconditioner& preconditioner_;
     InterfaceStiffness stiffness_;

@@ -13,7 +13,7 @@
 
 namespace asperity {
 
-QuasistaticPath::QuasistaticPath(Equilibrium& block, Interface& interface, PathOptions options)
+QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options)
     : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
       points_(block, interface,

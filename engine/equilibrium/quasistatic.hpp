@@ -23,15 +23,15 @@
 // So an instability ends up between two points so close that its place and its energy are known,
 // while many small instabilities that leave the force smooth are counted without looking for each.
 // As long as a place further on is kept, steps go half of the way to it. A relaxation whose force
-// jumps further than a step of its length may have it (spectral block) is given up on its way
+// jumps further than a step of its length may have it is given up on its way
 // through the instability: its step would, with few exceptions, be halved anyway.
 // "Nothing" is drive.tolerance for each site and Å of the step: errors of the energy are then
 // bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
 //
 // Where the last steps were reversible, the next one starts from their linear continuation
-// (continuation.hpp). A spectral block gives that up as soon as Newton's method does not help; over
-// a wall none is taken. What is not accepted after a prediction, or would be counted as dissipated,
-// is computed again without.
+// (continuation.hpp). That is given up as soon as Newton's method does not help; over a wall none
+// is taken. What is not accepted after a prediction, or would be counted as dissipated, is computed
+// again without.
 #pragma once
 
 #include "engine/dynamics/drive.hpp"
@@ -53,7 +53,7 @@ struct PathOptions : SequenceOptions {
 
 class QuasistaticPath {
 public:
-    QuasistaticPath(Equilibrium& block, Interface& interface, PathOptions options);
+    QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options);
 
     /// The undisplaced block, where nothing is in reach.
     void start();
@@ -133,7 +133,7 @@ private:
     /// Of the work of a step with an instability, eV.
     double allowed_uncertainty() const { return options_.tolerance * sites_ * options_.step; }
 
-    Equilibrium& block_;
+    SpectralBlock& block_;
     Interface& interface_;
     PathOptions options_;
     double sites_ = 0.0; ///< N^2

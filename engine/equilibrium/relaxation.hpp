@@ -1,29 +1,41 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The relaxed state of a block of levels, without inertia: downhill with momentum,
+// The relaxed state of a contact: the spectral block over its substrate, without inertia.
 //
-//     v <- m v + (steps of the forces),      u <- u + v,
+// Over atoms there are two stages. While contact spreads, sites snap into contact one after the
+// other, and the energy is far from quadratic. However well a step is chosen, it is good for some
+// tenths of an angstrom only, the range of an attraction; so steps must be cheap. Every site is a
+// heavy ball of its own (heavy_ball.hpp): one sweep of the interface, two transforms a component,
+// no energy, no line search. The stiffness k of the preconditioner follows the interface's mean, so
+// that a block supported by a few summits converges as fast as one in full contact.
 //
-// where the steps of all nodes come from a hierarchy of grids (coarse_grids.hpp) that carries long
-// waves at once, and those of the planes' means from a chain of springs, solved exactly. So the
-// iterations hardly grow with the block. Both know how stiff the interface is at each site: its
-// force there depends on the site's own place, so the last move and the change of force tell. The
-// momentum m grows from 0.8 to 0.95 while it leads the lowest layer downhill, and starts again at
-// 0.8 where it does not.
+// Once no site has far to go, what is left is a smooth problem with soft modes, and the direction
+// is Newton's (newton.hpp): (S + H) d = -g by conjugate gradients with the same preconditioner,
+// without sweeps and in single precision, and g is in double. Where the curvature is negative,
+// where Newton's step would move a site further than it may, or where the last step has not halved
+// the residual, the heavy balls go on.
 //
-// The top plane is rigid. Free to move along z under a load, it ends where the state carries no net
-// force but the load; prescribed, it feels what the block exerts. Where the mean height of the
-// lowest layer is prescribed, its mean force is left out of the descent, and the free top plane
-// comes to rest where none is on it.
+// A relaxation that starts near an equilibrium (Start::near, as at a point of a path) begins with
+// Newton's method; steps that would move a site further than it may, but no further than ten times
+// that, are then shortened. One that starts from a prediction ends where Newton's method does not
+// help: a surface that has become unstable is then followed from its last equilibrium, not from a
+// guess.
 //
-// No node moves more than max_move in an iteration, and the descent starts from rest: the minimum
-// found is the one downhill, not one behind a barrier.
+// Sweeps of the first stage are in mixed precision (where the interface is made for it), and so are
+// Newton's until the forces are near their error; the last ones, and the state that is reported,
+// are in the interface's own.
+//
+// Over a wall each site's own law is solved exactly instead (wall_descent.hpp).
+//
+// The minimum that is found is the one downhill: no site moves further than max_move in an
+// iteration, and one that has passed its goal stops. A state whose forces cannot be brought below
+// the tolerance is reported as not converged.
 #pragma once
 
-#include "engine/block/block.hpp"
 #include "engine/block/constraint.hpp"
 #include "engine/block/interface.hpp"
+#include "engine/block/spectral_block.hpp"
 #include "engine/phases.hpp"
 
 #include <functional>
@@ -45,31 +57,49 @@ struct ForceWindow {
 };
 
 struct RelaxOptions {
-    Start start = Start::anywhere; ///< waves only
-    double tolerance = 1e-4;       ///< largest residual force on a node, eV/Å
-    double max_move = 0.2;         ///< Å an iteration
-    double site_stiffness = 2.2;   ///< of the interface, for each site, eV/Å^2: waves only
+    Start start = Start::anywhere;
+    double tolerance = 1e-4;     ///< largest residual force on a site, eV/Å
+    double site_stiffness = 2.2; ///< of the interface, for each site, eV/Å^2
     long long max_iterations = 200000;
-    ForceWindow force_window; ///< given up where the force stays outside: waves only
+    ForceWindow force_window; ///< given up where the force stays outside; atoms only
     /// Called now and then, on all ranks, with the iteration and the residual. True: stop here.
     std::function<bool(long long, double)> report;
 };
 
-/// Whether a relaxation has come to a standstill.
-class Standstill {
-public:
-    /// What has not halved in 3000 iterations will not any more.
-    bool operator()(long long iteration, double residual) {
-        if (residual < 0.5 * smallest_) {
-            smallest_ = residual;
-            found_at_ = iteration;
-        }
-        return iteration > found_at_ + 3000;
-    }
+/// What the minimisers are tuned with. The states that they end in do not depend on these, as far
+/// as was measured; iterations do.
+struct RelaxationConstants {
+    // The loop: over when the residual has not halved in so many iterations.
+    static constexpr long long standstill = 3000;
+    // The force is compared with its window after so many iterations, and every so many.
+    static constexpr long long settled = 20, look = 5;
 
-private:
-    double smallest_ = std::numeric_limits<double>::infinity();
-    long long found_at_ = 0;
+    // Heavy balls (heavy_ball.hpp): of the momentum kept; a gain is cut where a site has passed its
+    // goal, and is raised elsewhere, to this at most.
+    static constexpr float keep = 0.7f, cut = 0.7f, raise = 1.06f, most_gain = 2.0f;
+    /// Å in an iteration: well below the range of the potential, so that no site passes a barrier.
+    static constexpr double max_move = 0.3;
+    /// k of the preconditioner over the interface's mean stiffness; measured anew every so many
+    /// iterations, taken over where it has changed by this share.
+    static constexpr double softer = 0.35, changed = 0.2;
+    static constexpr long long tuned_every = 8;
+    static constexpr double least_stiffness = 2e-4; ///< eV/Å^2: where hardly a site is in contact
+
+    // Newton's method (newton.hpp).
+    static constexpr double close_by = 3e-3;    ///< eV/Å: of an equilibrium, to try it at once
+    static constexpr double close_enough = 0.3; ///< eV/Å: the same from near an equilibrium
+    static constexpr double near = 0.002;       ///< Å: the longest way to a goal, to try it
+    static constexpr long long patience = 10;   ///< iterations of heavy balls before that
+    static constexpr double forcing = 0.1;      ///< what conjugate gradients leave of the residual
+    static constexpr int most_products = 100;   ///< of conjugate gradients
+    static constexpr double shortest = 0.1;     ///< share of a step near an equilibrium
+    /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
+    static constexpr double rough_enough = 1e-5;
+
+    // Over a wall (wall_descent.hpp): what may be left of the mean force, in tolerances (steps of
+    // the secant more than this asks for are few: it converges faster than linearly), and how much
+    // elastic forces of single precision let sites rest off, Å.
+    static constexpr double closure = 1e-3, rounding = 2e-5;
 };
 
 struct RelaxedState {
@@ -90,9 +120,8 @@ struct RelaxedState {
     double closest = 0.0;     ///< smallest pair distance, Å; infinite out of reach
 };
 
-/// Relaxes the block in place, which stands where the constraint has it. Collective. The result is
-/// the same bits on any number of ranks.
-RelaxedState relax(Block& block, Interface& interface, double reference_height,
+/// Relaxes the block in place under the constraint, which it is first brought to. Collective.
+RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const Constraint& constraint, const RelaxOptions& options, Phases& phases);
 
 } // namespace asperity

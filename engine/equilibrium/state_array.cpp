@@ -19,6 +19,12 @@ void add_arrays(int level, const char* what, VectorField<double>& field, int pla
     add('z', field.z);
 }
 
+std::vector<StateArray> state_of(SpectralBlock& block) {
+    std::vector<StateArray> list;
+    add_arrays(0, "u", block.layer(), 1, list);
+    return list;
+}
+
 void StateCopy::take(const std::vector<StateArray>& arrays) {
     if (copies_.empty())
         for (const StateArray& array : arrays) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "decomposition/field.hpp"
+#include "engine/block/spectral_block.hpp"
 
 #include <string>
 #include <vector>
@@ -24,6 +25,10 @@ struct StateArray {
 /// "/level2/<what>_x".
 void add_arrays(int level, const char* what, VectorField<double>& field, int planes,
                 std::vector<StateArray>& list);
+
+/// The displacements of a block's lowest layer: its whole state. settle() is to follow what is
+/// written to them.
+std::vector<StateArray> state_of(SpectralBlock& block);
 
 /// A copy of all arrays of a list, to go back to.
 class StateCopy {

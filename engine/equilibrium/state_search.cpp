@@ -14,7 +14,7 @@
 
 namespace asperity {
 
-StateSearch::StateSearch(Equilibrium& block, Interface& interface, StateSearchOptions options)
+StateSearch::StateSearch(SpectralBlock& block, Interface& interface, StateSearchOptions options)
     : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
       points_(block, interface,
@@ -24,7 +24,7 @@ StateSearch::StateSearch(Equilibrium& block, Interface& interface, StateSearchOp
 void StateSearch::start(const ZeroLoad& first) {
     const double height = block_.mean_height();
     points_.begin(height);
-    first_.take(block_.state());
+    first_.take(state_of(block_));
     first_top_ = block_.top();
     // As all other points, without what a load stretches the block by.
     const RelaxedState state = points_.relax_at(height, false, {});
@@ -76,9 +76,9 @@ StateSearch::Outcome StateSearch::advance() {
     const Point &outer = outwards_ ? to : now_, &inner = outwards_ ? now_ : to;
     if (outer.force < options_.load && inner.force >= options_.load) {
         StateCopy here;
-        here.take(block_.state());
+        here.take(state_of(block_));
         if (!relax_state(to, smooth)) return interrupted();
-        here.restore(block_.state());
+        here.restore(state_of(block_));
         block_.settle(points_.constraint(height));
     }
     if (!outwards_) {
@@ -226,7 +226,7 @@ void StateSearch::add(const ZeroLoad& state) {
 }
 
 void StateSearch::turn_outwards() {
-    turn_.take(block_.state());
+    turn_.take(state_of(block_));
     turned_at_ = now_;
     ++instabilities_;
     outward_points_ = 0;
@@ -240,7 +240,7 @@ void StateSearch::turn_inwards() {
         --instabilities_;
         passed_.pop_back();
     }
-    turn_.restore(block_.state());
+    turn_.restore(state_of(block_));
     block_.settle(points_.constraint(turned_at_.height));
     points_.begin(turned_at_.height);
     now_ = turned_at_;
@@ -285,12 +285,12 @@ std::optional<double> StateSearch::largest_force(const Found& from, const Found&
 }
 
 void StateSearch::restore_first() {
-    first_.restore(block_.state());
+    first_.restore(state_of(block_));
     block_.settle(Constraint::top(first_top_));
 }
 
 std::vector<StateArray> StateSearch::states() {
-    const auto arrays = block_.state();
+    const auto arrays = state_of(block_);
     std::vector<StateArray> list = points_.states();
     for (const auto& [copy, name] : {std::pair{&first_, "first_"}, std::pair{&turn_, "turn_"}}) {
         if (copy->empty()) copy->take(arrays);

@@ -68,7 +68,7 @@ struct StateSearchOptions : SequenceOptions {
 
 class StateSearch {
 public:
-    StateSearch(Equilibrium& block, Interface& interface, StateSearchOptions options);
+    StateSearch(SpectralBlock& block, Interface& interface, StateSearchOptions options);
 
     /// The block stands in the first state.
     void start(const ZeroLoad& first);
@@ -135,7 +135,7 @@ private:
     std::optional<double> largest_force(const Found& from, const Found& to) const;
     double accuracy() const { return options_.tolerance * sites_ * options_.step; } ///< eV
 
-    Equilibrium& block_;
+    SpectralBlock& block_;
     const Interface& interface_;
     StateSearchOptions options_;
     double sites_ = 0.0; ///< N^2

@@ -13,7 +13,7 @@ namespace asperity {
 
 namespace {
 
-using Constants = WallDescentConstants;
+using Constants = RelaxationConstants;
 
 double stiffest_wave(const SpectralBlock& block) {
     double stiffest = 0.0;

@@ -38,14 +38,6 @@
 
 namespace asperity {
 
-struct WallDescentConstants {
-    /// What may be left of the mean force, in tolerances. Steps of the secant more than this asks
-    /// for are few: it converges faster than linearly.
-    static constexpr double closure = 1e-3;
-    /// Elastic forces of single precision let sites rest this much off, Å.
-    static constexpr double rounding = 2e-5;
-};
-
 class WallDescent {
 public:
     WallDescent(SpectralBlock& block, const Interface& interface, double reference_height,

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The parts of the path one after the other in time: steps until the drive has come to its end;
-// when the approach has ended, a copy of the block is relaxed under zero load.
+// when the approach has ended, a copy of the block's lowest layer is relaxed under zero load.
 #include "decomposition/global_largest.hpp"
 #include "engine/dynamics/approach_start.hpp"
-#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "engine/run/guard.hpp"
 #include "engine/run/run_record.hpp"
@@ -142,12 +142,14 @@ private:
             conclude_pull_off();
             return true;
         }
-        // The relaxation works on a copy: a run that is stopped in it starts it again from here.
-        run_.save_if_on(state_writer());
-        run_.progress.say("contact is made; relaxing a copy of this state under zero load");
-        if (!relax_copy()) {
-            run_.stop_now(state_writer(), position());
-            return false;
+        if (run_.setup.effects.on(Effect::relaxation)) {
+            // The block is not touched: a run that is stopped here starts the relaxation again.
+            run_.save_if_on(state_writer());
+            run_.progress.say("contact is made; relaxing a copy of its lowest layer under no load");
+            if (!find_state()) {
+                run_.stop_now(state_writer(), position());
+                return false;
+            }
         }
         conclude_approach();
         if (!simulation_.drive().done()) run_.progress.say("pull-off begins");
@@ -180,7 +182,8 @@ private:
     }
     /// The approach ends, but for vibrations, in the state at zero load.
     bool reaches_the_state() const {
-        return scene_.drive.temperature == 0.0 && scene_.drive.load == 0.0;
+        return run_.findings.zero_load && scene_.drive.temperature == 0.0 &&
+               scene_.drive.load == 0.0;
     }
 
     /// At an observed step, eV.
@@ -204,19 +207,19 @@ private:
     }
 
     /// False: stopped before the state was found.
-    bool relax_copy() {
+    bool find_state() {
         const auto t = run_.phases.time(Phase::relax);
-        const auto copy = at_rest(simulation_.block().copy_at_rest());
-        run_.findings.zero_load =
-            find_zero_load(*copy, simulation_.interface(), simulation_.reference_height(), 0.0,
-                           scene_, run_.setup, [&](long long iteration, double residual) {
-                               show_relaxation(run_.progress, iteration, residual);
-                               return run_.stop_relaxation();
-                           });
-        if (!run_.findings.zero_load) return false;
+        const double height = simulation_.reference_height();
+        LayerAtRest found = bring_to_rest(simulation_.block(), run_.surface, height, scene_,
+                                          run_.setup, [&](long long iteration, double residual) {
+                                              show_relaxation(run_.progress, iteration, residual);
+                                              return run_.wants_stop();
+                                          });
+        if (!found.numbers) return !run_.stop_relaxation();
+        run_.findings.zero_load = found.numbers;
         if (scene_.writes_field("zero-load"))
-            run_.recorder().fields("zero-load", copy->lowest_layer(), run_.grid,
-                                   simulation_.interface(), simulation_.reference_height());
+            run_.recorder().fields("zero-load", std::as_const(found.layer).view()[0], run_.grid,
+                                   simulation_.interface(), height);
         return true;
     }
 

@@ -5,12 +5,13 @@
 // the top plane free, approach and pull-off are points of a quasi-static path,
 // until the path says that it is there.
 #include "engine/block/flat_reference.hpp"
-#include "engine/equilibrium/equilibrium.hpp"
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/equilibrium/state_search.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 #include "engine/run/guard.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
+#include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
@@ -30,9 +31,9 @@ public:
         : run_(scene, options, ranks), scene_(scene),
           interface_(run_.surface, run_.grid.tile(0), scene.surface.spacing,
                      run_.setup.simulation.interface),
-          block_(make_equilibrium(scene, run_.setup, ranks, run_.grid)),
-          path_(*block_, interface_, path_options()),
-          search_(*block_, interface_, search_options()) {}
+          block_(run_.setup.simulation.block, ranks, scene.interface.frictionless),
+          path_(block_, interface_, path_options()), search_(block_, interface_, search_options()) {
+    }
 
     int carry_out() {
         const auto work = [&] {
@@ -41,8 +42,11 @@ public:
             follow_parts();
             run_.write_kept_fields(interface_);
         };
-        return run_.carry_out(block_->bytes() + interface_.bytes(), work,
-                              [&](io::Result& result) { add_to(result); });
+        return run_.carry_out(block_.bytes() +
+                                  relaxation_bytes(block_.tile(), block_.components(),
+                                                   scene_.interface.kind == InterfaceKind::wall) +
+                                  interface_.bytes(),
+                              work, [&](io::Result& result) { add_to(result); });
     }
 
 private:
@@ -64,9 +68,9 @@ private:
 
     bool relax_first() {
         if (!resumed_) {
-            const double height = height_of_strongest_attraction(
-                *block_, interface_, run_.surface.statistics.lowest, run_.ranks);
-            block_->set_uniform(height - reference_height());
+            const double height =
+                height_of_strongest_attraction(block_, interface_, run_.surface.statistics.lowest);
+            block_.set_uniform(height - reference_height());
         }
         resumed_ = false;
         // Its displacements so far are the state to resume from.
@@ -134,7 +138,7 @@ private:
         attraction = std::max(attraction, -now.force);
         run_.findings.dissipated = path_.dissipation();
         run_.recorder().row(now, leg == Leg::pull_off, scene_.surface.sites);
-        run_.watch_fields(now.step, leg, -now.force, block_->lowest_layer(), interface_,
+        run_.watch_fields(now.step, leg, -now.force, block_.lowest_layer(), interface_,
                           reference_height());
         if (run_.progress.due()) run_.progress.update(path_progress());
     }
@@ -189,7 +193,7 @@ private:
     /// it has come to, where it can be resumed from that. False where it was stopped.
     bool find_state(double load, const RunSession::WriteState& write = {}) {
         const auto t = run_.phases.time(Phase::relax);
-        const auto state = find_zero_load(*block_, interface_, reference_height(), load, scene_,
+        const auto state = find_zero_load(block_, interface_, reference_height(), load, scene_,
                                           run_.setup, [&](long long iteration, double residual) {
                                               show_relaxation(run_.progress, iteration, residual);
                                               return run_.stop_relaxation(write);
@@ -199,7 +203,7 @@ private:
         if (!run_.findings.zero_load || scene_.drive.path.front() != PathPart::zero_load)
             run_.findings.zero_load = state;
         if (scene_.writes_field("zero-load"))
-            run_.recorder().fields("zero-load", block_->lowest_layer(), run_.grid, interface_,
+            run_.recorder().fields("zero-load", block_.lowest_layer(), run_.grid, interface_,
                                    reference_height());
         return true;
     }
@@ -250,8 +254,8 @@ private:
     }
     void write_state(const io::FilePlace& file) {
         CollectScalars collect;
-        Place place{block_->top(), part_,      at_end_,
-                    points(),      searching_, run_.findings.states && !searching_};
+        Place place{block_.top(), part_,      at_end_,
+                    points(),     searching_, run_.findings.states && !searching_};
         place.visit(collect);
         if (place.on_path) path_.visit(collect);
         if (place.searching || place.searched) search_.visit(collect);
@@ -263,7 +267,7 @@ private:
     std::vector<StateArray> arrays(const Place& place) {
         std::vector<StateArray> list = place.on_path     ? path_.states()
                                        : place.searching ? search_.states()
-                                                         : block_->state();
+                                                         : state_of(block_);
         for (const StateArray& array : run_.arrays())
             list.push_back(array);
         return list;
@@ -292,7 +296,7 @@ private:
             search_.resume();
             searching_ = true;
         } else if (!place.on_path) {
-            block_->settle(Constraint::top(place.top));
+            block_.settle(Constraint::top(place.top));
         }
         run_.restore({scalars.begin() + static_cast<std::ptrdiff_t>(restore.at), scalars.end()});
         resumed_ = true;
@@ -344,7 +348,7 @@ private:
         o.flat_depth = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
         o.softest_wave = run_.setup.simulation.block.softest_wave();
         o.relax_free = [this] {
-            return find_zero_load(*block_, interface_, reference_height(),
+            return find_zero_load(block_, interface_, reference_height(),
                                   run_.setup.simulation.drive.load_force, scene_, run_.setup,
                                   sequence_options().report);
         };
@@ -354,7 +358,7 @@ private:
     RunSession run_;
     const Scene& scene_;
     Interface interface_;
-    std::unique_ptr<Equilibrium> block_;
+    SpectralBlock block_;
     QuasistaticPath path_;
     StateSearch search_;
     Leg leg_ = Leg::approach;

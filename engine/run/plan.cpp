@@ -30,9 +30,7 @@ long long typical_iterations(const Scene& scene, double start, const Setup& setu
         const double points = 1.5 * (path.approach + path.pull_off) / scene.drive.step;
         return std::llround(65.0 * points);
     }
-    if (scene.block.model == BlockModel::spectral) return 130;
-    if (!scene.has(PathPart::zero_load)) return 90; // from contact
-    return std::llround(13.0 * std::sqrt(scene.surface.sites));
+    return 130;
 }
 
 std::string time_text(double seconds) {
@@ -167,21 +165,21 @@ public:
         EffectCost& all = cost(Effect::relaxation);
         if (on(Effect::relaxation)) {
             plan_.iterations = typical_iterations(scene_, start_, plan_.setup);
+            // In time the root relaxes alone.
+            const double share = on(Effect::inertia) ? share_ * plan_.ranks : share_;
             all = {need_.relaxation + (on(Effect::inertia) ? 0.0 : need_.block),
-                   share_ * iterations() * nodes_ * rates_.iteration};
+                   share * iterations() * sites_ * rates_.iteration};
         }
         if (on(Effect::coarse_levels)) cost(Effect::coarse_levels).bytes = coarse_bytes_;
         if (on(Effect::inertia)) return;
         // Without inertia, all time goes into the relaxation.
         if (on(Effect::lateral)) cost(Effect::lateral).bytes = 2.0 * all.bytes / 3.0;
-        if (on(Effect::coarse_levels))
-            cost(Effect::coarse_levels).seconds = all.seconds * coarse_ / nodes_;
     }
 
     void finite_strain() {
         if (!on(Effect::finite_strain)) return;
         EffectCost& finite = cost(Effect::finite_strain);
-        finite.seconds = share_ * (steps_ + iterations()) * nodes_ * rates_.finite;
+        finite.seconds = share_ * steps_ * nodes_ * rates_.finite;
         finite.bytes = need_.finite;
     }
 
@@ -216,8 +214,8 @@ private:
         const double uneven = 1.0 + make_grid(scene_, setup, plan_.ranks, 0).imbalance();
         share_ = uneven / plan_.ranks * measured_threads / plan_.threads;
         sites_ = static_cast<double>(scene_.surface.sites) * scene_.surface.sites;
-        nodes_ = spectral_ ? sites_ : nodes_of(setup.levels);
-        coarse_ = nodes_ - sites_ * (spectral_ ? 1 : setup.levels.front().cells);
+        nodes_ = on(Effect::inertia) ? nodes_of(setup.levels) : sites_;
+        coarse_ = nodes_ - sites_ * (on(Effect::inertia) ? setup.levels.front().cells : 1);
         start_ = highest_ + reach_of(setup.simulation.interface);
         plan_.steps = expected_steps(scene_, setup, start_);
         steps_ = static_cast<double>(plan_.steps);
@@ -233,7 +231,7 @@ private:
     /// Of all levels but the finest, on all ranks.
     double coarse_bytes() const {
         double bytes = 0.0;
-        for (int rank = 0; rank < plan_.ranks && !spectral_; ++rank)
+        for (int rank = 0; rank < plan_.ranks && on(Effect::inertia); ++rank)
             bytes += static_cast<double>(
                 Block::memory_for(plan_.setup.simulation.block,
                                   make_grid(scene_, plan_.setup, plan_.ranks, rank))
@@ -247,7 +245,6 @@ private:
 
     Plan& plan_;
     const Scene& scene_;
-    const bool spectral_ = scene_.block.model == BlockModel::spectral;
     Surface surface_;
     double surface_seconds_ = 0.0; ///< to make it
     double highest_ = 0.0;         ///< of its points, Å

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/plan_rates.hpp"
 
-#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 #include "kernels/variant.hpp"
 
 #include <fmt/format.h>
@@ -141,7 +141,7 @@ void measure_strain(const Piece& piece, Rates& rates) {
     const auto forces_take = [&](bool finite) {
         BlockOptions options = piece.options.block;
         options.finite_strain = finite;
-        Block block(options, Communicator(), one_rank(options), Motion::at_rest);
+        Block block(options, Communicator(), one_rank(options));
         std::vector<VectorField<double>> out;
         double nodes = 0.0;
         for (const Block::Level& level : block.levels()) {
@@ -154,25 +154,24 @@ void measure_strain(const Piece& piece, Rates& rates) {
 }
 
 /// The first iterations of a relaxation of the piece.
-void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& piece,
-                        const Interface& interface, double nodes, Rates& rates) {
-    const Communicator alone;
-    const BlockOptions& block = piece.options.block;
-    Setup small = setup;
-    small.simulation = piece.options;
-    Interface own(piece.surface, one_rank(block).tile(0), block.spacing, interface.options());
-    const auto state = make_equilibrium(scene, small, alone, one_rank(block));
+void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& piece, Rates& rates) {
+    SpectralBlock block(piece.options.block, Communicator(), scene.interface.frictionless);
+    InterfaceOptions interface_options = piece.options.interface;
+    interface_options.single_too = !interface_options.mixed;
+    const Interface interface(piece.surface, block.tile(), piece.options.block.spacing,
+                              interface_options);
     const double height = height_of_strongest_attraction(
-        *state, own, *std::min_element(piece.surface.height.begin(), piece.surface.height.end()),
-        alone);
+        block, interface,
+        *std::min_element(piece.surface.height.begin(), piece.surface.height.end()));
     RelaxOptions options;
     options.site_stiffness = setup.site_stiffness;
     options.max_iterations = 10;
     options.tolerance = 1e-300;
     Phases phases;
+    const double sites = static_cast<double>(block.tile().nx) * block.tile().ny;
     const auto begin = Clock::now();
-    const RelaxedState reached = state->relax(own, height, {}, options, phases);
-    rates.iteration = since(begin) / static_cast<double>(std::max(1ll, reached.iterations)) / nodes;
+    const RelaxedState reached = relax(block, interface, height, {}, options, phases);
+    rates.iteration = since(begin) / static_cast<double>(std::max(1ll, reached.iterations)) / sites;
 }
 
 } // namespace
@@ -186,7 +185,6 @@ double nodes_of(const std::vector<LevelShape>& levels) {
 
 Rates measure_rates(const Scene& scene, const Setup& setup, const Surface& surface) {
     const auto on = [&](Effect e) { return setup.effects.on(e); };
-    const bool spectral = scene.block.model == BlockModel::spectral;
     Rates rates;
     const Piece piece = cut_out(scene, setup, surface);
     const auto measuring = Clock::now();
@@ -209,10 +207,7 @@ Rates measure_rates(const Scene& scene, const Setup& setup, const Surface& surfa
     }
     if (on(Effect::finite_strain)) measure_strain(piece, rates);
     if (on(Effect::inertia)) measure_steps(piece, rates);
-    if (on(Effect::relaxation))
-        measure_relaxation(scene, setup, piece, interface,
-                           spectral ? piece_sites : nodes_of(level_shapes(piece.options.block)),
-                           rates);
+    if (on(Effect::relaxation)) measure_relaxation(scene, setup, piece, rates);
     rates.origin = fmt::format("rates measured now in {:.1f} s on a piece of {} x {} sites with {} "
                                "thread{}, kernels for {}",
                                since(measuring), piece.options.block.sites,

@@ -24,7 +24,7 @@ struct Rates {
     double hanging = 0.0;     ///< interpolation, of a site and step
     double rest = 0.0;        ///< halos, sums, mean height: of a site and step
     double observation = 0.0; ///< of a node and observed step
-    double iteration = 0.0;   ///< of a relaxation: of a node (levels) or site (spectral)
+    double iteration = 0.0;   ///< of a relaxation: of a site
     double making = 0.0;      ///< tables and block, of a site
     std::string origin;       ///< where they come from, in words
 };

@@ -124,23 +124,31 @@ void RunSession::throw_if_directory_gone() {
         fmt::format("the state is in {0}; resume with --resume auto --out {0}", storage_.path()));
 }
 
-RunSession::Due RunSession::due() {
-    constexpr double nothing = 0.0, save = 1.0, wall = 2.0, signal = 3.0, gone = 4.0;
-    double decision = nothing; // the greatest wins
+/// What this rank knows of.
+RunSession::Reason RunSession::reason() const {
+    Reason reason = Reason::none;
     if (ranks.root()) {
         const double now = seconds();
         if (setup.effects.on(Effect::checkpoints) &&
             now - last_checkpoint_ >= scene.output.checkpoint)
-            decision = save;
-        if (options_.wall_limit && now >= *options_.wall_limit) decision = wall;
-        if (options_.stop && options_.stop()) decision = signal;
+            reason = Reason::checkpoint;
+        if (options_.wall_limit && now >= *options_.wall_limit) reason = Reason::wall_limit;
+        if (options_.stop && options_.stop()) reason = Reason::signal;
     }
-    if (stop_signals::caught()) decision = signal;
-    if (ranks.root() && !storage_.in_place(*recorder_)) decision = gone;
-    const double agreed = ranks.max(decision);
-    if (agreed == nothing) return Due::nothing;
-    if (agreed == save) return Due::save;
-    stopped_ = agreed == wall ? "wall_limit" : agreed == signal ? "signal" : "directory";
+    if (stop_signals::caught()) reason = Reason::signal;
+    if (ranks.root() && !storage_.in_place(*recorder_)) reason = Reason::directory;
+    return reason;
+}
+
+bool RunSession::wants_stop() const { return reason() > Reason::checkpoint; }
+
+RunSession::Due RunSession::due() {
+    const auto agreed = static_cast<Reason>(std::lround(ranks.max(static_cast<double>(reason()))));
+    if (agreed == Reason::none) return Due::nothing;
+    if (agreed == Reason::checkpoint) return Due::save;
+    stopped_ = agreed == Reason::wall_limit ? "wall_limit"
+               : agreed == Reason::signal   ? "signal"
+                                            : "directory";
     return Due::stop;
 }
 

@@ -101,6 +101,8 @@ public:
     /// meanwhile is written where the relaxation can go on from one. True: the relaxation must end,
     /// and the run after stop_now().
     bool stop_relaxation(const WriteState& write = {});
+    /// Whether the next of these will say so, as far as this rank knows: where it works alone.
+    bool wants_stop() const;
     /// With a checkpoint.
     void stop_now(const WriteState& write, const std::string& where);
 
@@ -127,6 +129,9 @@ public:
 private:
     enum class Due { nothing, save, stop };
     Due due();
+    /// Why a run may be interrupted; of several the last one counts.
+    enum class Reason { none, checkpoint, wall_limit, signal, directory };
+    Reason reason() const;
     double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }

@@ -19,8 +19,7 @@ namespace asperity {
 namespace {
 
 std::string levels_text(const Scene& scene, const Setup& setup) {
-    if (scene.block.model == BlockModel::spectral)
-        return "static response of the lattice, wave by wave";
+    if (scene.without_time()) return "static response of the lattice, wave by wave";
     const auto& levels = setup.levels;
     const char* strain = scene.block.strain == Strain::finite ? "; finite strain" : "";
     if (levels.size() == 1)
@@ -83,7 +82,7 @@ void print_cycle(std::FILE* to, const Scene& scene, const Numbers& of, double fl
                    "  The drive gives {:.2f} meV/Å² more on the way out than it takes up on the "
                    "way in: energy that is lost\n  where the surfaces snap together and apart.\n",
                    lost);
-    if (scene.drive.load == 0.0)
+    if (of("lost.approach") && scene.drive.load == 0.0)
         fmt::print(to, "  Work of the drive on the approach + energy lost there = binding energy = "
                        "work of the drive on the\n  pull-off - energy lost there.\n");
     if (of("work_of_adhesion.approach") && !scene.without_time())
@@ -229,6 +228,10 @@ void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
                               : std::string(),
                    *of("work_of_adhesion.pairwise"), *of("zero_load.elastic_energy"),
                    100.0 * *of("contact_fraction"));
+    if (scene.block.strain == Strain::finite)
+        fmt::print(to,
+                   "  At finite strain no state at zero load is given: states are sums of waves, "
+                   "which do not add up.\n");
     if (states) print_states(to, *states);
     if (drive_in && drive_out) print_cycle(to, scene, of, flat);
     if (const Number residual = of("energy.residual"))

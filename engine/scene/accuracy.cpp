@@ -36,7 +36,6 @@ void set_layers(Scene& scene, double layers) {
     else
         scene.block.model = BlockModel::lattice;
 }
-void set_spectral(Scene& scene, double) { scene.block.model = BlockModel::spectral; }
 
 Option option_of(const calibration::Row& row, bool whole_path) {
     Option option{"", "", whole_path ? row.path : row.state, row.time, nullptr, row.value};
@@ -82,9 +81,7 @@ std::vector<std::vector<Option>> options_of(const Scene& scene, std::vector<std:
     };
     std::vector<std::vector<Option>> dials;
     const bool layers_open = open("block.layers_per_level"), model_open = open("block.model");
-    if (!in_time && layers_open && model_open)
-        dials.push_back({{"block.model", "spectral", 0.0, 0.0, set_spectral, 0.0}});
-    else if (layers_open && scene.block.model == BlockModel::multiscale) {
+    if (in_time && layers_open && scene.block.model == BlockModel::multiscale) {
         dials.push_back(rows(Dial::layers));
         if (!model_open)
             std::erase_if(dials.back(), [](const Option& o) { return o.number == 0.0; });

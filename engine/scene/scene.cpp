@@ -77,11 +77,18 @@ io::Schema bind(Scene& scene) {
 
     auto& block = scene.block;
     schema.section("block", "The elastic block.");
-    schema.choice<BlockModel>("model", block.model,
-                              {{"lattice", BlockModel::lattice},
-                               {"multiscale", BlockModel::multiscale},
-                               {"spectral", BlockModel::spectral}},
-                              "every atom, or coarser with depth, or the static surface response");
+    auto& model = schema.choice<BlockModel>(
+        "model", block.model,
+        {{"lattice", BlockModel::lattice}, {"multiscale", BlockModel::multiscale}},
+        "on a path in time: every atom, or coarser with depth; without time the block is the waves "
+        "of its lattice");
+    model.store = [store = model.store](const io::Schema::Value& value) -> io::Problem {
+        if (value.text != "spectral") return store(value);
+        return {"", "is not a choice any more",
+                "a path without time is always one of waves, and a path in time never",
+                "leave block.model out, and take drive.mode = \"quasistatic\" or drive.path = "
+                "[\"zero-load\"]"};
+    };
     schema.number("young", block.young, "GPa", io::Range{0.0, 1e6, true, false},
                   "Young's modulus E");
     schema.number("poisson", block.poisson, "", io::Range{-1.0, 0.5, true, true},
@@ -100,7 +107,7 @@ io::Schema bind(Scene& scene) {
     schema.choice<InterfaceKind>(
         "kind", interface.kind, {{"atoms", InterfaceKind::atoms}, {"wall", InterfaceKind::wall}},
         "Lennard-Jones pairs, or a wall: a law of the gap below each site, without lateral forces "
-        "(spectral block)");
+        "(paths without time)");
     schema.number("epsilon", interface.epsilon, "eV", positive(), "depth of the well");
     schema.number("r0", interface.r0, "Å", positive(), "distance of zero energy");
     schema.number("cutoff", interface.cutoff, "Å", positive(),
@@ -112,7 +119,7 @@ io::Schema bind(Scene& scene) {
         "epsilon, r0 and cutoff above, for atoms of one type");
     schema.boolean("tail", interface.tail, "continuum correction beyond the cutoff");
     schema.boolean("frictionless", interface.frictionless,
-                   "spectral block: no lateral tractions, normal displacements only");
+                   "paths without time: no lateral tractions, normal displacements only");
     schema.choice<WallLawKind>(
         "law", interface.law,
         {{"exponential", WallLawKind::exponential}, {"lennard-jones", WallLawKind::lennard_jones}},

@@ -26,7 +26,8 @@ enum class Detrend { none, plane, periodic };
 enum class MapMissing { refuse, fill };
 enum class MapCrop { none, middle };
 enum class Resample { none, band_limited };
-enum class BlockModel { lattice, multiscale, spectral };
+/// How the block is resolved on a path in time. Without time it is the waves of the lattice.
+enum class BlockModel { lattice, multiscale };
 enum class Strain { linear, finite };
 enum class InterfaceKind { atoms, wall };
 enum class WallLawKind { lennard_jones, exponential };
@@ -96,8 +97,8 @@ struct Scene {
         double cutoff = 13.12;          ///< Å
         std::vector<std::string> pairs; ///< of atoms from a file, by type; typed_pairs() reads them
         bool tail = false;
-        bool frictionless = false; ///< spectral block: normal displacements only; after reading:
-                                   ///< true over a wall
+        bool frictionless = false;                  ///< normal displacements only; after reading:
+                                                    ///< true over a wall
         WallLawKind law = WallLawKind::exponential; ///< of a wall
         double adhesion = 100.0;                    ///< meV/Å^2, exponential
         double range = 1.0;                         ///< Å, exponential

@@ -133,12 +133,12 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                      "and cutoff",
                      "leave it out, or take surface.kind = \"atoms\"");
 
-    if (wall && scene.block.model != BlockModel::spectral)
-        problems.add(
-            "interface.kind", "= \"wall\" with a block that is not spectral",
-            "a wall takes no lateral tractions, and only the spectral block can leave "
-            "lateral displacements out",
-            "take block.model = \"spectral\" and a path without time, or kind = \"atoms\"");
+    if (wall && !scene.without_time())
+        problems.add("interface.kind", "= \"wall\" on a path in time",
+                     "a wall takes no lateral tractions, and in time lateral displacements cannot "
+                     "be left out",
+                     "take drive.mode = \"quasistatic\" or drive.path = [\"zero-load\"], or kind = "
+                     "\"atoms\"");
     else if (wall && !interface.frictionless)
         problems.add("interface.frictionless", "= false with a wall",
                      "a law of the gap has no lateral forces", "leave it out");
@@ -147,11 +147,12 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                      fmt::format("= {:.6g} with a wall", surface.lattice_ratio),
                      "a wall has a height below each site, and no lattice of its own",
                      "take lattice_ratio = 1, or interface.kind = \"atoms\"");
-    if (interface.frictionless && !wall && scene.block.model != BlockModel::spectral)
-        problems.add("interface.frictionless", "= true with a block that is not spectral",
-                     "only the spectral block can leave lateral displacements out: its stiffness "
-                     "for normal forces alone is known wave by wave",
-                     "take block.model = \"spectral\", or frictionless = false");
+    if (interface.frictionless && !wall && !scene.without_time())
+        problems.add("interface.frictionless", "= true on a path in time",
+                     "lateral displacements can be left out only where the block's stiffness for "
+                     "normal forces alone is known wave by wave",
+                     "take drive.mode = \"quasistatic\" or drive.path = [\"zero-load\"], or "
+                     "frictionless = false");
 
     const auto& path = drive.path;
     if (path.empty())
@@ -182,10 +183,11 @@ void check_scene(const Scene& scene, io::Problems& problems) {
     if (surface.kind == SurfaceKind::file && surface.rms_given && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
-    if (scene.block.strain == Strain::finite && scene.block.model == BlockModel::spectral)
-        problems.add("block.strain", "= \"finite\" with block.model = \"spectral\"",
-                     "the spectral block adds up waves, and at finite strain waves do not add up",
-                     "take block.model = \"multiscale\" or \"lattice\", or strain = \"linear\"");
+    if (scene.block.strain == Strain::finite && scene.without_time())
+        problems.add("block.strain", "= \"finite\" on a path without time",
+                     "without time the block is a sum of waves, and at finite strain waves do not "
+                     "add up",
+                     "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"");
     if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
         problems.add("drive.damping_from",
                      fmt::format("= {:.6g} with a temperature", drive.damping_from),
@@ -255,10 +257,6 @@ void not_yet(const Scene& scene, io::Problems& problems) {
                      "it is part of the scene format, and this release does not compute it",
                      std::move(instead));
     };
-    if (scene.block.model == BlockModel::spectral && !scene.without_time())
-        refuse("block.model", "\"spectral\" on a path in time",
-               "use drive.mode = \"quasistatic\", or \"multiscale\" (\"lattice\" is the "
-               "reference)");
     const auto parts = static_cast<std::size_t>(
         std::count(scene.drive.path.begin(), scene.drive.path.end(), PathPart::approach));
     if (parts > 1 && !scene.without_time())
@@ -273,7 +271,7 @@ void not_yet(const Scene& scene, io::Problems& problems) {
 std::vector<std::string> notes(const Scene& scene) {
     std::vector<std::string> list;
     const auto& surface = scene.surface;
-    if (scene.block.model == BlockModel::multiscale) {
+    if (!scene.without_time() && scene.block.model == BlockModel::multiscale) {
         int sites = surface.sites, halvings = 0;
         while (sites % 2 == 0)
             sites /= 2, ++halvings;
@@ -323,7 +321,8 @@ std::vector<std::string> notes(const Scene& scene) {
     if (scene.without_time())
         for (const char* key :
              {"drive.temperature", "drive.seed", "drive.velocity", "drive.timestep",
-              "drive.damping", "drive.damping_from", "drive.ramp", "output.series"})
+              "drive.damping", "drive.damping_from", "drive.ramp", "output.series",
+              "block.atom_mass", "block.model", "block.layers_per_level"})
             idle(key, "no time passes on this path");
     else
         idle("drive.step", "drive.mode is \"dynamic\"");
@@ -349,7 +348,7 @@ std::vector<std::string> notes(const Scene& scene) {
         for (const char* key : {"surface.hurst", "surface.rolloff", "surface.cutoff",
                                 "surface.seed", "surface.amplitudes"})
             idle(key, "surface.kind is not \"self-affine\"");
-    if (scene.block.model != BlockModel::multiscale)
+    if (!scene.without_time() && scene.block.model != BlockModel::multiscale)
         idle("block.layers_per_level", "block.model is not \"multiscale\"");
     return list;
 }

@@ -39,8 +39,8 @@ Switch temperature(const Scene& s) {
 }
 
 Switch coarse_levels(const Scene& s) {
+    if (!in_time(s)) return off_without_time(s);
     if (s.block.model == BlockModel::lattice) return {false, "block.model = \"lattice\""};
-    if (s.block.model == BlockModel::spectral) return {false, "block.model = \"spectral\""};
     BlockOptions block;
     block.sites = s.surface.sites;
     block.thickness = s.block.thickness;
@@ -53,7 +53,10 @@ Switch coarse_levels(const Scene& s) {
 
 Switch relaxation(const Scene& s) {
     if (!in_time(s)) return {true, equilibria(s)};
-    return {true, "a copy of the state where the approach ends is relaxed"};
+    if (s.block.strain == Strain::finite)
+        return {false, "block.strain = \"finite\": states are found wave by wave, and waves do not "
+                       "add up"};
+    return {true, "a copy of the lowest layer is relaxed where the approach ends"};
 }
 
 Switch observation(const Scene& s) {

@@ -43,6 +43,35 @@ double making_bytes(const Scene& scene) {
            static_cast<double>(atoms_of(scene)) * places;
 }
 
+/// Of a spectral block: S(q) of a quadrant in double and its inverse in single precision, on every
+/// rank; waves; displacements and forces.
+double spectral_bytes(const Tile& tile, int components) {
+    const double columns = tile.sites / 2 + 1, entries = components == 1 ? 1.0 : 6.0;
+    return entries * columns * columns * 12.0 + 16.0 * components * columns * tile.ny +
+           2.0 * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
+}
+
+double interface_bytes(const Scene& scene, const InterfaceOptions& options, const Tile& tile) {
+    const double a = scene.surface.spacing;
+    return static_cast<double>(
+        scene.surface.kind == SurfaceKind::atoms
+            ? Interface::bytes_over_atoms(options, tile, a, atoms_of(scene))
+            : Interface::bytes_for(
+                  options, tile, a,
+                  substrate_sites(scene.surface.sites, scene.surface.lattice_ratio)));
+}
+
+/// On the root, which brings the lowest layer of a block in motion to rest (bring_to_rest()).
+double bytes_of_bringing_to_rest(const Scene& scene, const Setup& setup) {
+    const Tile whole = ProcessGrid::slabs(1, 0, scene.surface.sites).tile(0);
+    InterfaceOptions interface = setup.simulation.interface;
+    interface.single_too = !interface.mixed;
+    const double layer = 24.0 * whole.nx * whole.ny;
+    return layer + spectral_bytes(whole, 3) +
+           static_cast<double>(relaxation_bytes(whole, 3, false)) +
+           interface_bytes(scene, interface, whole);
+}
+
 void refuse(const Scene& scene, const char* what, double needed, const io::AvailableMemory& there,
             const std::string& fix) {
     io::Problems problems = scene.problems();
@@ -75,43 +104,18 @@ MemoryNeed& MemoryNeed::operator+=(const MemoryNeed& other) {
     return *this;
 }
 
-std::size_t spectral_relaxation_bytes(const Tile& tile, int components, bool wall) {
+std::size_t relaxation_bytes(const Tile& tile, int components, bool wall) {
     const std::size_t sites = static_cast<std::size_t>(tile.nx) * static_cast<std::size_t>(tile.ny);
-    // Waves, elastic forces in both precisions; next in double, the step in single.
-    if (wall) return sites * (3 * sizeof(double) + 3 * sizeof(float));
-    // Vectors of the sites: in double, the gradient, a displaced layer with its force; in single,
-    // the ball's goals, momenta, waves and gain, Newton's four and its map, its direction twice,
-    // and three fields of sites.
+    // Waves, elastic forces in both precisions; next in double, the step in single; S u for the
+    // energy at the end.
+    if (wall) return sites * (4 * sizeof(double) + 3 * sizeof(float));
+    // Vectors of the sites: in double, the gradient, S u, a displaced layer with its force; in
+    // single, the ball's goals, momenta, waves and gain, Newton's four and its map, its direction
+    // twice, and three fields of sites.
     const auto c = static_cast<std::size_t>(components);
     const std::size_t map = c == 1 ? 1 : 6;
-    return sites * (sizeof(double) * (c + (c == 1 ? 3 : 6)) +
+    return sites * (sizeof(double) * (2 * c + (c == 1 ? 3 : 6)) +
                     sizeof(float) * (3 * c + 1 + 4 * c + map + 4 * c));
-}
-
-std::size_t level_relaxation_bytes(const BlockOptions& options, const ProcessGrid& grid) {
-    const std::vector<LevelShape> levels = level_shapes(options);
-    const auto vectors = [&](std::size_t level, int planes) {
-        return VectorField<double>::bytes_for(grid.tile(static_cast<int>(level)), planes);
-    };
-    std::size_t bytes = vectors(0, 1);     // the interface's forces before
-    for (const LevelShape& level : levels) // forces and moves
-        bytes += 2 * vectors(static_cast<std::size_t>(level.level), level.cells);
-    // Grids over the levels (equilibrium/coarse_grids.cpp): planes that are thinned to every
-    // second one, the same between them with the nodes of the finer grid, stiffness, and forces.
-    int kept = 0;
-    for (std::size_t g = 0;; ++g) {
-        const Tile tile = grid.tile(static_cast<int>(g));
-        bytes += Field<double>::bytes_for(tile, 1);
-        if (g > 0) {
-            const int planes = kept + (g - 1 < levels.size() ? levels[g - 1].cells : 0);
-            kept = planes == 1 ? 1 : planes / 2;
-            const bool has_level = g < levels.size();
-            bytes += vectors(g, kept) + vectors(g - 1, kept + has_level);
-            if (has_level) bytes += vectors(g, 1);
-        }
-        const bool thinner = std::ldexp(1.0, static_cast<int>(g) + 1) <= options.thickness;
-        if (tile.sites % 2 != 0 || !(thinner || g + 1 < levels.size())) return bytes;
-    }
 }
 
 double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid) {
@@ -128,14 +132,7 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
     MemoryNeed need;
     need.making = making_bytes(scene);
     need.surface = surface_bytes(scene);
-    const InterfaceOptions& interface = setup.simulation.interface;
-    const double a = scene.surface.spacing;
-    need.interface = static_cast<double>(
-        scene.surface.kind == SurfaceKind::atoms
-            ? Interface::bytes_over_atoms(interface, tile, a, atoms_of(scene))
-            : Interface::bytes_for(
-                  interface, tile, a,
-                  substrate_sites(scene.surface.sites, scene.surface.lattice_ratio)));
+    need.interface = interface_bytes(scene, setup.simulation.interface, tile);
     // Maps of the rank's sites in double, and on the root the record of all and one more map.
     if (on(Effect::maps)) {
         const double here = static_cast<double>(tile.nx) * tile.ny;
@@ -146,31 +143,23 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
     // first four stay while a path with its own two goes on.
     const bool path = scene.drive.mode == DriveMode::quasistatic;
     const double copies = on(Effect::states) ? (path ? 6.0 : 5.0) : path ? 2.0 : 0.0;
-    if (scene.block.model == BlockModel::spectral) {
-        need.snapshot = copies * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
-        const double columns = scene.surface.sites / 2 + 1;
+    if (!on(Effect::inertia)) {
         const int parts = scene.interface.frictionless ? 1 : 3;
-        const double entries = scene.interface.frictionless ? 1.0 : 6.0;
-        // S(q) of a quadrant in double and its inverse in single precision, on every rank; waves.
-        need.block = entries * columns * columns * 12.0 + 16.0 * parts * columns * tile.ny +
-                     2.0 * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
+        need.snapshot = copies * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
+        need.block = spectral_bytes(tile, parts);
         need.relaxation = static_cast<double>(
-            spectral_relaxation_bytes(tile, parts, scene.interface.kind == InterfaceKind::wall));
+            relaxation_bytes(tile, parts, scene.interface.kind == InterfaceKind::wall));
         return need;
     }
     const Block::Memory memory = Block::memory_for(setup.simulation.block, grid);
-    const double motion = static_cast<double>(memory.motion);
-    need.block = static_cast<double>(memory.bytes) - motion;
-    if (on(Effect::inertia)) need.motion = motion;
+    need.motion = static_cast<double>(memory.motion);
+    need.block = static_cast<double>(memory.bytes) - need.motion;
     // The energy guard's has velocities too.
-    const double displacements = static_cast<double>(memory.displacements);
-    need.snapshot = on(Effect::inertia) && on(Effect::observation) ? displacements + motion
-                                                                   : copies * displacements;
-    if (on(Effect::relaxation)) {
-        need.relaxation = static_cast<double>(level_relaxation_bytes(setup.simulation.block, grid));
-        if (on(Effect::inertia)) need.relaxation += need.block; // of a copy of the block
-    }
-    if (on(Effect::finite_strain) && on(Effect::inertia))
+    if (on(Effect::observation))
+        need.snapshot = static_cast<double>(memory.displacements) + need.motion;
+    if (on(Effect::relaxation) && rank == 0)
+        need.relaxation = bytes_of_bringing_to_rest(scene, setup);
+    if (on(Effect::finite_strain))
         need.finite =
             static_cast<double>(Block::finite_bytes_for(setup.simulation.block, grid, threads));
     return need;
@@ -191,7 +180,7 @@ void require_memory(const Scene& scene, const Communicator& ranks, int threads) 
     // All ranks refuse alike, with the numbers of the machine that is worst off.
     const double worst = ranks.max(needed / there.bytes);
     if (worst <= 1.0) return;
-    const bool coarser = scene.block.model == BlockModel::lattice;
+    const bool coarser = !scene.without_time() && scene.block.model == BlockModel::lattice;
     refuse(scene, "the run", worst * there.bytes, there,
            fmt::format("take fewer sites{}, more machines (`asperity plan --ranks N` counts), or "
                        "close what else runs here",

@@ -14,10 +14,10 @@ struct MemoryNeed {
     double making = 0.0;     ///< while the surface is made, then given back
     double surface = 0.0;    ///< its heights
     double interface = 0.0;  ///< the interface's own heights, rings and tail
-    double block = 0.0;      ///< displacements and forces; of a spectral block S(q) too
+    double block = 0.0;      ///< displacements and forces; without time S(q) too
     double motion = 0.0;     ///< velocities
     double snapshot = 0.0;   ///< of the energy guard; points of a path, or of a search, kept
-    double relaxation = 0.0; ///< what relaxing takes beside the block
+    double relaxation = 0.0; ///< what relaxing takes beside the block; in time the root alone
     double maps = 0.0;       ///< while maps are written; nothing is relaxed meanwhile
     double finite = 0.0;     ///< finite strain's own arrays
 
@@ -32,10 +32,7 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
 MemoryNeed memory_of(const Scene& scene, const Setup& setup, int ranks, int threads);
 
 /// What relaxing a spectral block takes beside it, for a tile of its surface.
-std::size_t spectral_relaxation_bytes(const Tile& tile, int components, bool wall);
-
-/// What relaxing a block of levels takes beside it, on one rank.
-std::size_t level_relaxation_bytes(const BlockOptions& options, const ProcessGrid& grid);
+std::size_t relaxation_bytes(const Tile& tile, int components, bool wall);
 
 /// Of the device of a rank, where the scene has devices take its steps.
 double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid);

@@ -233,7 +233,7 @@ InterfaceOptions interface_options(const Scene& scene) {
     }
     options.tail = i.tail;
     options.mixed = scene.numerics.precision == Precision::mixed;
-    options.single_too = scene.block.model == BlockModel::spectral && !options.mixed;
+    options.single_too = scene.without_time() && !options.mixed;
     if (i.kind == InterfaceKind::atoms) return options;
     if (i.law == WallLawKind::lennard_jones) {
         options.wall = LennardJonesWall(options.potential, 1.0 / site, i.tail);
@@ -427,8 +427,7 @@ Setup examine(const Scene& scene, int ranks, const Communicator& world) {
 }
 
 ProcessGrid make_grid(const Scene& scene, const Setup& setup, int ranks, int rank) {
-    if (scene.block.model == BlockModel::spectral)
-        return ProcessGrid::slabs(ranks, rank, scene.surface.sites);
+    if (scene.without_time()) return ProcessGrid::slabs(ranks, rank, scene.surface.sites);
     return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(setup.levels.size()));
 }
 

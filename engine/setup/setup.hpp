@@ -40,7 +40,7 @@ struct Setup {
 };
 /// Throws io::SceneError with all that is wrong, for this number of ranks.
 Setup make_setup(const Scene& scene, int ranks);
-/// How the scene's box is cut: slabs of rows for the spectral block, tiles for the others. Throws
+/// How the scene's box is cut: slabs of rows without time, tiles in time. Throws
 /// std::invalid_argument if it cannot be.
 ProcessGrid make_grid(const Scene& scene, const Setup& setup, int ranks, int rank);
 

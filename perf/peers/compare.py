@@ -70,7 +70,7 @@ def main() -> None:
         for load in a.loads:
             with tempfile.TemporaryDirectory() as scratch:
                 place = pathlib.Path(scratch) / "asperity"
-                keys = {"drive.path": "zero-load", "block.model": "spectral", "block.thickness": sites, "interface.kind": "wall",
+                keys = {"drive.path": "zero-load", "block.thickness": sites, "interface.kind": "wall",
                         "interface.adhesion": a.adhesion, "interface.range": a.range, "surface.sites": sites, "surface.rms": 1.5,
                         "surface.cutoff": sites / 8, "theory.renormalised": "false", "output.checkpoint": 0, "drive.load": load,
                         "drive.tolerance": TOLERANCE}

@@ -25,7 +25,7 @@ def drawn(random_numbers, wall):
     sites = random_numbers.choice([32, 48, 64])
     keys = {"surface.sites": sites, "surface.seed": random_numbers.randrange(10**6), "surface.hurst": round(u(0.4, 1), 3),
             "surface.rolloff": random_numbers.choice([2, 3, 4]), "surface.rms": round(u(0.2, 3), 3),
-            "block.model": "spectral", "block.young": round(u(30, 150), 1), "block.poisson": round(u(0, 0.45), 3),
+            "block.young": round(u(30, 150), 1), "block.poisson": round(u(0, 0.45), 3),
             "block.thickness": random_numbers.choice([24, 48, 96]), "drive.mode": "quasistatic",
             "drive.tolerance": random_numbers.choice([1e-4, 1e-3])}
     if wall:

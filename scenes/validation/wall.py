@@ -44,7 +44,7 @@ class Runs:
 
     def state(self, name: str, keys: dict) -> asperity.Result:
         """The relaxed state of a scene over a wall. A result that is there is an error: it may be of another map."""
-        settings = {"numerics.precision": "double", "drive.path": "zero-load", "block.model": "spectral", "interface.kind": "wall", "theory.renormalised": False,
+        settings = {"numerics.precision": "double", "drive.path": "zero-load", "interface.kind": "wall", "theory.renormalised": False,
                     "output.checkpoint": 0, "drive.tolerance": 1e-6, **keys}
         settings.setdefault("block.thickness", settings["surface.sites"])
         return asperity.run(ROOT / "scenes/paper/flat-3A.toml", settings, self.out / name)

@@ -15,8 +15,8 @@ number() { sed -n "s/.*\"$2\": \([-0-9.e+]*\),\?$/\1/p" "$1/result.json" | head 
 # 16 x 16 atoms at height 57 Å, from the last to the first, some of them outside of the box.
 awk 'BEGIN { print "a flat layer, units = metal\n\n256 atoms\n1 atom types\n10 51.6 xlo xhi\n-5 36.6 ylo yhi\n50 60 zlo zhi\n\nAtoms\n"
     for (n = 255; n >= 0; --n) printf "%d 1 %.17g %.17g 57\n", n + 1, 10 + 2.6 * (n % 16) - (n % 5 ? 0 : 41.6), -5 + 2.6 * int(n / 16) }' >flat.data
-printf '[surface]\nkind = "atoms"\nfile = "flat.data"\nsites = 16\n[drive]\npath = ["zero-load"]\n' >atoms.toml
-printf '[surface]\nkind = "flat"\nsites = 16\n[drive]\npath = ["zero-load"]\n' >flat.toml
+printf '[surface]\nkind = "atoms"\nfile = "flat.data"\nsites = 16\n[drive]\npath = ["zero-load"]\ntolerance = 1e-8\n' >atoms.toml
+printf '[surface]\nkind = "flat"\nsites = 16\n[drive]\npath = ["zero-load"]\ntolerance = 1e-8\n' >flat.toml
 expect 0 run flat.toml --progress off --out flat
 expect 0 run atoms.toml --progress off --out atoms
 says "256 atoms"

@@ -38,9 +38,11 @@ bad "missing map" $'[surface]\nkind = "file"\nfile = "gone.h5"' \
     "scene.toml:3:8: surface.file = \"gone.h5\": there is no such file"
 bad "no TOML" $'[surface]\nrms = 0.3 nm' "scene.toml:2:" "stand in quotes: rms = \"0.3 nm\""
 bad "path" $'[drive]\npath = ["pull-off"]' "scene.toml:2:8: drive.path has a \"pull-off\""
-bad "not yet" $'[block]\nmodel = "spectral"' "scene.toml:2:9: block.model = \"spectral\" on a path in time is not available yet"
-bad "waves at finite strain" $'[block]\nmodel = "spectral"\nstrain = "finite"\n[drive]\npath = ["zero-load"]' \
-    "scene.toml:3:10: block.strain = \"finite\" with block.model = \"spectral\"" "waves do not add up"
+bad "not yet" $'[drive]\npath = ["zero-load", "pull-off"]' "scene.toml:2:8: drive.path = a pull-off from \"zero-load\" in time is not available yet"
+bad "a model that is gone" $'[block]\nmodel = "spectral"' "scene.toml:2:9: block.model = \"spectral\" is not a choice any more" "leave block.model out"
+bad "waves at finite strain" $'[block]\nstrain = "finite"\n[drive]\npath = ["zero-load"]' \
+    "scene.toml:2:10: block.strain = \"finite\" on a path without time" "waves do not add up"
+bad "a wall in time" $'[interface]\nkind = "wall"' "scene.toml:2:8: interface.kind = \"wall\" on a path in time"
 bad "mean height in time" $'[drive]\nhold = "mean-height"' \
     "scene.toml:2:8: drive.hold = \"mean-height\" on a path in time" "take drive.mode = \"quasistatic\""
 bad "several" $'[surface]\nrms = -1\nhurst = 3\n[drive]\nspeed = 1\n' \

@@ -26,7 +26,6 @@ cat >path.toml <<'EOF'
 sites = 24
 rms = 0.8
 [block]
-model = "spectral"
 thickness = 90
 [drive]
 mode = "quasistatic"
@@ -105,16 +104,12 @@ expect 0 run path.toml --progress off --out wall-parts --resume auto "${wall[@]}
 same wall wall-parts
 
 # One relaxation, stopped inside.
-for model in spectral multiscale; do
-    zero=(--set drive.path=zero-load 'output.fields=["zero-load"]' surface.sites=64 drive.tolerance=1e-6 block.model=$model)
-    expect 0 run path.toml --progress off --out zero-$model "${zero[@]}"
-    expect 75 run path.toml --progress off --out zero-parts-$model --wall-limit 0.001s "${zero[@]}"
-    expect 0 run path.toml --progress off --out zero-parts-$model --resume auto "${zero[@]}"
-    near "$(number zero-$model binding_energy)" "$(number zero-parts-$model binding_energy)" 1e-6 "$model"
-done
+zero=(--set drive.path=zero-load 'output.fields=["zero-load"]' surface.sites=64 drive.tolerance=1e-6)
+expect 0 run path.toml --progress off --out zero "${zero[@]}"
+expect 75 run path.toml --progress off --out zero-parts --wall-limit 0.001s "${zero[@]}"
+expect 0 run path.toml --progress off --out zero-parts --resume auto "${zero[@]}"
+near "$(number zero binding_energy)" "$(number zero-parts binding_energy)" 1e-6 "zero load"
 
-expect 2 check path.toml --set drive.mode=dynamic
-says "on a path in time is not available yet"
 expect 0 check path.toml --set 'output.fields=[]' 'drive.path=["zero-load","pull-off"]' drive.load=100
 says "carries drive.load"
 finish

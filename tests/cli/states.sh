@@ -21,7 +21,6 @@ sites = 64
 rms = 4
 seed = 2
 [block]
-model = "spectral"
 thickness = 64
 [interface]
 frictionless = true

@@ -107,7 +107,6 @@ cat >wall.toml <<'EOF'
 sites = 32
 rms = 0.5
 [block]
-model = "spectral"
 thickness = 32
 [interface]
 kind = "wall"

@@ -145,7 +145,7 @@ TEST(AtomsScene, RefusesWhatDoesNotGoTogether) {
         EXPECT_NE(what.find(said), std::string::npos) << key << "\n" << what;
     }
     const std::string wall = refusal([&] {
-        scene_over(file, {"interface.kind=wall", "block.model=spectral", "drive.path=zero-load"});
+        scene_over(file, {"interface.kind=wall", "drive.path=zero-load"});
     });
     EXPECT_NE(wall.find("interface.kind"), std::string::npos) << wall;
     const std::string none = refusal([&] { scene_over("no-such-file.xyz"); });

@@ -428,17 +428,3 @@ TEST(BlockModuli, OfThePaper) {
     EXPECT_NEAR(o.elasticity(0).k, 0.4411253, 1e-7);
     EXPECT_NEAR(o.elasticity(3).k, 8 * o.elasticity(0).k, 1e-15);
 }
-
-TEST(BlockState, ACopyAtRestHasTheDisplacementsAndNoVelocity) {
-    const BlockOptions options = test::paper_block(8, 7, 2);
-    ElasticOperator k(options);
-    k.set(test::random_vector(k.size(), 9), 0.25);
-    k.block().fields(k.block().levels()[0]).v.view().x(1, 2, 0) = 3.0;
-    const double energy = k.energy();
-    const Block copy = k.block().copy_at_rest();
-    ExactSum sum;
-    copy.add_elastic_energy(sum);
-    EXPECT_EQ(sum.value(), energy);
-    EXPECT_EQ(copy.top(), 0.25);
-    EXPECT_EQ(copy.motion_bytes(), 0u);
-}

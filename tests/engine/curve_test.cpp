@@ -114,7 +114,7 @@ TEST(SphereCurves, AreThoseOfJkr) {
 TEST(SphereCurves, AreNoneWithoutAdhesion) {
     const Scene scene = read_scene_text("[surface]\nsites = 64\nrms = 0\nradius = 300\n"
                                         "[interface]\nkind = \"wall\"\nadhesion = 0\n"
-                                        "[block]\nmodel = \"spectral\"\nthickness = 16\n"
+                                        "[block]\nthickness = 16\n"
                                         "[drive]\nmode = \"quasistatic\"\n",
                                         "s.toml");
     const io::Scratch scratch;

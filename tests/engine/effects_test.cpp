@@ -3,7 +3,8 @@
 //
 // Effects are switched by the scene; one that is off holds no memory, is not called and leaves
 // nothing in the files of a run.
-#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/equilibrium/zero_load.hpp"
+#include "engine/setup/memory.hpp"
 #include "engine/setup/setup.hpp"
 #include "io/hdf5_file.hpp"
 #include "kernels/variant.hpp"
@@ -79,7 +80,8 @@ struct Left {
 std::size_t relaxing_bytes(const std::vector<std::string>& overrides) {
     const Scene scene = scene_with(overrides);
     const Setup setup = make_setup(scene, 1);
-    return make_equilibrium(scene, setup, Communicator(), make_grid(scene, setup, 1, 0))->bytes();
+    const SpectralBlock block(setup.simulation.block, Communicator(), scene.interface.frictionless);
+    return block.bytes() + relaxation_bytes(block.tile(), block.components(), false);
 }
 
 } // namespace
@@ -155,11 +157,13 @@ TEST(Effects, EachHasAKeyThatSwitchesIt) {
     const Effects timeless(scene_with({"drive.path=zero-load", "drive.temperature=100"}));
     for (Effect off : {Effect::inertia, Effect::damping, Effect::temperature, Effect::observation})
         EXPECT_FALSE(timeless.on(off)) << name(off);
-    EXPECT_FALSE(Effects(scene_with({"drive.path=zero-load", "block.model=spectral",
-                                     "interface.frictionless=true"}))
+    EXPECT_FALSE(Effects(scene_with({"drive.path=zero-load", "interface.frictionless=true"}))
                      .on(Effect::lateral));
     EXPECT_TRUE(
         Effects(scene_with({"drive.path=zero-load", "drive.states=all"})).on(Effect::states));
+    // Waves of finite strain do not add up: no state is relaxed.
+    EXPECT_FALSE(Effects(scene_with({"block.strain=finite"})).on(Effect::relaxation));
+    EXPECT_TRUE(Effects(scene_with({})).on(Effect::relaxation));
 }
 
 TEST(Effects, OffInAStepIsNoCallAndNoByte) {
@@ -234,19 +238,8 @@ TEST(Effects, AStepAllocatesNoField) {
     }
 }
 
-TEST(Effects, AStateAtRestHoldsNoVelocities) {
-    const auto setup = make_setup(scene_with({"drive.path=zero-load"}), 1);
-    const ProcessGrid grid = test::serial_grid(setup.simulation.block);
-    const Block moving(setup.simulation.block, Communicator(), grid);
-    const Block still(setup.simulation.block, Communicator(), grid, Motion::at_rest);
-    EXPECT_GT(moving.motion_bytes(), 0u);
-    EXPECT_EQ(still.motion_bytes(), 0u);
-    EXPECT_EQ(still.bytes(), moving.bytes() - moving.motion_bytes());
-    EXPECT_EQ(moving.copy_at_rest().motion_bytes(), 0u);
-}
-
 TEST(Effects, WithoutFrictionThereAreNoLateralDisplacements) {
-    const std::vector<std::string> wall = {"drive.path=zero-load", "block.model=spectral"};
+    const std::vector<std::string> wall = {"drive.path=zero-load"};
     std::vector<std::string> frictionless = wall;
     frictionless.emplace_back("interface.frictionless=true");
     EXPECT_LT(relaxing_bytes(frictionless), relaxing_bytes(wall) / 2);

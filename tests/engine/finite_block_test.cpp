@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Laws of the block at finite strain, hanging planes included; its motion; its relaxed contact.
-#include "engine/equilibrium/quasistatic.hpp"
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
+#include "support/levels_at_rest.hpp"
 #include "support/rotation.hpp"
 
 #include <gtest/gtest.h>
@@ -222,24 +222,18 @@ struct Relaxation {
 Relaxation relaxed(bool finite, double load) {
     BlockOptions options = test::paper_block(8, 6, 2);
     options.finite_strain = finite;
-    const ProcessGrid grid = test::serial_grid(options);
-    const Surface surface = test::reference_surface("n8_b_rms1.0");
-    const auto block = at_rest(Block(options, Communicator(), grid));
-    Interface interface(surface, grid.tile(0), options.spacing, test::paper_interface());
-    const double height = height_of_strongest_attraction(*block, interface,
-                                                         surface.statistics.lowest, Communicator());
-    RelaxOptions o;
-    o.tolerance = 1e-8;
-    Phases phases;
-    const RelaxedState state = block->relax(interface, height, Constraint::load(load), o, phases);
-    return {state, block->top()};
+    test::LevelsAtRest rest(options);
+    const Interface interface(test::reference_surface("n8_b_rms1.0"), rest.block.grid().tile(0),
+                              options.spacing, test::paper_interface());
+    const RelaxedState state = rest.relax(interface, 4.0, Constraint::load(load), 1e-8);
+    return {state, rest.block.top()};
 }
 
 } // namespace
 
 TEST(FiniteRelaxation, ReleasesTheWorkOfTheLoad) {
-    // d(U + F z_top)/dF = z_top (Castigliano): the state found is one of force balance in the
-    // energy that is reported, linear or not.
+    // d(U + F z_top)/dF = z_top (Castigliano): forces of every node are those of the energy, linear
+    // or not.
     const auto enthalpy = [](double load) {
         const auto r = relaxed(true, load);
         return r.state.interface_energy + r.state.elastic_energy + load * r.top;
@@ -254,37 +248,4 @@ TEST(FiniteRelaxation, ReleasesTheWorkOfTheLoad) {
     const double other = linear.state.interface_energy + linear.state.elastic_energy;
     EXPECT_GT(std::abs(energy - other), 1e-5 * std::abs(other));
     EXPECT_LT(std::abs(energy - other), 0.05 * std::abs(other));
-}
-
-TEST(FiniteQuasistatic, WorkIsEnergyPlusLossOnLevels) {
-    const BlockOptions options = finite_block(16, 24, 3);
-    const ProcessGrid grid = test::serial_grid(options);
-    Interface interface(test::reference_surface("c1_N16_T16_rms0.5"), grid.tile(0), options.spacing,
-                        test::paper_interface());
-    const auto block = at_rest(Block(options, Communicator(), grid, Motion::at_rest));
-    ASSERT_GT(level_shapes(options).size(), 1u);
-    PathOptions p;
-    p.tolerance = 1e-4;
-    p.reference_height = interface.start_height();
-    QuasistaticPath path(*block, interface, p);
-    path.start();
-    // Each leg's books hold to what the tolerance allows on its way.
-    const auto allowed = [&](double way) { return p.tolerance * 16 * 16 * (way + 1.0); };
-    const auto follow = [&](Leg leg) {
-        const double from = path.now().top;
-        int points = 0;
-        while (path.advance(leg) == QuasistaticPath::Outcome::point && points < 5000)
-            ++points;
-        EXPECT_LT(points, 5000);
-        return allowed(std::abs(path.now().top - from));
-    };
-    const double in = follow(Leg::approach);
-    const double state = -(path.now().interface_energy + path.now().elastic_energy);
-    const double out = follow(Leg::pull_off);
-    const Dissipation& lost = path.dissipation();
-    EXPECT_GT(state, 1.0);
-    EXPECT_NEAR(path.work(Leg::approach) + lost.approach, state, in);
-    EXPECT_NEAR(path.work(Leg::pull_off) - lost.pull_off, state, out);
-    // What a relaxation moves by is its own, not the block's.
-    EXPECT_EQ(block->bytes(), Block(options, Communicator(), grid, Motion::at_rest).bytes());
 }

@@ -11,6 +11,7 @@
 // level). The pairs of a site pull against each other: the unit is the largest of their forces, not
 // the sum.
 #include "support/cases.hpp"
+#include "support/levels_at_rest.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -139,8 +140,8 @@ TEST(MixedPrecision, BindsLikeDouble) {
          {std::tuple{"n8_b_rms1.0", 8, 6}, {"c2_N16_T8_rms1.5", 16, 8}}) {
         InterfaceOptions interface = test::paper_interface();
         const auto relaxed = [&] {
-            return test::relax_from_attraction(test::paper_block(sites, thickness, 0), interface,
-                                               test::reference_surface(map), 1e-5);
+            return test::relax_levels(test::paper_block(sites, thickness, 0), interface,
+                                      test::reference_surface(map), 1e-5);
         };
         const test::Relaxed exact = relaxed();
         interface.mixed = true;

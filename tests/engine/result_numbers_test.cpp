@@ -26,7 +26,7 @@ constexpr const char* listed_instabilities = "dissipated.jumps";
 
 /// A thick block, which falls in and off.
 const std::string unstable = "[surface]\nsites = 16\nrms = 0.7\n"
-                             "[block]\nmodel = \"spectral\"\nthickness = 90\n"
+                             "[block]\nthickness = 90\n"
                              "[drive]\nmode = \"quasistatic\"\n";
 const std::string held_height = unstable + "hold = \"mean-height\"\n";
 const std::string in_time = "[surface]\nsites = 16\nrms = 0.5\n[block]\nthickness = 32\n"
@@ -127,10 +127,10 @@ TEST(ResultNumbers, TheErrorOfAStateIsThatOfTheSoftestWave) {
     const io::Scratch scratch;
     double before = 0.0;
     for (const double tolerance : {1e-4, 1e-3}) {
-        const Scene scene = read_scene_text(
-            "[surface]\nsites = 16\nrms = 0.7\nspacing = 3.1\n[block]\nmodel = \"spectral\"\n"
-            "young = 50.0\npoisson = 0.3\n[drive]\npath = [\"zero-load\"]\n",
-            "s.toml", {"drive.tolerance=" + std::to_string(tolerance)});
+        const Scene scene =
+            read_scene_text("[surface]\nsites = 16\nrms = 0.7\nspacing = 3.1\n[block]\n"
+                            "young = 50.0\npoisson = 0.3\n[drive]\npath = [\"zero-load\"]\n",
+                            "s.toml", {"drive.tolerance=" + std::to_string(tolerance)});
         const Json result = test::run_scene(scene, scratch / std::to_string(tolerance));
         const double modulus = 50.0 / 160.2176634 / (1.0 - 0.3 * 0.3); // E*, eV/Å^3
         const double pressure = tolerance / (3.1 * 3.1);
@@ -146,7 +146,7 @@ TEST(ResultNumbers, TheErrorOfAStateIsThatOfTheSoftestWave) {
 TEST(ResultNumbers, TheDensityOfGapsIsTheHistogramOfTheirMap) {
     const io::Scratch scratch;
     test::run_scene(read_scene_text("[surface]\nsites = 48\nrms = 2.0\n"
-                                    "[block]\nmodel = \"spectral\"\n"
+                                    "[block]\n"
                                     "[drive]\npath = [\"zero-load\"]\n",
                                     "s.toml"),
                     scratch / "run");

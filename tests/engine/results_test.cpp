@@ -121,7 +121,6 @@ const char* const quasistatic = R"(
 sites = 16
 rms = 0.7
 [block]
-model = "spectral"
 thickness = 60
 [drive]
 mode = "quasistatic"
@@ -184,9 +183,8 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
 }
 
 TEST(Results, OfAPathWithoutInstabilitiesListNone) {
-    const Written run(
-        "[surface]\nsites = 16\nrms = 0.7\n[block]\nmodel = \"spectral\"\nthickness = 60\n"
-        "[drive]\nmode = \"quasistatic\"\nmax_steps = 2\n");
+    const Written run("[surface]\nsites = 16\nrms = 0.7\n[block]\nthickness = 60\n"
+                      "[drive]\nmode = \"quasistatic\"\nmax_steps = 2\n");
     const Json& lost = run.json.at("dissipated");
     EXPECT_EQ(lost.at("events"), 0);
     EXPECT_EQ(lost.at("jumps"), Json::array());

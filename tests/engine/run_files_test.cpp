@@ -131,10 +131,10 @@ TEST(RunFiles, ThePathOverARidgeMovesAcrossItAndNotAlong) {
         const auto [least, most] = std::minmax_element(map.begin(), map.begin() + n);
         EXPECT_GT(*most - *least, 1e-2) << name;
         for (std::size_t i = 0; i < map.size(); ++i)
-            EXPECT_NEAR(map[i], map[i % n], 1e-9) << name;
+            EXPECT_NEAR(map[i], map[i % n], 1e-6) << name; // steps are in single precision
     }
     for (double uy : file.read<double>("/fields/zero-load/u_y"))
-        EXPECT_NEAR(uy, 0.0, 1e-9);
+        EXPECT_NEAR(uy, 0.0, 1e-6);
 }
 
 } // namespace

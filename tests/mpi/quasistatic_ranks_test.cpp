@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A quasi-static path of a block of levels is the same bits on any number of ranks. One that is
-// stopped, between points or within a relaxation, and resumed from a checkpoint is the same bits as
-// one that never stopped: levels also on another number of ranks, the spectral block on the same.
+// A quasi-static path that is stopped, between points or within a relaxation, and resumed from a
+// checkpoint on the same number of ranks is the same bits as one that never stopped.
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "support/cases.hpp"
@@ -28,9 +27,8 @@ namespace {
 const Communicator& world() { return test::world(); }
 
 struct Kind {
-    const char* name = "levels";
-    bool spectral = false, frictionless = false;
-    int layers_per_level = 2;
+    const char* name = "top";
+    bool frictionless = false;
     Constraint::Of along = Constraint::Of::top;
     std::optional<WallLaw> wall = {};
     int sites = 16, thickness = 60;
@@ -62,21 +60,18 @@ struct Contact {
     Surface surface;
     ProcessGrid grid;
     Interface interface;
-    std::unique_ptr<Equilibrium> block;
+    SpectralBlock block;
     long long looks = 0;    ///< at relaxations so far
     long long stop_at = -1; ///< of these; -1: at none
     QuasistaticPath path;
     Leg leg = Leg::approach;
 
     explicit Contact(const Communicator& ranks, const Kind& kind = {})
-        : options(test::paper_block(kind.sites, kind.thickness, kind.layers_per_level)),
-          surface(surface_of(kind)),
-          grid(kind.spectral ? ProcessGrid::slabs(ranks.size(), ranks.rank(), kind.sites)
-                             : test::grid_for(options, ranks)),
+        : options(test::paper_block(kind.sites, kind.thickness, 0)), surface(surface_of(kind)),
+          grid(ProcessGrid::slabs(ranks.size(), ranks.rank(), kind.sites)),
           interface(surface, grid.tile(0), options.spacing, interface_of(kind)),
-          block(kind.spectral ? spectral_at_rest(options, ranks, kind.frictionless)
-                              : at_rest(Block(options, ranks, grid))),
-          path(*block, interface, path_options(kind.along)) {}
+          block(options, ranks, kind.frictionless),
+          path(block, interface, path_options(kind.along)) {}
 
     PathOptions path_options(Constraint::Of along) {
         PathOptions o;
@@ -141,46 +136,26 @@ std::vector<std::uint64_t> cycle(const Communicator& ranks, const Kind& kind, st
 
 } // namespace
 
-TEST(QuasistaticRanks, SameBits) {
-    EXPECT_EQ(cycle(world(), {}, 40), cycle(Communicator(), {}, 40));
-}
-
-TEST(QuasistaticRanks, SameBitsAtAHeldMeanHeight) {
-    const Kind kind{.name = "held mean height", .along = Constraint::Of::mean_height};
-    EXPECT_EQ(cycle(world(), kind, 20), cycle(Communicator(), kind, 20));
-}
-
 TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
     const std::string file = "quasistatic_ranks" + std::to_string(world().size()) + ".h5";
     std::mt19937 random(7);
     for (const Kind& kind :
-         {Kind{.name = "levels"},
-          Kind{.name = "levels, mean height", .along = Constraint::Of::mean_height},
-          Kind{.name = "spectral", .spectral = true},
-          Kind{.name = "spectral, mean height",
-          .spectral = true,
-          .along = Constraint::Of::mean_height},
-          Kind{.name = "frictionless", .spectral = true, .frictionless = true},
-          Kind{.name = "wall",
-          .spectral = true,
-          .frictionless = true,
-          .wall = ExponentialWall(0.7, 0.4, 1000.0)}}) {
+         {Kind{}, Kind{.name = "mean height", .along = Constraint::Of::mean_height},
+          Kind{.name = "frictionless", .frictionless = true},
+          Kind{.name = "wall", .frictionless = true, .wall = ExponentialWall(0.7, 0.4, 1000.0)}}) {
         const std::vector<std::uint64_t> whole = cycle(world(), kind, 45);
-        // Each stretch by objects of its own, levels also by the first rank alone.
+        // Each stretch by objects of its own.
         std::size_t point = 0;
         int stops = 0, within = 0;
         for (bool gone = false; !gone && point + 1 < whole.size(); ++stops) {
-            const bool alone = !kind.spectral && stops % 3 == 1;
             const int stretch = std::uniform_int_distribution(1, 12)(random);
             const int looks = std::uniform_int_distribution(1, 10)(random);
-            std::array<double, 3> state = {};
-            if (!alone || world().root()) {
-                const Communicator ranks = alone ? Communicator() : world();
-                Contact contact(ranks, kind);
+            {
+                Contact contact(world(), kind);
                 if (point == 0)
                     contact.path.start();
                 else
-                    contact.read(file, ranks);
+                    contact.read(file, world());
                 contact.stop_at = stops % 2 == 0 ? looks : -1;
                 for (int i = 0; i < stretch && !gone && point + 1 < whole.size(); ++i) {
                     const auto outcome = contact.advance();
@@ -193,13 +168,9 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
                     ASSERT_EQ(contact.trace(), whole[point])
                         << kind.name << ", point " << point << " after " << stops << " stops";
                 }
-                contact.write(file, ranks);
-                state = {static_cast<double>(point), gone ? 1.0 : 0.0, static_cast<double>(within)};
+                contact.write(file, world());
             }
-            world().broadcast(std::span<double>(state));
-            point = static_cast<std::size_t>(state[0]);
-            gone = state[1] != 0.0;
-            within = static_cast<int>(state[2]);
+            world().barrier();
         }
         EXPECT_EQ(point + 1, whole.size()) << kind.name;
         EXPECT_GT(stops, 6) << kind.name;
@@ -213,11 +184,7 @@ TEST(QuasistaticRanks, StoppedOnItsWayIntoAnInstabilityItIsTheSameBits) {
     // Around these looks a step is relaxed all the way to a place that earlier steps have found.
     using Outcome = QuasistaticPath::Outcome;
     const std::string file = "quasistatic_stopped" + std::to_string(world().size()) + ".h5";
-    const Kind kind{.spectral = true,
-                    .layers_per_level = 0,
-                    .along = Constraint::Of::mean_height,
-                    .sites = 64,
-                    .thickness = 64};
+    const Kind kind{.along = Constraint::Of::mean_height, .sites = 64, .thickness = 64};
     const std::vector<std::uint64_t> whole = cycle(world(), kind, 100);
     for (const long long look : {112, 116, 120}) {
         Contact stopped(world(), kind);

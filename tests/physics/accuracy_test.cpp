@@ -29,7 +29,7 @@ double work_of(const std::string& text, const std::vector<std::string>& override
     double nodes = 0.0;
     for (const LevelShape& level : make_setup(scene, 1).levels)
         nodes += static_cast<double>(level.sites) * level.sites * level.cells;
-    if (scene.block.model == BlockModel::spectral) nodes = sites;
+    if (scene.without_time()) nodes = sites;
     const char* count = scene.without_time() ? "run.iterations" : "run.steps";
     return nodes * io::find(result, count)->get<double>();
 }
@@ -84,13 +84,6 @@ TEST(HeldOut, PathInTime) {
                         Question::path);
 }
 
-TEST(HeldOut, StatesAtZeroLoad) {
-    for (const char* surface :
-         {"sites = 48\nrms = 1.2\nseed = 5\n", "sites = 40\nrms = 1.7\nseed = 3\n"})
-        expect_accuracy("[surface]\n" + std::string(surface) + "[drive]\npath = [\"zero-load\"]\n",
-                        {"block.model=lattice", "drive.tolerance=1e-5"}, "0.1%", Question::state);
-}
-
 TEST(Choice, StepsAreNoLongerThanWhatIsStableInWideBoxes) {
     const auto step = [](const char* sites) {
         const Scene scene = read_scene_text("[numerics]\naccuracy = \"2%\"\n", "s.toml",
@@ -128,10 +121,6 @@ TEST(Choice, IsCheaperForALooserTarget) {
     };
     EXPECT_LT(layers("5%").block.layers_per_level, layers("1%").block.layers_per_level);
     EXPECT_EQ(layers("0.1%").block.model, BlockModel::lattice);
-    EXPECT_EQ(
-        read_scene_text("[drive]\nmode = \"quasistatic\"", "s.toml", {"numerics.accuracy=0.1%"})
-            .block.model,
-        BlockModel::spectral);
 }
 
 TEST(Choice, RefusesWhatWasNotMeasured) {

@@ -4,6 +4,7 @@
 // The motion: what velocity Verlet promises (an energy error that falls as dt^2, no drift, time
 // reversal), the books of a damped and driven run, a temperature that is the one asked for, and a
 // slow approach that ends in the static state.
+#include "engine/equilibrium/zero_load.hpp"
 #include "engine/units.hpp"
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
@@ -342,14 +343,15 @@ Approach approach_slowly(const SimulationOptions& options, const Surface& surfac
     Approach result;
     result.there = -1e3 * (s.now().interface_energy + s.now().elastic_energy) / area;
     result.work = 1e3 * s.ledger().approach / area;
-    Block copy = s.block().copy_at_rest();
-    RelaxOptions relax_options;
-    relax_options.tolerance = 1e-6;
-    Phases phases;
-    const RelaxedState state =
-        relax(copy, s.interface(), s.reference_height(), {}, relax_options, phases);
-    EXPECT_TRUE(state.converged);
-    result.binding = -1e3 * (state.interface_energy + state.elastic_energy) / area;
+    Scene scene;
+    scene.surface.sites = options.block.sites;
+    scene.surface.spacing = options.block.spacing;
+    scene.drive.tolerance = 1e-6;
+    Setup setup = make_setup(scene, 1);
+    setup.simulation = options;
+    const LayerAtRest rest =
+        bring_to_rest(s.block(), surface, s.reference_height(), scene, setup, {});
+    result.binding = rest.numbers.value().binding_energy;
     return result;
 }
 

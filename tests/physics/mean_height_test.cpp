@@ -5,7 +5,7 @@
 // whole well, however soft the block; F is minus the slope of the relaxed energy; what is not lost
 // is the state's energy both ways; the state is the one that a held top plane leads to; levels and
 // waves agree.
-#include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/equilibrium/relaxation.hpp"
 #include "engine/units.hpp"
 #include "support/path_case.hpp"
 
@@ -36,7 +36,7 @@ RelaxedState let_go(Case& c) {
     RelaxOptions o;
     o.tolerance = 1e-6;
     Phases phases;
-    return c.block->relax(c.interface, c.interface.start_height(), {}, o, phases);
+    return relax(c.block, c.interface, c.interface.start_height(), {}, o, phases);
 }
 
 /// A flat surface with a little of the longest wave along x.
@@ -82,8 +82,8 @@ RelaxedState relax_at(Case& c, double z, double tolerance) {
     o.tolerance = tolerance;
     o.max_iterations = 20000;
     Phases phases;
-    const RelaxedState s = c.block->relax(c.interface, c.interface.start_height(),
-                                          Constraint::mean_height(z), o, phases);
+    const RelaxedState s = relax(c.block, c.interface, c.interface.start_height(),
+                                 Constraint::mean_height(z), o, phases);
     EXPECT_TRUE(s.converged) << z << ", " << s.residual;
     EXPECT_NEAR(s.mean_height, z, 1e-12);
     return s;
@@ -93,9 +93,8 @@ RelaxedState relax_at(Case& c, double z, double tolerance) {
 
 TEST(MeanHeight, StaysWhereItIsHeldWhileItRelaxes) {
     // Far from equilibrium: sites are cut to the largest move, and what is cut off has a mean.
-    for (bool spectral : {true, false}) {
-        Case c(test::paper_block(32, 200, spectral ? 0 : 4),
-               test::reference_surface("c3_N32_T32_rms1.5"), spectral);
+    {
+        Case c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"));
         const double z = -9.0;
         int looks = 0; // at every tenth iteration
         double drift = 0.0;
@@ -103,12 +102,12 @@ TEST(MeanHeight, StaysWhereItIsHeldWhileItRelaxes) {
         o.tolerance = 1e-4;
         o.report = [&](long long, double) {
             ++looks;
-            drift = std::max(drift, std::abs(c.block->mean_height() - z));
+            drift = std::max(drift, std::abs(c.block.mean_height() - z));
             return false;
         };
         Phases phases;
-        c.block->relax(c.interface, c.interface.start_height(), Constraint::mean_height(z), o,
-                       phases);
+        relax(c.block, c.interface, c.interface.start_height(), Constraint::mean_height(z), o,
+              phases);
         EXPECT_GE(looks, 2);
         EXPECT_LT(drift, 1e-5); // directions are in single precision
     }
@@ -116,14 +115,9 @@ TEST(MeanHeight, StaysWhereItIsHeldWhileItRelaxes) {
 
 TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
     // Under a held top plane these blocks fall in and off (quasistatic_test).
-    struct Model {
-        int thickness, layers;
-        bool spectral;
-    };
-    for (const Model& m : {Model{40, 0, true}, Model{512, 0, true}, Model{200, 3, false}})
+    for (const int thickness : {40, 200, 512})
         for (double tolerance : {1e-3, 1e-4, 1e-5}) {
-            Case c(test::paper_block(10, m.thickness, m.layers), test::flat_surface(10),
-                   m.spectral);
+            Case c(test::paper_block(10, thickness, 0), test::flat_surface(10));
             const OneDimension one{c};
             QuasistaticPath path = path_of(c, tolerance);
             path.start();
@@ -148,16 +142,15 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
                     unstable += one.force(r.mean_height + h) - one.force(r.mean_height - h) >
                                 2.0 * h * c.spring();
                 }
-            EXPECT_GT(unstable, m.thickness > 40 ? 10 : 0)
+            EXPECT_GT(unstable, thickness > 40 ? 10 : 0)
                 << "points where a block on its spring cannot stand";
         }
 }
 
 TEST(MeanHeight, ForceIsMinusTheSlopeOfTheRelaxedEnergy) {
-    // By five points, h^4, in and out of a rough contact; two models, two ways to relax.
-    for (bool spectral : {true, false}) {
-        Case c(test::paper_block(16, 8, spectral ? 0 : 2),
-               test::reference_surface("c1_N16_T16_rms0.5"), spectral);
+    // By five points, h^4, in and out of a rough contact.
+    for (const int thickness : {8, 60}) {
+        Case c(test::paper_block(16, thickness, 0), test::reference_surface("c1_N16_T16_rms0.5"));
         constexpr double h = 0.02;
         double strongest = 0.0;
         for (double z : {-8.0, -9.0, -9.5, -10.0, -10.4}) {
@@ -170,7 +163,7 @@ TEST(MeanHeight, ForceIsMinusTheSlopeOfTheRelaxedEnergy) {
             }
             const double slope = (8.0 * (u[3] - u[1]) - (u[4] - u[0])) / (12.0 * h);
             strongest = std::max(strongest, std::abs(force));
-            EXPECT_NEAR(force, -slope, 1e-3 + 2e-5 * std::abs(force)) << z << " " << spectral;
+            EXPECT_NEAR(force, -slope, 1e-3 + 2e-5 * std::abs(force)) << z << " " << thickness;
         }
         EXPECT_GT(strongest, 5.0);
     }
@@ -220,34 +213,10 @@ TEST(MeanHeight, GradientLeavesItOut) {
     }
 }
 
-TEST(MeanHeight, LevelsAndWavesAgree) {
-    const auto series = [](bool spectral) {
-        Case c(test::paper_block(16, 4, 0), test::reference_surface("c1_N16_T16_rms0.5"), spectral);
-        c.block->set_uniform(0.0);
-        std::vector<RelaxedState> states;
-        for (int n = 0; n <= 14; ++n)
-            states.push_back(relax_at(c, n <= 7 ? -6.0 - 0.7 * n : -10.9 + 0.7 * (n - 7), 1e-7));
-        return states;
-    };
-    const auto a = series(false), b = series(true);
-    double strongest = 0.0;
-    for (const RelaxedState& s : a)
-        strongest = std::max(strongest, -s.force);
-    EXPECT_GT(strongest, 5.0);
-    for (std::size_t n = 0; n < a.size(); ++n) {
-        EXPECT_NEAR(a[n].force, b[n].force, 1e-6 * strongest) << n;
-        EXPECT_NEAR(a[n].interface_energy, b[n].interface_energy, 1e-5) << n;
-        EXPECT_NEAR(a[n].interface_energy + a[n].elastic_energy,
-                    b[n].interface_energy + b[n].elastic_energy, 1e-6)
-            << n;
-        EXPECT_EQ(a[n].in_contact, b[n].in_contact) << n;
-    }
-}
-
 TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     // Soft and gently rough: under a held top plane it snaps as a whole.
     constexpr double tolerance = 1e-4;
-    Case c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"), true);
+    Case c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
     QuasistaticPath path = path_of(c, tolerance);
     path.start();
     const auto in = follow(path, Leg::approach);
@@ -260,7 +229,7 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     EXPECT_NEAR(path.work(Leg::approach), bound, allowed);
     EXPECT_NEAR(path.work(Leg::pull_off), bound, allowed);
 
-    Case d(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"), true);
+    Case d(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
     QuasistaticPath falling = d.path(tolerance);
     falling.start();
     follow(falling, Leg::approach);
@@ -281,8 +250,7 @@ TEST(MeanHeight, SurfaceFallsWhereItsLongestWaveGetsUnstable) {
     for (double amplitude : {8e-4, 1e-4}) {
         std::vector<Dissipation> lost;
         for (double step : {0.25, 0.1}) {
-            Case c(test::paper_block(32, 32, 0), wave(32, amplitude), true);
-            c.block = spectral_at_rest(c.options, Communicator(), true);
+            Case c(test::paper_block(32, 32, 0), wave(32, amplitude), test::Friction::without);
             const OneDimension one{c};
             const double stiffness =
                 SpectralBlock(c.options, Communicator(), true).stiffness(1, 0).zz;
@@ -324,8 +292,7 @@ TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
     std::vector<Dissipation> lost;
     for (double step : {0.25, 0.1}) {
         Case c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25),
-               true);
-        c.block = spectral_at_rest(c.options, Communicator(), true);
+               test::Friction::without);
         QuasistaticPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
         path.start();
         follow(path, Leg::approach);
@@ -343,7 +310,7 @@ TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
 TEST(MeanHeight, FallsThatTakeTheForceTooFarAreGivenUp) {
     // A relaxation that ends far from the force expected is given up before its end; one whose
     // force is only near the edge of its window for its first moves is not.
-    Case c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25), true);
+    Case c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25));
     QuasistaticPath path = path_of(c, 2e-4);
     path.start();
     StepRecord before = path.now();
@@ -353,14 +320,14 @@ TEST(MeanHeight, FallsThatTakeTheForceTooFarAreGivenUp) {
     }
     const double after = path.now().top;
     const auto fall = [&](const ForceWindow& window) {
-        c.block->set_uniform(before.top);
+        c.block.set_uniform(before.top);
         relax_at(c, before.top, 1e-6);
         RelaxOptions o;
         o.start = Start::near;
         o.force_window = window;
         Phases phases;
-        return c.block->relax(c.interface, c.interface.start_height(),
-                              {Constraint::Of::mean_height, after}, o, phases);
+        return relax(c.block, c.interface, c.interface.start_height(),
+                     {Constraint::Of::mean_height, after}, o, phases);
     };
     const RelaxedState whole = fall({});
     ASSERT_TRUE(whole.converged);
@@ -389,7 +356,7 @@ TEST(MeanHeight, WorkIsThatOfATighterPath) {
     rough.seed = 7;
     std::vector<std::array<double, 4>> works;
     for (double tolerance : {1e-4, 2e-5}) {
-        Case c(test::paper_block(64, 64, 0), make_surface(rough), true);
+        Case c(test::paper_block(64, 64, 0), make_surface(rough));
         QuasistaticPath path = path_of(c, tolerance);
         path.start();
         follow(path, Leg::approach);
@@ -408,14 +375,13 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
     struct Model {
         const char* map;
         double factor;
-        int sites, layers;
+        int sites;
         double least; ///< share of the state's energy that must be lost
     };
     for (const Model& m :
-         {Model{"c7_N64_T64_rms2", 0.25, 64, 0, 0.01}, Model{"c3_N32_T32_rms1.5", 0.15, 32, 4, 0.0},
-          Model{"c3_N32_T32_rms1.5", 1.0, 32, 4, 0.0}}) {
-        Case c(test::paper_block(m.sites, m.sites, m.layers),
-               test::reference_surface(m.map, m.factor), m.layers == 0);
+         {Model{"c7_N64_T64_rms2", 0.25, 64, 0.01}, Model{"c3_N32_T32_rms1.5", 0.15, 32, 0.0},
+          Model{"c3_N32_T32_rms1.5", 1.0, 32, 0.0}}) {
+        Case c(test::paper_block(m.sites, m.sites, 0), test::reference_surface(m.map, m.factor));
         constexpr double tolerance = 5e-4;
         QuasistaticPath path = path_of(c, tolerance);
         path.start();
@@ -437,7 +403,7 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
 
 TEST(MeanHeight, EndsAtItsLoadWhereTheForceFallsWithTheHeight) {
     for (double pressure : {0.0, 1.0, -5.0}) { // GPa; the largest tension is 9
-        Case c(test::paper_block(10, 200, 0), test::flat_surface(10), true);
+        Case c(test::paper_block(10, 200, 0), test::flat_surface(10));
         const double load = pressure * units::gigapascal * 6.76 * c.sites();
         QuasistaticPath path = path_of(c, 1e-5, load);
         path.start();
@@ -451,7 +417,7 @@ TEST(MeanHeight, LandsWhereTheAttractionIsLostInTheTolerance) {
     // Under a prescribed top plane. Very rough: less attraction than a quarter of the tolerance for
     // each site.
     constexpr double tolerance = 2e-2;
-    Case c(test::paper_block(16, 16, 0), test::reference_surface("c1_N16_T16_rms0.5", 20.0), true);
+    Case c(test::paper_block(16, 16, 0), test::reference_surface("c1_N16_T16_rms0.5", 20.0));
     QuasistaticPath path = c.path(tolerance);
     path.start();
     const auto in = follow(path, Leg::approach);
@@ -467,7 +433,7 @@ TEST(MeanHeight, EndsInTheFirstStateHoweverWeaklyItBinds) {
     // Very rough: the attraction of a few summits, less than a quarter of the tolerance for each
     // site of the surface. The path ends where a relaxation without a path does.
     constexpr double tolerance = 1e-2;
-    Case c(test::paper_block(32, 32, 0), test::reference_surface("c3_N32_T32_rms1.5", 6.0), true);
+    Case c(test::paper_block(32, 32, 0), test::reference_surface("c3_N32_T32_rms1.5", 6.0));
     QuasistaticPath path = path_of(c, tolerance);
     path.start();
     const auto in = follow(path, Leg::approach);
@@ -487,13 +453,13 @@ TEST(MeanHeight, EndsInTheFirstStateHoweverWeaklyItBinds) {
 TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     // Where a relaxation with the top plane free has ended, under a load and the block pressed
     // together by it, the path holds the layer where it is.
-    Case c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"), true);
-    c.block->set_uniform(-9.0);
+    Case c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
+    c.block.set_uniform(-9.0);
     RelaxOptions o;
     o.tolerance = 1e-6;
     Phases phases;
     const RelaxedState pressed =
-        c.block->relax(c.interface, c.interface.start_height(), Constraint::load(20.0), o, phases);
+        relax(c.block, c.interface, c.interface.start_height(), Constraint::load(20.0), o, phases);
     ASSERT_TRUE(pressed.converged);
     QuasistaticPath path = path_of(c, 1e-4);
     path.start_here();

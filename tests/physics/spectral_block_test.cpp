@@ -4,7 +4,7 @@
 // The spectral block's stiffness against the elimination straight from the cell energy
 // (support/spectral_lattice.hpp), and its laws: positive, exact at long and uniform waves, a force
 // that is the gradient of its energy. That it is the lattice, states show (zero_load_test).
-#include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/equilibrium/relaxation.hpp"
 #include "support/cases.hpp"
 #include "support/spectral_lattice.hpp"
 

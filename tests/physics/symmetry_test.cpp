@@ -11,6 +11,7 @@
 // another order: they differ by rounding, which a path in contact lets grow.
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
+#include "support/levels_at_rest.hpp"
 
 #include "engine/block/spectral_block.hpp"
 
@@ -158,11 +159,11 @@ TEST(Symmetry, ARelaxedStateIsThatOfTheMovedSurface) {
     const InterfaceOptions interface = interface_with(InterfaceMethod::automatic, false);
     for (const Block16& block : blocks) {
         const BlockOptions options = block.options();
-        const auto one = test::relax_from_attraction(options, interface, surface, 1e-6);
+        const auto one = test::relax_levels(options, interface, surface, 1e-6);
         ASSERT_TRUE(one.state.converged);
         for (const Symmetry& symmetry : symmetries(block.coarsest)) {
             const auto other =
-                test::relax_from_attraction(options, interface, moved(surface, symmetry), 1e-6);
+                test::relax_levels(options, interface, moved(surface, symmetry), 1e-6);
             EXPECT_NEAR(other.binding_energy, one.binding_energy, 1e-9 * one.binding_energy)
                 << block.name << ", " << symmetry.name;
             EXPECT_EQ(other.state.in_contact, one.state.in_contact);

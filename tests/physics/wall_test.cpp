@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A wall in place of atoms: its laws, the states over it, and problems with closed forms.
-#include "engine/equilibrium/equilibrium.hpp"
 #include "engine/equilibrium/quasistatic.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 #include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
@@ -59,22 +59,22 @@ BlockOptions paper_block_of(int sites, double spacing) {
 struct AtWall {
     Surface surface;
     Interface interface;
-    std::unique_ptr<Equilibrium> block;
+    SpectralBlock block;
     double height;
     RelaxOptions options;
 
     AtWall(const Surface& s, double spacing, const WallLaw& law)
         : AtWall(s, paper_block_of(s.sites, spacing), law) {}
     AtWall(const Surface& s, const BlockOptions& o, const WallLaw& law)
-        : surface(s), interface(s, Tile{0, 0, s.sites, s.sites, s.sites}, o.spacing, over(law)) {
-        block = spectral_at_rest(o, Communicator(), true, true);
+        : surface(s), interface(s, Tile{0, 0, s.sites, s.sites, s.sites}, o.spacing, over(law)),
+          block(o, Communicator(), true) {
         height = height_of_strongest_attraction(
-            *block, interface, *std::min_element(s.height.begin(), s.height.end()), Communicator());
+            block, interface, *std::min_element(s.height.begin(), s.height.end()));
         options.tolerance = 1e-6;
     }
     RelaxedState relax(const Constraint& constraint) {
         Phases phases;
-        RelaxedState state = block->relax(interface, height, constraint, options, phases);
+        RelaxedState state = asperity::relax(block, interface, height, constraint, options, phases);
         EXPECT_TRUE(state.converged) << state.residual << " after " << state.iterations;
         return state;
     }
@@ -199,12 +199,9 @@ TEST(Wall, FlatOnFlat) {
 TEST(Wall, WorkOfAdhesionIsTheScenes) {
     for (const char* young : {"2 MPa", "77 GPa"})
         for (const char* range : {"2.5 Å", "10 Å"}) {
-            const std::vector<std::string> keys = {"interface.kind=wall",
-                                                   "block.model=spectral",
-                                                   "drive.path=zero-load",
-                                                   "interface.adhesion=3.12",
-                                                   std::string("interface.range=") + range,
-                                                   std::string("block.young=") + young};
+            const std::vector<std::string> keys = {
+                "interface.kind=wall", "drive.path=zero-load", "interface.adhesion=3.12",
+                std::string("interface.range=") + range, std::string("block.young=") + young};
             const Scene scene =
                 read_scene_text("[surface]\nsites = 32\nspacing = \"39 Å\"\n", "wall.toml", keys);
             EXPECT_NEAR(make_setup(scene, 1).flat.work_of_adhesion, 3.12, 3.12e-9)
@@ -236,12 +233,12 @@ TEST(Wall, ClosestIsTheLeastGap) {
     const double highest = *std::max_element(s.height.begin(), s.height.end());
     for (const WallLaw& law : laws()) {
         AtWall at(s, a, law);
-        at.block->set_uniform(0.0);
+        at.block.set_uniform(0.0);
         for (const double gap : {2.0, 0.25, -0.25}) {
             const InterfaceSums sums = at.interface.sweep(
-                at.block->lowest_layer(), at.block->interface_force(), highest + gap, true);
+                at.block.lowest_layer(), at.block.interface_force(), highest + gap, true);
             EXPECT_NEAR(count_contacts(sums, Communicator()).closest, std::max(gap, 0.0), 1e-12);
-            const InterfaceMaps maps = at.interface.maps(at.block->lowest_layer(), highest + gap);
+            const InterfaceMaps maps = at.interface.maps(at.block.lowest_layer(), highest + gap);
             for (std::size_t i = 0; i < s.height.size(); ++i)
                 EXPECT_NEAR(maps.distance[i], std::max(highest + gap - s.height[i], 0.0), 1e-12);
         }
@@ -264,7 +261,6 @@ private:
 sites = 32
 rolloff = 2
 [block]
-model = "spectral"
 thickness = 32
 poisson = 0.49
 [interface]
@@ -305,7 +301,7 @@ TEST(Wall, RelaxationEndsWhereASlowApproachEnds) {
             o.tolerance = 1e-3;
             o.step = 0.05;
             o.reference_height = soft.at.interface.start_height();
-            QuasistaticPath path(*soft.at.block, soft.at.interface, o);
+            QuasistaticPath path(soft.at.block, soft.at.interface, o);
             path.start();
             test::follow(path, Leg::approach);
             const double at_end = test::energy(path.now());
@@ -327,7 +323,7 @@ TEST(Wall, HeldPathsEnd) {
         o.along = along;
         o.tolerance = 1e-3;
         o.reference_height = at.at.interface.start_height();
-        QuasistaticPath path(*at.at.block, at.at.interface, o);
+        QuasistaticPath path(at.at.block, at.at.interface, o);
         path.start();
         for (const Leg leg : {Leg::approach, Leg::pull_off})
             test::follow(path, leg);
@@ -370,7 +366,7 @@ TEST(Wall, OneStateUnderThreeConstraints) {
         const double load = 0.01 * at.sites() * a * a; // 1.6 GPa
         const RelaxedState pressed = at.relax(Constraint::load(load));
         EXPECT_NEAR(pressed.force, load, 1e-4 * load);
-        const double top = at.block->top();
+        const double top = at.block.top();
         const RelaxedState clamped = at.relax(Constraint::top(top));
         EXPECT_NEAR(clamped.top_force, load, 1e-3 * load);
         const RelaxedState held = at.relax(Constraint::mean_height(pressed.mean_height));
@@ -431,10 +427,9 @@ TEST(Wall, IsRefusedWhereItCannotBe) {
         EXPECT_THROW(read_scene_text("[surface]\nsites = 32\n", "wall.toml", all), io::SceneError);
     };
     wrong({});
-    wrong({"block.model=spectral", "drive.path=zero-load", "interface.frictionless=false"});
-    wrong({"block.model=spectral", "drive.path=zero-load", "surface.lattice_ratio=2"});
-    const Scene scene =
-        read_scene_text("[surface]\nsites = 32\n", "wall.toml",
-                        {"interface.kind=wall", "block.model=spectral", "drive.path=zero-load"});
+    wrong({"drive.path=zero-load", "interface.frictionless=false"});
+    wrong({"drive.path=zero-load", "surface.lattice_ratio=2"});
+    const Scene scene = read_scene_text("[surface]\nsites = 32\n", "wall.toml",
+                                        {"interface.kind=wall", "drive.path=zero-load"});
     EXPECT_TRUE(scene.interface.frictionless);
 }

@@ -20,7 +20,7 @@ os.environ.setdefault("MPLBACKEND", "agg")
 import asperity  # noqa: E402
 
 SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
-STATE = {"name": "state", "surface": {"sites": 24}, "block": {"model": "spectral"}, "drive": {"path": ["zero-load"]}}
+STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["zero-load"]}}
 
 
 def command(*words, expect=0, cwd=None, env=None):

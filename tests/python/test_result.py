@@ -56,8 +56,8 @@ def test_numbers_are_found_by_their_paths(path_run):
 
 def test_overrides_and_dictionaries_reach_the_program():
     text = scene.toml_of({"surface": {"sites": 64, "rms": np.float64(0.25)}, "drive": {"path": ["zero-load"]},
-                          "block.model": "spectral"})
-    assert text.startswith('block.model = "spectral"\n')
+                          "block.model": "lattice"})
+    assert text.startswith('block.model = "lattice"\n')
     with scene.scene_file({"name": "as named", "surface": {"sites": 64, "file": None}, "block.young": "80 GPa"}) as file:
         found = program.check(file, scene.assignments({"surface.rms": "0.3 nm", "drive.path": ["zero-load"]}))
     assert found["name"] == "as named" and not found["problems"]
@@ -69,7 +69,7 @@ def test_overrides_and_dictionaries_reach_the_program():
 def test_the_schema_is_the_programs():
     keys = program.schema()
     assert keys["surface.rms"]["unit"] == "Å" and keys["surface.rms"]["kind"] == "number"
-    assert "spectral" in keys["block.model"]["choices"]
+    assert "lattice" in keys["block.model"]["choices"]
     assert all(set(k) >= {"kind", "unit", "default", "doc"} for k in keys.values())
 
 
@@ -236,7 +236,7 @@ def test_a_huge_array_is_not_read(path_run, tmp_path):
 @pytest.mark.parametrize("effects", [[], ["interface.frictionless=true"], ["drive.states=all"],
                                      ["block.model=multiscale", "numerics.precision=mixed"]])
 def test_a_run_takes_the_memory_that_its_plan_says(results, effects):
-    keys = ["surface.rms=4", "block.model=spectral", "drive.path=zero-load", "drive.tolerance=0.3", *effects]
+    keys = ["surface.rms=4", "drive.path=zero-load", "drive.tolerance=0.3", *effects]
 
     def words(sites):
         return [word for key in [*keys, f"surface.sites={sites}"] for word in ("--set", key)]

@@ -29,7 +29,6 @@ SCENE = """
 [surface]
 sites = 24
 [block]
-model = "spectral"
 [drive]
 path = ["zero-load"]
 [sweep]
@@ -387,7 +386,7 @@ def test_points_over_other_atoms_of_a_file_are_refused(place):
                                      "\n".join(lines) + "\n")
     write(0.2)
     scene = {"name": "atoms", "surface": {"sites": 12, "kind": "atoms", "file": str(place / "atoms.xyz")},
-             "block": {"model": "spectral", "thickness": 12}, "drive": {"path": ["zero-load"]}}
+             "block": {"thickness": 12}, "drive": {"path": ["zero-load"]}}
     first = asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms")
     assert (asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms").table["binding_energy"] == first.table["binding_energy"]).all()
     write(0.4)
@@ -397,7 +396,7 @@ def test_points_over_other_atoms_of_a_file_are_refused(place):
 
 def test_a_map_may_be_given_beside_the_scene(place):
     """A scene that is none without it; as run takes it."""
-    (place / "mapped.toml").write_text('[surface]\nkind = "file"\nsites = 24\n[block]\nmodel = "spectral"\nthickness = 12\n'
+    (place / "mapped.toml").write_text('[surface]\nkind = "file"\nsites = 24\n[block]\nthickness = 12\n'
                                        '[drive]\npath = ["zero-load"]\n[theory]\nrenormalised = false\n')
     a_map("a.npy", 1)
     a_map("b.npy", 2)

@@ -17,7 +17,7 @@ namespace asperity {
 namespace {
 
 const std::string rough = "surface.sites = 16\nsurface.rms = 0.7\nblock.thickness = 16\n";
-const std::string still = rough + "block.model = \"spectral\"\ndrive.mode = \"quasistatic\"\n";
+const std::string still = rough + "drive.mode = \"quasistatic\"\n";
 
 io::Json result_of(const std::string& scene) {
     const io::Scratch scratch;
@@ -91,9 +91,8 @@ TEST(Guard, APullThatNothingReachesIsNoZeroLoad) {
         EXPECT_LT(number(result_of(scene + "drive.load = -500\n"), "work_of_drive.approach"),
                   200.0);
     }
-    EXPECT_TRUE(has(refusal<io::PhysicsError>(
-                        rough + "drive.path = [\"zero-load\"]\nblock.model = \"spectral\"\n"
-                                "drive.load = -8500\n"),
+    EXPECT_TRUE(has(refusal<io::PhysicsError>(rough + "drive.path = [\"zero-load\"]\n"
+                                                      "drive.load = -8500\n"),
                     "smaller pull"));
 }
 

@@ -3,11 +3,12 @@
 //
 // Hard cases of states at rest, and of the theory: where a path cannot start, or where a limit is
 // sharp. Each test says first what stable means for it.
-#include "engine/equilibrium/spectral_relaxation.hpp"
+#include "engine/equilibrium/relaxation.hpp"
 #include "engine/run/theory_case.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
+#include "support/levels_at_rest.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,11 +27,10 @@ TEST(Overlap, RelaxationComesOutOfTheWall) {
         const Surface surface = test::reference_surface(map);
         const BlockOptions options = test::paper_block(8, 8, 0);
         const InterfaceOptions potential = test::paper_interface();
-        const double outside =
-            test::relax_from_attraction(options, potential, surface, 1e-6).binding_energy;
+        const double outside = test::relax_levels(options, potential, surface, 1e-6).binding_energy;
         const auto from = [&](double height) {
-            Block block(options, Communicator(), test::serial_grid(options), Motion::at_rest);
-            Interface interface(surface, block.grid().tile(0), options.spacing, potential);
+            SpectralBlock block(options, Communicator());
+            const Interface interface(surface, block.tile(), options.spacing, potential);
             RelaxOptions how;
             how.tolerance = 1e-6;
             Phases phases;
@@ -86,7 +86,7 @@ TEST(Poisson, LatticeAndSpectralBlockAgree) {
         options.poisson = poisson;
         const Surface surface = test::reference_surface("n8_a_rms0.4");
         const InterfaceOptions potential = test::paper_interface();
-        const auto lattice = test::relax_from_attraction(options, potential, surface, 1e-5);
+        const auto lattice = test::relax_levels(options, potential, surface, 1e-5);
         const auto spectral = test::relax_spectral(options, potential, surface, 1e-5);
         ASSERT_TRUE(lattice.state.converged && spectral.state.converged) << poisson;
         EXPECT_NEAR(lattice.binding_energy, spectral.binding_energy,
@@ -100,8 +100,7 @@ TEST(Poisson, LatticeAndSpectralBlockAgree) {
 TEST(Thickness, OneLayer) {
     const Surface surface = test::reference_surface("n8_b_rms1.0");
     const BlockOptions options = test::paper_block(8, 1, 0);
-    const auto lattice =
-        test::relax_from_attraction(options, test::paper_interface(), surface, 1e-6);
+    const auto lattice = test::relax_levels(options, test::paper_interface(), surface, 1e-6);
     const auto spectral = test::relax_spectral(options, test::paper_interface(), surface, 1e-6);
     ASSERT_TRUE(lattice.state.converged && spectral.state.converged);
     EXPECT_NEAR(lattice.binding_energy, spectral.binding_energy, 1e-8 * spectral.binding_energy);
@@ -148,11 +147,11 @@ TEST(Sites, AnyNumber) {
         surface.statistics.lowest = *low, surface.statistics.highest = *high;
         const InterfaceOptions potential = test::paper_interface(3.0);
         const auto lattice =
-            test::relax_from_attraction(test::paper_block(sites, 7, 0), potential, surface, 1e-6);
+            test::relax_levels(test::paper_block(sites, 7, 0), potential, surface, 1e-6);
         const auto spectral =
             test::relax_spectral(test::paper_block(sites, 7, 0), potential, surface, 1e-6);
         const auto levels =
-            test::relax_from_attraction(test::paper_block(sites, 7, 2), potential, surface, 1e-6);
+            test::relax_levels(test::paper_block(sites, 7, 2), potential, surface, 1e-6);
         ASSERT_TRUE(lattice.state.converged && spectral.state.converged && levels.state.converged);
         EXPECT_NEAR(lattice.binding_energy, spectral.binding_energy, 1e-7 * spectral.binding_energy)
             << sites;
@@ -172,9 +171,8 @@ TEST(Load, FromNothingToHuge) {
     const double area = std::pow(options.sites * options.spacing, 2);
     double height_before = 1e300;
     for (double gpa : {0.0, 1.0, 10.0, 100.0, 500.0}) {
-        Block block(options, Communicator(), test::serial_grid(options), Motion::at_rest);
-        Interface interface(surface, block.grid().tile(0), options.spacing,
-                            test::paper_interface());
+        SpectralBlock block(options, Communicator());
+        const Interface interface(surface, block.tile(), options.spacing, test::paper_interface());
         RelaxOptions how;
         how.tolerance = 1e-6;
         const double load = gpa / 160.21766 * area;
@@ -198,13 +196,11 @@ TEST(Bifurcation, TheRelaxationEndsOnOneBranch) {
                               test::paper_interface());
     RelaxOptions how;
     how.tolerance = 1e-5;
-    how.max_move = 0.2;
     const double start = 12.0;
     const auto state_at = [&](double top) {
         Phases phases;
         block.set_uniform(top);
-        block.constrain(Constraint::top(top));
-        return relax(block, interface, start, how, phases);
+        return relax(block, interface, start, Constraint::top(top), how, phases);
     };
     // From above, out of contact; and, further down, snapped in.
     const auto gap = [&](const RelaxedState& s) { return start + s.mean_height; };

@@ -3,7 +3,7 @@
 #include "support/cases.hpp"
 
 #include "decomposition/halo_exchange.hpp"
-#include "engine/equilibrium/equilibrium.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 #include "engine/units.hpp"
 
 #include <algorithm>
@@ -84,42 +84,27 @@ ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicat
                        static_cast<int>(level_shapes(options).size()));
 }
 
-namespace {
-
-Relaxed relax(Equilibrium& block, Interface& interface, const Surface& surface,
-              const BlockOptions& options, double tolerance) {
-    const double height = height_of_strongest_attraction(
-        block, interface, surface.statistics.lowest, block.communicator());
-    RelaxOptions relax_options;
-    relax_options.tolerance = tolerance;
-    Phases phases;
+Relaxed numbers_of(const RelaxedState& state, const BlockOptions& options,
+                   double reference_height) {
     Relaxed relaxed;
-    relaxed.state = block.relax(interface, height, {}, relax_options, phases);
-    const double edge = options.sites * options.spacing;
-    relaxed.binding_energy =
-        -1e3 * (relaxed.state.interface_energy + relaxed.state.elastic_energy) / (edge * edge);
-    relaxed.pairwise = -1e3 * relaxed.state.interface_energy / (edge * edge);
-    relaxed.mean_height = height + relaxed.state.mean_height;
+    relaxed.state = state;
+    const double area = std::pow(options.sites * options.spacing, 2);
+    relaxed.binding_energy = -1e3 * (state.interface_energy + state.elastic_energy) / area;
+    relaxed.pairwise = -1e3 * state.interface_energy / area;
+    relaxed.mean_height = reference_height + state.mean_height;
     return relaxed;
-}
-
-} // namespace
-
-Relaxed relax_from_attraction(const BlockOptions& options,
-                              const InterfaceOptions& interface_options, const Surface& surface,
-                              double tolerance, const Communicator& communicator) {
-    const ProcessGrid grid = grid_for(options, communicator);
-    const auto block = at_rest(Block(options, communicator, grid));
-    Interface interface(surface, grid.tile(0), options.spacing, interface_options);
-    return relax(*block, interface, surface, options, tolerance);
 }
 
 Relaxed relax_spectral(const BlockOptions& options, const InterfaceOptions& interface_options,
                        const Surface& surface, double tolerance, bool frictionless) {
-    const auto block = spectral_at_rest(options, Communicator(), frictionless);
-    const Tile tile{0, 0, options.sites, options.sites, options.sites};
-    Interface interface(surface, tile, options.spacing, interface_options);
-    return relax(*block, interface, surface, options, tolerance);
+    SpectralBlock block(options, Communicator(), frictionless);
+    const Interface interface(surface, block.tile(), options.spacing, interface_options);
+    const double height =
+        height_of_strongest_attraction(block, interface, surface.statistics.lowest);
+    RelaxOptions relax_options;
+    relax_options.tolerance = tolerance;
+    Phases phases;
+    return numbers_of(relax(block, interface, height, {}, relax_options, phases), options, height);
 }
 
 SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt19937_64& random,

@@ -37,12 +37,8 @@ struct Relaxed {
     double pairwise = 0.0;       ///< meV/Å^2
     double mean_height = 0.0;    ///< above the substrate's zero, Å
 };
-/// The zero-load state of this block on this surface. Collective.
-Relaxed relax_from_attraction(const BlockOptions& block, const InterfaceOptions& interface,
-                              const Surface& surface, double tolerance,
-                              const Communicator& communicator = Communicator());
-
-/// The same with the spectral block.
+Relaxed numbers_of(const RelaxedState& state, const BlockOptions& options, double reference_height);
+/// The zero-load state of this block on this surface.
 Relaxed relax_spectral(const BlockOptions& block, const InterfaceOptions& interface,
                        const Surface& surface, double tolerance, bool frictionless = false);
 

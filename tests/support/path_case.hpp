@@ -24,24 +24,24 @@ inline InterfaceOptions over(const WallLaw& wall) {
     return o;
 }
 
+enum class Friction { with, without };
+
 /// A block over a surface, and the path of equilibria.
 struct PathCase {
     BlockOptions options;
     Surface surface;
     ProcessGrid grid = serial_grid(options);
     Interface interface;
-    std::unique_ptr<Equilibrium> block;
+    SpectralBlock block;
 
-    PathCase(const BlockOptions& o, Surface s, bool spectral, double cutoff = 4.0)
+    PathCase(const BlockOptions& o, Surface s, Friction friction = Friction::with)
         : options(o), surface(std::move(s)),
-          interface(surface, grid.tile(0), o.spacing, paper_interface(cutoff)),
-          block(spectral ? spectral_at_rest(o, Communicator())
-                         : at_rest(Block(o, Communicator(), grid))) {}
-    /// A frictionless spectral block over a wall.
+          interface(surface, grid.tile(0), o.spacing, paper_interface()),
+          block(o, Communicator(), friction == Friction::without) {}
+    /// Over a wall.
     PathCase(const BlockOptions& o, Surface s, const WallLaw& wall)
         : options(o), surface(std::move(s)),
-          interface(surface, grid.tile(0), o.spacing, over(wall)),
-          block(spectral_at_rest(o, Communicator(), true)) {}
+          interface(surface, grid.tile(0), o.spacing, over(wall)), block(o, Communicator(), true) {}
 
     QuasistaticPath path(double tolerance, double step = 0.25, double load = 0.0,
                          Constraint::Of along = Constraint::Of::top) {
@@ -51,7 +51,7 @@ struct PathCase {
         p.tolerance = tolerance;
         p.load = load;
         p.reference_height = interface.start_height();
-        return QuasistaticPath(*block, interface, p);
+        return QuasistaticPath(block, interface, p);
     }
     double sites() const { return static_cast<double>(options.sites) * options.sites; }
     /// Of the whole block under uniform stretch, eV/Å^2.

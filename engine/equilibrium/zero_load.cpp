@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/zero_load.hpp"
+
+#include "decomposition/global_sum.hpp"
+#include "decomposition/halo_exchange.hpp"
+#include "engine/units.hpp"
+#include "io/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace asperity {
+
+double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
+                                      double lowest_atom) {
+    block.set_uniform(0.0);
+    double best_height = interface.attraction_grows_down_to(), strongest = 0.0;
+    constexpr double stride = 0.1;
+    for (double height = best_height;; height -= stride) {
+        const InterfaceSums sums =
+            interface.sweep(block.lowest_layer(), block.interface_force(), height, false, true);
+        const double force = global_sum(block.communicator(), sums.force_z);
+        if (force < strongest) strongest = force, best_height = height;
+        if (force > 0.0 || height < lowest_atom) return best_height;
+    }
+}
+
+std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& interface,
+                                       double reference_height, double load, const Scene& scene,
+                                       const Setup& setup,
+                                       const std::function<bool(long long, double)>& stop) {
+    RelaxOptions options;
+    options.tolerance = scene.drive.tolerance;
+    options.site_stiffness = setup.site_stiffness;
+    options.report = stop;
+    Phases own; // its lines are not lines of the step
+    const RelaxedState s =
+        relax(block, interface, reference_height, Constraint::load(load), options, own);
+    if (s.interrupted) return std::nullopt;
+    if (!s.converged)
+        throw io::PhysicsError(
+            fmt::format("the zero-load state was not found in {} iterations", s.iterations),
+            fmt::format("the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
+                        s.residual, scene.drive.tolerance),
+            load < 0.0 ? "take a smaller pull (drive.load): under a large one there is no state"
+                       : "look at run.h5 whether the surfaces touch at all; a looser "
+                         "drive.tolerance ends earlier");
+    const double area = scene.edge() * scene.edge();
+    const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
+    ZeroLoad z;
+    z.binding_energy = -units::milli_per_unit * (s.interface_energy + s.elastic_energy) / area;
+    z.pairwise = -units::milli_per_unit * s.interface_energy / area;
+    z.elastic = units::milli_per_unit * s.elastic_energy / area;
+    z.contact_fraction = static_cast<double>(s.in_contact) / sites;
+    z.repulsive_fraction = static_cast<double>(s.repulsive) / sites;
+    z.mean_height = reference_height + s.mean_height;
+    z.residual = s.residual;
+    z.iterations = static_cast<double>(s.iterations);
+    // Half of force^2 / stiffness at each site, of the softest wave of the box, by the forces that
+    // the tolerance allows: those left say how this relaxation ended, not where others may end.
+    const double site_area = scene.surface.spacing * scene.surface.spacing;
+    z.uncertainty = units::milli_per_unit * 0.5 * options.tolerance * options.tolerance /
+                    (setup.simulation.block.softest_wave() * site_area * site_area);
+    return z;
+}
+
+LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
+                          const Scene& scene, const Setup& setup,
+                          const std::function<bool(long long, double)>& stop) {
+    const Communicator& ranks = moving.communicator();
+    const auto components = [](const auto& field) { return std::array{field.x, field.y, field.z}; };
+    std::array<std::vector<double>, 3> whole; // on the root
+    for (std::size_t c = 0; c < 3; ++c)
+        whole[c] = gather_plane(ranks, moving.grid(), 0, components(moving.lowest_layer())[c]);
+    LayerAtRest found;
+    ranks.on_root([&] {
+        SpectralBlock block(setup.simulation.block, Communicator());
+        const Tile tile = block.tile();
+        InterfaceOptions options = setup.simulation.interface;
+        options.single_too = !options.mixed;
+        const Interface interface(surface, tile, scene.surface.spacing, options);
+        const auto row = [&tile](int y) {
+            return static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.nx);
+        };
+        for (std::size_t c = 0; c < 3; ++c) {
+            const PlaneView<double> u = components(block.layer().plane(0))[c];
+            for (int y = 0; y < tile.ny; ++y)
+                std::copy_n(&whole[c][row(y)], tile.nx, u.line(y));
+        }
+        found.numbers = find_zero_load(block, interface, reference_height, 0.0, scene, setup, stop);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const PlaneView<const double> u = components(block.lowest_layer())[c];
+            for (int y = 0; y < tile.ny; ++y)
+                std::copy_n(u.line(y), tile.nx, &whole[c][row(y)]);
+        }
+    });
+    std::array<double, 1> has = {found.numbers ? 1.0 : 0.0};
+    ranks.broadcast(std::span<double>(has));
+    if (has[0] == 0.0) return {};
+    ZeroLoad z = found.numbers.value_or(ZeroLoad{});
+    const auto share = [&](const char*, double& number) { ranks.broadcast(std::span(&number, 1)); };
+    z.visit(share);
+    found.numbers = z;
+    found.layer = VectorField<double>(moving.levels().front().tile, 1);
+    for (std::size_t c = 0; c < 3; ++c) {
+        scatter_plane(ranks, moving.grid(), 0, whole[c], components(found.layer.plane(0))[c]);
+        whole[c] = {};
+    }
+    return found;
+}
+
+void show_relaxation(io::Progress& progress, long long iteration, double residual) {
+    if (!progress.due()) return;
+    progress.update(
+        {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
+}
+
+} // namespace asperity

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The state at zero load (or under a load): where the search for it starts, its numbers, and the
+// one that a contact in motion would come to.
+#pragma once
+
+#include "engine/block/block.hpp"
+#include "engine/equilibrium/findings.hpp"
+#include "engine/equilibrium/relaxation.hpp"
+#include "engine/equilibrium/state_array.hpp"
+#include "engine/setup/setup.hpp"
+#include "io/progress.hpp"
+
+namespace asperity {
+
+/// Where the block, undisplaced, feels the strongest attraction on its way down: the descent that
+/// starts there ends in the state that a slow approach reaches. Collective.
+double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
+                                      double lowest_atom);
+
+/// The relaxed state with the top plane free under this load (eV/Å, pressing down). Empty if
+/// stop(iteration, residual) asked for an end. Collective. Throws io::PhysicsError if it is not
+/// found.
+std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& interface,
+                                       double reference_height, double load, const Scene& scene,
+                                       const Setup& setup,
+                                       const std::function<bool(long long, double)>& stop);
+
+/// A state as one rank sees it.
+struct LayerAtRest {
+    std::optional<ZeroLoad> numbers;
+    VectorField<double> layer; ///< displacements of the lowest layer of this rank's tile, Å
+};
+/// The state at zero load below a block in motion. At rest the displacements of its lowest layer
+/// are all that the state depends on (spectral_block.hpp): the root has those of the whole surface
+/// and relaxes alone, with its threads, so that the state is the same bits on any number of ranks.
+/// stop is called there. Collective. Without numbers, and without a layer, if stop asked for an
+/// end.
+LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
+                          const Scene& scene, const Setup& setup,
+                          const std::function<bool(long long, double)>& stop);
+
+/// "relaxing, largest force 1e-3 eV/Å"
+void show_relaxation(io::Progress& progress, long long iteration, double residual);
+
+} // namespace asperity
