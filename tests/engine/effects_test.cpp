@@ -220,6 +220,18 @@ TEST(Effects, DampingActsOnTheLayersItIsGivenAlone) {
     }
 }
 
+TEST(Effects, AnotherSeedIsAnotherNoise) {
+    const auto kinetic = [](const char* seed) {
+        return follow(scene_with({"drive.damping=0.2", "drive.temperature=100", "block.thickness=8",
+                                  seed}),
+                      3)
+            .ledger()
+            .heat;
+    };
+    EXPECT_EQ(kinetic("drive.seed=1"), kinetic("drive.seed=1"));
+    EXPECT_NE(kinetic("drive.seed=1"), kinetic("drive.seed=2"));
+}
+
 TEST(Effects, AStepAllocatesNoField) {
     // Observed or not, with all effects of a step on or off.
     for (const auto& overrides :

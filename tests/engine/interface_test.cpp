@@ -4,6 +4,7 @@
 // The fast sweeps against the reference, forces against energies, and the same bits whatever the
 // decomposition. States are rough and displaced at random, some far beyond what a run allows.
 #include "engine/block/interface.hpp"
+#include "engine/block/interface_stiffness.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -204,6 +205,59 @@ TEST(InterfaceSweep, ForceIsMinusTheGradient) {
                             << m << ' ' << tail << ' ' << x << ' ' << y << ' ' << k;
                     }
             }
+}
+
+TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
+    // Sites do not feel each other: the force changes by -H v at each of them.
+    const int n = 9;
+    const Tile tile{0, 0, n, n, n};
+    const Interface interface(rough(n, n * a, 0.5, 11), tile, a, with(InterfaceMethod::automatic));
+    const State state(n, 0.4, 0.3, 12), way(n, 1.0, 1.0, 13);
+    const double z = 3.6, h = 5e-4;
+    const auto force_at = [&](double step) {
+        State moved = state;
+        for (int k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < moved.u[k].size(); ++i)
+                moved.u[k][i] += step * way.u[k][i];
+        VectorField<double> f(tile, 1);
+        const VectorField<double> u = moved.on(tile);
+        interface.sweep(u.plane(0), f.plane(0), z, false);
+        return f;
+    };
+    const VectorField<double> u = state.on(tile), f = force_at(0.0);
+    const VectorField<double> above = force_at(h), below = force_at(-h);
+    InterfaceStiffness all(tile, 3), normal(tile, 1);
+    all.measure(interface, u.plane(0), f.plane(0), z);
+    normal.measure(interface, u.plane(0), f.plane(0), z);
+    SiteField<float> v, up;
+    for (int k = 0; k < 3; ++k) {
+        v.emplace_back(tile, 1, 0);
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x)
+                v.back().plane(0)(x, y) =
+                    static_cast<float>(way.u[k][static_cast<std::size_t>(y * n + x)]);
+    }
+    up.emplace_back(tile, 1, 0);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            up[0].plane(0)(x, y) = 1.0f;
+    all.apply(v);
+    normal.apply(up);
+    const auto expect_slope = [&](float product, const Field<double>& high,
+                                  const Field<double>& low, int x, int y) {
+        const double slope = -(high.plane(0)(x, y) - low.plane(0)(x, y)) / (2.0 * h);
+        EXPECT_NEAR(product, slope, 0.05 * (1.0 + std::abs(slope))); // one-sided differences
+    };
+    double mean = 0.0;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            expect_slope(v[0].plane(0)(x, y), above.x, below.x, x, y);
+            expect_slope(v[1].plane(0)(x, y), above.y, below.y, x, y);
+            expect_slope(v[2].plane(0)(x, y), above.z, below.z, x, y);
+            mean += std::max(0.0f, up[0].plane(0)(x, y)) / (n * n);
+        }
+    EXPECT_NEAR(all.mean(interface, u.plane(0), f.plane(0), z, Communicator()), mean, 1e-6 * mean);
+    EXPECT_GT(mean, 0.1);
 }
 
 TEST(InterfaceSweep, TotalForceIsMinusTheGradientOfARigidShift) {

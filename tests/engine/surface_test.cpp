@@ -114,6 +114,23 @@ TEST(SelfAffineSurface, SlopeIsThatOfItsWaves) {
     EXPECT_NEAR(s.statistics.rms_slope, 2.0 * pi / o.length * o.rms, 1e-12);
 }
 
+TEST(SelfAffineSurface, EveryBinOfTheSpectrumHasItsWaves) {
+    for (int n : {2, 3, 16, 33}) {
+        const Surface s = make_surface(self_affine(n));
+        double power = 0.0, last = 0.0;
+        for (const SpectrumBin& b : s.statistics.spectrum) {
+            EXPECT_GT(b.modes, 0) << n;
+            EXPECT_GT(b.q, last) << n;
+            last = b.q;
+            power += b.modes * b.realised;
+        }
+        // The waves beyond the largest ring are in no bin.
+        const double unit = 2.0 * pi / self_affine(n).length;
+        EXPECT_GT(power, 0.0) << n;
+        EXPECT_LE(power * unit * unit, s.statistics.rms * s.statistics.rms * (1.0 + 1e-9)) << n;
+    }
+}
+
 TEST(SelfAffineSurface, SameSeedSameBits) {
     SurfaceOptions o = self_affine(48);
     const Surface first = make_surface(o), again = make_surface(o);
@@ -405,6 +422,10 @@ TEST(MapStatistics, OfOneWave) {
     EXPECT_NEAR(spectral.rms_curvature, 0.5 * rms * (qx * qx + qy * qy), 1e-12);
 
     const LineStatistics lines = line_statistics(h, n, length);
+    ASSERT_EQ(lines.q.size(), size / 2); // to Nyquist
+    ASSERT_EQ(lines.r.size(), size / 2); // to half the width
+    EXPECT_NEAR(lines.q.back(), pi / pixel, 1e-12);
+    EXPECT_NEAR(lines.r.back(), 0.5 * length, 1e-12);
     EXPECT_NEAR(lines.c1d[k - 1], 0.25 * a * a * length, 1e-9);
     double integral = 0.0; // h_rms^2 = 1/pi int C1D dq
     for (const double c : lines.c1d)

@@ -132,6 +132,36 @@ TEST(Choice, RefusesWhatWasNotMeasured) {
             << outside;
 }
 
+TEST(Choice, CoversWhatWasMeasuredUpToItsLimits) {
+    // N = 32, 10 m/s, rms 2 Å at N = 32, one value of the moduli.
+    const auto covered = [](const std::vector<std::string>& keys) {
+        std::vector<std::string> all = {"numerics.accuracy=5%", "surface.sites=32",
+                                        "surface.rms=1"};
+        all.insert(all.end(), keys.begin(), keys.end());
+        try {
+            read_scene_text("", "s.toml", all);
+            return true;
+        } catch (const io::SceneError&) {
+            return false;
+        }
+    };
+    for (const auto& [inside, beyond] : {std::pair{"surface.sites=32", "surface.sites=31"},
+                                         {"drive.velocity=10", "drive.velocity=10.01"},
+                                         {"surface.rms=1.99", "surface.rms=2.01"},
+                                         {"block.young=77.25", "block.young=77.4"},
+                                         {"block.poisson=0.4202", "block.poisson=0.421"},
+                                         {"block.atom_mass=196.9", "block.atom_mass=196"},
+                                         {"interface.r0=3.281", "interface.r0=3.29"},
+                                         {"surface.spacing=2.601", "surface.spacing=2.61"},
+                                         {"surface.lattice_ratio=1", "surface.lattice_ratio=1.618"},
+                                         {"block.strain=linear", "block.strain=finite"},
+                                         {"interface.kind=atoms", "interface.kind=wall"}}) {
+        EXPECT_TRUE(covered({inside})) << inside;
+        EXPECT_FALSE(covered({beyond})) << beyond;
+    }
+    EXPECT_TRUE(covered({"drive.mode=quasistatic", "drive.velocity=40"})); // has no effect
+}
+
 TEST(BendingEnergy, OfOneWave) {
     // All of it in the longest wave: (E*/4) q h², E* = E / (1 - ν²).
     Scene scene;

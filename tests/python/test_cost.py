@@ -61,10 +61,14 @@ def test_no_order_is_made_up():
     assert cost.order_of([], [], None) is None
 
 
-def knobs(**sections):
+def case(**sections):
     with scene_file(sections) as file:
         found = program.check(file)
-    return [k.name for k in cost_case(found["scene"], found["longest_timestep"]).knobs]
+    return cost_case(found["scene"], found["longest_timestep"])
+
+
+def knobs(**sections):
+    return [k.name for k in case(**sections).knobs]
 
 
 def test_knobs_are_those_that_the_scene_has():
@@ -77,6 +81,15 @@ def test_knobs_are_those_that_the_scene_has():
         with pytest.raises(asperity.SceneError):
             knobs(surface={"sites": 32}, **bad)
     assert joined(["a.b=1", "c.d=2"], ["a.b=3"]) == ["c.d=2", "a.b=3"]
+
+
+def test_knobs_go_from_coarse_to_fine():
+    """No value comes twice, and what they are compared with is finer than the finest."""
+    for knob in case(surface={"sites": 32}).knobs:
+        settings = [tuple(v.setting) for v in knob.values]
+        assert len(set(settings)) == len(settings), knob.name
+        x = [v.x for v in [*knob.values, *[knob.twin] * (knob.twin is not None)] if v.x]
+        assert x == sorted(set(x)) or x == sorted(set(x), reverse=True), knob.name
 
 
 def test_tables_judge_what_was_run():

@@ -28,6 +28,11 @@ def test_forces_of_flat_solids_are_stresses(path_run):
     assert curves["pull-off"].y == pytest.approx(force[leg == 1] / path_run.edge**2 * 160.2176634)
     assert (curves["approach"].x == path_run.series["mean_height"][leg == 0]).all()
     assert "GPa" in ax.get_ylabel()
+    felt = path_run.series["mean_height"][abs(force) > 0.01 * abs(force.min())]
+    low, high = ax.get_xlim()
+    assert low < felt.min() and high > felt.max()
+    # The way through empty space is cut off.
+    assert high - low < 1.09 * np.ptp(path_run.series["mean_height"][abs(force) > 1e-3 * abs(force.min())])
 
 
 def test_forces_of_spheres_are_forces(sphere_run):
@@ -119,6 +124,10 @@ def test_files_hold_the_curves(path_run, tmp_path):
     approach = table[:, 1][np.isfinite(table[:, 1])]
     assert approach == pytest.approx(path_run.series["force"][leg == 0] / path_run.edge**2 / units.GIGAPASCAL, rel=1e-8)
     assert text.startswith("mean separation (Å),approach: mean stress F/A_0 (GPa)")
+    # In a page: without a size of its own, the date or the colours of paper.
+    inline = files.inline_svg(fig)
+    assert inline.startswith("<svg") and "<metadata" not in inline
+    assert " width=" not in inline.split(">")[0] and "var(--ink)" in inline
     fig = files.make(lambda ax: run_plots.map_of(path_run, path_run.fields["zero-load"], "gap", ax))
     assert np.genfromtxt(io.StringIO(files.csv(fig)), delimiter=",").shape == (32, 32)
 

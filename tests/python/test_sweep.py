@@ -84,6 +84,8 @@ def test_axes_come_from_the_command_line_and_the_scene():
     assert axes('drive.path=["approach","pull-off"]')[1] == ['drive.path=["approach","pull-off"]']
     assert axes("surface.rms=0.1:0.3:0.1")[0][0].values == ["0.1", "0.2", "0.3"]  # not 0.30000000000000004
     assert grid.points_of(axes("surface.rms=1,2", "drive.load=0,5")[0])[1] == ["surface.rms=1", "drive.load=5"]
+    # A value that is no whole number is not rounded to one: the scene refuses it.
+    assert axes("surface.seed=1:2:0.5")[0][0].values == ["1", "1.5", "2"]
 
 
 @pytest.mark.parametrize("given, says", [

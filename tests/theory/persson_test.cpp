@@ -239,13 +239,13 @@ TEST(Persson, MarchesAgreeAtAnyLoad) {
 }
 
 TEST(Persson, EquationThreeHoldsAtEveryMagnification) {
-    for (double p : {-0.3, 0.0, 1.0}) {
-        AdhesiveContact c = paper::contact(5);
-        c.pressure = p * gpa;
+    const auto expect_it = [](const AdhesiveContact& c, const std::string& what) {
+        SCOPED_TRACE(what);
         const ContactState s = solve(c);
         const auto& end = s.profile.back();
         EXPECT_NEAR(end.gamma_eff, c.work_of_adhesion, 1e-7);
         EXPECT_EQ(end.elastic_energy, 0);
+        EXPECT_NEAR(end.area, s.area, 1e-3);
         for (const ProfilePoint& at : s.profile) {
             EXPECT_NEAR(at.gamma_eff * at.real_area,
                         c.work_of_adhesion * end.real_area - at.elastic_energy, 1e-7);
@@ -254,7 +254,19 @@ TEST(Persson, EquationThreeHoldsAtEveryMagnification) {
         }
         for (std::size_t i = 1; i < s.profile.size(); ++i)
             EXPECT_LE(s.profile[i].area, s.profile[i - 1].area);
+    };
+    for (double p : {-0.3, 0.0, 1.0}) {
+        AdhesiveContact c = paper::contact(5);
+        c.pressure = p * gpa;
+        expect_it(c, "5 Å");
     }
+    expect_it(paper::contact(0.3), "full contact");
+    // A gap of the spectrum, where stresses spread no further.
+    AdhesiveContact c = paper::contact(3);
+    const double q[] = {paper::q_L, 8 * paper::q_L, 64 * paper::q_L, 512 * paper::q_L};
+    const double C[] = {c.spectrum(2 * paper::q_L), 0, c.spectrum(100 * paper::q_L)};
+    c.spectrum = Spectrum::rings(q, C);
+    expect_it(c, "gap");
 }
 
 // The third opinion: random walks. The boundary of the solved state is given to walkers that know
