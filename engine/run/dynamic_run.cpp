@@ -210,12 +210,16 @@ private:
     bool find_state() {
         const auto t = run_.phases.time(Phase::relax);
         const double height = simulation_.reference_height();
-        LayerAtRest found = bring_to_rest(simulation_.block(), run_.surface, height, scene_,
-                                          run_.setup, [&](long long iteration, double residual) {
-                                              show_relaxation(run_.progress, iteration, residual);
-                                              return run_.wants_stop();
-                                          });
-        if (!found.numbers) return !run_.stop_relaxation();
+        const auto stop = [&](long long iteration, double residual) { // on the root
+            show_relaxation(run_.progress, iteration, residual);
+            return run_.wants_stop();
+        };
+        LayerAtRest found;
+        while (!found.numbers) {
+            found =
+                bring_to_rest(simulation_.block(), run_.surface, height, scene_, run_.setup, stop);
+            if (!found.numbers && run_.stop_relaxation()) return false;
+        }
         run_.findings.zero_load = found.numbers;
         if (scene_.writes_field("zero-load"))
             run_.recorder().fields("zero-load", std::as_const(found.layer).view()[0], run_.grid,
