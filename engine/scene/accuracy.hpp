@@ -4,8 +4,8 @@
 // numerics.accuracy: the cheapest settings that keep an error, by a calibration that `asperity
 // cost` has made (accuracy_table.hpp).
 //
-// Chosen are the time step, the layers a level, the precision of the pairs, and without time the
-// block model; each only where the scene leaves it open. What makes another solid or another
+// Chosen are the time step, the layers a level and the precision of the pairs, each only where the
+// scene leaves it open. What makes another solid or another
 // experiment is never touched: interaction (cutoff and tail too), thickness, velocity, damping.
 #pragma once
 

@@ -3,7 +3,7 @@
 //
 // Quasi-static paths against their laws: flat on flat is a problem in one dimension, solved here on
 // its own (force, snap-in, snap-off, energies lost); work = energy + loss and loop area = loss on
-// rough surfaces; the block models agree; slow motion approaches the path.
+// rough surfaces; a lattice that relaxes node by node agrees; slow motion approaches the path.
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/units.hpp"
 #include "support/levels_at_rest.hpp"
