@@ -11,7 +11,6 @@
 // + 11 + 11 rows, odd offsets) and hold the other two whole. Deep: five levels down to 2 x 2 nodes;
 // two and four ranks cut four of them and hold the last one whole.
 #include "decomposition/halo_exchange.hpp"
-#include "engine/equilibrium/zero_load.hpp"
 #include "support/cases.hpp"
 #include "support/world.hpp"
 
@@ -126,13 +125,7 @@ Trace relaxation(const Stack& stack, const Communicator& ranks) {
     for (int y = 0; y < level.tile.ny; ++y)
         for (int x = 0; x < level.tile.nx; ++x)
             u.z(x, y) = 0.1 * std::sin(x + level.tile.x0 + 2.0 * (y + level.tile.y0));
-    Scene scene;
-    scene.surface.sites = options.block.sites;
-    scene.surface.spacing = options.block.spacing;
-    scene.drive.tolerance = 1e-3;
-    Setup setup = make_setup(scene, 1);
-    setup.simulation = options;
-    const LayerAtRest rest = bring_to_rest(block, surface, 8.0, scene, setup, {});
+    const LayerAtRest rest = test::bring_to_rest(block, surface, 8.0, options, 1e-3);
     Trace trace;
     const ZeroLoad& z = rest.numbers.value();
     trace.numbers = {z.binding_energy, z.pairwise,   z.mean_height,

@@ -4,7 +4,6 @@
 // The motion: what velocity Verlet promises (an energy error that falls as dt^2, no drift, time
 // reversal), the books of a damped and driven run, a temperature that is the one asked for, and a
 // slow approach that ends in the static state.
-#include "engine/equilibrium/zero_load.hpp"
 #include "engine/units.hpp"
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
@@ -343,14 +342,8 @@ Approach approach_slowly(const SimulationOptions& options, const Surface& surfac
     Approach result;
     result.there = -1e3 * (s.now().interface_energy + s.now().elastic_energy) / area;
     result.work = 1e3 * s.ledger().approach / area;
-    Scene scene;
-    scene.surface.sites = options.block.sites;
-    scene.surface.spacing = options.block.spacing;
-    scene.drive.tolerance = 1e-6;
-    Setup setup = make_setup(scene, 1);
-    setup.simulation = options;
     const LayerAtRest rest =
-        bring_to_rest(s.block(), surface, s.reference_height(), scene, setup, {});
+        test::bring_to_rest(s.block(), surface, s.reference_height(), options, 1e-6);
     result.binding = rest.numbers.value().binding_energy;
     return result;
 }

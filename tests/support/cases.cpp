@@ -3,7 +3,6 @@
 #include "support/cases.hpp"
 
 #include "decomposition/halo_exchange.hpp"
-#include "engine/equilibrium/zero_load.hpp"
 #include "engine/units.hpp"
 
 #include <algorithm>
@@ -105,6 +104,17 @@ Relaxed relax_spectral(const BlockOptions& options, const InterfaceOptions& inte
     relax_options.tolerance = tolerance;
     Phases phases;
     return numbers_of(relax(block, interface, height, {}, relax_options, phases), options, height);
+}
+
+LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
+                          const SimulationOptions& options, double tolerance) {
+    Scene scene;
+    scene.surface.sites = options.block.sites;
+    scene.surface.spacing = options.block.spacing;
+    scene.drive.tolerance = tolerance;
+    Setup setup = make_setup(scene, 1);
+    setup.simulation = options;
+    return asperity::bring_to_rest(moving, surface, reference_height, scene, setup, {});
 }
 
 SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt19937_64& random,

@@ -6,7 +6,7 @@
 
 #include "engine/block/spectral_block.hpp"
 #include "engine/dynamics/simulation.hpp"
-#include "engine/equilibrium/relaxation.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 
 #include <cstdint>
 #include <random>
@@ -41,6 +41,10 @@ Relaxed numbers_of(const RelaxedState& state, const BlockOptions& options, doubl
 /// The zero-load state of this block on this surface.
 Relaxed relax_spectral(const BlockOptions& block, const InterfaceOptions& interface,
                        const Surface& surface, double tolerance, bool frictionless = false);
+
+/// The state below a block in motion, without a scene file. Collective.
+LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
+                          const SimulationOptions& options, double tolerance);
 
 /// A displacement of a spectral block, at the sites and as waves.
 struct SpectralDisplacement {
