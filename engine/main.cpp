@@ -55,7 +55,7 @@ std::vector<Command> all_commands() {
           takes::progress},
          [](const Arguments& given, const Communicator& world) {
              const RunOptions options = run_options(given);
-             return run(scene_of(given), options, world);
+             return run(case_of(given, world.size()), options, world);
          },
          true},
         {"init",
@@ -68,7 +68,7 @@ std::vector<Command> all_commands() {
          "look for mistakes in a scene without running it",
          {takes::scene, takes::set, takes::json},
          [](const Arguments& given, const Communicator& world) {
-             return check_command(scene_of(given), given.json, world);
+             return check_command(case_of(given, world.size()), given.json, world);
          }},
         {"plan",
          "what a scene will simulate and what not, and what it will cost; runs nothing",
@@ -76,13 +76,14 @@ std::vector<Command> all_commands() {
           takes::set,
           {"--ranks", "N", "for so many ranks (default: as started)", &Arguments::ranks}},
          [](const Arguments& given, const Communicator& world) {
-             return plan_command(scene_of(given), given.ranks, world);
+             return plan_command(case_of(given, given.ranks > 0 ? given.ranks : world.size()),
+                                 world);
          }},
         {"surface",
          "make or read the surface, print and write its statistics and heights",
          {takes::scene, takes::set, takes::out("results/<scene>-surface")},
          [](const Arguments& given, const Communicator& world) {
-             return surface_command(scene_of(given), given.out, world);
+             return surface_command(case_of(given, world.size()), given.out, world);
          }},
         {"theory",
          "the analytic theory of a scene, without simulating it",
@@ -103,8 +104,8 @@ std::vector<Command> all_commands() {
                  points.scene = scene_file(given, points.overrides);
                  return on_root(world, [&] { return theory_points_command(points); });
              }
-             const Scene scene = scene_of(given);
-             return on_root(world, [&] { return theory_command(scene, given.out, given.json); });
+             const Case c = case_of(given, 1);
+             return on_root(world, [&] { return theory_command(c, given.out, given.json); });
          }},
         {"sweep", "a scene over several values of its keys: runs, theory, one table", {}},
         {"cost",

@@ -5,7 +5,7 @@
 #include "decomposition/communicator.hpp"
 #include "engine/commit.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/setup/case.hpp"
 #include "io/build_info.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
@@ -27,7 +27,7 @@ namespace io = asperity::io;
 
 class Scene::Inside {
 public:
-    asperity::Scene scene;
+    asperity::Case resolved;
 };
 
 class Result::Inside {
@@ -65,6 +65,8 @@ public:
 namespace {
 
 const asperity::Communicator* parallel_world = nullptr;
+
+int world_size() { return parallel_world ? parallel_world->size() : 1; }
 
 /// Errors of the engine as those of the header.
 template <class Work>
@@ -148,21 +150,22 @@ std::string version() { return io::build_info().version; }
 
 Scene Scene::read(const std::string& file, const std::vector<std::string>& overrides) {
     return translated([&] {
-        return Scene(std::make_shared<Inside>(Inside{asperity::read_scene(file, overrides)}));
+        return Scene(
+            std::make_shared<Inside>(Inside{asperity::read_case(file, overrides, world_size())}));
     });
 }
 
 Scene Scene::parse(const std::string& text, const std::vector<std::string>& overrides,
                    const std::string& name) {
     return translated([&] {
-        return Scene(
-            std::make_shared<Inside>(Inside{asperity::read_scene_text(text, name, overrides)}));
+        return Scene(std::make_shared<Inside>(
+            Inside{asperity::read_case_text(text, name, overrides, world_size())}));
     });
 }
 
-std::string Scene::name() const { return inside_->scene.name; }
-std::string Scene::toml() const { return asperity::scene_toml(inside_->scene, false); }
-std::vector<std::string> Scene::notes() const { return asperity::notes(inside_->scene); }
+std::string Scene::name() const { return inside_->resolved.scene.name; }
+std::string Scene::toml() const { return asperity::scene_toml(inside_->resolved.scene, false); }
+std::vector<std::string> Scene::notes() const { return inside_->resolved.notes; }
 
 Result Result::load(const std::string& directory) {
     return translated([&] {
@@ -263,7 +266,7 @@ Result run(const Scene& scene, const std::string& directory, const Options& opti
             inner.listener = [&](const io::Progress::State& now) {
                 options.progress({now.phase, now.steps, now.time_fs, now.fraction});
             };
-        asperity::run(scene.inside().scene, inner, world);
+        asperity::run(asperity::resolve(scene.inside().resolved.scene, world.size()), inner, world);
         return Result::load(directory);
     });
 }

@@ -11,7 +11,7 @@
 // fastest stretch of steps, and for each launch its time by the device's clock, the bytes and
 // operations counted for it (docs/device.md), and the share of the limit that it reaches.
 #include "engine/scene/scene.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "io/error.hpp"
 
 #include <nlohmann/json.hpp>
@@ -95,13 +95,13 @@ double pairs_of_site(double a, double cutoff, double z) {
 nlohmann::json measure(double seconds, std::vector<std::string> settings) {
     settings.insert(settings.begin(), "numerics.device=emulated");
     const Scene scene = read_scene_text("[surface]\nrms = 0.3\n", "device_bench", settings);
-    const Setup setup = make_setup(scene, 1);
+    const Case setup = resolve(scene);
     const DeviceChoice& choice = setup.simulation.device;
     if (choice.kind == DeviceChoice::Kind::none)
         throw std::runtime_error("there is no device here; take numerics.device=emulated");
     const bool emulated = choice.kind == DeviceChoice::Kind::emulated;
     Simulation simulation(
-        setup.simulation, scene_surface(scene), Communicator(),
+        setup.simulation, surface_of(resolve(scene)), Communicator(),
         ProcessGrid(1, 0, scene.surface.sites, static_cast<int>(setup.levels.size())));
     const Limits limits =
         limits_of(emulated ? emulated_device() : *cuda_device(), choice.index, emulated);

@@ -8,7 +8,7 @@
 //
 //     build/release/perf/minimal_loop [sites] [layers] [seconds]
 #include "engine/scene/scene.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 
 #include <omp.h>
 
@@ -127,8 +127,8 @@ int main(int argc, char** argv) {
     const Scene scene = read_scene_text(
         "[surface]\nrms = 1.0\n[block]\nmodel = \"lattice\"\n[drive]\ndamping = 0\n", "minimal",
         {"surface.sites=" + sites, "block.thickness=" + layers});
-    const Setup setup = make_setup(scene, 1);
-    const Surface surface = scene_surface(scene);
+    const Case setup = resolve(scene);
+    const Surface surface = surface_of(resolve(scene));
     const double height = surface.statistics.highest + 3.0; // in contact
     const ProcessGrid grid(1, 0, scene.surface.sites, 1);
 

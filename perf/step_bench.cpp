@@ -15,7 +15,7 @@
 // what the most loaded rank holds and sends, and the record of the sixth step, the same bits on any
 // ranks.
 #include "engine/scene/scene.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 
 #include <nlohmann/json.hpp>
 #include <omp.h>
@@ -47,8 +47,8 @@ Times times(const Phases& phases) {
 nlohmann::json measure(const Communicator& ranks, bool contact, double seconds,
                        const std::vector<std::string>& settings) {
     const Scene scene = read_scene_text("[surface]\nrms = 0.3\n", "step_bench", settings);
-    const Setup setup = make_setup(scene, ranks.size());
-    const Surface surface = scene_surface(scene);
+    const Case setup = resolve(scene, ranks.size());
+    const Surface surface = surface_of(resolve(scene));
     const ProcessGrid grid(ranks.size(), ranks.rank(), scene.surface.sites,
                            static_cast<int>(setup.levels.size()));
     Simulation simulation(setup.simulation, surface, ranks, grid);

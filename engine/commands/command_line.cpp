@@ -43,10 +43,10 @@ std::string scene_file(const Arguments& given, std::vector<std::string>& overrid
     return files.front();
 }
 
-Scene scene_of(const Arguments& given) {
+Case case_of(const Arguments& given, int ranks) {
     std::vector<std::string> overrides;
     const std::string file = scene_file(given, overrides);
-    return read_scene(file, overrides);
+    return read_case(file, overrides, ranks);
 }
 
 RunOptions run_options(const Arguments& given) {

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "engine/run/run.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/setup/case.hpp"
 
 #include <functional>
 #include <optional>
@@ -41,8 +41,8 @@ struct Arguments {
     bool results = false;
 };
 
-/// The scene named by the words, read and checked with its overrides.
-Scene scene_of(const Arguments& given);
+/// The case of the scene named by the words, with its overrides, for so many ranks.
+Case case_of(const Arguments& given, int ranks);
 /// The scene's file; the overrides among the words are added to the list: `--set a=1 b=2
 /// scene.toml` means what it looks like.
 std::string scene_file(const Arguments& given, std::vector<std::string>& overrides);

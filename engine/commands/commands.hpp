@@ -5,7 +5,7 @@
 // all that is wrong with the scene; rank 0 alone prints.
 #pragma once
 
-#include "engine/scene/scene.hpp"
+#include "engine/setup/case.hpp"
 
 #include <string>
 #include <vector>
@@ -18,11 +18,11 @@ class Communicator;
 int init_command(const std::string& file, const Communicator& world);
 /// `asperity check`. json: the scene as it would be used, its [sweep], notes and limits, as one
 /// line.
-int check_command(const Scene& scene, bool json, const Communicator& world);
-/// `asperity plan`; ranks: to plan for, 0: as many as there are.
-int plan_command(const Scene& scene, int ranks, const Communicator& world);
+int check_command(const Case& c, bool json, const Communicator& world);
+/// `asperity plan`, for the ranks of the case.
+int plan_command(const Case& c, const Communicator& world);
 /// `asperity surface`: heights.h5 and result.json in `out` (empty: results/<scene>-surface).
-int surface_command(const Scene& scene, const std::string& out, const Communicator& world);
+int surface_command(const Case& c, const std::string& out, const Communicator& world);
 /// `asperity defaults`: as TOML, with or without explanations, or as the page docs/scene.md.
 int defaults_command(bool markdown, bool plain, bool results, const Communicator& world);
 /// `asperity defaults --json`: of every key its kind, unit, default, choices and meaning; results:
@@ -34,7 +34,7 @@ int info_command(const Communicator& world);
 /// `asperity theory`, on one rank: the analytic theory with its profile over magnification and
 /// where adhesion ends; result.json and theory.h5 in `out` (empty: results/<scene>-theory), and a
 /// table. json: prints what result.json would hold as one line and writes nothing.
-int theory_command(const Scene& scene, const std::string& out, bool json);
+int theory_command(const Case& c, const std::string& out, bool json);
 
 /// `asperity theory SCENE --points FILE`, on one rank: many variations of one scene in one call,
 /// for programs. Sweeps use it to check their points and to compute the theory beside them.

@@ -7,7 +7,6 @@
 #include "engine/run/run_record.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/scene/map_statistics.hpp"
-#include "engine/setup/setup.hpp"
 #include "io/build_info.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
@@ -40,7 +39,8 @@ namespace {
 
 /// For programs: a sweep calls it before it varies the scene, so that what a run of the scene
 /// itself would refuse is listed, not thrown.
-io::Json check_json(const Scene& scene, const Communicator& world) {
+io::Json check_json(const Case& c, const Communicator& world) {
+    const Scene& scene = c.scene;
     io::Json all;
     all["name"] = scene.name;
     all["scene"] = scene_json(scene);
@@ -49,13 +49,13 @@ io::Json check_json(const Scene& scene, const Communicator& world) {
         all["sweep"].push_back(
             {{"key", variation.key}, {"values", variation.values}, {"where", variation.where}});
     }
-    all["theory_needs_surface"] = theory_needs_surface(scene);
+    all["theory_needs_surface"] = theory_needs_surface(c);
     all["notes"] = io::Json::array();
     all["problems"] = io::Json::array();
     try {
-        const Setup setup = examine(scene, world.size(), world);
-        all["longest_timestep"] = setup.longest_timestep;
-        all["notes"] = setup.notes;
+        const std::vector<std::string> notes = examine(c, world);
+        all["longest_timestep"] = c.longest_timestep;
+        all["notes"] = notes;
     } catch (const io::SceneError& error) {
         for (const io::Problem& problem : error.problems())
             all["problems"].push_back(io::format(problem));
@@ -118,40 +118,40 @@ int init_command(const std::string& asked, const Communicator& world) {
     return io::exit_code::done;
 }
 
-int check_command(const Scene& scene, bool json, const Communicator& world) {
+int check_command(const Case& c, bool json, const Communicator& world) {
+    const Scene& scene = c.scene;
     if (json) {
-        const io::Json all = check_json(scene, world);
+        const io::Json all = check_json(c, world);
         if (world.root()) fmt::print("{}\n", io::json_text(all));
         return io::exit_code::done;
     }
-    const Setup setup = examine(scene, world.size(), world);
+    const std::vector<std::string> notes = examine(c, world);
     if (!world.root()) return io::exit_code::done;
     fmt::print("{}: nothing wrong\n", scene.file);
     fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
-               scene.surface.sites, scene.edge(), scene.block.thickness, setup.levels.size(),
-               setup.levels.size() == 1 ? "" : "s");
+               scene.surface.sites, scene.edge(), scene.block.thickness, c.levels.size(),
+               c.levels.size() == 1 ? "" : "s");
     if (scene.has(PathPart::approach) || scene.has(PathPart::pull_off))
         fmt::print("  time step {:.4g} fs, stable up to {:.4g} fs\n", scene.drive.timestep,
-                   setup.longest_timestep);
-    for (const std::string& note : setup.notes)
+                   c.longest_timestep);
+    for (const std::string& note : notes)
         fmt::print("  note: {}\n", note);
     return io::exit_code::done;
 }
 
-int plan_command(const Scene& scene, int ranks, const Communicator& world) {
-    if (ranks <= 0) ranks = world.size();
-    examine(scene, ranks, world);
+int plan_command(const Case& c, const Communicator& world) {
+    examine(c, world);
     const int cores = omp_get_max_threads() * world.size();
-    world.on_root(
-        [&] { print_plan(stdout, scene, make_plan(scene, ranks, std::max(1, cores / ranks))); });
+    world.on_root([&] { print_plan(stdout, c, make_plan(c, std::max(1, cores / c.ranks))); });
     return io::exit_code::done;
 }
 
 namespace {
 
 /// What the file of a measured surface holds, before the scene makes anything of it.
-void print_map_file(const Scene& scene) {
-    const io::MapFile map = io::read_map_file(scene.surface.map, scene.surface.file_unit);
+void print_map_file(const Case& c) {
+    const Scene& scene = c.scene;
+    const io::MapFile map = io::read_map_file(c.file, scene.surface.file_unit);
     std::optional<double> width = map.width, height = map.height;
     if (scene.surface.file_size) { // the scene's value takes precedence
         const double pixel =
@@ -248,10 +248,10 @@ void write_surface(const Scene& scene, const Surface& surface, const std::string
 
 } // namespace
 
-int surface_command(const Scene& scene, const std::string& out, const Communicator& world) {
-    if (scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(scene); });
-    const Surface surface = scene_surface(scene, world);
-    world.on_root([&] { write_surface(scene, surface, out); });
+int surface_command(const Case& c, const std::string& out, const Communicator& world) {
+    if (c.scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
+    const Surface surface = surface_of(c, world);
+    world.on_root([&] { write_surface(c.scene, surface, out); });
     return io::exit_code::done;
 }
 

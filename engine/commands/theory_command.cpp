@@ -170,9 +170,10 @@ void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumber
 
 } // namespace
 
-int theory_command(const Scene& scene, const std::string& out, bool json) {
+int theory_command(const Case& c, const std::string& out, bool json) {
+    const Scene& scene = c.scene;
     const auto start = std::chrono::steady_clock::now();
-    const TheoryCase what = theory_case(scene);
+    const TheoryCase what = theory_case(c);
     const TheoryNumbers numbers = solve_theory(what);
     const Beyond beyond = look_beyond(what);
 

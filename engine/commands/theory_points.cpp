@@ -4,8 +4,6 @@
 
 #include "engine/run/run_record.hpp"
 #include "engine/run/theory_case.hpp"
-#include "engine/scene/scene.hpp"
-#include "engine/setup/setup.hpp"
 #include "io/error.hpp"
 #include "io/json.hpp"
 #include "io/result.hpp"
@@ -26,11 +24,12 @@ using io::Json;
 /// Of several scenes in turn: a surface is generated anew only where more than its rms changes.
 class SurfaceCache {
 public:
-    const Surface& of(const Scene& scene) {
+    const Surface& of(const Case& c) {
+        const Scene& scene = c.scene;
         Json keys = scene_json(scene)["surface"];
         if (scene.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
         if (const std::string text = io::json_text(keys); !surface_ || text != keys_) {
-            surface_ = scene_surface(scene);
+            surface_ = surface_of(c);
             keys_ = text;
         }
         return *surface_;
@@ -61,11 +60,10 @@ std::vector<std::string> overrides_of(const std::string& line, const std::string
     return overrides;
 }
 
-Json point_json(const Scene& scene, SurfaceCache& surfaces) {
-    const TheoryCase what =
-        theory_case(scene, theory_needs_surface(scene) ? &surfaces.of(scene) : nullptr);
+Json point_json(const Case& c, SurfaceCache& surfaces) {
+    const TheoryCase what = theory_case(c, theory_needs_surface(c) ? &surfaces.of(c) : nullptr);
     const TheoryNumbers numbers = solve_theory(what);
-    io::Result values = scene_result(scene);
+    io::Result values = scene_result(c.scene);
     values.set("delta_gamma", what.flat);
     record_theory(what, numbers, values);
     const Json result = values.json();
@@ -79,15 +77,15 @@ Json point_json(const Scene& scene, SurfaceCache& surfaces) {
 }
 
 /// The theory stands beside a run, which goes on without one.
-Json simulated_point(const Scene& scene, SurfaceCache& surfaces) {
-    std::string why = no_theory(scene);
+Json simulated_point(const Case& c, SurfaceCache& surfaces) {
+    std::string why = no_theory(c);
     try {
-        if (why.empty()) return point_json(scene, surfaces);
+        if (why.empty()) return point_json(c, surfaces);
     } catch (const io::SceneError& error) {
         why = error.what();
     }
-    io::Result values = scene_result(scene);
-    values.set("delta_gamma", examine(scene, 1).flat.work_of_adhesion);
+    io::Result values = scene_result(c.scene);
+    values.set("delta_gamma", c.flat.work_of_adhesion);
     values.set("theory.note", why);
     Json point = values.json();
     point["notes"] = Json::array();
@@ -126,11 +124,11 @@ int theory_points_command(const TheoryPoints& what) {
             overrides.push_back(std::move(one));
         Json point;
         try {
-            const Scene scene = read_scene_text(text, what.scene, overrides);
-            if (what.runnable) examine(scene, 1);
-            point = what.runnable ? simulated_point(scene, surfaces) : point_json(scene, surfaces);
-            if (what.runnable && scene.surface.reads_file()) // what it holds now
-                point["surface"] = surface_result(scene, surfaces.of(scene)).json()["surface"];
+            const Case c = read_case_text(text, what.scene, overrides);
+            if (what.runnable) examine(c);
+            point = what.runnable ? simulated_point(c, surfaces) : point_json(c, surfaces);
+            if (what.runnable && c.scene.surface.reads_file()) // what it holds now
+                point["surface"] = surface_result(c.scene, surfaces.of(c)).json()["surface"];
         } catch (const io::SceneError& error) {
             point = problems_json(error.problems());
         }

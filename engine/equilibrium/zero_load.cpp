@@ -30,12 +30,11 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
 }
 
 std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& interface,
-                                       double reference_height, double load, const Scene& scene,
-                                       const Setup& setup,
+                                       double reference_height, double load, const Case& c,
                                        const std::function<bool(long long, double)>& stop) {
     RelaxOptions options;
-    options.tolerance = scene.drive.tolerance;
-    options.site_stiffness = setup.site_stiffness;
+    options.tolerance = c.scene.drive.tolerance;
+    options.site_stiffness = c.site_stiffness;
     options.report = stop;
     Phases own; // its lines are not lines of the step
     const RelaxedState s =
@@ -45,12 +44,12 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
         throw io::PhysicsError(
             fmt::format("the zero-load state was not found in {} iterations", s.iterations),
             fmt::format("the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
-                        s.residual, scene.drive.tolerance),
+                        s.residual, c.scene.drive.tolerance),
             load < 0.0 ? "take a smaller pull (drive.load): under a large one there is no state"
                        : "look at run.h5 whether the surfaces touch at all; a looser "
                          "drive.tolerance ends earlier");
-    const double area = scene.edge() * scene.edge();
-    const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
+    const double area = c.area();
+    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     ZeroLoad z;
     z.binding_energy = -units::milli_per_unit * (s.interface_energy + s.elastic_energy) / area;
     z.pairwise = -units::milli_per_unit * s.interface_energy / area;
@@ -62,40 +61,39 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     z.iterations = static_cast<double>(s.iterations);
     // Half of force^2 / stiffness at each site, of the softest wave of the box, by the forces that
     // the tolerance allows: those left say how this relaxation ended, not where others may end.
-    const double site_area = scene.surface.spacing * scene.surface.spacing;
+    const double site_area = c.simulation.block.spacing * c.simulation.block.spacing;
     z.uncertainty = units::milli_per_unit * 0.5 * options.tolerance * options.tolerance /
-                    (setup.simulation.block.softest_wave() * site_area * site_area);
+                    (c.simulation.block.softest_wave() * site_area * site_area);
     return z;
 }
 
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
-                          const Scene& scene, const Setup& setup,
-                          const std::function<bool(long long, double)>& stop) {
+                          const Case& c, const std::function<bool(long long, double)>& stop) {
     const Communicator& ranks = moving.communicator();
     const auto components = [](const auto& field) { return std::array{field.x, field.y, field.z}; };
     std::array<std::vector<double>, 3> whole; // on the root
-    for (std::size_t c = 0; c < 3; ++c)
-        whole[c] = gather_plane(ranks, moving.grid(), 0, components(moving.lowest_layer())[c]);
+    for (std::size_t k = 0; k < 3; ++k)
+        whole[k] = gather_plane(ranks, moving.grid(), 0, components(moving.lowest_layer())[k]);
     LayerAtRest found;
     ranks.on_root([&] {
-        SpectralBlock block(setup.simulation.block, Communicator());
+        SpectralBlock block(c.simulation.block, Communicator());
         const Tile tile = block.tile();
-        InterfaceOptions options = setup.simulation.interface;
+        InterfaceOptions options = c.simulation.interface;
         options.single_too = !options.mixed;
-        const Interface interface(surface, tile, scene.surface.spacing, options);
+        const Interface interface(surface, tile, c.scene.surface.spacing, options);
         const auto row = [&tile](int y) {
             return static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.nx);
         };
-        for (std::size_t c = 0; c < 3; ++c) {
-            const PlaneView<double> u = components(block.layer().plane(0))[c];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const PlaneView<double> u = components(block.layer().plane(0))[k];
             for (int y = 0; y < tile.ny; ++y)
-                std::copy_n(&whole[c][row(y)], tile.nx, u.line(y));
+                std::copy_n(&whole[k][row(y)], tile.nx, u.line(y));
         }
-        found.numbers = find_zero_load(block, interface, reference_height, 0.0, scene, setup, stop);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const PlaneView<const double> u = components(block.lowest_layer())[c];
+        found.numbers = find_zero_load(block, interface, reference_height, 0.0, c, stop);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const PlaneView<const double> u = components(block.lowest_layer())[k];
             for (int y = 0; y < tile.ny; ++y)
-                std::copy_n(u.line(y), tile.nx, &whole[c][row(y)]);
+                std::copy_n(u.line(y), tile.nx, &whole[k][row(y)]);
         }
     });
     std::array<double, 1> has = {found.numbers ? 1.0 : 0.0};
@@ -106,9 +104,9 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     z.visit(share);
     found.numbers = z;
     found.layer = VectorField<double>(moving.levels().front().tile, 1);
-    for (std::size_t c = 0; c < 3; ++c) {
-        scatter_plane(ranks, moving.grid(), 0, whole[c], components(found.layer.plane(0))[c]);
-        whole[c] = {};
+    for (std::size_t k = 0; k < 3; ++k) {
+        scatter_plane(ranks, moving.grid(), 0, whole[k], components(found.layer.plane(0))[k]);
+        whole[k] = {};
     }
     return found;
 }

@@ -9,7 +9,7 @@
 #include "engine/equilibrium/findings.hpp"
 #include "engine/equilibrium/relaxation.hpp"
 #include "engine/equilibrium/state_array.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "io/progress.hpp"
 
 namespace asperity {
@@ -23,8 +23,7 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
 /// stop(iteration, residual) asked for an end. Collective. Throws io::PhysicsError if it is not
 /// found.
 std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& interface,
-                                       double reference_height, double load, const Scene& scene,
-                                       const Setup& setup,
+                                       double reference_height, double load, const Case& c,
                                        const std::function<bool(long long, double)>& stop);
 
 /// A state as one rank sees it.
@@ -38,8 +37,7 @@ struct LayerAtRest {
 /// stop is called there. Collective. Without numbers, and without a layer, if stop asked for an
 /// end.
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
-                          const Scene& scene, const Setup& setup,
-                          const std::function<bool(long long, double)>& stop);
+                          const Case& c, const std::function<bool(long long, double)>& stop);
 
 /// "relaxing, largest force 1e-3 eV/Å"
 void show_relaxation(io::Progress& progress, long long iteration, double residual);

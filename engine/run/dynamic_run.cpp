@@ -30,9 +30,9 @@ constexpr long long rows_between_snapshots = 10;
 
 class DynamicRun {
 public:
-    DynamicRun(const Scene& scene, const RunOptions& options, const Communicator& ranks)
-        : run_(scene, options, ranks), scene_(scene),
-          simulation_(run_.setup.simulation, run_.surface, ranks, run_.grid) {}
+    DynamicRun(const Case& c, const RunOptions& options, const Communicator& ranks)
+        : run_(c, options, ranks), case_(c),
+          simulation_(c.simulation, run_.surface, ranks, run_.grid) {}
 
     int carry_out() {
         const std::size_t bytes = simulation_.block().bytes() + simulation_.interface().bytes();
@@ -108,7 +108,7 @@ private:
         if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
         if (leg == Leg::approach) {
             require_load_reached(simulation_.options().drive.load_force, attraction, 0.0,
-                                 scene_.edge() * scene_.edge());
+                                 case_.area());
             run_.findings.contact_made = now.time;
         }
         return leg;
@@ -142,7 +142,7 @@ private:
             conclude_pull_off();
             return true;
         }
-        if (run_.setup.effects.on(Effect::relaxation)) {
+        if (case_.on(Effect::relaxation)) {
             // The block is not touched: a run that is stopped here starts the relaxation again.
             run_.save_if_on(state_writer());
             run_.progress.say("contact is made; relaxing a copy of its lowest layer under no load");
@@ -216,12 +216,11 @@ private:
         };
         LayerAtRest found;
         while (!found.numbers) {
-            found =
-                bring_to_rest(simulation_.block(), run_.surface, height, scene_, run_.setup, stop);
+            found = bring_to_rest(simulation_.block(), run_.surface, height, case_, stop);
             if (!found.numbers && run_.stop_relaxation()) return false;
         }
         run_.findings.zero_load = found.numbers;
-        if (scene_.writes_field("zero-load"))
+        if (case_.maps.zero_load)
             run_.recorder().fields("zero-load", std::as_const(found.layer).view()[0], run_.grid,
                                    simulation_.interface(), height);
         return true;
@@ -245,7 +244,7 @@ private:
                 kept = "the last good state could not be written";
             }
         }
-        const double limit = run_.setup.longest_timestep;
+        const double limit = case_.longest_timestep;
         throw io::PhysicsError(
             *wrong,
             fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
@@ -358,29 +357,30 @@ private:
         add_phases(simulation_.phases(), result);
         const StepRecord& now = failed_ ? *failed_ : simulation_.now();
         result.set("run.steps", failed_ ? failed_->step : simulation_.steps());
-        result.set("run.device", describe_device(run_.setup.simulation.device));
+        result.set("run.device", describe_device(case_.simulation.device));
         if (simulation_.steps() > 0) add_energies(now, result);
     }
 
     RunSession run_;
-    const Scene& scene_;
+    const Case& case_;
+    const Scene& scene_ = case_.scene;
     Simulation simulation_;
-    const double per_area_ = units::milli_per_unit / (scene_.edge() * scene_.edge());
+    const double per_area_ = units::milli_per_unit / (case_.area());
     ApproachStart start_;
     double kinetic_at_start_ = 0.0;    ///< of the block moving with the drive, eV
     Account turn_;                     ///< where the approach ended
     std::optional<StepRecord> failed_; ///< the step that a guard ended the run at
     std::optional<Leg> ended_;         ///< the leg that the last step ended
     std::optional<Leg> concluding_;    ///< the leg that ended the step before
-    std::vector<std::pair<double, std::string>> delayed_fields_ = scene_.delayed_fields();
+    std::vector<std::pair<double, std::string>> delayed_fields_ = case_.maps.after_zero_load;
     Snapshot snapshot_;
     RunScalars snapshot_scalars_;
 };
 
 } // namespace
 
-int run_in_time(const Scene& scene, const RunOptions& options, const Communicator& communicator) {
-    return DynamicRun(scene, options, communicator).carry_out();
+int run_in_time(const Case& c, const RunOptions& options, const Communicator& communicator) {
+    return DynamicRun(c, options, communicator).carry_out();
 }
 
 } // namespace asperity

@@ -27,11 +27,11 @@ namespace {
 
 class EquilibriumRun {
 public:
-    EquilibriumRun(const Scene& scene, const RunOptions& options, const Communicator& ranks)
-        : run_(scene, options, ranks), scene_(scene),
-          interface_(run_.surface, run_.grid.tile(0), scene.surface.spacing,
-                     run_.setup.simulation.interface),
-          block_(run_.setup.simulation.block, ranks, scene.interface.frictionless),
+    EquilibriumRun(const Case& c, const RunOptions& options, const Communicator& ranks)
+        : run_(c, options, ranks), case_(c),
+          interface_(run_.surface, run_.grid.tile(0), c.scene.surface.spacing,
+                     c.simulation.interface),
+          block_(c.simulation.block, ranks, c.scene.interface.frictionless),
           path_(block_, interface_, path_options()), search_(block_, interface_, search_options()) {
     }
 
@@ -74,7 +74,7 @@ private:
         }
         resumed_ = false;
         // Its displacements so far are the state to resume from.
-        if (!find_state(run_.setup.simulation.drive.load_force, state_writer())) {
+        if (!find_state(case_.simulation.drive.load_force, state_writer())) {
             run_.stop_now(state_writer(), position());
             return false;
         }
@@ -163,7 +163,7 @@ private:
 
     /// What a leg has shown. False where it was stopped on the way to it.
     bool conclude(Leg leg) {
-        const double per_area = units::milli_per_unit / (scene_.edge() * scene_.edge());
+        const double per_area = units::milli_per_unit / (case_.area());
         const Dissipation& lost = path_.dissipation();
         Findings& findings = run_.findings;
         LegEnergies& here = leg == Leg::approach ? findings.approach : findings.pull_off;
@@ -176,8 +176,8 @@ private:
                 findings.lost_in_cycle = *findings.approach.lost + *here.lost;
             return true;
         }
-        require_load_reached(run_.setup.simulation.drive.load_force, findings.attraction_in,
-                             path_.slack(), scene_.edge() * scene_.edge());
+        require_load_reached(case_.simulation.drive.load_force, findings.attraction_in,
+                             path_.slack(), case_.area());
         path_.put_back(); // as after a resume, to the same bits
         const bool found = find_state(0.0);
         path_.put_back();
@@ -193,8 +193,8 @@ private:
     /// it has come to, where it can be resumed from that. False where it was stopped.
     bool find_state(double load, const RunSession::WriteState& write = {}) {
         const auto t = run_.phases.time(Phase::relax);
-        const auto state = find_zero_load(block_, interface_, reference_height(), load, scene_,
-                                          run_.setup, [&](long long iteration, double residual) {
+        const auto state = find_zero_load(block_, interface_, reference_height(), load, case_,
+                                          [&](long long iteration, double residual) {
                                               show_relaxation(run_.progress, iteration, residual);
                                               return run_.stop_relaxation(write);
                                           });
@@ -202,7 +202,7 @@ private:
         // A path that starts in a state comes back to another; its numbers are of the first.
         if (!run_.findings.zero_load || scene_.drive.path.front() != PathPart::zero_load)
             run_.findings.zero_load = state;
-        if (scene_.writes_field("zero-load"))
+        if (case_.maps.zero_load)
             run_.recorder().fields("zero-load", block_.lowest_layer(), run_.grid, interface_,
                                    reference_height());
         return true;
@@ -225,7 +225,7 @@ private:
             result.set("energy.kinetic", 0.0);
             if (!run_.findings.zero_load) return;
             const ZeroLoad& z = *run_.findings.zero_load;
-            const double area = scene_.edge() * scene_.edge() / units::milli_per_unit;
+            const double area = case_.area() / units::milli_per_unit;
             result.set("run.iterations",
                        static_cast<long long>(z.iterations) + search_.iterations());
             result.set("energy.elastic", z.elastic * area);
@@ -306,10 +306,10 @@ private:
     double reference_height() const { return interface_.start_height(); }
     SequenceOptions sequence_options() {
         SequenceOptions o;
-        o.step = std::min(scene_.drive.step, run_.setup.longest_step);
+        o.step = std::min(scene_.drive.step, case_.longest_step);
         o.tolerance = scene_.drive.tolerance;
-        o.site_stiffness = run_.setup.site_stiffness;
-        o.load = run_.setup.simulation.drive.load_force;
+        o.site_stiffness = case_.site_stiffness;
+        o.load = case_.simulation.drive.load_force;
         o.reference_height = interface_.start_height();
         o.report = [this](long long iteration, double) {
             if (run_.progress.due()) {
@@ -328,14 +328,14 @@ private:
         PathOptions o{sequence_options()};
         o.along =
             scene_.drive.hold == Hold::top ? Constraint::Of::top : Constraint::Of::mean_height;
-        const double flat = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
-        if (flat > 0.0) o.depth = flat * scene_.edge() * scene_.edge();
+        const double flat = case_.flat.work_of_adhesion / units::milli_per_unit;
+        if (flat > 0.0) o.depth = flat * case_.area();
         return o;
     }
     StateSearchOptions search_options() {
         StateSearchOptions o{sequence_options()};
-        o.area = scene_.edge() * scene_.edge();
-        o.largest_tension = units::gigapascal * run_.setup.largest_tension;
+        o.area = case_.area();
+        o.largest_tension = units::gigapascal * case_.largest_tension;
         // Atoms anywhere can bind more than a flat layer does.
         if (scene_.surface.kind != SurfaceKind::atoms)
             o.flat_energy = [this](double distance) {
@@ -345,18 +345,19 @@ private:
                            .energy /
                        (a * a);
             };
-        o.flat_depth = run_.setup.flat.work_of_adhesion / units::milli_per_unit;
-        o.softest_wave = run_.setup.simulation.block.softest_wave();
+        o.flat_depth = case_.flat.work_of_adhesion / units::milli_per_unit;
+        o.softest_wave = case_.simulation.block.softest_wave();
         o.relax_free = [this] {
             return find_zero_load(block_, interface_, reference_height(),
-                                  run_.setup.simulation.drive.load_force, scene_, run_.setup,
+                                  case_.simulation.drive.load_force, case_,
                                   sequence_options().report);
         };
         return o;
     }
 
     RunSession run_;
-    const Scene& scene_;
+    const Case& case_;
+    const Scene& scene_ = case_.scene;
     Interface interface_;
     SpectralBlock block_;
     QuasistaticPath path_;
@@ -370,9 +371,8 @@ private:
 
 } // namespace
 
-int run_equilibrium(const Scene& scene, const RunOptions& options,
-                    const Communicator& communicator) {
-    return EquilibriumRun(scene, options, communicator).carry_out();
+int run_equilibrium(const Case& c, const RunOptions& options, const Communicator& communicator) {
+    return EquilibriumRun(c, options, communicator).carry_out();
 }
 
 } // namespace asperity

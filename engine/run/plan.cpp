@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/plan.hpp"
 
-#include "engine/scene/accuracy.hpp"
 #include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 #include "io/available_memory.hpp"
@@ -23,10 +22,11 @@ namespace {
 constexpr double disk = 2e8, theory_seconds = 0.3;
 /// Typical iterations of a relaxation (first-contact and flat-3A, N = 64 to 512) or of a
 /// quasi-static path (first-contact, N = 32 to 128, some with large instabilities).
-long long typical_iterations(const Scene& scene, double start, const Setup& setup) {
+long long typical_iterations(const Case& c, double start) {
+    const Scene& scene = c.scene;
     if (scene.drive.mode == DriveMode::quasistatic &&
         (scene.has(PathPart::approach) || scene.has(PathPart::pull_off))) {
-        const ExpectedPath path = expected_path(setup, start);
+        const ExpectedPath path = expected_path(c, start);
         const double points = 1.5 * (path.approach + path.pull_off) / scene.drive.step;
         return std::llround(65.0 * points);
     }
@@ -51,27 +51,27 @@ std::string memory_text(double bytes) {
 
 } // namespace
 
-ExpectedPath expected_path(const Setup& setup, double start) {
-    const auto& [block, drive] = std::tie(setup.simulation.block, setup.simulation.drive);
+ExpectedPath expected_path(const Case& c, double start) {
+    const auto& [block, drive] = std::tie(c.simulation.block, c.simulation.drive);
     ExpectedPath path;
-    if (drive.approach) path.approach = start - setup.flat.separation;
+    if (drive.approach) path.approach = start - c.flat.separation;
     if (!drive.pull_off) return path;
     // Elongation of the block when it separates, at half the largest tension.
     const double modulus = block.lame() + 2.0 * block.shear_modulus();
     const double stretch =
-        0.5 * setup.largest_tension * units::gigapascal * block.thickness * block.spacing / modulus;
+        0.5 * c.largest_tension * units::gigapascal * block.thickness * block.spacing / modulus;
     path.pull_off = std::max(path.approach, stretch);
     path.turn = drive.ramp;
     return path;
 }
 
-long long expected_steps(const Scene& scene, const Setup& setup, double start) {
-    if (!setup.effects.on(Effect::inertia)) return 0;
-    const ExpectedPath path = expected_path(setup, start);
-    const double time =
-        (path.approach + path.pull_off) / setup.simulation.drive.velocity + path.turn;
-    const long long steps = std::llround(time / setup.simulation.dt);
-    return scene.drive.max_steps > 0 ? std::min(steps, scene.drive.max_steps) : steps;
+long long expected_steps(const Case& c, double start) {
+    if (!c.in_time) return 0;
+    const ExpectedPath path = expected_path(c, start);
+    const double time = (path.approach + path.pull_off) / c.simulation.drive.velocity + path.turn;
+    const long long steps = std::llround(time / c.simulation.dt);
+    const long long most = c.scene.drive.max_steps;
+    return most > 0 ? std::min(steps, most) : steps;
 }
 
 namespace {
@@ -82,9 +82,10 @@ constexpr int largest_surface = 512;
 constexpr double highest_over_rms = 4.5;
 
 /// A box of largest_surface sites with those waves of the scene's surface that fit into it.
-Scene smaller_box(const Scene& scene) {
-    Scene piece = scene;
-    auto& s = piece.surface;
+Case smaller_box(const Case& c) {
+    Case piece = c;
+    const Scene& scene = c.scene;
+    auto& s = piece.scene.surface;
     const double part = static_cast<double>(largest_surface) / s.sites;
     s.sites = largest_surface;
     if (s.kind == SurfaceKind::flat) return piece;
@@ -109,24 +110,25 @@ Scene smaller_box(const Scene& scene) {
 /// Fills in a plan: the work of a scene times the rates of this process.
 class Estimate {
 public:
-    Estimate(Plan& plan, const Scene& scene, const std::optional<Rates>& rates)
-        : plan_(plan), scene_(scene) {
+    Estimate(Plan& plan, const Case& c, const std::optional<Rates>& rates)
+        : plan_(plan), case_(c), scene_(c.scene) {
+        const Scene& scene = c.scene;
         const auto begin = std::chrono::steady_clock::now();
         const bool whole = scene.surface.reads_file() || scene.surface.sites <= largest_surface;
-        surface_ = scene_surface(whole ? scene : smaller_box(scene));
+        surface_ = surface_of(whole ? c : smaller_box(c));
         const double measured = static_cast<double>(surface_.height.size());
         surface_seconds_ =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         highest_ = surface_.statistics.highest;
-        atoms_ = std::pow(substrate_sites(scene.surface.sites, scene.surface.lattice_ratio), 2);
+        atoms_ = std::pow(c.substrate(), 2);
         if (!whole) {
             surface_seconds_ *= atoms_ / measured;
             highest_ = scene.surface.kind == SurfaceKind::flat
                            ? 0.0
                            : highest_over_rms * scene.surface.rms;
         }
-        need_ = memory_of(scene, plan.setup, plan.ranks, plan.threads);
-        rates_ = rates ? *rates : measure_rates(scene, plan.setup, surface_);
+        need_ = memory_of(c, plan.threads);
+        rates_ = rates ? *rates : measure_rates(c, surface_);
         plan.rates = rates_.origin;
         count_work();
         coarse_bytes_ = coarse_bytes();
@@ -164,9 +166,9 @@ public:
     void relaxation() {
         EffectCost& all = cost(Effect::relaxation);
         if (on(Effect::relaxation)) {
-            plan_.iterations = typical_iterations(scene_, start_, plan_.setup);
+            plan_.iterations = typical_iterations(case_, start_);
             // In time the root relaxes alone.
-            const double share = on(Effect::inertia) ? share_ * plan_.ranks : share_;
+            const double share = on(Effect::inertia) ? share_ * case_.ranks : share_;
             all = {need_.relaxation + (on(Effect::inertia) ? 0.0 : need_.block),
                    share * iterations() * sites_ * rates_.iteration};
         }
@@ -209,19 +211,18 @@ public:
 private:
     /// Steps, nodes and sites, and what the slowest rank has of them.
     void count_work() {
-        const Setup& setup = plan_.setup;
         const double measured_threads = omp_get_max_threads();
-        const double uneven = 1.0 + make_grid(scene_, setup, plan_.ranks, 0).imbalance();
-        share_ = uneven / plan_.ranks * measured_threads / plan_.threads;
+        const double uneven = 1.0 + case_.grid(0).imbalance();
+        share_ = uneven / case_.ranks * measured_threads / plan_.threads;
         sites_ = static_cast<double>(scene_.surface.sites) * scene_.surface.sites;
-        nodes_ = on(Effect::inertia) ? nodes_of(setup.levels) : sites_;
-        coarse_ = nodes_ - sites_ * (on(Effect::inertia) ? setup.levels.front().cells : 1);
-        start_ = highest_ + reach_of(setup.simulation.interface);
-        plan_.steps = expected_steps(scene_, setup, start_);
+        nodes_ = on(Effect::inertia) ? nodes_of(case_.levels) : sites_;
+        coarse_ = nodes_ - sites_ * (on(Effect::inertia) ? case_.levels.front().cells : 1);
+        start_ = highest_ + reach_of(case_.simulation.interface);
+        plan_.steps = expected_steps(case_, start_);
         steps_ = static_cast<double>(plan_.steps);
         const double turning =
-            setup.simulation.drive.pull_off && steps_ > 0.0
-                ? std::min(1.0, expected_path(setup, start_).turn / (steps_ * setup.simulation.dt))
+            case_.simulation.drive.pull_off && steps_ > 0.0
+                ? std::min(1.0, expected_path(case_, start_).turn / (steps_ * case_.simulation.dt))
                 : 0.0;
         // During approach and pull-off the cost of a site changes between that of one out of reach
         // and that of one in contact; in the turn it is in contact.
@@ -231,19 +232,18 @@ private:
     /// Of all levels but the finest, on all ranks.
     double coarse_bytes() const {
         double bytes = 0.0;
-        for (int rank = 0; rank < plan_.ranks && on(Effect::inertia); ++rank)
+        for (int rank = 0; rank < case_.ranks && on(Effect::inertia); ++rank)
             bytes += static_cast<double>(
-                Block::memory_for(plan_.setup.simulation.block,
-                                  make_grid(scene_, plan_.setup, plan_.ranks, rank))
-                    .coarse);
+                Block::memory_for(case_.simulation.block, case_.grid(rank)).coarse);
         return bytes;
     }
 
-    bool on(Effect effect) const { return plan_.setup.effects.on(effect); }
+    bool on(Effect effect) const { return case_.on(effect); }
     EffectCost& cost(Effect effect) { return plan_.costs[static_cast<std::size_t>(effect)]; }
     double iterations() const { return static_cast<double>(plan_.iterations); }
 
     Plan& plan_;
+    const Case& case_;
     const Scene& scene_;
     Surface surface_;
     double surface_seconds_ = 0.0; ///< to make it
@@ -261,12 +261,10 @@ private:
 
 } // namespace
 
-Plan make_plan(const Scene& scene, int ranks, int threads, const std::optional<Rates>& rates) {
+Plan make_plan(const Case& c, int threads, const std::optional<Rates>& rates) {
     Plan plan;
-    plan.setup = make_setup(scene, ranks);
-    plan.ranks = ranks;
     plan.threads = threads;
-    Estimate estimate(plan, scene, rates);
+    Estimate estimate(plan, c, rates);
     estimate.making();
     estimate.interface();
     estimate.motion();
@@ -277,12 +275,12 @@ Plan make_plan(const Scene& scene, int ranks, int threads, const std::optional<R
     return plan;
 }
 
-void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
-    const Setup& setup = plan.setup;
+void print_plan(std::FILE* to, const Case& c, const Plan& plan) {
+    const Scene& scene = c.scene;
     const auto& s = scene.surface;
     fmt::print(to, "{}: {} x {} sites, box {:.6g} Å, {} layers in {} level{}\n\n", scene.name,
-               s.sites, s.sites, scene.edge(), scene.block.thickness, setup.levels.size(),
-               setup.levels.size() == 1 ? "" : "s");
+               s.sites, s.sites, scene.edge(), scene.block.thickness, c.levels.size(),
+               c.levels.size() == 1 ? "" : "s");
     io::Table table({"effect", "", "memory", "time", "because"});
     table.align_left(1);
     table.align_left(4);
@@ -294,33 +292,23 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
     };
     for (std::size_t i = 0; i < effect_count; ++i) {
         const auto effect = static_cast<Effect>(i);
-        line(name(effect), setup.effects.on(effect) ? "on" : "off", plan.cost(effect),
-             setup.effects.why(effect));
+        line(name(effect), c.on(effect) ? "on" : "off", plan.cost(effect), c.effects.why(effect));
     }
     table.rule();
     line("the interface itself", "", plan.interface,
-         fmt::format("{:.4g} Å of reach", reach_of(setup.simulation.interface)));
+         fmt::format("{:.4g} Å of reach", reach_of(c.simulation.interface)));
     line("making surface and tables", "", plan.making, "before the first step");
     line("altogether", "", {plan.bytes, plan.seconds},
-         fmt::format("{} rank{} of {} thread{}", plan.ranks, plan.ranks == 1 ? "" : "s",
-                     plan.threads, plan.threads == 1 ? "" : "s"));
+         fmt::format("{} rank{} of {} thread{}", c.ranks, c.ranks == 1 ? "" : "s", plan.threads,
+                     plan.threads == 1 ? "" : "s"));
     table.print(to);
     fmt::print(to, "\n");
-    if (scene.choice)
-        for (const std::string& said : accuracy_lines(*scene.choice))
-            fmt::print(to, "accuracy    {}\n", said);
     if (plan.steps > 0)
-        fmt::print(to, "steps       {} of {:.4g} fs{}\n", plan.steps, setup.simulation.dt,
+        fmt::print(to, "steps       {} of {:.4g} fs{}\n", plan.steps, c.simulation.dt,
                    plan.steps == scene.drive.max_steps ? " (drive.max_steps)" : "");
-    if (const auto longer = longer_timestep(scene); plan.steps > 0 && longer)
-        fmt::print(to,
-                   "            drive.timestep = {:g} would take {:.2g} times fewer, for up to "
-                   "{:.2g} % of error (docs/accuracy.md)\n",
-                   longer->timestep, longer->timestep / scene.drive.timestep,
-                   100.0 * longer->error);
     if (plan.iterations > 0)
         fmt::print(to, "iterations  about {} in the relaxation (typical){}\n", plan.iterations,
-                   setup.effects.on(Effect::states)
+                   c.on(Effect::states)
                        ? "; the search for all states takes many times as long and is not counted"
                        : "");
     const io::AvailableMemory there = io::available_memory();
@@ -330,12 +318,9 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
         fmt::print(
             to, "            This does not fit into this machine: `asperity run` will refuse "
                 "it here. Fewer sites, coarser or fewer\n            layers, or more machines\n");
-    if (const DeviceChoice& device = plan.setup.simulation.device;
-        device.kind != DeviceChoice::Kind::none)
+    if (const DeviceChoice& device = c.simulation.device; device.kind != DeviceChoice::Kind::none)
         fmt::print(to, "device      {}, {} of its memory on each rank; rates are the processor's\n",
-                   describe_device(device),
-                   memory_text(device_memory_of(scene, plan.setup,
-                                                make_grid(scene, plan.setup, plan.ranks, 0))));
+                   describe_device(device), memory_text(device_memory_of(c, c.grid(0))));
     fmt::print(to, "wall time   {}, without messages between machines; {}\n",
                time_text(plan.seconds), plan.rates);
     fmt::print(

@@ -11,7 +11,7 @@
 
 #include "engine/run/plan_rates.hpp"
 #include "engine/scene/surface.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 
 #include <array>
 #include <cstdio>
@@ -27,9 +27,9 @@ struct ExpectedPath {
     double turn = 0.0;     ///< duration of the turn between them, fs
 };
 /// start: height of the lowest layer at the start, Å.
-ExpectedPath expected_path(const Setup& setup, double start);
+ExpectedPath expected_path(const Case& c, double start);
 /// Time steps of this path, at most the scene's drive.max_steps. 0 where no time passes.
-long long expected_steps(const Scene& scene, const Setup& setup, double start);
+long long expected_steps(const Case& c, double start);
 
 struct EffectCost {
     double bytes = 0.0; ///< on all ranks
@@ -37,10 +37,9 @@ struct EffectCost {
 };
 
 struct Plan {
-    Setup setup;
-    int ranks = 1, threads = 1; ///< threads of a rank
-    long long steps = 0;        ///< expected
-    long long iterations = 0;   ///< expected, of the relaxation
+    int threads = 1;          ///< of a rank
+    long long steps = 0;      ///< expected
+    long long iterations = 0; ///< expected, of the relaxation
     std::array<EffectCost, effect_count> costs;
     EffectCost interface; ///< the sweep, without its tail
     EffectCost making;    ///< surface, tables, block
@@ -50,11 +49,9 @@ struct Plan {
     const EffectCost& cost(Effect effect) const { return costs[static_cast<std::size_t>(effect)]; }
 };
 
-/// Throws io::SceneError with all that is wrong with the scene on that number of ranks.
 /// threads: of a rank. rates: of a process with omp_get_max_threads() threads; none: measured on
 /// this process alone.
-Plan make_plan(const Scene& scene, int ranks, int threads,
-               const std::optional<Rates>& rates = std::nullopt);
-void print_plan(std::FILE* to, const Scene& scene, const Plan& plan);
+Plan make_plan(const Case& c, int threads, const std::optional<Rates>& rates = std::nullopt);
+void print_plan(std::FILE* to, const Case& c, const Plan& plan);
 
 } // namespace asperity

@@ -29,20 +29,20 @@ struct Piece {
     Surface surface;
 };
 
-Piece cut_out(const Scene& scene, const Setup& setup, const Surface& surface) {
+Piece cut_out(const Case& c, const Surface& surface) {
     Piece piece;
-    piece.options = setup.simulation;
+    piece.options = c.simulation;
     piece.options.device = {}; // rates are the processor's
     BlockOptions& block = piece.options.block;
-    const int needed = static_cast<int>(
-        std::ceil(2.0 * setup.simulation.interface.pairs().cutoff / block.spacing));
+    const int needed =
+        static_cast<int>(std::ceil(2.0 * c.simulation.interface.pairs().cutoff / block.spacing));
     int sites = 128;
     while (sites < needed)
         sites *= 2;
     block.sites = std::min(block.sites, sites);
-    block.thickness = std::min(block.thickness, setup.effects.on(Effect::coarse_levels) ? 128 : 16);
+    block.thickness = std::min(block.thickness, c.on(Effect::coarse_levels) ? 128 : 16);
     piece.surface = surface;
-    piece.surface.sites = substrate_sites(block.sites, scene.surface.lattice_ratio);
+    piece.surface.sites = substrate_sites(block.sites, c.scene.surface.lattice_ratio);
     piece.surface.length = block.sites * block.spacing;
     piece.surface.height.clear();
     for (int y = 0; y < piece.surface.sites; ++y)
@@ -55,7 +55,7 @@ Piece cut_out(const Scene& scene, const Setup& setup, const Surface& surface) {
     constexpr double apart = 0.5;
     piece.surface.atoms = {};
     const double length = piece.surface.length;
-    const double end = block.sites < scene.surface.sites ? length - apart : length;
+    const double end = block.sites < c.scene.surface.sites ? length - apart : length;
     for (std::size_t i = 0; i < surface.atoms.size(); ++i) {
         if (surface.atoms.x[i] >= end || surface.atoms.y[i] >= end) continue;
         piece.surface.atoms.x.push_back(surface.atoms.x[i]);
@@ -154,8 +154,8 @@ void measure_strain(const Piece& piece, Rates& rates) {
 }
 
 /// The first iterations of a relaxation of the piece.
-void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& piece, Rates& rates) {
-    SpectralBlock block(piece.options.block, Communicator(), scene.interface.frictionless);
+void measure_relaxation(const Case& c, const Piece& piece, Rates& rates) {
+    SpectralBlock block(piece.options.block, Communicator(), c.scene.interface.frictionless);
     InterfaceOptions interface_options = piece.options.interface;
     interface_options.single_too = !interface_options.mixed;
     const Interface interface(piece.surface, block.tile(), piece.options.block.spacing,
@@ -164,7 +164,7 @@ void measure_relaxation(const Scene& scene, const Setup& setup, const Piece& pie
         block, interface,
         *std::min_element(piece.surface.height.begin(), piece.surface.height.end()));
     RelaxOptions options;
-    options.site_stiffness = setup.site_stiffness;
+    options.site_stiffness = c.site_stiffness;
     options.max_iterations = 10;
     options.tolerance = 1e-300;
     Phases phases;
@@ -183,31 +183,31 @@ double nodes_of(const std::vector<LevelShape>& levels) {
     return nodes;
 }
 
-Rates measure_rates(const Scene& scene, const Setup& setup, const Surface& surface) {
-    const auto on = [&](Effect e) { return setup.effects.on(e); };
+Rates measure_rates(const Case& c, const Surface& surface) {
+    const auto on = [&](Effect e) { return c.on(e); };
     Rates rates;
-    const Piece piece = cut_out(scene, setup, surface);
+    const Piece piece = cut_out(c, surface);
     const auto measuring = Clock::now();
     const Interface interface(piece.surface, one_rank(piece.options.block).tile(0),
                               piece.options.block.spacing, piece.options.interface);
     const double piece_sites =
         static_cast<double>(piece.options.block.sites) * piece.options.block.sites;
     rates.making = since(measuring) / piece_sites;
-    measure_sweeps(interface, piece, setup.flat.separation, rates);
+    measure_sweeps(interface, piece, c.flat.separation, rates);
     if (on(Effect::tail)) {
         InterfaceOptions without = piece.options.interface;
         without.tail = false;
         Rates bare;
         measure_sweeps(Interface(piece.surface, one_rank(piece.options.block).tile(0),
                                  piece.options.block.spacing, without),
-                       piece, setup.flat.separation, bare);
+                       piece, c.flat.separation, bare);
         rates.tail = std::max(0.0, rates.near - bare.near);
         rates.near = bare.near;
         rates.far = bare.far;
     }
     if (on(Effect::finite_strain)) measure_strain(piece, rates);
     if (on(Effect::inertia)) measure_steps(piece, rates);
-    if (on(Effect::relaxation)) measure_relaxation(scene, setup, piece, rates);
+    if (on(Effect::relaxation)) measure_relaxation(c, piece, rates);
     rates.origin = fmt::format("rates measured now in {:.1f} s on a piece of {} x {} sites with {} "
                                "thread{}, kernels for {}",
                                since(measuring), piece.options.block.sites,

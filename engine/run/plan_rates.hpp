@@ -6,7 +6,7 @@
 #pragma once
 
 #include "engine/scene/surface.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 
 #include <string>
 #include <vector>
@@ -30,7 +30,7 @@ struct Rates {
 };
 
 /// What the scene does not ask for is not measured: 0.
-Rates measure_rates(const Scene& scene, const Setup& setup, const Surface& surface);
+Rates measure_rates(const Case& c, const Surface& surface);
 
 /// Of all levels together.
 double nodes_of(const std::vector<LevelShape>& levels);

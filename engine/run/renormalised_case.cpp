@@ -3,7 +3,6 @@
 #include "engine/run/renormalised_case.hpp"
 
 #include "engine/block/block.hpp"
-#include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "kernels/surface_stiffness.hpp"
 #include "theory/error.hpp"
@@ -38,46 +37,39 @@ theory::WaveStiffness wave_stiffness(const CellElasticity& elasticity, double sp
 }
 
 template <class Law>
-theory::FlatInterface wall_interface(const Scene& scene, const InterfaceOptions& options,
-                                     const Law& law) {
+theory::FlatInterface wall_interface(const Case& c, const Law& law) {
     if constexpr (std::is_same_v<Law, ExponentialWall>)
         throw theory::InvalidInput("the renormalised theory follows the curvature of a smooth law, "
                                    "and the exponential wall has a kink where it is touched; take "
                                    "interface.law = \"lennard-jones\" or atoms");
-    const double area = scene.surface.spacing * scene.surface.spacing;
-    const int sites = scene.surface.sites;
-    const double separation =
-        flat_reference(options, scene.surface.spacing, sites, sites).separation;
+    const double area = c.simulation.block.spacing * c.simulation.block.spacing;
+    const double separation = c.flat.separation;
     // As far inwards as the repulsion is about twice the largest tension.
     const double closest = separation - 2.0 * (law.contact_gap() - separation);
     return theory::FlatInterface::wall([law, area](double u) { return law.energy(u) / area; },
-                                       closest, reach_of(options), law.contact_gap());
+                                       closest, reach_of(c.simulation.interface),
+                                       law.contact_gap());
 }
 
 } // namespace
 
-theory::FlatInterface flat_interface(const Scene& scene) {
-    const InterfaceOptions options = interface_options(scene);
+theory::FlatInterface flat_interface(const Case& c) {
+    const InterfaceOptions& options = c.simulation.interface;
     if (options.wall)
-        return std::visit([&](const auto& law) { return wall_interface(scene, options, law); },
-                          *options.wall);
-    const auto& i = scene.interface;
-    const theory::PairPotential pair{i.epsilon, i.r0, i.cutoff, i.tail};
-    const int substrate = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
-    if (substrate == scene.surface.sites)
-        return theory::FlatInterface::hollow_sites(pair, scene.surface.spacing);
-    return theory::FlatInterface::all_registries(pair, scene.surface.spacing,
-                                                 scene.edge() / substrate);
+        return std::visit([&](const auto& law) { return wall_interface(c, law); }, *options.wall);
+    const LennardJones& p = options.potential;
+    const theory::PairPotential pair{p.epsilon, p.r0, p.cutoff, options.tail};
+    const double spacing = c.simulation.block.spacing;
+    if (c.substrate() == c.scene.surface.sites)
+        return theory::FlatInterface::hollow_sites(pair, spacing);
+    return theory::FlatInterface::all_registries(pair, spacing, c.scene.edge() / c.substrate());
 }
 
-theory::StiffnessTable lattice_stiffness(const Scene& scene) {
-    BlockOptions block;
-    block.spacing = scene.surface.spacing;
-    block.young = scene.block.young * units::gigapascal;
-    block.poisson = scene.block.poisson;
+theory::StiffnessTable lattice_stiffness(const Case& c) {
+    const BlockOptions& block = c.simulation.block;
     const CellElasticity elasticity = block.elasticity(0);
-    const double low = 2.0 * std::numbers::pi / scene.edge();
-    const double high = std::numbers::pi / scene.surface.spacing;
+    const double low = 2.0 * std::numbers::pi / c.scene.edge();
+    const double high = std::numbers::pi / block.spacing;
     constexpr int waves = 48;
     // The lattice has the symmetry of the square: directions in an eighth of the circle, Gauss.
     constexpr double nodes[] = {0.112701665379258, 0.5, 0.887298334620742};
@@ -88,7 +80,7 @@ theory::StiffnessTable lattice_stiffness(const Scene& scene) {
         mean.q = k == waves ? high : low * std::pow(high / low, static_cast<double>(k) / waves);
         for (int d = 0; d < 3; ++d) {
             const theory::WaveStiffness w =
-                wave_stiffness(elasticity, block.spacing, scene.block.thickness, mean.q,
+                wave_stiffness(elasticity, block.spacing, block.thickness, mean.q,
                                nodes[d] * std::numbers::pi / 4.0);
             mean.zz += weights[d] * w.zz;
             mean.xx += weights[d] * w.xx;
@@ -100,12 +92,11 @@ theory::StiffnessTable lattice_stiffness(const Scene& scene) {
     return theory::StiffnessTable(std::move(table));
 }
 
-RenormalisedCase renormalised_case(const Scene& scene, const theory::Spectrum& spectrum,
-                                   bool realised) {
+RenormalisedCase renormalised_case(const Case& c, const theory::Spectrum& spectrum, bool realised) {
     try {
-        return {theory::RoughInterface{spectrum, flat_interface(scene), lattice_stiffness(scene),
-                                       !scene.interface.frictionless,
-                                       scene.drive.load * units::megapascal, !realised},
+        return {theory::RoughInterface{spectrum, flat_interface(c), lattice_stiffness(c),
+                                       !c.scene.interface.frictionless,
+                                       c.scene.drive.load * units::megapascal, !realised},
                 ""};
     } catch (const std::exception& error) {
         return {std::nullopt, error.what()};

@@ -5,7 +5,7 @@
 // of its lattice, and `theory.renormalised` of result.json.
 #pragma once
 
-#include "engine/scene/scene.hpp"
+#include "engine/setup/case.hpp"
 #include "io/result.hpp"
 #include "theory/renormalised.hpp"
 
@@ -15,10 +15,10 @@
 namespace asperity {
 
 /// The flat interface of the scene.
-theory::FlatInterface flat_interface(const Scene& scene);
+theory::FlatInterface flat_interface(const Case& c);
 
 /// S(q) of the scene's lattice up to Nyquist, per area, averaged over directions.
-theory::StiffnessTable lattice_stiffness(const Scene& scene);
+theory::StiffnessTable lattice_stiffness(const Case& c);
 
 /// The scene in the terms of theory/ (Å, eV), or why the theory cannot take it.
 struct RenormalisedCase {
@@ -26,8 +26,7 @@ struct RenormalisedCase {
     std::string note;
 };
 /// realised: the spectrum is that of the surface itself.
-RenormalisedCase renormalised_case(const Scene& scene, const theory::Spectrum& spectrum,
-                                   bool realised);
+RenormalisedCase renormalised_case(const Case& c, const theory::Spectrum& spectrum, bool realised);
 
 /// Energies in meV/Å^2, lengths in Å, stress in GPa.
 struct RenormalisedNumbers {

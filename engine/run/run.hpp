@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// `asperity run`: from a scene that has been read to a result directory.
+// `asperity run`: from a case to a result directory.
 #pragma once
 
-#include "engine/scene/scene.hpp"
+#include "engine/setup/case.hpp"
 #include "io/progress.hpp"
 
 #include <functional>
@@ -12,8 +12,6 @@
 #include <string>
 
 namespace asperity {
-
-class Communicator;
 
 struct RunOptions {
     std::string out;                  ///< --out; empty: results/<scene>
@@ -30,8 +28,9 @@ struct RunOptions {
     bool resuming() const { return !resume.empty(); }
 };
 
-/// Runs the scene on all ranks of the communicator. Returns the exit code; errors are thrown
-/// (io::Error) and printed by main. Prints the summary on rank 0, unless silent.
-int run(const Scene& scene, const RunOptions& options, const Communicator& communicator);
+/// Runs the case on all ranks of the communicator, which are as many as it was made for. Returns
+/// the exit code; errors are thrown (io::Error) and printed by main. Prints the summary on rank 0,
+/// unless silent.
+int run(const Case& c, const RunOptions& options, const Communicator& communicator);
 
 } // namespace asperity

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "engine/equilibrium/findings.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "io/result.hpp"
 
 #include <string>
@@ -19,8 +19,7 @@ io::Result scene_result(const Scene& scene);
 io::Result surface_result(const Scene& scene, const Surface& surface);
 /// What runs in time and without it have in common: the scene, its surface, its effects, the
 /// findings, theory, ranks and threads.
-io::Result run_result(const Scene& scene, const Surface& surface, const Setup& setup,
-                      const Findings& findings, int ranks);
+io::Result run_result(const Case& c, const Surface& surface, const Findings& findings);
 
 /// What the search for all states at zero load may have missed, in words.
 std::string states_missed(const StateList& states);

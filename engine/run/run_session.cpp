@@ -39,16 +39,17 @@ void print_unless_closed(const Print& print) {
 
 /// What may not change between a checkpoint and its resumption: keys, and the map or the atoms of a
 /// file.
-std::string physics_of(const Scene& scene, const Surface& surface) {
+std::string physics_of(const Case& c, const Surface& surface) {
+    const Scene& scene = c.scene;
     const io::Json all = scene_json(scene);
     io::Json part = io::Json::object();
     for (const char* section : {"surface", "block", "interface", "drive"})
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
-    part["output"]["fields"] = scene.writes_field("pull-off"); // keeps a layer in the checkpoint
+    part["output"]["fields"] = c.maps.pull_off; // keeps a layer in the checkpoint
     // What resumes is taken as written where its time is past.
     part["output"]["delayed"] = io::Json::array();
-    for (const auto& [delay, name] : scene.delayed_fields())
+    for (const auto& [delay, name] : c.maps.after_zero_load)
         part["output"]["delayed"].push_back(name);
     if (scene.surface.radius) part["output"]["series"] = scene.output.series; // averaged over time
     part["output"]["velocities"] = scene.output.trajectory && scene.output.velocities;
@@ -58,14 +59,12 @@ std::string physics_of(const Scene& scene, const Surface& surface) {
 
 } // namespace
 
-RunSession::RunSession(const Scene& of, const RunOptions& options, const Communicator& on)
-    : scene(of), ranks(on), options_(options), setup(make_setup(scene, ranks.size())),
-      surface(scene_surface(scene, ranks)),
-      grid(make_grid(scene, setup, ranks.size(), ranks.rank())),
-      storage_(options, scene.name, ranks), progress(options.progress, !ranks.root()),
-      fingerprint_(physics_of(scene, surface)) {
+RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& on)
+    : ranks(on), case_(c), options_(options), surface(surface_of(c, ranks)),
+      grid(c.grid(ranks.rank())), storage_(options, c.scene.name, ranks),
+      progress(options.progress, !ranks.root()), fingerprint_(physics_of(c, surface)) {
     progress.tell(options.listener);
-    if (scene.writes_field("pull-off")) strongest_.layer = VectorField<double>(grid.tile(0), 1);
+    if (c.maps.pull_off) strongest_.layer = VectorField<double>(grid.tile(0), 1);
     print_notes();
 }
 
@@ -81,7 +80,7 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
     try {
         if (ranks.root() && !options_.silent)
             print_unless_closed([&] {
-                print_opening(stdout, scene, setup, surface, grid, omp_get_max_threads(), bytes,
+                print_opening(stdout, case_, surface, grid, omp_get_max_threads(), bytes,
                               storage_.path());
             });
         work();
@@ -107,7 +106,7 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
         throw_if_directory_gone();
         if (options_.silent) return;
         print_unless_closed([&] {
-            print_summary(stdout, scene, result, findings.states, storage_.path());
+            print_summary(stdout, case_, result, findings.states, storage_.path());
             if (!stopped_.empty())
                 fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);
         });
@@ -129,8 +128,8 @@ RunSession::Reason RunSession::reason() const {
     Reason reason = Reason::none;
     if (ranks.root()) {
         const double now = seconds();
-        if (setup.effects.on(Effect::checkpoints) &&
-            now - last_checkpoint_ >= scene.output.checkpoint)
+        if (case_.on(Effect::checkpoints) &&
+            now - last_checkpoint_ >= case_.scene.output.checkpoint)
             reason = Reason::checkpoint;
         if (options_.wall_limit && now >= *options_.wall_limit) reason = Reason::wall_limit;
         if (options_.stop && options_.stop()) reason = Reason::signal;
@@ -157,7 +156,7 @@ bool RunSession::look_is_due() {
     // The root's clock decides how many steps are about half a second.
     constexpr double most = 1000.0;
     const double interval =
-        setup.effects.on(Effect::checkpoints) ? std::min(0.5, scene.output.checkpoint) : 0.5;
+        case_.on(Effect::checkpoints) ? std::min(0.5, case_.scene.output.checkpoint) : 0.5;
     std::array<double, 1> stride = {1.0};
     if (ranks.root()) {
         const double each = (seconds() - last_look_) / static_cast<double>(looked_every_);
@@ -219,7 +218,7 @@ bool RunSession::bring_back_directory() {
 }
 
 void RunSession::save_if_on(const WriteState& write) {
-    if (setup.effects.on(Effect::checkpoints)) save(write);
+    if (case_.on(Effect::checkpoints)) save(write);
 }
 
 io::FilePlace RunSession::file(const std::string& name) const {
@@ -233,14 +232,14 @@ std::optional<io::FilePlace> RunSession::checkpoint_to_resume() {
 }
 
 void RunSession::open_recorder() {
-    const auto add = [this, rough = ranks.root() ? rough_sphere(scene, surface, setup.flat)
+    const auto add = [this, rough = ranks.root() ? rough_sphere(case_, surface)
                                                  : std::nullopt](io::Hdf5File& file) {
-        io::describe_origin(file, scene_toml(scene, false));
-        write_sphere_curves(file, scene, setup.flat, rough);
+        io::describe_origin(file, scene_toml(case_.scene, false));
+        write_sphere_curves(file, case_, rough);
     };
     recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
-                      scene.without_time() ? DriveMode::quasistatic : DriveMode::dynamic,
-                      resumed_at_, add);
+                      case_.in_time ? DriveMode::dynamic : DriveMode::quasistatic, resumed_at_,
+                      add);
 }
 
 void RunSession::watch_fields(long long step, Leg leg, double attraction,
@@ -248,9 +247,7 @@ void RunSession::watch_fields(long long step, Leg leg, double attraction,
                               double reference_height) {
     if (field_is_due(step))
         recorder_->fields(fmt::format("step-{}", step), layer, grid, interface, reference_height);
-    if (leg != Leg::pull_off || attraction <= strongest_.attraction ||
-        !scene.writes_field("pull-off"))
-        return;
+    if (leg != Leg::pull_off || attraction <= strongest_.attraction || !case_.maps.pull_off) return;
     strongest_.attraction = attraction;
     strongest_.reference_height = reference_height;
     strongest_.kept = true;
@@ -309,7 +306,7 @@ double RunSession::processor_seconds() const {
 }
 
 double RunSession::way_done(Leg leg, double top, double start_height) const {
-    const ExpectedPath path = expected_path(setup, start_height);
+    const ExpectedPath path = expected_path(case_, start_height);
     const double done = leg == Leg::approach ? -top : 2.0 * path.approach + top;
     return std::clamp(done / (path.approach + path.pull_off), 0.0, 0.99);
 }
@@ -329,7 +326,7 @@ void RunSession::write_failure(const Failure& failure, const AddToResult& add_to
 }
 
 io::Result RunSession::write_result(const Failure* failure, const AddToResult& add_to) {
-    io::Result result = run_result(scene, surface, setup, findings, ranks.size());
+    io::Result result = run_result(case_, surface, findings);
     add_to(result);
     result.set("run.wall_seconds", seconds());
     result.set("run.processor_seconds", processor_seconds());
@@ -339,8 +336,8 @@ io::Result RunSession::write_result(const Failure* failure, const AddToResult& a
         result.set("failure.exit_code", failure->code);
         result.set("failure.reason", failure->reason);
     }
-    if (recorder_ && scene.surface.radius)
-        add_sphere_path(read_path(storage_.path() + "/run.h5"), scene, result);
+    if (recorder_ && case_.scene.surface.radius)
+        add_sphere_path(read_path(storage_.path() + "/run.h5"), case_.scene, result);
     io::write_result(storage_.directory(), result);
     if (failure || !stopped_.empty()) return result;
     storage_.remove_checkpoints();

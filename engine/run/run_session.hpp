@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What every run uses, whatever it does in between: the scene made ready, the result directory and
+// What every run uses, whatever it does in between: the surface, the result directory and
 // what is recorded in it, checkpoints, reasons to stop, what was found, and the result.
 //
 // A kind of run has one as a member, and reads from top to bottom in its own file: dynamic_run.cpp
 // in time, equilibrium_run.cpp without.
 //
-//     RunSession run(scene, options, ranks);
+//     RunSession run(c, options, ranks);
 //     return run.carry_out(bytes, [&] { ... the run ... }, add_to);
 #pragma once
 
@@ -19,7 +19,7 @@
 #include "engine/run/recorder.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/run_storage.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "io/error.hpp"
 #include "io/progress.hpp"
 #include "io/result.hpp"
@@ -35,19 +35,18 @@ namespace asperity {
 class RunSession {
 public:
     /// Takes the result directory and makes the surface. Collective, like every member function.
-    RunSession(const Scene& scene, const RunOptions& options, const Communicator& ranks);
+    RunSession(const Case& c, const RunOptions& options, const Communicator& ranks);
     RunSession(const RunSession&) = delete;
     RunSession& operator=(const RunSession&) = delete;
 
-    const Scene& scene;
     const Communicator ranks;
 
 private:
+    const Case& case_;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     const RunOptions& options_;
 
 public:
-    const Setup setup;
     const Surface surface;
     const ProcessGrid grid;
     RunStorage storage_; // after the surface: a map that is refused leaves no directory
@@ -83,7 +82,7 @@ public:
     const std::string& fingerprint() const { return fingerprint_; }
     /// Below this the mean height of the lowest layer is beyond the substrate, Å.
     double lowest_height() const {
-        return surface.statistics.lowest - reach_of(setup.simulation.interface);
+        return surface.statistics.lowest - reach_of(case_.simulation.interface);
     }
     /// A state for a look, beside the result.
     io::FilePlace file(const std::string& name) const;
@@ -117,8 +116,10 @@ public:
                       const VectorPlane<const double>& layer, const Interface& interface,
                       double reference_height);
     /// Whether watch_fields() has anything to do at all, and at this step without an attraction.
-    bool watches_fields() const { return field_stride_ || !strongest_.layer.empty(); }
-    bool field_is_due(long long step) const { return field_stride_ && step % *field_stride_ == 0; }
+    bool watches_fields() const { return case_.maps.every || case_.maps.pull_off; }
+    bool field_is_due(long long step) const {
+        return case_.maps.every && step % *case_.maps.every == 0;
+    }
     /// Writes the maps that watch_fields() has kept: at the end of the work.
     void write_kept_fields(const Interface& interface);
 
@@ -149,7 +150,6 @@ private:
     void throw_if_directory_gone();
 
     const std::string fingerprint_;
-    const std::optional<long long> field_stride_ = scene.field_stride();
     std::optional<Recorder> recorder_;
     std::optional<Recorder::Position> resumed_at_;
     std::string stopped_; ///< why the run ends early; empty: it does not
@@ -168,12 +168,11 @@ private:
     double last_look_ = 0.0; ///< s
 };
 
-// As run(), which checks the scene and chooses.
+// As run(), which checks the case and chooses.
 
 /// Approach and pull-off at the velocity of the drive.
-int run_in_time(const Scene& scene, const RunOptions& options, const Communicator& communicator);
+int run_in_time(const Case& c, const RunOptions& options, const Communicator& communicator);
 /// A quasi-static path, or straight to the relaxed state under zero load.
-int run_equilibrium(const Scene& scene, const RunOptions& options,
-                    const Communicator& communicator);
+int run_equilibrium(const Case& c, const RunOptions& options, const Communicator& communicator);
 
 } // namespace asperity

@@ -18,12 +18,13 @@ namespace asperity {
 
 namespace {
 
-theory::PeriodicSphere smooth_sphere(const Scene& scene, const FlatReference& flat) {
+theory::PeriodicSphere smooth_sphere(const Case& c) {
+    const Scene& scene = c.scene;
     return {{*scene.surface.radius,
              theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson),
-             flat.work_of_adhesion / units::milli_per_unit},
+             c.flat.work_of_adhesion / units::milli_per_unit},
             scene.edge(),
-            flat.separation};
+            c.flat.separation};
 }
 
 /// The same of the work of adhesion (meV/Å²) and at the separation that roughness leaves.
@@ -33,9 +34,7 @@ theory::PeriodicSphere roughened(theory::PeriodicSphere sphere, double gamma, do
     return sphere;
 }
 
-double largest_tension(const FlatReference& flat) {
-    return flat.largest_tension * units::gigapascal;
-}
+double largest_tension(const Case& c) { return c.flat.largest_tension * units::gigapascal; }
 
 /// States at these parameters, as far as the theory has them and no wider than this radius.
 template <class State>
@@ -62,10 +61,10 @@ std::vector<double> spaced(double from, double to, int count) {
 
 } // namespace
 
-std::vector<SphereCurve> sphere_curves(const Scene& scene, const FlatReference& flat,
+std::vector<SphereCurve> sphere_curves(const Case& c,
                                        const std::optional<RenormalisedNumbers>& rough,
                                        double largest_force) {
-    const theory::PeriodicSphere sphere = smooth_sphere(scene, flat);
+    const theory::PeriodicSphere sphere = smooth_sphere(c);
     theory::PeriodicSphere alone = sphere;
     alone.period *= 1e6;
     double widest = 0.0;
@@ -84,10 +83,10 @@ std::vector<SphereCurve> sphere_curves(const Scene& scene, const FlatReference& 
         curve("jkr_images", whose + "JKR with images", widest, radii,
               [&](double a) { return theory::jkr_at_radius(sphere, a); }),
         curve("maugis_images", whose + "Maugis-Dugdale with images", widest, ratios,
-              [&](double m) { return theory::maugis_at_ratio(sphere, largest_tension(flat), m); })};
+              [&](double m) { return theory::maugis_at_ratio(sphere, largest_tension(c), m); })};
     if (rough) {
         const theory::PeriodicSphere left =
-            roughened(sphere, rough->gamma_eff, rough->separation.value_or(flat.separation));
+            roughened(sphere, rough->gamma_eff, rough->separation.value_or(c.flat.separation));
         curves.push_back(
             curve("renormalised", "theory: Maugis-Dugdale with images and the renormalised law",
                   widest, ratios, [&](double m) {
@@ -97,12 +96,12 @@ std::vector<SphereCurve> sphere_curves(const Scene& scene, const FlatReference& 
     return curves;
 }
 
-std::optional<RenormalisedNumbers> rough_sphere(const Scene& scene, const Surface& surface,
-                                                const FlatReference& flat) {
+std::optional<RenormalisedNumbers> rough_sphere(const Case& c, const Surface& surface) {
+    const Scene& scene = c.scene;
     if (!scene.surface.radius || !scene.theory.renormalised || !(surface.statistics.rms > 0.0))
         return std::nullopt;
     try {
-        const TheoryCase what = theory_case(scene, &surface, flat.work_of_adhesion);
+        const TheoryCase what = theory_case(c, &surface);
         auto numbers = solve_renormalised(*what.renormalised).numbers;
         return numbers && numbers->gamma_eff > 0.0 ? numbers : std::nullopt;
     } catch (const std::exception&) { // theory.note of the result has the reason
@@ -110,7 +109,8 @@ std::optional<RenormalisedNumbers> rough_sphere(const Scene& scene, const Surfac
     }
 }
 
-void add_sphere(const Scene& scene, const FlatReference& flat, io::Result& result) {
+void add_sphere(const Case& c, io::Result& result) {
+    const Scene& scene = c.scene;
     if (!scene.surface.radius) return;
     if (const auto fraction = result.number("contact_fraction"))
         result.set("contact_radius.zero_load",
@@ -128,8 +128,8 @@ void add_sphere(const Scene& scene, const FlatReference& flat, io::Result& resul
                                         theory::jkr::work_from_binding_energy(energy, R, modulus));
     }
     try {
-        const theory::PeriodicSphere sphere = smooth_sphere(scene, flat);
-        const double stress = largest_tension(flat);
+        const theory::PeriodicSphere sphere = smooth_sphere(c);
+        const double stress = largest_tension(c);
         result.set("sphere.jkr", as_work(theory::jkr::pull_off(sphere.sphere).force));
         result.set("sphere.maugis_parameter", theory::maugis_parameter(sphere.sphere, stress));
         result.set("sphere.jkr_images", as_work(theory::jkr_pull_off(sphere).contact.force));
@@ -138,7 +138,7 @@ void add_sphere(const Scene& scene, const FlatReference& flat, io::Result& resul
         const auto gamma = result.number("theory.renormalised.gamma_eff");
         const auto tension = result.number("theory.renormalised.tension");
         if (!gamma || !tension || !(*gamma > 0.0 && *tension > 0.0)) return;
-        const theory::PeriodicSphere rough = roughened(sphere, *gamma, flat.separation);
+        const theory::PeriodicSphere rough = roughened(sphere, *gamma, c.flat.separation);
         const double left = *tension * units::gigapascal;
         result.set("sphere.renormalised_parameter", theory::maugis_parameter(rough.sphere, left));
         result.set("sphere.renormalised",
@@ -148,13 +148,13 @@ void add_sphere(const Scene& scene, const FlatReference& flat, io::Result& resul
     }
 }
 
-void write_sphere_curves(io::Hdf5File& file, const Scene& scene, const FlatReference& flat,
+void write_sphere_curves(io::Hdf5File& file, const Case& c,
                          const std::optional<RenormalisedNumbers>& rough) {
-    if (!scene.surface.radius || !(flat.work_of_adhesion > 0.0)) return;
+    if (!c.scene.surface.radius || !(c.flat.work_of_adhesion > 0.0)) return;
     const std::vector<double> force = file.read<double>("/series/force");
     if (force.size() < 2) return;
     const double largest = *std::max_element(force.begin(), force.end());
-    for (const SphereCurve& curve : sphere_curves(scene, flat, rough, largest)) {
+    for (const SphereCurve& curve : sphere_curves(c, rough, largest)) {
         if (curve.height.empty()) continue;
         const std::string group = "/curves/" + curve.name;
         io::write_described(file, group + "/height", {curve.height.size()}, curve.height);

@@ -3,7 +3,6 @@
 #include "engine/run/summary.hpp"
 
 #include "engine/run/run_record.hpp"
-#include "engine/scene/accuracy.hpp"
 #include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 #include "io/table.hpp"
@@ -18,16 +17,16 @@ namespace asperity {
 
 namespace {
 
-std::string levels_text(const Scene& scene, const Setup& setup) {
-    if (scene.without_time()) return "static response of the lattice, wave by wave";
-    const auto& levels = setup.levels;
-    const char* strain = scene.block.strain == Strain::finite ? "; finite strain" : "";
+std::string levels_text(const Case& c) {
+    if (!c.in_time) return "static response of the lattice, wave by wave";
+    const auto& levels = c.levels;
+    const char* strain = c.scene.block.strain == Strain::finite ? "; finite strain" : "";
     if (levels.size() == 1)
         return fmt::format("one lattice of {} layers{}", levels.front().cells, strain);
     long long nodes = 0;
     for (const LevelShape& l : levels)
         nodes += static_cast<long long>(l.sites) * l.sites * l.cells;
-    const auto& block = setup.simulation.block;
+    const auto& block = c.simulation.block;
     const double all = static_cast<double>(block.sites) * block.sites * block.thickness;
     return fmt::format("{} levels, {:.3g} nodes for {:.3g} atoms{}", levels.size(),
                        static_cast<double>(nodes), all, strain);
@@ -64,7 +63,8 @@ std::string named(const std::string& name, io::Key key) {
 }
 
 /// Works and losses of a whole path.
-void print_cycle(std::FILE* to, const Scene& scene, const Numbers& of, double flat) {
+void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
+    const Scene& scene = c.scene;
     if (scene.drive.temperature > 0.0) {
         fmt::print(to, "  What the drive gives on the way out and takes up on the way in contains "
                        "heat of the thermostat.\n");
@@ -85,7 +85,7 @@ void print_cycle(std::FILE* to, const Scene& scene, const Numbers& of, double fl
     if (of("lost.approach") && scene.drive.load == 0.0)
         fmt::print(to, "  Work of the drive on the approach + energy lost there = binding energy = "
                        "work of the drive on the\n  pull-off - energy lost there.\n");
-    if (of("work_of_adhesion.approach") && !scene.without_time())
+    if (of("work_of_adhesion.approach") && c.in_time)
         fmt::print(to,
                    "  The work of the interface is that of its force on the mean height of the "
                    "surface: a block that snaps\n  as a whole changes nothing of it, patches that "
@@ -123,10 +123,11 @@ void print_states(std::FILE* to, const StateList& states) {
 
 } // namespace
 
-void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const Surface& surface,
-                   const ProcessGrid& grid, int threads, std::size_t bytes,
-                   const std::string& directory) {
-    const auto& block = setup.simulation.block;
+void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,
+                   int threads, std::size_t bytes, const std::string& directory) {
+    const Scene& scene = c.scene;
+    const BlockOptions& block = c.simulation.block;
+    const InterfaceOptions& interface = c.simulation.interface;
     fmt::print(to, "{}: {} x {} sites, {:.1f} Å wide\n", scene.name, block.sites, block.sites,
                scene.edge());
     fmt::print(to, "  substrate   {}{}\n", surface_text(scene, surface),
@@ -134,35 +135,28 @@ void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const 
                    ? fmt::format(", on a sphere of R = {:.6g} Å", *scene.surface.radius)
                    : "");
     fmt::print(to, "  block       {} layers ({:.1f} Å): {}\n", block.thickness,
-               block.thickness * block.spacing, levels_text(scene, setup));
+               block.thickness * block.spacing, levels_text(c));
     fmt::print(to,
                "  interface   {}flat on flat {:.2f} meV/Å² at {:.2f} Å with a reach of {:.2f} Å, "
                "in {} precision\n",
-               setup.simulation.interface.wall ? "a wall, " : "", setup.flat.work_of_adhesion,
-               setup.flat.separation, reach_of(setup.simulation.interface),
-               setup.simulation.interface.mixed && !setup.simulation.interface.wall ? "single"
-                                                                                    : "double");
-    if (scene.choice) {
-        const char* head = "accuracy";
-        for (const std::string& line : accuracy_lines(*scene.choice))
-            fmt::print(to, "  {:<11} {}\n", std::exchange(head, ""), line);
-    }
+               interface.wall ? "a wall, " : "", c.flat.work_of_adhesion, c.flat.separation,
+               reach_of(interface), interface.mixed && !interface.wall ? "single" : "double");
     fmt::print(to, "  machine     {}, {} thread{} each, {:.0f} MB a rank\n", grid.describe(),
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6);
-    if (setup.simulation.device.kind != DeviceChoice::Kind::none)
+    if (c.simulation.device.kind != DeviceChoice::Kind::none)
         fmt::print(to, "  device      {}, {:.0f} MB of its memory a rank\n",
-                   describe_device(setup.simulation.device),
-                   device_memory_of(scene, setup, grid) / 1e6);
+                   describe_device(c.simulation.device), device_memory_of(c, grid) / 1e6);
     fmt::print(to, "  results     {}\n", directory);
-    for (const std::string& note : setup.notes)
+    for (const std::string& note : c.notes)
         fmt::print(to, "  note: {}\n", note);
     for (const std::string& note : surface.notes)
         fmt::print(to, "  note: {}\n", note);
     std::fflush(to);
 }
 
-void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
+void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    const std::optional<StateList>& states, const std::string& directory) {
+    const Scene& scene = c.scene;
     const Numbers of{result};
     const double flat = of("delta_gamma").value_or(0.0);
     const bool loaded = scene.has(PathPart::zero_load) && scene.drive.load != 0.0;
@@ -233,7 +227,7 @@ void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
                    "  At finite strain no state at zero load is given: states are sums of waves, "
                    "which do not add up.\n");
     if (states) print_states(to, *states);
-    if (drive_in && drive_out) print_cycle(to, scene, of, flat);
+    if (drive_in && drive_out) print_cycle(to, c, of, flat);
     if (const Number residual = of("energy.residual"))
         fmt::print(to,
                    "  Energy balance: work done = energy gained + energy {}, to {:.1e} of the "

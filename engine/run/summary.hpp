@@ -5,8 +5,7 @@
 #pragma once
 
 #include "engine/equilibrium/findings.hpp"
-#include "engine/scene/scene.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "io/result.hpp"
 
 #include <cstdio>
@@ -15,12 +14,11 @@
 namespace asperity {
 
 /// What is going to be simulated, in a few lines.
-void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const Surface& surface,
-                   const ProcessGrid& grid, int threads, std::size_t bytes,
-                   const std::string& directory);
+void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,
+                   int threads, std::size_t bytes, const std::string& directory);
 
 /// The numbers of result.json side by side, and how to read them. states: where all were asked for.
-void print_summary(std::FILE* to, const Scene& scene, const io::Result& result,
+void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    const std::optional<StateList>& states, const std::string& directory);
 
 } // namespace asperity

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/theory_case.hpp"
 
-#include "engine/setup/setup.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "theory/error.hpp"
@@ -92,64 +91,54 @@ Spectrum realised_of(const Scene& scene, const Surface& surface, TheoryCase& out
                                         "the corners of the grid, and is not in the theory",
                                         100.0 * lost));
     const bool scaled = scene.surface.kind == SurfaceKind::self_affine ||
-                        (scene.surface.rms_given && scene.surface.rms > 0.0);
+                        (scene.gives_rms() && scene.surface.rms > 0.0);
     const Spectrum spectrum = Spectrum::rings(edges, C);
     if (!scaled) return spectrum;
     return spectrum.with_rms_height(scene.surface.rms * std::sqrt(variance) / rms);
 }
 
-Spectrum spectrum_of(const Scene& scene, const Surface* surface, TheoryCase& out) {
+Spectrum spectrum_of(const Case& c, const Surface* surface, TheoryCase& out) {
+    const Scene& scene = c.scene;
     const auto& s = scene.surface;
     const double q_L = 2.0 * std::numbers::pi / scene.edge();
     const bool measured = s.kind == SurfaceKind::file;
     if (!measured && (s.kind == SurfaceKind::flat || s.rms == 0.0))
         return Spectrum::self_affine(
             {.q_L = q_L, .q0 = q_L, .q1 = 2.0 * q_L, .hurst = 0.8, .h_rms = 0.0});
-    if (!theory_needs_surface(scene)) return target_of(scene, out);
+    if (!theory_needs_surface(c)) return target_of(scene, out);
     if (measured && scene.theory.spectrum == TheorySpectrum::target)
         out.notes.push_back("a measured map has no target spectrum");
     if (!measured) out.q0 = std::max(1.0, s.rolloff) * q_L;
     if (surface) return realised_of(scene, *surface, out);
-    return realised_of(scene, scene_surface(scene), out);
+    return realised_of(scene, surface_of(c), out);
 }
 
 } // namespace
 
-bool theory_needs_surface(const Scene& scene) {
-    const auto& s = scene.surface;
+bool theory_needs_surface(const Case& c) {
+    const auto& s = c.scene.surface;
     return s.kind == SurfaceKind::file || (s.kind == SurfaceKind::self_affine && s.rms > 0.0 &&
-                                           scene.theory.spectrum == TheorySpectrum::realised);
+                                           c.scene.theory.spectrum == TheorySpectrum::realised);
 }
 
-std::string no_theory(const Scene& scene) {
-    if (scene.surface.kind != SurfaceKind::atoms) return {};
+std::string no_theory(const Case& c) {
+    if (c.scene.surface.kind != SurfaceKind::atoms) return {};
     return "the substrate's atoms stand anywhere (surface.kind = \"atoms\"), and the theories are "
            "of one layer with heights, whose flat reference they divide by";
 }
 
-TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional<double> flat) {
-    if (const std::string why = no_theory(scene); !why.empty())
+TheoryCase theory_case(const Case& c, const Surface* surface) {
+    const Scene& scene = c.scene;
+    if (const std::string why = no_theory(c); !why.empty())
         throw io::SceneError(io::Problem{scene.positions.where("surface.kind"),
                                          "no theory applies to this scene", why,
                                          "take a surface with heights: self-affine, flat or file"});
     TheoryCase out;
-    const int substrate = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
-    if (!flat) {
-        try {
-            flat = flat_reference(interface_options(scene), scene.surface.spacing,
-                                  scene.surface.sites, substrate)
-                       .work_of_adhesion;
-        } catch (const std::invalid_argument& error) {
-            io::Problems problems = scene.problems();
-            problems.add("interface.epsilon", std::string(": ") + error.what());
-            problems.throw_if_any();
-        }
-    }
-    out.flat = flat.value_or(0.0);
+    out.flat = c.flat.work_of_adhesion;
     out.delta_gamma = scene.theory.delta_gamma.value_or(out.flat);
     out.radius = scene.surface.radius;
     with_scene_errors([&] {
-        out.contact.spectrum = spectrum_of(scene, surface, out);
+        out.contact.spectrum = spectrum_of(c, surface, out);
         out.contact.contact_modulus =
             theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson);
         out.contact.work_of_adhesion = out.delta_gamma / units::milli_per_unit;
@@ -157,12 +146,11 @@ TheoryCase theory_case(const Scene& scene, const Surface* surface, std::optional
         out.contact.beta = scene.theory.beta;
         out.contact.area_factor = scene.theory.area_factor;
         if (scene.theory.area_factor == AreaFactor::lattice)
-            out.contact.tilt_cost = flat_interface(scene).tilt_cost(!scene.interface.frictionless);
+            out.contact.tilt_cost = flat_interface(c).tilt_cost(!scene.interface.frictionless);
         theory::check(out.contact);
     });
     if (scene.theory.renormalised)
-        out.renormalised =
-            renormalised_case(scene, out.contact.spectrum, theory_needs_surface(scene));
+        out.renormalised = renormalised_case(c, out.contact.spectrum, theory_needs_surface(c));
     return out;
 }
 
@@ -205,13 +193,13 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::Result& r
     if (n.renormalised) record_renormalised(*n.renormalised, result);
 }
 
-void add_theory(const Scene& scene, const Surface& surface, double flat, io::Result& result) {
-    if (const std::string why = no_theory(scene); !why.empty()) {
+void add_theory(const Case& c, const Surface& surface, io::Result& result) {
+    if (const std::string why = no_theory(c); !why.empty()) {
         result.set("theory.note", why);
         return;
     }
     try {
-        const TheoryCase what = theory_case(scene, &surface, flat);
+        const TheoryCase what = theory_case(c, &surface);
         record_theory(what, solve_theory(what), result);
     } catch (const std::exception& error) {
         result.set("theory.note", error.what());

@@ -17,7 +17,6 @@
 #pragma once
 
 #include "engine/run/renormalised_case.hpp"
-#include "engine/scene/scene.hpp"
 #include "engine/scene/surface.hpp"
 #include "io/result.hpp"
 #include "theory/persson.hpp"
@@ -41,16 +40,14 @@ struct TheoryCase {
 };
 
 /// The theory of this scene follows the surface itself, not the target spectrum.
-bool theory_needs_surface(const Scene& scene);
+bool theory_needs_surface(const Case& c);
 
 /// Why no theory applies to the scene; empty: one does.
-std::string no_theory(const Scene& scene);
+std::string no_theory(const Case& c);
 
-/// surface: the scene's, if it has been made already (at whatever rms: its spectrum is scaled to
-/// the scene's); flat: the flat reference (meV/Å^2), likewise.
-/// Throws io::SceneError, also where no theory applies.
-TheoryCase theory_case(const Scene& scene, const Surface* surface = nullptr,
-                       std::optional<double> flat = std::nullopt);
+/// surface: the case's, if it has been made already (at whatever rms: its spectrum is scaled to
+/// the scene's). Throws io::SceneError, also where no theory applies.
+TheoryCase theory_case(const Case& c, const Surface* surface = nullptr);
 
 /// What the theory says of it. Energies in meV/Å^2.
 struct TheoryNumbers {
@@ -69,6 +66,6 @@ TheoryNumbers solve_theory(const TheoryCase& what);
 void record_theory(const TheoryCase& what, const TheoryNumbers& numbers, io::Result& result);
 
 /// The same for a run, which the theory must never make fail: what went wrong becomes theory.note.
-void add_theory(const Scene& scene, const Surface& surface, double flat, io::Result& result);
+void add_theory(const Case& c, const Surface& surface, io::Result& result);
 
 } // namespace asperity

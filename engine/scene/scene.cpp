@@ -5,7 +5,7 @@
 #include "io/json.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ io::Schema bind(Scene& scene) {
     schema
         .number("rms", surface.rms, "Å", at_least(0.0),
                 "rms height; a map from a file is scaled to it only if the scene gives it")
-        .omitted = [&surface] { return surface.reads_file() && !surface.rms_given; };
+        .omitted = [&scene] { return scene.surface.reads_file() && !scene.gives_rms(); };
     schema.number("hurst", surface.hurst, "", between(0.0, 1.0), "Hurst exponent H");
     schema.number("rolloff", surface.rolloff, "", at_least(1.0),
                   "q0 / q_L: C(q) is constant below");
@@ -206,8 +206,6 @@ io::Schema bind(Scene& scene) {
         "precision", numerics.precision,
         {{"double", Precision::double_precision}, {"mixed", Precision::mixed}},
         "of the pairs across the interface: \"mixed\" works them out in single precision");
-    schema.number_or("accuracy", numerics.accuracy, "none", "", io::Range{0.0, 1.0, true, true},
-                     "\"1%\": choose the cheapest settings that reach it");
     std::vector<std::pair<std::string, int>> devices = {
         {"none", no_device}, {"emulated", emulated_device_asked}, {"auto", any_device}};
     for (int n = 0; n < 8; ++n)
@@ -246,29 +244,31 @@ bool Scene::has(PathPart part) const {
     return std::find(drive.path.begin(), drive.path.end(), part) != drive.path.end();
 }
 
-bool Scene::writes_field(const std::string& which) const {
-    return std::find(output.fields.begin(), output.fields.end(), which) != output.fields.end();
+Scene read_scene_text(const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides, io::Problems& problems) {
+    Scene scene;
+    scene.file = file;
+    scene.name = std::filesystem::path(file).stem().string();
+    if (scene.name.empty()) scene.name = "scene";
+    bind(scene).read(text, file, overrides, scene.positions, problems);
+    if (!scene.positions.is_set("block.thickness")) scene.block.thickness = scene.surface.sites;
+    if (scene.interface.kind == InterfaceKind::wall &&
+        !scene.positions.is_set("interface.frictionless"))
+        scene.interface.frictionless = true;
+    return scene;
 }
 
-std::vector<std::pair<double, std::string>> Scene::delayed_fields() const {
-    std::vector<std::pair<double, std::string>> list;
-    for (const std::string& field : output.fields)
-        if (field.starts_with(after_zero_load))
-            list.emplace_back(std::stod(field.substr(after_zero_load.size())), field);
-    std::sort(list.begin(), list.end());
-    return list;
+Scene read_scene_text(const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides) {
+    io::Problems problems;
+    Scene scene = read_scene_text(text, file, overrides, problems);
+    problems.throw_if_any();
+    return scene;
 }
 
-std::optional<long long> Scene::field_stride() const {
-    constexpr std::string_view every = "every:";
-    for (const std::string& field : output.fields) {
-        if (!field.starts_with(every)) continue;
-        long long n = 0;
-        const char* end = field.data() + field.size();
-        const auto [stop, error] = std::from_chars(field.data() + every.size(), end, n);
-        return error == std::errc() && stop == end && n > 0 ? n : 0;
-    }
-    return std::nullopt;
+Scene read_scene(const std::string& file, const std::vector<std::string>& overrides) {
+    return read_scene_text(io::read_scene_file(file), file == io::standard_input ? "stdin" : file,
+                           overrides);
 }
 
 std::string scene_toml(const Scene& scene, bool with_docs) {

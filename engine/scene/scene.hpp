@@ -6,12 +6,12 @@
 // Scene{} is the paper's flat case. bind() ties every field to its key, unit, range and line of
 // documentation; that list is the only place where keys are named, and the reader, `asperity
 // defaults`, result.json and docs/scene.md all follow from it. Names and defaults do not change
-// from release to release: tests/engine/scene_test.cpp has them all.
+// from release to release: tests/engine/scene_test.cpp has them all. What a scene means, and what
+// is wrong with it, is found by resolve() (engine/setup/case.hpp).
 #pragma once
 
 #include "engine/scene/surface.hpp"
 #include "io/scene_reader.hpp"
-#include "kernels/lennard_jones.hpp"
 #include "theory/area_factor.hpp"
 
 #include <optional>
@@ -44,23 +44,13 @@ inline constexpr int no_device = -3, emulated_device_asked = -2, any_device = -1
 /// Of output.fields: "after-zero-load:140", 140 ps after the approach has ended.
 inline constexpr std::string_view after_zero_load = "after-zero-load:";
 
-/// What numerics.accuracy made of the keys that the scene leaves open (accuracy.hpp).
-struct AccuracyChoice {
-    double target = 0.0;
-    std::vector<std::pair<std::string, std::string>> settings; ///< key and value
-    std::vector<std::string> kept;                             ///< keys that the scene sets itself
-    double expected_error = 0.0;                               ///< of what was chosen, relative
-    std::string calibration;                                   ///< where that is known from
-};
-
 struct Scene {
     struct Surface {
         SurfaceKind kind = SurfaceKind::self_affine;
         int sites = 512;            ///< N
         double spacing = 2.6;       ///< a, Å
         double lattice_ratio = 1.0; ///< block spacing over substrate spacing
-        double rms = 3.0;           ///< Å
-        bool rms_given = false; ///< the scene itself says so: only then is a measured map scaled
+        double rms = 3.0;           ///< Å; a map from a file is scaled to it only if it is given
         double hurst = 0.8;
         double rolloff = 3.0;  ///< q0 / q_L
         double cutoff = 512.0; ///< q1 / q_L
@@ -68,7 +58,6 @@ struct Scene {
         long long seed = 1;
         std::optional<double> radius;    ///< Å; empty: not curved
         std::string file = "heights.h5"; ///< as the scene gives it
-        std::string map;                 ///< after reading: where that was found; empty: nowhere
         std::optional<double>
             file_size; ///< edge of the map, Å; empty: what the file says, else the box
         std::string file_unit = "auto"; ///< of the heights; "auto": what the file says, else Å
@@ -95,7 +84,7 @@ struct Scene {
         double epsilon = 0.100;         ///< eV
         double r0 = 3.28;               ///< Å
         double cutoff = 13.12;          ///< Å
-        std::vector<std::string> pairs; ///< of atoms from a file, by type; typed_pairs() reads them
+        std::vector<std::string> pairs; ///< of atoms from a file, by type
         bool tail = false;
         bool frictionless = false;                  ///< normal displacements only; after reading:
                                                     ///< true over a wall
@@ -134,8 +123,7 @@ struct Scene {
 
     struct Numerics {
         Precision precision = Precision::double_precision;
-        std::optional<double> accuracy; ///< fraction; empty: none
-        int device = no_device;         ///< or one of those below, or the number of a CUDA device
+        int device = no_device; ///< or one of those below, or the number of a CUDA device
     } numerics;
 
     struct Output {
@@ -148,8 +136,6 @@ struct Scene {
 
     std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only
 
-    std::optional<AccuracyChoice> choice;
-
     // Where it came from.
     std::string file;           ///< as given on the command line
     std::string name = "scene"; ///< the file's name without folder and ending
@@ -159,44 +145,22 @@ struct Scene {
     /// An empty list of problems that knows this scene's positions.
     io::Problems problems() const { return io::Problems(positions); }
     bool has(PathPart part) const;
-    /// Equilibria only: nothing moves in time.
-    bool without_time() const {
-        return drive.mode == DriveMode::quasistatic || has(PathPart::zero_load);
-    }
-    bool writes_field(const std::string& which) const; ///< "zero-load", "pull-off"
-    /// N of "every:N" among the fields: steps, or points of a quasi-static path, between maps.
-    /// Empty: there is none; 0: what stands there is no N.
-    std::optional<long long> field_stride() const;
-    /// Those after zero load: delay in ps and name, in their order.
-    std::vector<std::pair<double, std::string>> delayed_fields() const;
+    /// The scene itself says so: only then is a map scaled.
+    bool gives_rms() const { return positions.is_set("surface.rms"); }
 };
 
 /// Every key, bound to the fields of this scene (which must outlive the schema).
 io::Schema bind(Scene& scene);
 
-/// Reads and checks everything that can be checked without running; throws io::SceneError with all
-/// that is wrong. Overrides are "section.key=value".
+/// Reads the keys; throws io::SceneError with all that is wrong with single ones. What they mean
+/// together is for resolve() (engine/setup/case.hpp). Overrides are "section.key=value".
 Scene read_scene(const std::string& file, const std::vector<std::string>& overrides = {});
 /// The same from a text in memory; file is the name shown in messages.
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides = {});
-
-/// A type of the substrate's atoms, as interface.pairs names it, and its potential (eV, Å).
-struct TypedPair {
-    std::string type;
-    LennardJones potential;
-};
-/// Those of the scene; what is wrong with them is added to the list.
-std::vector<TypedPair> typed_pairs(const Scene& scene, io::Problems& problems);
-
-/// Contradictions between keys, added to the list.
-void check_scene(const Scene& scene, io::Problems& problems);
-/// What keeps the scene from a device.
-std::vector<io::Problem> device_problems(const Scene& scene);
-/// What this release reads but cannot act upon yet, added to the list.
-void not_yet(const Scene& scene, io::Problems& problems);
-/// Worth knowing, not wrong (a spectrum clipped at Nyquist, ...): one sentence each.
-std::vector<std::string> notes(const Scene& scene);
+/// The same; what is wrong is added to the list, and those keys have their defaults.
+Scene read_scene_text(const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides, io::Problems& problems);
 
 std::string scene_toml(const Scene& scene, bool with_docs = true);
 nlohmann::ordered_json scene_json(const Scene& scene);

@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The effects that a scene switches on or off, decided once, from the scene alone (and, for
-// numerics.device = "auto", from what devices there are).
+// The effects that a scene switches on or off, decided once, by resolve(), from the scene alone
+// (and, for numerics.device = "auto", from what devices there are).
 //
-// make_setup() and the runs build from these switches, `asperity plan` prints them with their
-// costs, and result.json lists them (run.effects). An effect that is off allocates no memory and
-// none of its code is called (tests/engine/effects_test.cpp, perf/minimal_loop.cpp).
+// The options of a case and the runs are built from these switches, `asperity plan` prints them
+// with their costs, and result.json lists them (run.effects). An effect that is off allocates no
+// memory and none of its code is called (tests/engine/effects_test.cpp, perf/minimal_loop.cpp).
 //
 // A new effect is an entry here and a row of `rules` in effects.cpp.
 #pragma once
-
-#include "engine/scene/scene.hpp"
 
 #include <array>
 #include <cstddef>
@@ -42,26 +40,23 @@ enum class Effect {
 };
 inline constexpr std::size_t effect_count = static_cast<std::size_t>(Effect::count);
 
+struct Case;
+
 /// As `asperity plan` and result.json call it.
 std::string_view name(Effect effect);
 
-class Effects {
-public:
+struct Effects {
     struct Switch {
         bool on = false;
         std::string why; ///< the key that decides, with its value
     };
+    std::array<Switch, effect_count> switches;
 
-    Effects() = default; ///< all off
-    explicit Effects(const Scene& scene);
-
-    bool on(Effect effect) const { return at(effect).on; }
-    const std::string& why(Effect effect) const { return at(effect).why; }
-
-private:
-    const Switch& at(Effect effect) const { return switches_[static_cast<std::size_t>(effect)]; }
-
-    std::array<Switch, effect_count> switches_;
+    bool on(Effect effect) const { return of(effect).on; }
+    const std::string& why(Effect effect) const { return of(effect).why; }
+    const Switch& of(Effect effect) const { return switches[static_cast<std::size_t>(effect)]; }
 };
+/// Of a case whose scene, path and maps are known.
+Effects effects_of(const Case& c);
 
 } // namespace asperity

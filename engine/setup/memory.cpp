@@ -19,28 +19,28 @@ namespace asperity {
 namespace {
 
 /// Heights of the substrate.
-double heights_of(const Scene& scene) {
-    const double n = substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
+double heights_of(const Case& c) {
+    const double n = c.substrate();
     return n * n;
 }
 
 /// Of a substrate of atoms anywhere: how many the head of its file announces.
-std::size_t atoms_of(const Scene& scene) {
-    return scene.surface.kind == SurfaceKind::atoms ? io::atoms_announced(scene.surface.map) : 0;
+std::size_t atoms_of(const Case& c) {
+    return c.scene.surface.kind == SurfaceKind::atoms ? io::atoms_announced(c.file) : 0;
 }
 
-double surface_bytes(const Scene& scene) {
-    const double atom = scene.interface.pairs.empty() ? 24.0 : 28.0;
-    return 8.0 * heights_of(scene) + atom * static_cast<double>(atoms_of(scene));
+double surface_bytes(const Case& c) {
+    const double atom = c.types.empty() ? 24.0 : 28.0;
+    return 8.0 * heights_of(c) + atom * static_cast<double>(atoms_of(c));
 }
 
 /// The surface, the waves that heights are made from and measured by (make_surface, measure), and
 /// the places that atoms are compared at (surface_from_atoms).
-double making_bytes(const Scene& scene) {
+double making_bytes(const Case& c) {
     const double waves = 16.0, places = 45.0;
-    const double copies = scene.surface.kind == SurfaceKind::flat ? 1.0 : 2.0;
-    return surface_bytes(scene) + heights_of(scene) * copies * waves +
-           static_cast<double>(atoms_of(scene)) * places;
+    const double copies = c.scene.surface.kind == SurfaceKind::flat ? 1.0 : 2.0;
+    return surface_bytes(c) + heights_of(c) * copies * waves +
+           static_cast<double>(atoms_of(c)) * places;
 }
 
 /// Of a spectral block: S(q) of a quadrant in double and its inverse in single precision, on every
@@ -51,33 +51,30 @@ double spectral_bytes(const Tile& tile, int components) {
            2.0 * static_cast<double>(VectorField<double>::bytes_for(tile, 1, 0));
 }
 
-double interface_bytes(const Scene& scene, const InterfaceOptions& options, const Tile& tile) {
-    const double a = scene.surface.spacing;
-    return static_cast<double>(
-        scene.surface.kind == SurfaceKind::atoms
-            ? Interface::bytes_over_atoms(options, tile, a, atoms_of(scene))
-            : Interface::bytes_for(
-                  options, tile, a,
-                  substrate_sites(scene.surface.sites, scene.surface.lattice_ratio)));
+double interface_bytes(const Case& c, const InterfaceOptions& options, const Tile& tile) {
+    const double a = c.scene.surface.spacing;
+    return static_cast<double>(c.scene.surface.kind == SurfaceKind::atoms
+                                   ? Interface::bytes_over_atoms(options, tile, a, atoms_of(c))
+                                   : Interface::bytes_for(options, tile, a, c.substrate()));
 }
 
 /// On the root, which brings the lowest layer of a block in motion to rest (bring_to_rest()).
-double bytes_of_bringing_to_rest(const Scene& scene, const Setup& setup) {
-    const Tile whole = ProcessGrid::slabs(1, 0, scene.surface.sites).tile(0);
-    InterfaceOptions interface = setup.simulation.interface;
+double bytes_of_bringing_to_rest(const Case& c) {
+    const Tile whole = ProcessGrid::slabs(1, 0, c.scene.surface.sites).tile(0);
+    InterfaceOptions interface = c.simulation.interface;
     interface.single_too = !interface.mixed;
     const double layer = 24.0 * whole.nx * whole.ny;
     return layer + spectral_bytes(whole, 3) +
            static_cast<double>(relaxation_bytes(whole, 3, false)) +
-           interface_bytes(scene, interface, whole);
+           interface_bytes(c, interface, whole);
 }
 
-void refuse(const Scene& scene, const char* what, double needed, const io::AvailableMemory& there,
+void refuse(const Case& c, const char* what, double needed, const io::AvailableMemory& there,
             const std::string& fix) {
-    io::Problems problems = scene.problems();
+    io::Problems problems = c.scene.problems();
     problems.add(
         "surface.sites",
-        fmt::format("= {}: {} does not fit into memory", scene.surface.sites, what),
+        fmt::format("= {}: {} does not fit into memory", c.scene.surface.sites, what),
         fmt::format("{:.3g} GB are needed on this machine, and {:.3g} GB are available ({})",
                     needed / 1e9, there.bytes / 1e9, there.because),
         fix);
@@ -118,21 +115,20 @@ std::size_t relaxation_bytes(const Tile& tile, int components, bool wall) {
                     sizeof(float) * (3 * c + 1 + 4 * c + map + 4 * c));
 }
 
-double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid) {
+double device_memory_of(const Case& c, const ProcessGrid& grid) {
     return static_cast<double>(
-        DeviceBlock::bytes_for(setup.simulation.block, grid, setup.simulation.interface,
-                               substrate_sites(scene.surface.sites, scene.surface.lattice_ratio)));
+        DeviceBlock::bytes_for(c.simulation.block, grid, c.simulation.interface, c.substrate()));
 }
 
-MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int rank,
-                          int threads) {
-    const auto on = [&](Effect effect) { return setup.effects.on(effect); };
-    const ProcessGrid grid = make_grid(scene, setup, ranks, rank);
+MemoryNeed memory_of_rank(const Case& c, int rank, int threads) {
+    const auto on = [&](Effect effect) { return c.on(effect); };
+    const Scene& scene = c.scene;
+    const ProcessGrid grid = c.grid(rank);
     const Tile tile = grid.tile(0);
     MemoryNeed need;
-    need.making = making_bytes(scene);
-    need.surface = surface_bytes(scene);
-    need.interface = interface_bytes(scene, setup.simulation.interface, tile);
+    need.making = making_bytes(c);
+    need.surface = surface_bytes(c);
+    need.interface = interface_bytes(c, c.simulation.interface, tile);
     // Maps of the rank's sites in double, and on the root the record of all and one more map.
     if (on(Effect::maps)) {
         const double here = static_cast<double>(tile.nx) * tile.ny;
@@ -151,46 +147,44 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
             relaxation_bytes(tile, parts, scene.interface.kind == InterfaceKind::wall));
         return need;
     }
-    const Block::Memory memory = Block::memory_for(setup.simulation.block, grid);
+    const Block::Memory memory = Block::memory_for(c.simulation.block, grid);
     need.motion = static_cast<double>(memory.motion);
     need.block = static_cast<double>(memory.bytes) - need.motion;
     // The energy guard's has velocities too.
     if (on(Effect::observation))
         need.snapshot = static_cast<double>(memory.displacements) + need.motion;
-    if (on(Effect::relaxation) && rank == 0)
-        need.relaxation = bytes_of_bringing_to_rest(scene, setup);
+    if (on(Effect::relaxation) && rank == 0) need.relaxation = bytes_of_bringing_to_rest(c);
     if (on(Effect::finite_strain))
         need.finite =
-            static_cast<double>(Block::finite_bytes_for(setup.simulation.block, grid, threads));
+            static_cast<double>(Block::finite_bytes_for(c.simulation.block, grid, threads));
     return need;
 }
 
-MemoryNeed memory_of(const Scene& scene, const Setup& setup, int ranks, int threads) {
+MemoryNeed memory_of(const Case& c, int threads) {
     MemoryNeed need;
-    for (int rank = 0; rank < ranks; ++rank)
-        need += memory_of_rank(scene, setup, ranks, rank, threads);
+    for (int rank = 0; rank < c.ranks; ++rank)
+        need += memory_of_rank(c, rank, threads);
     return need;
 }
 
-void require_memory(const Scene& scene, const Communicator& ranks, int threads) {
-    const Setup setup = make_setup(scene, ranks.size());
-    const double mine = memory_of_rank(scene, setup, ranks.size(), ranks.rank(), threads).most();
+void require_memory(const Case& c, const Communicator& ranks, int threads) {
+    const double mine = memory_of_rank(c, ranks.rank(), threads).most();
     const double needed = ranks.sum_on_machine(mine);
     const io::AvailableMemory there = io::available_memory();
     // All ranks refuse alike, with the numbers of the machine that is worst off.
     const double worst = ranks.max(needed / there.bytes);
     if (worst <= 1.0) return;
-    const bool coarser = !scene.without_time() && scene.block.model == BlockModel::lattice;
-    refuse(scene, "the run", worst * there.bytes, there,
+    const bool coarser = c.in_time && c.scene.block.model == BlockModel::lattice;
+    refuse(c, "the run", worst * there.bytes, there,
            fmt::format("take fewer sites{}, more machines (`asperity plan --ranks N` counts), or "
                        "close what else runs here",
                        coarser ? ", block.model = \"multiscale\"" : ""));
 }
 
-void require_memory_for_surface(const Scene& scene) {
+void require_memory_for_surface(const Case& c) {
     const io::AvailableMemory there = io::available_memory();
-    if (making_bytes(scene) > there.bytes)
-        refuse(scene, "its surface", making_bytes(scene), there,
+    if (making_bytes(c) > there.bytes)
+        refuse(c, "its surface", making_bytes(c), there,
                "take fewer sites; every rank makes the whole surface");
 }
 

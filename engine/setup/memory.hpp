@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The memory that a scene takes, counted from its sizes before anything is allocated, and compared
+// The memory that a case takes, counted from its sizes before anything is allocated, and compared
 // with what the machine has. tests/engine/memory_test.cpp holds the counts against the objects.
 #pragma once
 
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 
 namespace asperity {
 
@@ -27,20 +27,20 @@ struct MemoryNeed {
 };
 
 /// threads: of a rank.
-MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int rank, int threads);
+MemoryNeed memory_of_rank(const Case& c, int rank, int threads);
 /// Of all ranks together.
-MemoryNeed memory_of(const Scene& scene, const Setup& setup, int ranks, int threads);
+MemoryNeed memory_of(const Case& c, int threads);
 
 /// What relaxing a spectral block takes beside it, for a tile of its surface.
 std::size_t relaxation_bytes(const Tile& tile, int components, bool wall);
 
 /// Of the device of a rank, where the scene has devices take its steps.
-double device_memory_of(const Scene& scene, const Setup& setup, const ProcessGrid& grid);
+double device_memory_of(const Case& c, const ProcessGrid& grid);
 
-/// Throws io::SceneError if a run of this scene does not fit into the memory of its machines: the
+/// Throws io::SceneError if a run of this case does not fit into the memory of its machines: the
 /// ranks of each machine together are held against what is available there. Collective.
-void require_memory(const Scene& scene, const Communicator& ranks, int threads);
-/// Throws io::SceneError if making the scene's surface alone does not fit into this machine.
-void require_memory_for_surface(const Scene& scene);
+void require_memory(const Case& c, const Communicator& ranks, int threads);
+/// Throws io::SceneError if making the surface alone does not fit into this machine.
+void require_memory_for_surface(const Case& c);
 
 } // namespace asperity

@@ -5,7 +5,7 @@
 #include "engine/run/curve.hpp"
 
 #include "engine/run/smooth_sphere.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"
@@ -84,11 +84,11 @@ TEST(Curve, TheRunningMeanIsOverTwoPicoseconds) {
 }
 
 /// A run.h5 with the forces of a path and the curves that a scene adds to it.
-io::Hdf5File with_curves(const io::Scratch& scratch, const Scene& scene) {
+io::Hdf5File with_curves(const io::Scratch& scratch, const Case& c) {
     io::Hdf5File file(scratch / "run.h5", io::Hdf5File::Mode::create);
     file.make_group("/series");
     file.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
-    write_sphere_curves(file, scene, make_setup(scene, 1).flat, std::nullopt);
+    write_sphere_curves(file, c, std::nullopt);
     return file;
 }
 
@@ -96,9 +96,9 @@ TEST(SphereCurves, AreThoseOfJkr) {
     const Scene scene = read_scene_text(
         "[surface]\nsites = 64\nrms = 0\nradius = 300\n[block]\nthickness = 16\n", "s.toml");
     const io::Scratch scratch;
-    const io::Hdf5File run = with_curves(scratch, scene);
+    const io::Hdf5File run = with_curves(scratch, resolve(scene));
     // The deepest attraction of JKR: 3/2 pi gamma R.
-    const double gamma = make_setup(scene, 1).flat.work_of_adhesion / units::milli_per_unit;
+    const double gamma = resolve(scene).flat.work_of_adhesion / units::milli_per_unit;
     const auto force = run.read<double>("/curves/jkr/force");
     EXPECT_NEAR(*std::min_element(force.begin(), force.end()) / (-1.5 * M_PI * gamma * 300.0), 1.0,
                 1e-4);
@@ -118,7 +118,7 @@ TEST(SphereCurves, AreNoneWithoutAdhesion) {
                                         "[drive]\nmode = \"quasistatic\"\n",
                                         "s.toml");
     const io::Scratch scratch;
-    EXPECT_FALSE(with_curves(scratch, scene).exists("/curves"));
+    EXPECT_FALSE(with_curves(scratch, resolve(scene)).exists("/curves"));
 }
 
 } // namespace

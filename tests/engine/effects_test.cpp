@@ -4,8 +4,8 @@
 // Effects are switched by the scene; one that is off holds no memory, is not called and leaves
 // nothing in the files of a run.
 #include "engine/equilibrium/zero_load.hpp"
+#include "engine/setup/case.hpp"
 #include "engine/setup/memory.hpp"
-#include "engine/setup/setup.hpp"
 #include "io/hdf5_file.hpp"
 #include "kernels/variant.hpp"
 #include "support/cases.hpp"
@@ -39,20 +39,23 @@ using namespace asperity;
 
 namespace {
 
-Scene scene_with(const std::vector<std::string>& overrides) {
-    return read_scene_text("[surface]\nsites = 32\nrms = 1.0\n", "test.toml", overrides);
+Case case_with(const std::vector<std::string>& overrides) {
+    return read_case_text("[surface]\nsites = 32\nrms = 1.0\n", "test.toml", overrides);
+}
+
+Effects effects_with(const std::vector<std::string>& overrides) {
+    return case_with(overrides).effects;
 }
 
 /// In contact from the first step on.
-Simulation started(const Scene& scene) {
-    const auto setup = make_setup(scene, 1);
-    Simulation s(setup.simulation, scene_surface(scene), Communicator(),
-                 test::serial_grid(setup.simulation.block));
+Simulation started(const Case& c) {
+    Simulation s(c.simulation, surface_of(c), Communicator(),
+                 test::serial_grid(c.simulation.block));
     s.start(s.interface().start_height() - 10.0);
     return s;
 }
-Simulation follow(const Scene& scene, int steps) {
-    Simulation s = started(scene);
+Simulation follow(const Case& c, int steps) {
+    Simulation s = started(c);
     for (int n = 0; n < steps; ++n)
         s.step(n % 10 == 0);
     return s;
@@ -65,7 +68,7 @@ struct Left {
 
     Left(std::string where, const std::vector<std::string>& overrides)
         : directory(std::move(where)) {
-        json = io::json_text(test::run_scene(scene_with(overrides), directory), 2);
+        json = io::json_text(test::run_scene(case_with(overrides), directory), 2);
         groups = io::Hdf5File(directory + "/run.h5", io::Hdf5File::Mode::read).members("/");
     }
     bool has_group(const char* name) const {
@@ -78,17 +81,17 @@ struct Left {
 
 /// Memory that a block needs to relax.
 std::size_t relaxing_bytes(const std::vector<std::string>& overrides) {
-    const Scene scene = scene_with(overrides);
-    const Setup setup = make_setup(scene, 1);
-    const SpectralBlock block(setup.simulation.block, Communicator(), scene.interface.frictionless);
+    const Case c = case_with(overrides);
+    const SpectralBlock block(c.simulation.block, Communicator(), c.scene.interface.frictionless);
     return block.bytes() + relaxation_bytes(block.tile(), block.components(), false);
 }
 
 } // namespace
 
 TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
-    const Effects effects(scene_with({"drive.damping=0", "block.model=lattice", "block.thickness=4",
-                                      "output.fields=[]", "output.checkpoint=0"}));
+    const Effects effects =
+        effects_with({"drive.damping=0", "block.model=lattice", "block.thickness=4",
+                      "output.fields=[]", "output.checkpoint=0"});
     for (Effect off : {Effect::damping, Effect::temperature, Effect::finite_strain,
                        Effect::coarse_levels, Effect::tail, Effect::curvature, Effect::maps,
                        Effect::trajectory, Effect::checkpoints, Effect::states, Effect::device})
@@ -103,7 +106,7 @@ TEST(Effects, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
     if (cuda_device_count() >= 8) return;               // more have no number
     const std::string beyond = "numerics.device=" + std::to_string(cuda_device_count());
     try {
-        make_setup(scene_with({beyond}), 1);
+        case_with({beyond}).require_runnable();
         ADD_FAILURE() << beyond << " was taken";
     } catch (const io::SceneError& error) {
         const io::Problem& p = error.problems().front();
@@ -112,12 +115,11 @@ TEST(Effects, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
         EXPECT_NE(p.fix.find("auto"), std::string::npos) << p.fix;
     }
     for (const char* path : {"drive.path=zero-load", "drive.path=[\"approach\"]"}) {
-        const auto setup = make_setup(scene_with({"numerics.device=auto", path}), 1);
-        EXPECT_EQ(setup.effects.on(Effect::device),
-                  setup.simulation.device.kind != DeviceChoice::Kind::none)
-            << path << ": " << setup.effects.why(Effect::device);
+        const Case c = case_with({"numerics.device=auto", path});
+        EXPECT_EQ(c.on(Effect::device), c.simulation.device.kind != DeviceChoice::Kind::none)
+            << path << ": " << c.effects.why(Effect::device);
         if (cuda_device_count() == 0) {
-            EXPECT_FALSE(setup.effects.on(Effect::device)) << path;
+            EXPECT_FALSE(c.on(Effect::device)) << path;
         }
     }
 }
@@ -142,33 +144,32 @@ TEST(Effects, EachHasAKeyThatSwitchesIt) {
         with.push_back(key);
         if (effect == Effect::device && processor_level() < ProcessorLevel::v3) {
             // Refused, for these kernels do not fuse multiplications with additions.
-            EXPECT_THROW(scene_with(with), io::SceneError);
+            EXPECT_THROW(case_with(with), io::SceneError);
             continue;
         }
-        const Effects off(scene_with(
-            effect == Effect::damping ? std::vector<std::string>{"drive.damping=0"} : plain)),
-            on(scene_with(with));
+        const Effects off = effects_with(
+            effect == Effect::damping ? std::vector<std::string>{"drive.damping=0"} : plain);
+        const Effects on = effects_with(with);
         EXPECT_FALSE(off.on(effect)) << key;
         EXPECT_TRUE(on.on(effect)) << key;
         EXPECT_FALSE(on.why(effect).empty()) << key;
     }
-    const Effects late(scene_with({"output.fields=[\"after-zero-load:3\"]"}));
+    const Effects late = effects_with({"output.fields=[\"after-zero-load:3\"]"});
     EXPECT_TRUE(late.on(Effect::maps));
-    const Effects timeless(scene_with({"drive.path=zero-load", "drive.temperature=100"}));
+    const Effects timeless = effects_with({"drive.path=zero-load", "drive.temperature=100"});
     for (Effect off : {Effect::inertia, Effect::damping, Effect::temperature, Effect::observation})
         EXPECT_FALSE(timeless.on(off)) << name(off);
-    EXPECT_FALSE(Effects(scene_with({"drive.path=zero-load", "interface.frictionless=true"}))
-                     .on(Effect::lateral));
-    EXPECT_TRUE(
-        Effects(scene_with({"drive.path=zero-load", "drive.states=all"})).on(Effect::states));
+    EXPECT_FALSE(
+        effects_with({"drive.path=zero-load", "interface.frictionless=true"}).on(Effect::lateral));
+    EXPECT_TRUE(effects_with({"drive.path=zero-load", "drive.states=all"}).on(Effect::states));
     // Waves of finite strain do not add up: no state is relaxed.
-    EXPECT_FALSE(Effects(scene_with({"block.strain=finite"})).on(Effect::relaxation));
-    EXPECT_TRUE(Effects(scene_with({})).on(Effect::relaxation));
+    EXPECT_FALSE(effects_with({"block.strain=finite"}).on(Effect::relaxation));
+    EXPECT_TRUE(effects_with({}).on(Effect::relaxation));
 }
 
 TEST(Effects, OffInAStepIsNoCallAndNoByte) {
     const Simulation s =
-        follow(scene_with({"drive.damping=0", "block.model=lattice", "block.thickness=4"}), 20);
+        follow(case_with({"drive.damping=0", "block.model=lattice", "block.thickness=4"}), 20);
     EXPECT_EQ(s.phases()[Phase::thermostat].calls, 0);
     EXPECT_EQ(s.phases()[Phase::interpolate].calls, 0);
     EXPECT_EQ(s.block().coarse_bytes(), 0u);
@@ -182,8 +183,8 @@ TEST(Effects, OffInAStepIsNoCallAndNoByte) {
 
 TEST(Effects, OnInAStepTakesPlace) {
     const Simulation s =
-        follow(scene_with({"drive.damping=0.2", "drive.temperature=100", "interface.tail=true",
-                           "block.thickness=32", "block.strain=finite"}),
+        follow(case_with({"drive.damping=0.2", "drive.temperature=100", "interface.tail=true",
+                          "block.thickness=32", "block.strain=finite"}),
                20);
     EXPECT_EQ(s.phases()[Phase::thermostat].calls, 20);
     EXPECT_EQ(s.phases()[Phase::interpolate].calls, 20);
@@ -202,7 +203,7 @@ TEST(Effects, DampingActsOnTheLayersItIsGivenAlone) {
     std::vector<std::string> damped = lattice;
     damped.back() = "drive.damping=5";
     damped.emplace_back("drive.damping_from=0.5");
-    Simulation plain = started(scene_with(lattice)), other = started(scene_with(damped));
+    Simulation plain = started(case_with(lattice)), other = started(case_with(damped));
     for (Simulation* s : {&plain, &other}) {
         Block& block = s->block_to_write();
         auto& v = block.fields(block.levels().front()).v; // faster than the medium
@@ -222,8 +223,8 @@ TEST(Effects, DampingActsOnTheLayersItIsGivenAlone) {
 
 TEST(Effects, AnotherSeedIsAnotherNoise) {
     const auto kinetic = [](const char* seed) {
-        return follow(scene_with({"drive.damping=0.2", "drive.temperature=100", "block.thickness=8",
-                                  seed}),
+        return follow(case_with({"drive.damping=0.2", "drive.temperature=100", "block.thickness=8",
+                                 seed}),
                       3)
             .ledger()
             .heat;
@@ -239,7 +240,7 @@ TEST(Effects, AStepAllocatesNoField) {
           std::vector<std::string>{"drive.damping=0.2", "drive.temperature=100",
                                    "interface.tail=true", "block.thickness=32",
                                    "block.strain=finite"}}) {
-        Simulation s = started(scene_with(overrides));
+        Simulation s = started(case_with(overrides));
         s.step(true); // room for the threads of finite strain
         const std::size_t bytes = s.block().bytes() + s.interface().bytes();
         const long long before = allocations;
@@ -258,11 +259,9 @@ TEST(Effects, WithoutFrictionThereAreNoLateralDisplacements) {
 }
 
 TEST(Effects, FarSitesAreLeftOutOfTheSweep) {
-    const Scene scene = scene_with({});
-    const auto setup = make_setup(scene, 1);
-    const Tile tile = test::serial_grid(setup.simulation.block).tile(0);
-    const Interface interface(scene_surface(scene), tile, scene.surface.spacing,
-                              setup.simulation.interface);
+    const Case c = case_with({});
+    const Tile tile = test::serial_grid(c.simulation.block).tile(0);
+    const Interface interface(surface_of(c), tile, c.scene.surface.spacing, c.simulation.interface);
     VectorField<double> layer(tile, 1), force(tile, 1);
     const auto in_reach = [&](double height) {
         return interface.sweep(layer.plane(0), force.plane(0), height, false).in_reach;
@@ -272,8 +271,8 @@ TEST(Effects, FarSitesAreLeftOutOfTheSweep) {
 }
 
 TEST(Effects, NoCurvatureIsNoCap) {
-    const Surface plain = scene_surface(scene_with({})),
-                  curved = scene_surface(scene_with({"surface.radius=200"}));
+    const Surface plain = surface_of(case_with({})),
+                  curved = surface_of(case_with({"surface.radius=200"}));
     EXPECT_EQ(plain.radius, 0.0);
     EXPECT_EQ(curved.radius, 200.0);
     EXPECT_NE(plain.height, curved.height);

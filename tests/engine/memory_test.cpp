@@ -25,9 +25,9 @@
 namespace asperity {
 namespace {
 
-Scene scene_with(const std::vector<std::string>& overrides) {
-    return read_scene_text("[surface]\nsites = 96\nrms = 1.0\n[block]\nthickness = 24\n",
-                           "test.toml", overrides);
+Case case_with(const std::vector<std::string>& overrides, int ranks = 1) {
+    return read_case_text("[surface]\nsites = 96\nrms = 1.0\n[block]\nthickness = 24\n",
+                          "test.toml", overrides, ranks);
 }
 
 TEST(Memory, IsThatOfTheObjects) {
@@ -38,24 +38,21 @@ TEST(Memory, IsThatOfTheObjects) {
              {"numerics.precision=mixed"},
              {"surface.lattice_ratio=1.618"},
              {"surface.lattice_ratio=2.3", "numerics.precision=mixed"}}) {
-        const Scene scene = scene_with(what);
+        const Case c = case_with(what);
         const std::string name = what.empty() ? "plain" : what.front();
-        const auto setup = make_setup(scene, 1);
-        const ProcessGrid grid = make_grid(scene, setup, 1, 0);
-        const MemoryNeed need = memory_of_rank(scene, setup, 1, 0, 1);
-        const Surface surface = scene_surface(scene);
+        const MemoryNeed need = memory_of_rank(c, 0, 1);
+        const Surface surface = surface_of(c);
         EXPECT_EQ(need.surface, static_cast<double>(surface.height.size() * sizeof(double)));
-        const Simulation s(setup.simulation, surface, Communicator(), grid);
+        const Simulation s(c.simulation, surface, Communicator(), c.grid(0));
         EXPECT_EQ(need.interface, static_cast<double>(s.interface().bytes())) << name;
         EXPECT_EQ(need.block + need.motion, static_cast<double>(s.block().bytes())) << name;
     }
     for (const std::vector<std::string>& what : std::vector<std::vector<std::string>>{
              {"drive.path=zero-load"}, {"drive.path=zero-load", "interface.frictionless=true"}}) {
-        const Scene scene = scene_with(what);
-        const auto setup = make_setup(scene, 1);
-        const MemoryNeed need = memory_of_rank(scene, setup, 1, 0, 1);
-        const SpectralBlock block(setup.simulation.block, Communicator(),
-                                  scene.interface.frictionless);
+        const Case c = case_with(what);
+        const MemoryNeed need = memory_of_rank(c, 0, 1);
+        const SpectralBlock block(c.simulation.block, Communicator(),
+                                  c.scene.interface.frictionless);
         // The inverse of S(q) is made with the first relaxation.
         const auto made = static_cast<double>(block.bytes());
         EXPECT_GE(need.block, made) << what.back();
@@ -107,10 +104,10 @@ TEST(Memory, IsWhatARunAllocates) {
          {"block.model=multiscale", "block.layers_per_level=16", "block.thickness=112"})
         coarser.emplace_back(key);
     for (const auto& keys : {in_time, at_rest, coarser}) {
-        const Scene scene = scene_with(keys);
-        const MemoryNeed need = memory_of_rank(scene, make_setup(scene, 1), 1, 0, 1);
+        const Case c = case_with(keys);
+        const MemoryNeed need = memory_of_rank(c, 0, 1);
         const io::Scratch scratch;
-        const double most = most_allocated([&] { test::run_scene(scene, scratch / "out"); });
+        const double most = most_allocated([&] { test::run_scene(c, scratch / "out"); });
         EXPECT_NEAR(most / need.most(), 1.0, 0.08) << keys.back();
     }
 }
@@ -118,21 +115,19 @@ TEST(Memory, IsWhatARunAllocates) {
 #endif
 
 TEST(Memory, RanksShareTheBlockAndHaveTheSurfaceEach) {
-    const Scene scene = scene_with({});
-    const auto setup = make_setup(scene, 4);
-    const MemoryNeed one = memory_of(scene, setup, 1, 1), four = memory_of(scene, setup, 4, 1);
+    const MemoryNeed one = memory_of(case_with({}), 1), four = memory_of(case_with({}, 4), 1);
     EXPECT_EQ(four.surface, 4.0 * one.surface);
     EXPECT_EQ(four.making, 4.0 * one.making);
     EXPECT_LT(four.block, 2.0 * one.block) << "halos";
 }
 
 TEST(Memory, WhatDoesNotFitIsRefusedBeforeItIsMade) {
-    const Scene scene = scene_with({"surface.sites=32768", "block.thickness=32768",
-                                    "block.model=lattice", "surface.cutoff=16384"});
+    const Case c = case_with({"surface.sites=32768", "block.thickness=32768", "block.model=lattice",
+                              "surface.cutoff=16384"});
     try {
         RunOptions options;
         options.out = "no-such-directory";
-        run(scene, options, Communicator());
+        run(c, options, Communicator());
         ADD_FAILURE() << "it ran";
     } catch (const io::SceneError& error) {
         const io::Problem& p = error.problems().front();
@@ -141,7 +136,7 @@ TEST(Memory, WhatDoesNotFitIsRefusedBeforeItIsMade) {
     }
     EXPECT_FALSE(std::filesystem::exists("no-such-directory"));
     // A plan makes neither the surface nor the block.
-    const Plan plan = make_plan(scene, 1, 1);
+    const Plan plan = make_plan(c, 1);
     EXPECT_GT(plan.bytes, 1e15);
     EXPECT_GT(plan.seconds, 0.0);
     EXPECT_GT(plan.steps, 0);
@@ -150,7 +145,7 @@ TEST(Memory, WhatDoesNotFitIsRefusedBeforeItIsMade) {
 TEST(Memory, PlansOfLargeScenesGoOnFromThoseOfSmallOnes) {
     // Below and above the size up to which the surface itself is made.
     const auto of = [](const char* sites, const char* rolloff, const char* cutoff) {
-        return make_plan(scene_with({sites, rolloff, cutoff, "drive.path=zero-load"}), 1, 1);
+        return make_plan(case_with({sites, rolloff, cutoff, "drive.path=zero-load"}), 1);
     };
     const Plan small = of("surface.sites=512", "surface.rolloff=3", "surface.cutoff=256");
     const Plan large = of("surface.sites=1024", "surface.rolloff=6", "surface.cutoff=512");

@@ -61,7 +61,7 @@ Json run_in_two_parts(const std::string& scene, long long stop, const std::strin
     options.out = directory;
     options.resume = "auto";
     options.progress = io::ProgressMode::off;
-    EXPECT_EQ(run(read_scene_text(scene, "s.toml"), options, Communicator()), io::exit_code::done);
+    EXPECT_EQ(run(read_case_text(scene, "s.toml"), options, Communicator()), io::exit_code::done);
     return io::parse_json(io::contents(directory + "/result.json"), "result.json");
 }
 

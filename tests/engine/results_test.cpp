@@ -5,7 +5,7 @@
 // maps of run.h5, each converted by the unit that the file states.
 #include "engine/run/run_record.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/quantities.hpp"
@@ -247,9 +247,9 @@ TEST(Results, OfACurvedSceneHoldTheTheoryOfTheSmoothSphere) {
 }
 
 TEST(Results, TheFirstOfSeveralStatesIsWhereTheSearchStarted) {
-    const Scene scene = read_scene_text("[surface]\nsites = 16\nrms = 0\n[block]\nthickness = 8\n"
-                                        "[drive]\npath = [\"zero-load\"]\nstates = \"all\"\n",
-                                        "s.toml");
+    const Case c = read_case_text("[surface]\nsites = 16\nrms = 0\n[block]\nthickness = 8\n"
+                                  "[drive]\npath = [\"zero-load\"]\nstates = \"all\"\n",
+                                  "s.toml");
     Findings findings;
     StateList& states = findings.states.emplace();
     for (const double energy : {1.0, 2.0, 3.0}) {
@@ -257,8 +257,7 @@ TEST(Results, TheFirstOfSeveralStatesIsWhereTheSearchStarted) {
         states.all.back().numbers.binding_energy = energy;
     }
     states.first = 1;
-    const Json json =
-        run_result(scene, scene_surface(scene), make_setup(scene, 1), findings, 1).json();
+    const Json json = run_result(c, surface_of(c), findings).json();
     EXPECT_EQ(json.at("states").at("first").at("binding_energy"), 2.0);
     EXPECT_EQ(json.at("states").at("deepest").at("binding_energy"), 3.0);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The scene against its contract: names, defaults, contradictions.
-#include "engine/scene/scene.hpp"
+#include "engine/setup/case.hpp"
 #include "io/json.hpp"
 #include "io/quantities.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 std::vector<io::Problem> wrong(const std::string& text,
                                const std::vector<std::string>& overrides = {}) {
     try {
-        read_scene_text(text, "s.toml", overrides);
+        read_case_text(text, "s.toml", overrides);
     } catch (const io::SceneError& error) {
         return error.problems();
     }
@@ -139,7 +139,7 @@ trajectory = 1000
 )",
                                     "dir/my.scene.toml");
     EXPECT_EQ(s.surface.rms, 3.0);
-    EXPECT_TRUE(s.surface.rms_given);
+    EXPECT_TRUE(s.gives_rms());
     EXPECT_EQ(s.surface.radius, 4410.0);
     EXPECT_EQ(s.block.thickness, 64); // follows N
     EXPECT_EQ(s.block.young, 77.2);
@@ -149,7 +149,6 @@ trajectory = 1000
     EXPECT_EQ(s.drive.load, 0.001);
     EXPECT_EQ(s.drive.ramp, 20.0);
     EXPECT_EQ(s.theory.delta_gamma, 100.0);
-    EXPECT_EQ(read_scene_text("numerics.accuracy = \"1%\"", "s.toml").numerics.accuracy, 0.01);
     EXPECT_EQ(s.output.checkpoint, 300.0);
     EXPECT_EQ(s.output.trajectory, 1000);
     EXPECT_EQ(s.name, "my.scene");
@@ -232,7 +231,6 @@ TEST(Scene, Ranges) {
                             "output.checkpoint = -1",
                             "output.trajectory = 0",
                             "theory.beta = 0",
-                            "numerics.accuracy = 0",
                             "theory.delta_gamma = 0"}) {
         const io::Problem p = only(bad);
         EXPECT_NE(p.what.find("is out of range"), std::string::npos) << bad;
@@ -250,14 +248,12 @@ TEST(Scene, OneComplaintAKey) { // out of range, and therefore not also a contra
 
 TEST(Scene, NotYet) {
     const auto refused = [](const std::string& text) {
-        const Scene scene = read_scene_text(text, "s.toml");
-        io::Problems problems = scene.problems();
-        not_yet(scene, problems);
-        for (const io::Problem& p : problems.list()) {
+        const Case c = read_case_text(text, "s.toml");
+        for (const io::Problem& p : c.refused) {
             EXPECT_NE(p.what.find("is not available yet"), std::string::npos) << p.what;
             EXPECT_FALSE(p.fix.empty()) << p.what;
         }
-        return problems.list().size();
+        return c.refused.size();
     };
     EXPECT_EQ(refused(""), 0u);
     EXPECT_EQ(refused("output.trajectory = 100"), 0u);
@@ -271,7 +267,7 @@ TEST(Scene, NotYet) {
 
 TEST(Scene, Notes) {
     const auto said = [](const std::string& text, const std::string& what) {
-        for (const std::string& note : notes(read_scene_text(text, "s.toml")))
+        for (const std::string& note : read_case_text(text, "s.toml").notes)
             if (note.find(what) != std::string::npos) return true;
         return false;
     };
@@ -294,14 +290,16 @@ TEST(Scene, MapsAreFoundBesideTheScene) {
     fs::create_directories(folder / "maps");
     std::ofstream(folder / "maps/m.txt") << "0\n";
     std::ofstream(folder / "s.toml") << "surface.kind = \"file\"\nsurface.file = \"maps/m.txt\"\n";
-    Scene s = read_scene((folder / "s.toml").string());
-    EXPECT_EQ(s.surface.map, (folder / "maps/m.txt").string());
+    Case c = read_case((folder / "s.toml").string());
+    Scene s = c.scene;
+    EXPECT_EQ(c.file, (folder / "maps/m.txt").string());
     EXPECT_EQ(scene_json(s)["surface"]["file"], "maps/m.txt"); // as it was given
-    EXPECT_FALSE(s.surface.rms_given);
+    EXPECT_FALSE(s.gives_rms());
     // Read back, the map stays as high as it is.
     EXPECT_FALSE(scene_json(s)["surface"].contains("rms"));
-    s = read_scene((folder / "s.toml").string(), {"surface.file=maps/m.txt:/x", "surface.rms=2"});
-    EXPECT_EQ(s.surface.map, (folder / "maps/m.txt:/x").string());
+    c = read_case((folder / "s.toml").string(), {"surface.file=maps/m.txt:/x", "surface.rms=2"});
+    s = c.scene;
+    EXPECT_EQ(c.file, (folder / "maps/m.txt:/x").string());
     EXPECT_TRUE(scene_json(s)["surface"].contains("rms"));
     fs::remove_all(folder);
 

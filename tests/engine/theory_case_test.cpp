@@ -5,7 +5,7 @@
 // expected numbers are those of theory.md (tests/theory judges the solver itself).
 #include "engine/run/theory_case.hpp"
 
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "io/error.hpp"
 #include "io/json.hpp"
 #include "theory/error.hpp"
@@ -43,7 +43,7 @@ TEST(TheoryOfAScene, GivesTheNumbersOfThePaper) {
     };
     for (const Row& row : {Row{3, 0.67469, 0.98985, 0.68120}, Row{5, 0.15159, 0.66628, 0.11353},
                            Row{6.5, 0.00604, 0.24305, -0.49960}}) {
-        const TheoryCase what = theory_case(paper(row.rms));
+        const TheoryCase what = theory_case(resolve(paper(row.rms)));
         const TheoryNumbers n = solve_theory(what);
         EXPECT_NEAR(n.gamma_eff, 100.0 * row.gamma, 2e-3) << row.rms;
         EXPECT_NEAR(n.state.area, row.area, 2e-5) << row.rms;
@@ -55,15 +55,15 @@ TEST(TheoryOfAScene, GivesTheNumbersOfThePaper) {
 TEST(TheoryOfAScene, TakesFactorAndBetaFromTheScene) {
     Scene s = paper(3);
     s.theory.area_factor = AreaFactor::none;
-    EXPECT_NEAR(solve_theory(theory_case(s)).gamma_eff, 65.999582, 2e-3);
+    EXPECT_NEAR(solve_theory(theory_case(resolve(s))).gamma_eff, 65.999582, 2e-3);
     s.theory.beta = 1.0; // more elastic energy at partial contact
-    EXPECT_LT(solve_theory(theory_case(s)).gamma_eff, 65.999);
+    EXPECT_LT(solve_theory(theory_case(resolve(s))).gamma_eff, 65.999);
 }
 
 TEST(TheoryOfAScene, ClipsAtNyquistAndSaysSo) {
     Scene s = paper(3);
     s.theory.clip = true;
-    const TheoryCase what = theory_case(s);
+    const TheoryCase what = theory_case(resolve(s));
     EXPECT_NEAR(what.contact.spectrum.q1(), std::numbers::pi / 2.6, 1e-12);
     EXPECT_NEAR(what.contact.spectrum.rms_height(), 3.0, 1e-12);
     ASSERT_EQ(what.notes.size(), 1u);
@@ -73,9 +73,9 @@ TEST(TheoryOfAScene, ClipsAtNyquistAndSaysSo) {
 TEST(TheoryOfAScene, ReadsTheLoadAsPressure) {
     Scene s = paper(3);
     s.drive.load = -1960.0; // theory.md: the branch ends at -1.974 GPa with A = 0.741
-    EXPECT_EQ(solve_theory(theory_case(s)).state.status, theory::Status::adhesive);
+    EXPECT_EQ(solve_theory(theory_case(resolve(s))).state.status, theory::Status::adhesive);
     s.drive.load = -1990.0;
-    const TheoryNumbers off = solve_theory(theory_case(s));
+    const TheoryNumbers off = solve_theory(theory_case(resolve(s)));
     EXPECT_EQ(off.state.status, theory::Status::no_contact);
     EXPECT_EQ(off.gamma_eff, 0.0);
     EXPECT_EQ(off.state.area, 0.0);
@@ -88,7 +88,7 @@ TEST(TheoryOfAScene, ReadsTheLoadAsPressure) {
 TEST(TheoryOfAScene, OfAFlatSurfaceIsTheFlatReference) {
     Scene s = small(3);
     s.surface.kind = SurfaceKind::flat;
-    const TheoryCase what = theory_case(s);
+    const TheoryCase what = theory_case(resolve(s));
     const TheoryNumbers n = solve_theory(what);
     EXPECT_NEAR(n.gamma_eff, what.flat, 1e-9);
     EXPECT_EQ(n.state.area, 1.0);
@@ -100,7 +100,7 @@ TEST(TheoryOfAScene, OfAFlatSurfaceIsTheFlatReference) {
 
 TEST(TheoryOfAScene, RenormalisedHasTheLatticesStiffness) {
     const Scene s = paper(3);
-    const theory::StiffnessTable table = lattice_stiffness(s);
+    const theory::StiffnessTable table = lattice_stiffness(resolve(s));
     const double modulus = 77.2 / 160.21766 / (1 - 0.42 * 0.42);
     // Long waves: the half-space, with its coupling (1-2ν)/(2(1-ν)); short ones: model.md.
     const theory::WaveStiffness isotropic = theory::StiffnessTable::half_space(modulus, 0.42)(0.02);
@@ -110,7 +110,7 @@ TEST(TheoryOfAScene, RenormalisedHasTheLatticesStiffness) {
     EXPECT_NEAR(table(0.02).xz, isotropic.xz, 1e-2 * isotropic.xz);
     const double q = 2.0 * std::numbers::pi / (8.0 * 2.6);
     EXPECT_NEAR(table(q).free_zz / (modulus * q / 2.0), 0.982, 3e-3);
-    const TheoryNumbers n = solve_theory(theory_case(s));
+    const TheoryNumbers n = solve_theory(theory_case(resolve(s)));
     ASSERT_TRUE(n.renormalised && n.renormalised->numbers);
     EXPECT_GT(n.renormalised->numbers->gamma_eff_ratio, 0.66);
     EXPECT_LT(n.renormalised->numbers->gamma_eff_ratio, 0.68);
@@ -122,15 +122,15 @@ TEST(TheoryOfAScene, RenormalisedIsLeftOutWhereTheSceneSaysSo) {
     Scene s = small(1);
     s.theory.renormalised = false;
     io::Result result;
-    add_theory(s, scene_surface(s), 98.0, result);
+    add_theory(resolve(s), surface_of(resolve(s)), result);
     EXPECT_EQ(io::find(result.json(), "theory.renormalised"), nullptr);
     s.theory.renormalised = true;
     s.interface.frictionless = true;
-    const TheoryCase without = theory_case(s);
+    const TheoryCase without = theory_case(resolve(s));
     s.interface.frictionless = false;
     EXPECT_LT(solve_theory(without).renormalised->numbers->gamma_eff,
-              solve_theory(theory_case(s)).renormalised->numbers->gamma_eff);
-    add_theory(s, scene_surface(s), 98.0, result);
+              solve_theory(theory_case(resolve(s))).renormalised->numbers->gamma_eff);
+    add_theory(resolve(s), surface_of(resolve(s)), result);
     const io::Json json = result.json();
     for (const char* key : {"gamma_eff", "gamma_eff_ratio", "contact_fraction", "separation",
                             "tension", "gamma_eff_error", "contact_fraction_error",
@@ -145,7 +145,7 @@ TEST(TheoryOfAScene, RenormalisedSaysHowWellItIsKnown) {
         Scene s = small(rms);
         s.interface.epsilon = epsilon;
         io::Result result;
-        record_theory(theory_case(s), solve_theory(theory_case(s)), result);
+        record_theory(theory_case(resolve(s)), solve_theory(theory_case(resolve(s))), result);
         const io::Json json = result.json();
         const io::Json* note = io::find(json, "theory.renormalised.note");
         EXPECT_EQ(io::find(json, "theory.renormalised.gamma_eff") != nullptr,
@@ -197,7 +197,7 @@ TEST(TheoryOfAScene, ExpectedErrorCoversSimulatedStates) {
             s.interface.law = WallLawKind::lennard_jones;
         }
         s.theory.spectrum = TheorySpectrum::realised;
-        const TheoryCase what = theory_case(s);
+        const TheoryCase what = theory_case(resolve(s));
         const RenormalisedResult result = solve_renormalised(*what.renormalised);
         ASSERT_TRUE(result.numbers && result.numbers->gamma_eff_expected_error) << result.note;
         const RenormalisedNumbers& n = *result.numbers;
@@ -211,7 +211,7 @@ TEST(TheoryOfAScene, ExpectedErrorCoversSimulatedStates) {
         // For the surfaces of the ensemble it is larger.
         s.theory.spectrum = TheorySpectrum::target;
         if (row.wall) {
-            const auto ensemble = solve_renormalised(*theory_case(s).renormalised);
+            const auto ensemble = solve_renormalised(*theory_case(resolve(s)).renormalised);
             EXPECT_GT(*ensemble.numbers->gamma_eff_expected_error, 2 * *n.gamma_eff_expected_error);
         }
     }
@@ -225,8 +225,8 @@ TEST(TheoryOfAScene, RealisedSpectrumHasTheRmsAndTheFullContactEnergyOfTheMap) {
         s.surface.amplitudes = amplitudes;
         s.theory.spectrum = TheorySpectrum::realised;
         s.theory.area_factor = AreaFactor::none;
-        const Surface surface = scene_surface(s);
-        const TheoryCase what = theory_case(s, &surface);
+        const Surface surface = surface_of(resolve(s));
+        const TheoryCase what = theory_case(resolve(s), &surface);
         EXPECT_NEAR(what.contact.spectrum.rms_height(), 0.8, 1e-9);
         EXPECT_NEAR(what.contact.spectrum.rms_slope(), surface.statistics.rms_slope,
                     0.02 * surface.statistics.rms_slope);
@@ -240,34 +240,35 @@ TEST(TheoryOfAScene, RealisedSpectrumHasTheRmsAndTheFullContactEnergyOfTheMap) {
         const TheoryNumbers n = solve_theory(what);
         EXPECT_NEAR(what.delta_gamma - n.gamma_full_contact, 1e3 * energy, 0.03 * 1e3 * energy);
         // Made anew it is the same surface, and of another roughness the same shape.
-        EXPECT_EQ(solve_theory(theory_case(s)).gamma_eff, n.gamma_eff);
+        EXPECT_EQ(solve_theory(theory_case(resolve(s))).gamma_eff, n.gamma_eff);
         s.surface.rms = 0.4;
-        EXPECT_NEAR(theory_case(s, &surface).contact.spectrum.rms_slope(),
-                    theory_case(s).contact.spectrum.rms_slope(), 1e-9);
+        EXPECT_NEAR(theory_case(resolve(s), &surface).contact.spectrum.rms_slope(),
+                    theory_case(resolve(s)).contact.spectrum.rms_slope(), 1e-9);
     }
 }
 
 TEST(TheoryOfAScene, OfASphereIsJkrWithTheEffectiveEnergy) {
     Scene s = paper(0);
     s.surface.radius = 4410.0;
-    const TheoryNumbers n = solve_theory(theory_case(s));
+    const TheoryNumbers n = solve_theory(theory_case(resolve(s)));
     EXPECT_NEAR(n.jkr_pull_off_force.value(), 2078.16, 0.01); // theory.md
     s.surface.rms = 3;
-    EXPECT_NEAR(solve_theory(theory_case(s)).jkr_pull_off_force.value(), 0.67469 * 2078.16, 0.1);
+    EXPECT_NEAR(solve_theory(theory_case(resolve(s))).jkr_pull_off_force.value(), 0.67469 * 2078.16,
+                0.1);
     s.surface.rms = 9;
-    EXPECT_EQ(solve_theory(theory_case(s)).jkr_pull_off_force.value(), 0.0);
+    EXPECT_EQ(solve_theory(theory_case(resolve(s))).jkr_pull_off_force.value(), 0.0);
 }
 
 TEST(TheoryOfAScene, NeverMakesARunFail) {
     Scene s = small(1);
-    const Surface surface = scene_surface(s);
+    const Surface surface = surface_of(resolve(s));
     io::Result good;
-    add_theory(s, surface, 98.0, good);
+    add_theory(resolve(s), surface, good);
     EXPECT_TRUE(good.number("theory.gamma_eff").has_value());
     s.surface.cutoff = 1.0; // a band of no width
     s.surface.rolloff = 1.0;
     io::Result bad;
-    add_theory(s, surface, 98.0, bad);
+    add_theory(resolve(s), surface, bad);
     EXPECT_FALSE(bad.number("theory.gamma_eff").has_value());
     const io::Json json = bad.json();
     ASSERT_NE(io::find(json, "theory.note"), nullptr);

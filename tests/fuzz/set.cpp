@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/scene/scene.hpp"
+#include "engine/setup/case.hpp"
 #include "target.hpp"
 
 #include <vector>
@@ -13,9 +13,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         overrides.emplace_back(rest.substr(0, end));
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
-    asperity::fuzz::try_out([&] {
-        const asperity::Scene scene = asperity::read_scene_text("", "fuzz.toml", overrides);
-        asperity::notes(scene);
-    });
+    asperity::fuzz::try_out([&] { asperity::read_case_text("", "fuzz.toml", overrides); });
     return 0;
 }

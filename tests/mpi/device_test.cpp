@@ -35,7 +35,7 @@ namespace {
 
 const Communicator& world() { return test::world(); }
 
-struct Case {
+struct Variant {
     const char* stack;
     int thickness, layers;
     bool mixed, damped, tail;
@@ -46,26 +46,26 @@ struct Case {
     double ratio = 1.0; ///< of the lattice constants
 };
 // Shallow and deep: as in same_bits_test, cut on one level and on all but the last.
-constexpr Case cases[] = {{"shallow", 32, 3, false, true, false, true},
-                          {"shallow", 32, 3, true, false, false, false},
-                          {"shallow", 32, 3, false, false, true, false},
-                          {"deep", 62, 2, false, true, false, true},
-                          {"deep", 62, 2, true, true, true, false},
-                          {"deep", 62, 2, false, false, false, false},
-                          {"lattice", 6, 0, false, true, false, false},
-                          {"lattice", 6, 0, true, false, false, true},
-                          {"deep", 62, 2, false, true, false, true, 300.0},
-                          {"shallow", 32, 3, false, true, false, true, 0.0, true},
-                          {"lattice", 6, 0, true, false, false, false, 0.0, true, 0.25},
-                          {"shallow", 32, 3, false, true, true, true, 0.0, false, 0.42, 1.6},
-                          {"deep", 62, 2, true, true, false, true, 0.0, false, 0.42, 0.7}};
-void PrintTo(const Case& c, std::ostream* out) {
+constexpr Variant cases[] = {{"shallow", 32, 3, false, true, false, true},
+                             {"shallow", 32, 3, true, false, false, false},
+                             {"shallow", 32, 3, false, false, true, false},
+                             {"deep", 62, 2, false, true, false, true},
+                             {"deep", 62, 2, true, true, true, false},
+                             {"deep", 62, 2, false, false, false, false},
+                             {"lattice", 6, 0, false, true, false, false},
+                             {"lattice", 6, 0, true, false, false, true},
+                             {"deep", 62, 2, false, true, false, true, 300.0},
+                             {"shallow", 32, 3, false, true, false, true, 0.0, true},
+                             {"lattice", 6, 0, true, false, false, false, 0.0, true, 0.25},
+                             {"shallow", 32, 3, false, true, true, true, 0.0, false, 0.42, 1.6},
+                             {"deep", 62, 2, true, true, false, true, 0.0, false, 0.42, 0.7}};
+void PrintTo(const Variant& c, std::ostream* out) {
     *out << c.stack << (c.mixed ? ", mixed" : ", double") << (c.damped ? ", damped" : "")
          << (c.tail ? ", tail" : "") << (c.temperature > 0.0 ? ", warm" : "")
          << (c.finite ? ", finite strain" : "") << (c.ratio != 1.0 ? ", rows" : "");
 }
 
-SimulationOptions options_of(const Case& c, bool on_device) {
+SimulationOptions options_of(const Variant& c, bool on_device) {
     SimulationOptions options;
     options.block = test::paper_block(32, c.thickness, c.layers);
     options.block.finite_strain = c.finite;
@@ -96,7 +96,7 @@ Surface at_ratio(const Surface& from, double ratio) {
     return to;
 }
 
-Simulation make(const Case& c, const Communicator& ranks, bool on_device) {
+Simulation make(const Variant& c, const Communicator& ranks, bool on_device) {
     const SimulationOptions options = options_of(c, on_device);
     Surface surface = test::reference_surface("c3_N32_T32_rms1.5");
     if (c.ratio != 1.0) surface = at_ratio(surface, c.ratio);
@@ -135,10 +135,10 @@ void conclude(Simulation& s, Trace& trace) {
 
 constexpr double height = 6.0;
 /// Atoms that do not stand below the hollows of the block's lattice are met earlier.
-double height_of(const Case& c) { return c.ratio == 1.0 ? height : height + 1.2; }
+double height_of(const Variant& c) { return c.ratio == 1.0 ? height : height + 1.2; }
 constexpr int steps = 200;
 
-Trace run(const Case& c, const Communicator& ranks, bool on_device, int count = steps) {
+Trace run(const Variant& c, const Communicator& ranks, bool on_device, int count = steps) {
     Simulation s = make(c, ranks, on_device);
     s.start(height_of(c));
     Trace trace;
@@ -148,7 +148,7 @@ Trace run(const Case& c, const Communicator& ranks, bool on_device, int count = 
 }
 
 /// The judge, on every rank.
-Trace on_processor(const Case& c) {
+Trace on_processor(const Variant& c) {
     Trace trace;
     if (world().root()) trace = run(c, Communicator(), false);
     std::array<std::uint64_t, 4> all = {trace.records, trace.state,
@@ -169,13 +169,13 @@ public:
     Emulated& operator=(const Emulated&) = delete;
 };
 
-class Device : public testing::TestWithParam<Case> {};
+class Device : public testing::TestWithParam<Variant> {};
 
 } // namespace
 
 TEST_P(Device, StepsHaveTheBitsOfTheProcessor) {
     if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
-    const Case& c = GetParam();
+    const Variant& c = GetParam();
     if (world().size() > 1 && !c.on_ranks) return;
     const Trace expected = on_processor(c);
     EXPECT_GT(expected.in_contact, 100) << "the scene must touch, or nothing is tested";
@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(Stacks, Device, testing::ValuesIn(cases));
 
 TEST(Device, CheckpointsCrossBetweenDeviceAndProcessor) {
     if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
-    const Case& c = cases[0];
+    const Variant& c = cases[0];
     const Trace expected = on_processor(c);
     for (const bool device_first : {true, false}) {
         const std::string path = "device_test_ranks" + std::to_string(world().size()) + ".h5";
@@ -327,8 +327,8 @@ TEST(Device, TimesEveryStepByItsOwnClock) {
 
 TEST(Device, NeverTouchesTheFieldsOfTheHost) {
     if (!fuses() || world().size() > 1) return;
-    const auto end = [] {         // in a process of its own, for the pages stay closed
-        const Case& c = cases[2]; // with all tables
+    const auto end = [] {            // in a process of its own, for the pages stay closed
+        const Variant& c = cases[2]; // with all tables
         Simulation s = make(c, Communicator(), true);
         s.start(height);
         Trace trace;
@@ -380,7 +380,7 @@ TEST(Device, AHostThatReadsItsMemoryStops) {
 
 TEST(Device, TakesTheMemoryThatWasCounted) {
     if (!fuses()) return;
-    for (const Case& c : cases) {
+    for (const Variant& c : cases) {
         const SimulationOptions options = options_of(c, true);
         const Simulation s = make(c, world(), true);
         EXPECT_EQ(s.device_bytes(),

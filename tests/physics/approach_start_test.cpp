@@ -18,19 +18,18 @@
 namespace asperity {
 namespace {
 
-struct Case {
-    Scene scene;
-    Setup setup;
+struct Solids {
+    const Case setup;
     Communicator ranks;
     ProcessGrid grid;
     Surface surface;
     Interface interface;
     Block block;
 
-    explicit Case(const std::string& text)
-        : scene(read_scene_text(text, "start.toml")), setup(make_setup(scene, 1)),
-          grid(make_grid(scene, setup, 1, 0)), surface(scene_surface(scene)),
-          interface(surface, grid.tile(0), scene.surface.spacing, setup.simulation.interface),
+    explicit Solids(const std::string& text)
+        : setup(read_case_text(text, "start.toml")), grid(setup.grid(0)),
+          surface(surface_of(setup)),
+          interface(surface, grid.tile(0), setup.scene.surface.spacing, setup.simulation.interface),
           block(setup.simulation.block, ranks, grid) {}
 };
 
@@ -41,7 +40,7 @@ TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
                                     std::string("[surface]\nsites = 48\nrms = 1\nradius = 300\n"),
                                     std::string("[surface]\nkind = \"flat\"\nsites = 16\n")}) {
         SCOPED_TRACE(text);
-        Case c(text);
+        Solids c(text);
         const ApproachStart start = approach_start(c.block, c.interface);
         EXPECT_LT(start.height, c.interface.start_height());
         EXPECT_LT(start.energy, 0.0);
@@ -71,10 +70,10 @@ TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
 }
 
 TEST(ApproachStart, IsOutOfReachWhereNothingAttracts) {
-    Case c(rough + "[interface]\nepsilon = 1e-9\n");
+    Solids c(rough + "[interface]\nepsilon = 1e-9\n");
     InterfaceOptions none = c.setup.simulation.interface;
     none.potential.epsilon = 0.0;
-    const Interface nothing(c.surface, c.grid.tile(0), c.scene.surface.spacing, none);
+    const Interface nothing(c.surface, c.grid.tile(0), c.setup.scene.surface.spacing, none);
     const ApproachStart start = approach_start(c.block, nothing);
     EXPECT_EQ(start.height, nothing.start_height());
     EXPECT_EQ(start.energy, 0.0);
@@ -83,8 +82,8 @@ TEST(ApproachStart, IsOutOfReachWhereNothingAttracts) {
 
 TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
     const io::Scratch scratch;
-    Case c(rough + "[drive]\nvelocity = 10\ndamping = 0.2\ntimestep = 20\n");
-    const io::Json result = test::run_scene(c.scene, scratch / "run");
+    Solids c(rough + "[drive]\nvelocity = 10\ndamping = 0.2\ntimestep = 20\n");
+    const io::Json result = test::run_scene(c.setup, scratch / "run");
     Simulation s(c.setup.simulation, c.surface, c.ranks, c.grid);
     s.start(c.interface.start_height());
     double strongest = 0.0;
@@ -94,7 +93,7 @@ TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
         s.drive().observe(now.time, now.force, out_of_reach(now.top, now.force, strongest));
         ASSERT_LT(s.steps(), 100000);
     }
-    const double per_area = units::milli_per_unit / std::pow(c.scene.edge(), 2);
+    const double per_area = units::milli_per_unit / std::pow(c.setup.scene.edge(), 2);
     const double approach = io::find(result, "work_of_adhesion.approach")->get<double>(),
                  pull_off = io::find(result, "work_of_adhesion.pull_off")->get<double>();
     EXPECT_NEAR(approach, per_area * s.ledger().approach, 1e-5 * approach);
@@ -107,8 +106,8 @@ TEST(ApproachStart, AWarmBlockStartsOutOfReach) {
     const std::string once = rough + "[drive]\ndamping = 1\ntimestep = 10\nmax_steps = 1\n"
                                      "path = [\"approach\"]\n";
     for (const double temperature : {0.0, 300.0}) {
-        Case c(once + "temperature = " + std::to_string(temperature) + "\n");
-        const io::Json result = test::run_scene(c.scene, scratch / std::to_string(temperature));
+        Solids c(once + "temperature = " + std::to_string(temperature) + "\n");
+        const io::Json result = test::run_scene(c.setup, scratch / std::to_string(temperature));
         const double energy = io::find(result, "energy.interface")->get<double>();
         EXPECT_EQ(energy == 0.0, temperature > 0.0) << temperature;
     }

@@ -23,16 +23,16 @@ using namespace asperity;
 using test::energy;
 using test::follow;
 using test::OneDimension;
-using Case = test::PathCase;
+using Solids = test::PathCase;
 
 namespace {
 
-QuasistaticPath path_of(Case& c, double tolerance, double load = 0.0) {
+QuasistaticPath path_of(Solids& c, double tolerance, double load = 0.0) {
     return c.path(tolerance, 0.25, load, Constraint::Of::mean_height);
 }
 
 /// The state with nothing held, from where the block is.
-RelaxedState let_go(Case& c) {
+RelaxedState let_go(Solids& c) {
     RelaxOptions o;
     o.tolerance = 1e-6;
     Phases phases;
@@ -77,7 +77,7 @@ void expect_in(const Dissipation& a, const Dissipation& b, double least, double 
 }
 
 /// Without a path: relaxed at a mean displacement, from where the block is.
-RelaxedState relax_at(Case& c, double z, double tolerance) {
+RelaxedState relax_at(Solids& c, double z, double tolerance) {
     RelaxOptions o;
     o.tolerance = tolerance;
     o.max_iterations = 20000;
@@ -94,7 +94,7 @@ RelaxedState relax_at(Case& c, double z, double tolerance) {
 TEST(MeanHeight, StaysWhereItIsHeldWhileItRelaxes) {
     // Far from equilibrium: sites are cut to the largest move, and what is cut off has a mean.
     {
-        Case c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"));
+        Solids c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"));
         const double z = -9.0;
         int looks = 0; // at every tenth iteration
         double drift = 0.0;
@@ -117,7 +117,7 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
     // Under a held top plane these blocks fall in and off (quasistatic_test).
     for (const int thickness : {40, 200, 512})
         for (double tolerance : {1e-3, 1e-4, 1e-5}) {
-            Case c(test::paper_block(10, thickness, 0), test::flat_surface(10));
+            Solids c(test::paper_block(10, thickness, 0), test::flat_surface(10));
             const OneDimension one{c};
             QuasistaticPath path = path_of(c, tolerance);
             path.start();
@@ -150,7 +150,7 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
 TEST(MeanHeight, ForceIsMinusTheSlopeOfTheRelaxedEnergy) {
     // By five points, h^4, in and out of a rough contact.
     for (const int thickness : {8, 60}) {
-        Case c(test::paper_block(16, thickness, 0), test::reference_surface("c1_N16_T16_rms0.5"));
+        Solids c(test::paper_block(16, thickness, 0), test::reference_surface("c1_N16_T16_rms0.5"));
         constexpr double h = 0.02;
         double strongest = 0.0;
         for (double z : {-8.0, -9.0, -9.5, -10.0, -10.4}) {
@@ -216,7 +216,7 @@ TEST(MeanHeight, GradientLeavesItOut) {
 TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     // Soft and gently rough: under a held top plane it snaps as a whole.
     constexpr double tolerance = 1e-4;
-    Case c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
+    Solids c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
     QuasistaticPath path = path_of(c, tolerance);
     path.start();
     const auto in = follow(path, Leg::approach);
@@ -229,7 +229,7 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     EXPECT_NEAR(path.work(Leg::approach), bound, allowed);
     EXPECT_NEAR(path.work(Leg::pull_off), bound, allowed);
 
-    Case d(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
+    Solids d(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
     QuasistaticPath falling = d.path(tolerance);
     falling.start();
     follow(falling, Leg::approach);
@@ -250,7 +250,7 @@ TEST(MeanHeight, SurfaceFallsWhereItsLongestWaveGetsUnstable) {
     for (double amplitude : {8e-4, 1e-4}) {
         std::vector<Dissipation> lost;
         for (double step : {0.25, 0.1}) {
-            Case c(test::paper_block(32, 32, 0), wave(32, amplitude), test::Friction::without);
+            Solids c(test::paper_block(32, 32, 0), wave(32, amplitude), test::Friction::without);
             const OneDimension one{c};
             const double stiffness =
                 SpectralBlock(c.options, Communicator(), true).stiffness(1, 0).zz;
@@ -291,8 +291,8 @@ TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
     constexpr double tolerance = 2e-4;
     std::vector<Dissipation> lost;
     for (double step : {0.25, 0.1}) {
-        Case c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25),
-               test::Friction::without);
+        Solids c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25),
+                 test::Friction::without);
         QuasistaticPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
         path.start();
         follow(path, Leg::approach);
@@ -310,7 +310,7 @@ TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
 TEST(MeanHeight, FallsThatTakeTheForceTooFarAreGivenUp) {
     // A relaxation that ends far from the force expected is given up before its end; one whose
     // force is only near the edge of its window for its first moves is not.
-    Case c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25));
+    Solids c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25));
     QuasistaticPath path = path_of(c, 2e-4);
     path.start();
     StepRecord before = path.now();
@@ -356,7 +356,7 @@ TEST(MeanHeight, WorkIsThatOfATighterPath) {
     rough.seed = 7;
     std::vector<std::array<double, 4>> works;
     for (double tolerance : {1e-4, 2e-5}) {
-        Case c(test::paper_block(64, 64, 0), make_surface(rough));
+        Solids c(test::paper_block(64, 64, 0), make_surface(rough));
         QuasistaticPath path = path_of(c, tolerance);
         path.start();
         follow(path, Leg::approach);
@@ -381,7 +381,7 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
     for (const Model& m :
          {Model{"c7_N64_T64_rms2", 0.25, 64, 0.01}, Model{"c3_N32_T32_rms1.5", 0.15, 32, 0.0},
           Model{"c3_N32_T32_rms1.5", 1.0, 32, 0.0}}) {
-        Case c(test::paper_block(m.sites, m.sites, 0), test::reference_surface(m.map, m.factor));
+        Solids c(test::paper_block(m.sites, m.sites, 0), test::reference_surface(m.map, m.factor));
         constexpr double tolerance = 5e-4;
         QuasistaticPath path = path_of(c, tolerance);
         path.start();
@@ -403,7 +403,7 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
 
 TEST(MeanHeight, EndsAtItsLoadWhereTheForceFallsWithTheHeight) {
     for (double pressure : {0.0, 1.0, -5.0}) { // GPa; the largest tension is 9
-        Case c(test::paper_block(10, 200, 0), test::flat_surface(10));
+        Solids c(test::paper_block(10, 200, 0), test::flat_surface(10));
         const double load = pressure * units::gigapascal * 6.76 * c.sites();
         QuasistaticPath path = path_of(c, 1e-5, load);
         path.start();
@@ -417,7 +417,7 @@ TEST(MeanHeight, LandsWhereTheAttractionIsLostInTheTolerance) {
     // Under a prescribed top plane. Very rough: less attraction than a quarter of the tolerance for
     // each site.
     constexpr double tolerance = 2e-2;
-    Case c(test::paper_block(16, 16, 0), test::reference_surface("c1_N16_T16_rms0.5", 20.0));
+    Solids c(test::paper_block(16, 16, 0), test::reference_surface("c1_N16_T16_rms0.5", 20.0));
     QuasistaticPath path = c.path(tolerance);
     path.start();
     const auto in = follow(path, Leg::approach);
@@ -433,7 +433,7 @@ TEST(MeanHeight, EndsInTheFirstStateHoweverWeaklyItBinds) {
     // Very rough: the attraction of a few summits, less than a quarter of the tolerance for each
     // site of the surface. The path ends where a relaxation without a path does.
     constexpr double tolerance = 1e-2;
-    Case c(test::paper_block(32, 32, 0), test::reference_surface("c3_N32_T32_rms1.5", 6.0));
+    Solids c(test::paper_block(32, 32, 0), test::reference_surface("c3_N32_T32_rms1.5", 6.0));
     QuasistaticPath path = path_of(c, tolerance);
     path.start();
     const auto in = follow(path, Leg::approach);
@@ -453,7 +453,7 @@ TEST(MeanHeight, EndsInTheFirstStateHoweverWeaklyItBinds) {
 TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     // Where a relaxation with the top plane free has ended, under a load and the block pressed
     // together by it, the path holds the layer where it is.
-    Case c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
+    Solids c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
     c.block.set_uniform(-9.0);
     RelaxOptions o;
     o.tolerance = 1e-6;

@@ -19,7 +19,7 @@
 using namespace asperity;
 using test::energy;
 using test::follow;
-using Case = test::PathCase;
+using Solids = test::PathCase;
 using Outcome = QuasistaticPath::Outcome;
 
 namespace {
@@ -45,7 +45,7 @@ TEST(PathEnd, NothingIsLeftOfTheContact) {
         for (const int thickness : {3, 60, 512}) {
             const bool held_top = along == Constraint::Of::top;
             SCOPED_TRACE(std::to_string(thickness) + (held_top ? ", top" : ", mean height"));
-            Case c(test::paper_block(10, thickness, 0), test::flat_surface(10));
+            Solids c(test::paper_block(10, thickness, 0), test::flat_surface(10));
             QuasistaticPath path = c.path(1e-3, 0.5, 0.0, along);
             path.start();
             follow(path, Leg::approach);
@@ -86,7 +86,7 @@ TEST(PathEnd, InTimeNothingIsLeftOfTheContact) {
 
 TEST(PathErrors, GrowAlongALegAndCoverTheBalance) {
     for (const auto along : {Constraint::Of::top, Constraint::Of::mean_height}) {
-        Case c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"));
+        Solids c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"));
         QuasistaticPath path = c.path(2e-4, 0.25, 0.0, along);
         path.start();
         const double start = energy(path.now());
@@ -109,7 +109,7 @@ TEST(PathErrors, AreThreeTimesWhatTheWorkOfAnInstabilityIsNotKnownBy) {
     // A block that falls in and off as a whole. The energy of a fall is that of the last point
     // before less that of the first one after and the work between them, which is known to lie
     // between the forces of the two.
-    Case c(test::paper_block(10, 40, 0), test::flat_surface(10));
+    Solids c(test::paper_block(10, 40, 0), test::flat_surface(10));
     QuasistaticPath path = c.path(1e-4, 0.25);
     path.start();
     for (const Leg leg : {Leg::approach, Leg::pull_off}) {

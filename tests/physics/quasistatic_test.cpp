@@ -20,13 +20,13 @@ using namespace asperity;
 using test::energy;
 using test::follow;
 using test::OneDimension;
-using Case = test::PathCase;
+using Solids = test::PathCase;
 
 namespace {
 
 /// A cycle on a rough surface: what the work brings is stored or lost, on each leg and step by
 /// step.
-void expect_balance(Case& c, Constraint::Of along, bool snaps) {
+void expect_balance(Solids& c, Constraint::Of along, bool snaps) {
     constexpr double tolerance = 1e-4;
     QuasistaticPath path = c.path(tolerance, 0.25, 0.0, along);
     path.start();
@@ -90,7 +90,7 @@ TEST(Quasistatic, StiffBlockIsReversible) {
     // Stiffer than the interface anywhere: approach and pull-off give the state's energy to what
     // the tolerance allows on the way (13 Å both), and nothing is lost.
     for (double tolerance : {1e-3, 1e-4, 1e-5}) {
-        Case c(test::paper_block(10, 3, 0), test::flat_surface(10));
+        Solids c(test::paper_block(10, 3, 0), test::flat_surface(10));
         QuasistaticPath path = c.path(tolerance);
         path.start();
         const auto in = follow(path, Leg::approach);
@@ -111,7 +111,7 @@ TEST(Quasistatic, StiffBlockIsReversible) {
 
 TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
     for (const int thickness : {30, 40}) {
-        Case c(test::paper_block(10, thickness, 0), test::flat_surface(10));
+        Solids c(test::paper_block(10, thickness, 0), test::flat_surface(10));
         const OneDimension one{c};
         constexpr double tolerance = 1e-5, step = 0.25;
         QuasistaticPath path = c.path(tolerance, step);
@@ -157,7 +157,7 @@ TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
 
 TEST(Quasistatic, EndsExactlyAtItsLoad) {
     for (double pressure : {0.0, 1.0, -0.5}) { // GPa
-        Case c(test::paper_block(10, 10, 0), test::flat_surface(10));
+        Solids c(test::paper_block(10, 10, 0), test::flat_surface(10));
         const double load = pressure * units::gigapascal * 6.76 * c.sites();
         QuasistaticPath path = c.path(1e-5, 0.25, load);
         path.start();
@@ -172,7 +172,7 @@ TEST(Quasistatic, WorkUnderLoadIsTheEnergyGained) {
     // Flat on flat without a snap: what the top plane takes up is the interface's energy less what
     // stretches or compresses the block.
     for (double pressure : {2.0, -2.0}) { // GPa
-        Case c(test::paper_block(10, 3, 0), test::flat_surface(10));
+        Solids c(test::paper_block(10, 3, 0), test::flat_surface(10));
         constexpr double tolerance = 1e-5;
         QuasistaticPath path =
             c.path(tolerance, 0.25, pressure * units::gigapascal * 6.76 * c.sites());
@@ -187,7 +187,7 @@ TEST(Quasistatic, WorkUnderLoadIsTheEnergyGained) {
 }
 
 TEST(Quasistatic, RoughWorkIsEnergyPlusLoss) {
-    Case c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"));
+    Solids c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"));
     expect_balance(c, Constraint::Of::top, true);
 }
 
@@ -198,8 +198,8 @@ TEST(Quasistatic, RoughWorkOverAWallIsEnergyPlusLoss) {
                              ExponentialWall(0.7, 1.3, 1000.0)};
     for (const WallLaw& wall : walls)
         for (const Constraint::Of along : {Constraint::Of::top, Constraint::Of::mean_height}) {
-            Case c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"),
-                   wall);
+            Solids c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"),
+                     wall);
             expect_balance(c, along, along == Constraint::Of::top);
         }
 }
@@ -213,8 +213,8 @@ TEST(Quasistatic, HeldTopOverAWallIsInBalance) {
         o.young = 90.5 * units::gigapascal;
         o.poisson = 0.275;
         const double site = o.spacing * o.spacing;
-        Case c(o, test::reference_surface("c3_N32_T32_rms1.5", 2.0),
-               ExponentialWall(0.0754 * site, 1.25, 50.0));
+        Solids c(o, test::reference_surface("c3_N32_T32_rms1.5", 2.0),
+                 ExponentialWall(0.0754 * site, 1.25, 50.0));
         QuasistaticPath path = c.path(tolerance, 0.2);
         path.start();
         for (const Leg leg : {Leg::approach, Leg::pull_off}) {
@@ -231,7 +231,7 @@ TEST(Quasistatic, HeldTopOverAWallIsInBalance) {
 
 TEST(Quasistatic, AgainTheSameCycle) {
     // Apart, nothing is left of the contact: a second cycle is the first.
-    Case c(test::paper_block(10, 40, 0), test::flat_surface(10));
+    Solids c(test::paper_block(10, 40, 0), test::flat_surface(10));
     QuasistaticPath path = c.path(1e-5);
     path.start();
     double in[2], out[2], lost[2], lost_in[2];
@@ -255,7 +255,7 @@ TEST(Quasistatic, LatticeAndWavesGiveTheSameSeries) {
     // The same positions of the top plane, in and out of a rough contact that falls nowhere. The
     // lattice relaxes node by node (support/levels_at_rest.hpp).
     const BlockOptions options = test::paper_block(16, 4, 0);
-    Case c(options, test::reference_surface("c1_N16_T16_rms0.5"));
+    Solids c(options, test::reference_surface("c1_N16_T16_rms0.5"));
     test::LevelsAtRest lattice(options);
     const double height = c.interface.start_height();
     RelaxOptions o;
@@ -290,7 +290,7 @@ TEST(Quasistatic, SlowMotionApproachesThePath) {
     o.interface = test::paper_interface();
     o.dt = 10.0;
     o.damping = 2e-3;
-    Case c(o.block, test::flat_surface(10));
+    Solids c(o.block, test::flat_surface(10));
     const OneDimension one{c};
     const auto off = [&](double velocity) {
         o.drive.velocity = velocity;

@@ -23,7 +23,7 @@
 #include <vector>
 
 using namespace asperity;
-using Case = test::PathCase;
+using Solids = test::PathCase;
 
 namespace {
 
@@ -44,21 +44,21 @@ Surface hill(int sites, double height, double width) {
 }
 
 /// Relaxed energy where the summit alone touches, full contact, and a single way between them.
-Case two_states() { return Case(test::paper_block(32, 32, 0), hill(32, 12.0, 6.0)); }
+Solids two_states() { return Solids(test::paper_block(32, 32, 0), hill(32, 12.0, 6.0)); }
 
 /// The same hill as a wall of smeared atoms.
-Case two_states_over_a_wall() {
-    return Case(test::paper_block(32, 32, 0), hill(32, 12.0, 6.0),
-                LennardJonesWall({0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false));
+Solids two_states_over_a_wall() {
+    return Solids(test::paper_block(32, 32, 0), hill(32, 12.0, 6.0),
+                  LennardJonesWall({0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false));
 }
 
 /// Normal displacements only: with lateral ones, sites between atoms of the substrate are states of
 /// their own, and slip from one to the next.
-void without_friction(Case& c) { c.block = SpectralBlock(c.options, Communicator(), true); }
+void without_friction(Solids& c) { c.block = SpectralBlock(c.options, Communicator(), true); }
 
-double area(const Case& c) { return 6.76 * c.sites(); }
+double area(const Solids& c) { return 6.76 * c.sites(); }
 
-RelaxedState relax(Case& c, const Constraint& constraint, double to = tolerance) {
+RelaxedState relax(Solids& c, const Constraint& constraint, double to = tolerance) {
     RelaxOptions o;
     o.tolerance = to;
     Phases phases;
@@ -70,7 +70,7 @@ RelaxedState relax(Case& c, const Constraint& constraint, double to = tolerance)
 
 double energy(const RelaxedState& s) { return s.interface_energy + s.elastic_energy; }
 
-ZeroLoad relax_free(Case& c, double load = 0.0) {
+ZeroLoad relax_free(Solids& c, double load = 0.0) {
     const RelaxedState s = relax(c, Constraint::load(load));
     ZeroLoad z;
     z.binding_energy = -1e3 * (s.interface_energy + s.elastic_energy) / area(c);
@@ -91,12 +91,12 @@ Layer layer_of(const SpectralBlock& block) {
 }
 
 struct Search {
-    Case& c;
+    Solids& c;
     std::vector<Layer> layers; ///< of the states, in the order in which they were relaxed
     double load;               ///< eV/Å, pressing down
     StateSearch search;
 
-    explicit Search(Case& contact, double step = 0.25, bool to_the_end = true, double press = 0.0)
+    explicit Search(Solids& contact, double step = 0.25, bool to_the_end = true, double press = 0.0)
         : c(contact), load(press), search(c.block, c.interface, options(step, to_the_end)) {}
     /// To the end: until no area is left to attract, after every instability.
     StateSearchOptions options(double step, bool to_the_end) {
@@ -137,7 +137,7 @@ struct Search {
     }
 };
 
-StateList all_states(Case& c, double step = 0.25, bool to_the_end = true) {
+StateList all_states(Solids& c, double step = 0.25, bool to_the_end = true) {
     Search s(c, step, to_the_end);
     s.start();
     return s.finish();
@@ -146,7 +146,7 @@ StateList all_states(Case& c, double step = 0.25, bool to_the_end = true) {
 /// The smallest eigenvalue that Lanczos' method finds of the Hessian of the energy under no load.
 class Hessian {
 public:
-    Hessian(const Case& c, const Layer& at)
+    Hessian(const Solids& c, const Layer& at)
         : block_(c.options, Communicator()), interface_(c.interface),
           height_(c.interface.start_height()), at_(at) {}
 
@@ -246,7 +246,7 @@ void expect_same(const StateList& a, const StateList& b, double share) {
 }
 
 /// The force between two states, integrated, is what their energies differ by.
-void expect_work_of_the_force(Case& c) {
+void expect_work_of_the_force(Solids& c) {
     Search s(c);
     s.start();
     const StateList states = s.finish();
@@ -272,12 +272,12 @@ void expect_work_of_the_force(Case& c) {
 
 /// A search that stops every so many points and goes on from its checkpoint.
 void expect_same_when_resumed(const std::string& file, int points,
-                              const std::function<Case()>& contact) {
-    Case undisturbed = contact();
+                              const std::function<Solids()>& contact) {
+    Solids undisturbed = contact();
     const StateList states = all_states(undisturbed);
     bool done = false;
     for (int part = 0; !done; ++part) {
-        Case c = contact();
+        Solids c = contact();
         Search s(c);
         if (part == 0) {
             s.start();
@@ -310,7 +310,7 @@ void expect_same_when_resumed(const std::string& file, int points,
 } // namespace
 
 TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
-    Case c = two_states();
+    Solids c = two_states();
     Search s(c);
     s.start();
     const StateList states = s.finish();
@@ -350,7 +350,7 @@ TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
 // A state on a branch that was followed outwards: to come to it the first one has to be pressed in
 // as far as the instability, beyond the height at which the other state is.
 TEST(StateSearch, ABarrierReachesDownToTheInstabilityThatHasToBeCrossed) {
-    Case c(test::paper_block(32, 32, 0), hill(32, 20.0, 6.0));
+    Solids c(test::paper_block(32, 32, 0), hill(32, 20.0, 6.0));
     Search s(c, 0.25, false);
     s.start();
     const StateList states = s.finish();
@@ -375,18 +375,18 @@ TEST(StateSearch, ABarrierReachesDownToTheInstabilityThatHasToBeCrossed) {
 }
 
 TEST(StateSearch, EnergiesDifferByTheWorkOfTheForce) {
-    Case c = two_states();
+    Solids c = two_states();
     without_friction(c);
     expect_work_of_the_force(c);
 }
 
 TEST(StateSearch, OverAWallEnergiesDifferByTheWorkOfTheForce) {
-    Case c = two_states_over_a_wall();
+    Solids c = two_states_over_a_wall();
     expect_work_of_the_force(c);
 }
 
 TEST(StateSearch, SameStatesWithAnotherStep) {
-    Case c = two_states(), fine = two_states();
+    Solids c = two_states(), fine = two_states();
     const StateList states = all_states(c);
     ASSERT_EQ(states.all.size(), 2u);
     expect_same(states, all_states(fine, 0.1), 1e-4);
@@ -399,11 +399,11 @@ TEST(StateSearch, NoneIsDeeperFromABlockDrapedOverTheSubstrate) {
     for (const auto& [height, width] : {std::pair{12.0, 6.0}, {16.0, 5.0}, {12.0, 3.0}, {8.0, 3.0}})
         for (const bool friction : {true, false}) {
             const auto contact = [&friction](double h, double w) {
-                Case c(test::paper_block(32, 32, 0), hill(32, h, w));
+                Solids c(test::paper_block(32, 32, 0), hill(32, h, w));
                 if (!friction) without_friction(c);
                 return c;
             };
-            Case c = contact(height, width), draped = contact(height, width);
+            Solids c = contact(height, width), draped = contact(height, width);
             const StateList states = all_states(c);
             draped.block.set_uniform(0.0);
             const InterfaceMaps maps =
@@ -441,11 +441,11 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
     int shorter = 0, several = 0;
     for (const Surface& surface : surfaces) {
         const auto contact = [&surface] {
-            Case c(test::paper_block(surface.sites, surface.sites, 0), surface);
+            Solids c(test::paper_block(surface.sites, surface.sites, 0), surface);
             without_friction(c);
             return c;
         };
-        Case a = contact(), b = contact();
+        Solids a = contact(), b = contact();
         const StateList quick = all_states(a, 0.25, false), whole = all_states(b, 0.25, true);
         const auto& deepest = whole.deepest().numbers;
         EXPECT_NEAR(quick.deepest().numbers.binding_energy, deepest.binding_energy, 1e-3)
@@ -458,7 +458,7 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
 }
 
 TEST(StateSearch, ALoadThatStretchesTheBlockIsNoInstability) {
-    Case c = two_states();
+    Solids c = two_states();
     without_friction(c);
     Search s(c, 0.25, true, 100.0 * units::gigapascal * 1e-3 * area(c)); // 100 MPa
     s.start();
@@ -471,7 +471,7 @@ TEST(StateSearch, ALoadIsNoPartOfABarrier) {
     // The same force along the same way: a load takes away what it holds.
     constexpr double step = 0.05; // the largest force is that of a point
     const auto barrier = [](double load) {
-        Case c = two_states();
+        Solids c = two_states();
         without_friction(c);
         Search s(c, step, true, load);
         s.start();
@@ -479,7 +479,7 @@ TEST(StateSearch, ALoadIsNoPartOfABarrier) {
         EXPECT_EQ(states.all.size(), 2u) << load;
         return states.all[0].barrier.value_or(0.0);
     };
-    Case c = two_states();
+    Solids c = two_states();
     const double pressure = 0.2 * units::gigapascal; // a good part of the barrier
     const double alone = barrier(0.0), pressed = barrier(pressure * area(c)),
                  pulled = barrier(-0.05 * pressure * area(c));
@@ -492,7 +492,7 @@ TEST(StateSearch, ALoadIsNoPartOfABarrier) {
 TEST(StateSearch, UnderALoadTheEnergyOfThePointsIsTheIntegralOfTheForceAboveIt) {
     // U + P z rises on the way in by the integral of F - P, whatever the sign of the load.
     for (const double pressure : {0.0, 0.05, -0.01}) { // GPa
-        Case c = two_states();
+        Solids c = two_states();
         without_friction(c);
         const double load = pressure * units::gigapascal * area(c);
         Search s(c, 0.05, true, load);
@@ -521,7 +521,7 @@ TEST(StateSearch, UnderALoadTheEnergyOfThePointsIsTheIntegralOfTheForceAboveIt) 
 }
 
 TEST(StateSearch, FullContactIsTheOnlyState) {
-    Case c(test::paper_block(32, 32, 0), hill(32, 2.0, 8.0));
+    Solids c(test::paper_block(32, 32, 0), hill(32, 2.0, 8.0));
     const StateList states = all_states(c);
     EXPECT_EQ(states.all.size(), 1u);
     EXPECT_EQ(states.points, 1);
@@ -530,7 +530,7 @@ TEST(StateSearch, FullContactIsTheOnlyState) {
 
 TEST(StateSearch, ResumedItFindsTheSameBits) {
     expect_same_when_resumed("state_search.h5", 11, [] {
-        return Case(test::paper_block(32, 32, 0), hill(32, 16.0, 5.0));
+        return Solids(test::paper_block(32, 32, 0), hill(32, 16.0, 5.0));
     });
 }
 

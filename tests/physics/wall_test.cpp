@@ -4,7 +4,7 @@
 // A wall in place of atoms: its laws, the states over it, and problems with closed forms.
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/equilibrium/zero_load.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
@@ -204,7 +204,7 @@ TEST(Wall, WorkOfAdhesionIsTheScenes) {
                 std::string("interface.range=") + range, std::string("block.young=") + young};
             const Scene scene =
                 read_scene_text("[surface]\nsites = 32\nspacing = \"39 Å\"\n", "wall.toml", keys);
-            EXPECT_NEAR(make_setup(scene, 1).flat.work_of_adhesion, 3.12, 3.12e-9)
+            EXPECT_NEAR(resolve(scene).flat.work_of_adhesion, 3.12, 3.12e-9)
                 << young << " " << range;
         }
 }
@@ -248,11 +248,11 @@ TEST(Wall, ClosestIsTheLeastGap) {
 /// A block of this modulus over a wall as rough as a scene says.
 struct SoftOverRough {
     Scene scene;
-    Setup setup;
+    Case setup;
     AtWall at;
     explicit SoftOverRough(const std::vector<std::string>& keys)
-        : scene(of(keys)), setup(make_setup(scene, 1)),
-          at(scene_surface(scene), setup.simulation.block, *setup.simulation.interface.wall) {}
+        : scene(of(keys)), setup(resolve(scene)),
+          at(surface_of(setup), setup.simulation.block, *setup.simulation.interface.wall) {}
 
 private:
     static Scene of(const std::vector<std::string>& keys) {

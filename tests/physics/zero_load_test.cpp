@@ -25,7 +25,7 @@ constexpr Flat flats[] = {{4.0, 98.86330213, 3.108052807},
                           {2.5, 90.14696074, 3.109148676},
                           {2.0, 77.57820422, 3.114810519}};
 
-struct Case {
+struct Reference {
     const char* map;
     int sites, thickness;
     double cutoff;
@@ -38,7 +38,7 @@ struct Case {
     /// 1e-5 where they were seen.
     double binding_tolerance = 2e-8, first_order = 2e-5;
 };
-constexpr Case cases[] = {
+constexpr Reference cases[] = {
     {"n8_a_rms0.4", 8, 8, 4.0, 90.720765166, 94.536799579, 3.1689135122, 1.6509691284, 64, 33},
     {"n8_b_rms1.0", 8, 6, 4.0, 53.287038883, 74.798578058, 3.5015820661, 9.3067523023, 58, 24},
     {"n8_c_rms1.0_rc2.5", 8, 8, 2.5, 48.808228633, 66.084626116, 3.5609709770, 7.4744606068, 59, 23,
@@ -57,9 +57,11 @@ constexpr Case cases[] = {
      358, 2e-7, 1e-4},
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.map << " cut at " << c.cutoff << " r0"; }
+void PrintTo(const Reference& c, std::ostream* out) {
+    *out << c.map << " cut at " << c.cutoff << " r0";
+}
 
-class ReferenceCase : public testing::TestWithParam<Case> {};
+class ReferenceCase : public testing::TestWithParam<Reference> {};
 
 } // namespace
 
@@ -107,7 +109,7 @@ TEST(ZeroLoad, TheTailMakesUpForTheCutoff) {
 /// Node by node (support/levels_at_rest.hpp), in maps of 16 sites: it is slow. Its residual is that
 /// of single nodes: soft waves of the whole block are then further off, in what is of first order.
 TEST_P(ReferenceCase, Lattice) {
-    const Case& c = GetParam();
+    const Reference& c = GetParam();
     if (c.sites > 16) return;
     const double first_order = 10.0 * c.first_order;
     const auto r =
@@ -127,7 +129,7 @@ TEST_P(ReferenceCase, Lattice) {
 TEST_P(ReferenceCase, Multiscale) {
     // The block is stiffer by at most 1.7 % (4 layers a level) or 0.4 % (8) for the worst wave, of
     // which the elastic energy, a part of the whole, sees some. It may only bind less.
-    const Case& c = GetParam();
+    const Reference& c = GetParam();
     for (int layers : {4, 8}) {
         if (c.thickness < 3 * layers || c.sites > 32) continue; // one level: the lattice
         const auto r = test::relax_levels(test::paper_block(c.sites, c.thickness, layers),
@@ -143,7 +145,7 @@ TEST_P(ReferenceCase, Multiscale) {
 
 TEST_P(ReferenceCase, Spectral) {
     // The same numbers and tolerances as the lattice: nothing of the depth is left to differ.
-    const Case& c = GetParam();
+    const Reference& c = GetParam();
     const auto r =
         test::relax_spectral(test::paper_block(c.sites, c.thickness, 0),
                              test::paper_interface(c.cutoff), test::reference_surface(c.map), 1e-6);

@@ -5,7 +5,7 @@
 #include "engine/run/guard.hpp"
 
 #include "engine/scene/scene.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "support/run_scene.hpp"
 
 #include <cmath>
@@ -76,7 +76,7 @@ TEST(Guard, NoStepJumpsOverThePotential) {
     // The width is the depth over the largest force: of the exponential law its range.
     const std::string wall = still + "interface.kind = \"wall\"\ninterface.law = \"exponential\"\n"
                                      "interface.range = 1.25\n";
-    EXPECT_NEAR(make_setup(read_scene_text(wall, "wall.toml"), 1).longest_step, 0.5 * 1.25, 0.01);
+    EXPECT_NEAR(resolve(read_scene_text(wall, "wall.toml")).longest_step, 0.5 * 1.25, 0.01);
 }
 
 TEST(Guard, APathWithoutTimeEndsWhereItsEnergyIsOff) {

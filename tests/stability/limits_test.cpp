@@ -235,14 +235,14 @@ TEST(Theory, AtTheEndsOfItsKeys) {
                         const std::string what = std::string(rms) + " " + hurst + " " + epsilon +
                                                  " " + rolloff + " " + area;
                         try {
-                            const Scene scene =
-                                read_scene_text("[surface]\nsites = 512\n", "test.toml",
-                                                {std::string("surface.rms=") + rms,
-                                                 std::string("surface.hurst=") + hurst,
-                                                 std::string("interface.epsilon=") + epsilon,
-                                                 std::string("surface.rolloff=") + rolloff,
-                                                 std::string("theory.area_factor=") + area,
-                                                 "theory.renormalised=false"});
+                            const Case scene =
+                                read_case_text("[surface]\nsites = 512\n", "test.toml",
+                                               {std::string("surface.rms=") + rms,
+                                                std::string("surface.hurst=") + hurst,
+                                                std::string("interface.epsilon=") + epsilon,
+                                                std::string("surface.rolloff=") + rolloff,
+                                                std::string("theory.area_factor=") + area,
+                                                "theory.renormalised=false"});
                             const TheoryCase c = theory_case(scene);
                             const TheoryNumbers n = solve_theory(c);
                             EXPECT_TRUE(std::isfinite(n.gamma_eff)) << what;
@@ -266,7 +266,7 @@ TEST(Theory, RenormalisedAtTheEndsOfItsKeys) {
         for (const char* epsilon : {"1e-4", "0.1", "10"}) {
             if (rms == std::string("30") && epsilon == std::string("10"))
                 continue; // half a minute, and an error of 0.07
-            const Scene scene = read_scene_text(
+            const Case scene = read_case_text(
                 "[surface]\nsites = 512\n", "test.toml",
                 {std::string("surface.rms=") + rms, std::string("interface.epsilon=") + epsilon});
             const TheoryNumbers n = solve_theory(theory_case(scene));

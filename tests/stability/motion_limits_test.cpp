@@ -4,7 +4,7 @@
 // Hard cases of motion in time. Each test says first what stable means for it. With ASPERITY_LONG
 // set, long paths are as long as in the issue (10^6 steps).
 #include "engine/run/checkpoint.hpp"
-#include "engine/setup/setup.hpp"
+#include "engine/setup/case.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
 
@@ -127,15 +127,14 @@ TEST(TimeStep, TheLimitIsSharp) {
 }
 
 TEST(TimeStep, ASceneOverTheLimitIsRefused) {
-    const auto setup_at = [](double dt) {
-        return make_setup(read_scene_text("[surface]\nsites = 16\n", "test.toml",
-                                          {"drive.timestep=" + std::to_string(dt)}),
-                          1);
+    const auto case_at = [](double dt) {
+        return read_case_text("[surface]\nsites = 16\n", "test.toml",
+                              {"drive.timestep=" + std::to_string(dt)});
     };
-    const double limit = setup_at(10.0).longest_timestep;
-    EXPECT_NO_THROW(setup_at(0.99 * limit));
+    const double limit = case_at(10.0).longest_timestep;
+    EXPECT_NO_THROW(case_at(0.99 * limit).require_runnable());
     try {
-        setup_at(1.01 * limit);
+        case_at(1.01 * limit).require_runnable();
         FAIL() << "accepted";
     } catch (const io::SceneError& error) {
         EXPECT_EQ(error.code(), 2);

@@ -112,9 +112,9 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     scene.surface.sites = options.block.sites;
     scene.surface.spacing = options.block.spacing;
     scene.drive.tolerance = tolerance;
-    Setup setup = make_setup(scene, 1);
-    setup.simulation = options;
-    return asperity::bring_to_rest(moving, surface, reference_height, scene, setup, {});
+    Case c = resolve(scene);
+    c.simulation = options;
+    return asperity::bring_to_rest(moving, surface, reference_height, c, {});
 }
 
 SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt19937_64& random,

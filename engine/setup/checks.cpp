@@ -3,7 +3,7 @@
 //
 // What single keys cannot know: contradictions between them, what is not available yet, and what is
 // worth a note.
-#include "engine/scene/scene.hpp"
+#include "engine/setup/resolving.hpp"
 
 #include "engine/scene/sweep_limits.hpp"
 #include "engine/units.hpp"
@@ -42,8 +42,7 @@ void check_atoms(const Scene& scene, io::Problems& problems) {
         refuse_number("interface.cutoff", interface.cutoff,
                       "the cells of atoms hold for cutoffs up to 100 Å",
                       "take a cutoff of 100 Å or less");
-    typed_pairs(scene, problems);
-    if (surface.rms_given)
+    if (scene.gives_rms())
         refuse_number("surface.rms", surface.rms, as_they_are, "leave it out, and scale the file");
     if (surface.radius)
         refuse_number("surface.radius", *surface.radius, as_they_are,
@@ -66,7 +65,8 @@ void check_atoms(const Scene& scene, io::Problems& problems) {
 
 } // namespace
 
-void check_scene(const Scene& scene, io::Problems& problems) {
+void check_keys(const Case& c, io::Problems& problems) {
+    const Scene& scene = c.scene;
     const auto& [surface, interface, drive] = std::tie(scene.surface, scene.interface, scene.drive);
 
     const bool wall = interface.kind == InterfaceKind::wall;
@@ -133,7 +133,7 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                      "and cutoff",
                      "leave it out, or take surface.kind = \"atoms\"");
 
-    if (wall && !scene.without_time())
+    if (wall && c.in_time)
         problems.add("interface.kind", "= \"wall\" on a path in time",
                      "a wall takes no lateral tractions, and in time lateral displacements cannot "
                      "be left out",
@@ -147,7 +147,7 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                      fmt::format("= {:.6g} with a wall", surface.lattice_ratio),
                      "a wall has a height below each site, and no lattice of its own",
                      "take lattice_ratio = 1, or interface.kind = \"atoms\"");
-    if (interface.frictionless && !wall && !scene.without_time())
+    if (interface.frictionless && !wall && c.in_time)
         problems.add("interface.frictionless", "= true on a path in time",
                      "lateral displacements can be left out only where the block's stiffness for "
                      "normal forces alone is known wave by wave",
@@ -175,15 +175,15 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                          "take it out, or take path = [\"zero-load\"]: after an approach the state "
                          "under zero load is found anyway");
     }
-    if (drive.hold == Hold::mean_height && !scene.without_time())
+    if (drive.hold == Hold::mean_height && c.in_time)
         problems.add("drive.hold", "= \"mean-height\" on a path in time",
                      "in time the top plane is driven, and the lowest layer's mean height is what "
                      "the waves in the block make of it",
                      "take drive.mode = \"quasistatic\", or hold = \"top\"");
-    if (surface.kind == SurfaceKind::file && surface.rms_given && surface.rms == 0.0)
+    if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
-    if (scene.block.strain == Strain::finite && scene.without_time())
+    if (scene.block.strain == Strain::finite && !c.in_time)
         problems.add("block.strain", "= \"finite\" on a path without time",
                      "without time the block is a sum of waves, and at finite strain waves do not "
                      "add up",
@@ -199,46 +199,33 @@ void check_scene(const Scene& scene, io::Problems& problems) {
                      "the Langevin thermostat gives and takes heat through the damping",
                      "give a damping, for example 0.05 1/ps");
     if (scene.numerics.device != no_device && scene.numerics.device != any_device)
-        for (const io::Problem& p : device_problems(scene))
+        for (const io::Problem& p : device_problems(c))
             problems.add(p.where, p.what, p.why, p.fix);
-    std::vector<std::string> kinds; // maps of one state, or of one stride, are asked for once
-    for (const std::string& field : scene.output.fields)
-        kinds.push_back(field.starts_with("every:") ? "every:" : field);
-    std::sort(kinds.begin(), kinds.end());
-    if (const auto twice = std::adjacent_find(kinds.begin(), kinds.end()); twice != kinds.end())
-        problems.add("output.fields", fmt::format("has \"{}\" twice", *twice),
-                     "maps of one kind are written once", "leave one of them out");
-    if (scene.field_stride() == 0)
-        problems.add("output.fields", "has an \"every:\" without a number of steps",
-                     "maps are written every so many steps (points of a quasi-static path)",
-                     "for example fields = [\"zero-load\", \"every:1000\"]");
-    for (const auto& [delay, field] : scene.delayed_fields())
-        if (scene.without_time() || !scene.has(PathPart::pull_off))
-            problems.add("output.fields", "asks for \"" + field + "\"",
-                         "no pull-off goes on in time after zero load",
-                         "take a dynamic path with a pull-off, or take it out of output.fields");
-    if (scene.writes_field("pull-off") && !scene.has(PathPart::pull_off))
+    if (!c.maps.after_zero_load.empty() && (!c.in_time || !scene.has(PathPart::pull_off)))
+        problems.add("output.fields", "asks for \"" + c.maps.after_zero_load.front().second + "\"",
+                     "no pull-off goes on in time after zero load",
+                     "take a dynamic path with a pull-off, or take it out of output.fields");
+    if (c.maps.pull_off && !scene.has(PathPart::pull_off))
         problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
                      "add it to drive.path or take it out of output.fields");
-    if (scene.output.trajectory &&
-        (scene.has(PathPart::zero_load) || drive.mode == DriveMode::quasistatic))
+    if (scene.output.trajectory && !c.in_time)
         problems.add("output.trajectory", fmt::format("= {}", *scene.output.trajectory),
                      "frames are taken over time, and this path has none",
                      "leave it out: the maps of output.fields hold the states");
 }
 
-std::vector<io::Problem> device_problems(const Scene& scene) {
+std::vector<io::Problem> device_problems(const Case& c) {
     std::vector<io::Problem> list;
     const auto refuse = [&](std::string with, std::string why, std::string instead) {
         list.push_back({"numerics.device", "is not available with " + std::move(with),
                         std::move(why), std::move(instead)});
     };
-    if (scene.without_time())
+    if (!c.in_time)
         refuse("a path without time",
                "a device takes steps in time; equilibria are relaxed by the "
                "processor",
                "take numerics.device = \"none\", or drive.mode = \"dynamic\" with an approach");
-    if (scene.surface.kind == SurfaceKind::atoms)
+    if (c.scene.surface.kind == SurfaceKind::atoms)
         refuse("surface.kind = \"atoms\"",
                "the device sums over a map of heights, and has no lists of cells of atoms anywhere",
                "take numerics.device = \"none\"");
@@ -251,15 +238,16 @@ std::vector<io::Problem> device_problems(const Scene& scene) {
     return list;
 }
 
-void not_yet(const Scene& scene, io::Problems& problems) {
+void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused) {
+    const Scene& scene = c.scene;
     const auto refuse = [&](const std::string& key, const std::string& value, std::string instead) {
-        problems.add(key, "= " + value + " is not available yet",
-                     "it is part of the scene format, and this release does not compute it",
-                     std::move(instead));
+        refused.add(key, "= " + value + " is not available yet",
+                    "it is part of the scene format, and this release does not compute it",
+                    std::move(instead));
     };
     const auto parts = static_cast<std::size_t>(
         std::count(scene.drive.path.begin(), scene.drive.path.end(), PathPart::approach));
-    if (parts > 1 && !scene.without_time())
+    if (parts > 1 && c.in_time)
         refuse("drive.path", "a path of several cycles in time",
                "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
     if (scene.drive.mode == DriveMode::dynamic && scene.drive.path.size() > 1 &&
@@ -268,10 +256,11 @@ void not_yet(const Scene& scene, io::Problems& problems) {
                "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
 }
 
-std::vector<std::string> notes(const Scene& scene) {
+std::vector<std::string> notes_on_keys(const Case& c) {
+    const Scene& scene = c.scene;
     std::vector<std::string> list;
     const auto& surface = scene.surface;
-    if (!scene.without_time() && scene.block.model == BlockModel::multiscale) {
+    if (c.in_time && scene.block.model == BlockModel::multiscale) {
         int sites = surface.sites, halvings = 0;
         while (sites % 2 == 0)
             sites /= 2, ++halvings;
@@ -318,7 +307,7 @@ std::vector<std::string> notes(const Scene& scene) {
         idle("drive.hold", "drive.path relaxes with nothing held");
     if (!scene.has(PathPart::zero_load))
         idle("drive.states", "drive.path does not start at \"zero-load\"");
-    if (scene.without_time())
+    if (!c.in_time)
         for (const char* key :
              {"drive.temperature", "drive.seed", "drive.velocity", "drive.timestep",
               "drive.damping", "drive.damping_from", "drive.ramp", "output.series",
@@ -348,7 +337,7 @@ std::vector<std::string> notes(const Scene& scene) {
         for (const char* key : {"surface.hurst", "surface.rolloff", "surface.cutoff",
                                 "surface.seed", "surface.amplitudes"})
             idle(key, "surface.kind is not \"self-affine\"");
-    if (!scene.without_time() && scene.block.model != BlockModel::multiscale)
+    if (c.in_time && scene.block.model != BlockModel::multiscale)
         idle("block.layers_per_level", "block.model is not \"multiscale\"");
     return list;
 }

@@ -3,7 +3,7 @@
 //
 // interface.pairs: a Lennard-Jones potential for each type of the substrate's atoms, written as
 // LAMMPS' pair_coeff has it: type, epsilon, r0 and, where it is not interface.cutoff, the cutoff.
-#include "engine/scene/scene.hpp"
+#include "engine/setup/resolving.hpp"
 
 #include "io/units.hpp"
 #include "kernels/interface_sweep.hpp"
@@ -42,9 +42,10 @@ std::pair<std::string, std::vector<std::string>> parts_of(const std::string& ent
 
 } // namespace
 
-std::vector<TypedPair> typed_pairs(const Scene& scene, io::Problems& problems) {
+void parse_pairs(Case& c, io::Problems& problems) {
     constexpr const char* key = "interface.pairs";
-    std::vector<TypedPair> pairs;
+    const Scene& scene = c.scene;
+    std::vector<LennardJones>& pairs = c.simulation.interface.by_type;
     for (const std::string& entry : scene.interface.pairs) {
         const std::string shown = entry.size() <= 60 ? entry : entry.substr(0, 60) + "...";
         const auto refuse = [&](const std::string& what, const std::string& why,
@@ -58,19 +59,17 @@ std::vector<TypedPair> typed_pairs(const Scene& scene, io::Problems& problems) {
                                quantities.size()));
             continue;
         }
-        if (std::any_of(pairs.begin(), pairs.end(),
-                        [&, &name = type](const TypedPair& p) { return p.type == name; })) {
+        if (std::find(c.types.begin(), c.types.end(), type) != c.types.end()) {
             refuse("a type that stands there already", "its atoms have one potential",
                    "leave one of them out");
             continue;
         }
-        TypedPair pair{type, {0.0, 0.0, scene.interface.cutoff}};
+        LennardJones pair{0.0, 0.0, scene.interface.cutoff};
         const struct {
             const char *name, *unit;
             double& value;
-        } members[] = {{"epsilon", "eV", pair.potential.epsilon},
-                       {"r0", "Å", pair.potential.r0},
-                       {"cutoff", "Å", pair.potential.cutoff}};
+        } members[] = {
+            {"epsilon", "eV", pair.epsilon}, {"r0", "Å", pair.r0}, {"cutoff", "Å", pair.cutoff}};
         bool right = true;
         for (std::size_t k = 0; k < quantities.size(); ++k) {
             const auto& member = members[k];
@@ -84,20 +83,20 @@ std::vector<TypedPair> typed_pairs(const Scene& scene, io::Problems& problems) {
         }
         if (!right) continue;
         const double most = std::min(0.5 * scene.edge(), largest_cell_cutoff);
-        if (pair.potential.cutoff > most && (quantities.size() == 3))
+        if (pair.cutoff > most && (quantities.size() == 3))
             refuse(fmt::format("whose cutoff is above {:.6g} Å", most),
                    "it may be half the box, and 100 Å, at most", "take a smaller cutoff");
+        c.types.push_back(type);
         pairs.push_back(pair);
     }
     // A type may repel alone, cut at the minimum of its potential; not all of them.
-    const auto attracts = [](const TypedPair& p) {
-        return p.potential.cutoff > std::pow(2.0, 1.0 / 6.0) * p.potential.r0;
+    const auto attracts = [](const LennardJones& p) {
+        return p.cutoff > std::pow(2.0, 1.0 / 6.0) * p.r0;
     };
     if (!pairs.empty() && std::none_of(pairs.begin(), pairs.end(), attracts))
         problems.add(key, "leaves no attraction",
                      "no type's cutoff is beyond the minimum of its potential, 2^(1/6) r0",
                      "give one of them a larger cutoff; 4 r0 is usual");
-    return pairs;
 }
 
 } // namespace asperity

@@ -1,0 +1,346 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/setup/resolving.hpp"
+
+#include "engine/units.hpp"
+#include "io/error.hpp"
+#include "kernels/device/device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+/// The file of kind = "file" or "atoms": beside the scene, then in the working directory (the other
+/// way round if it was named on the command line).
+std::string file_of(const Scene& scene, io::Problems& problems) {
+    if (!scene.surface.reads_file()) return {};
+    namespace fs = std::filesystem;
+    const bool atoms = scene.surface.kind == SurfaceKind::atoms;
+    std::string file = scene.surface.file, dataset;
+    if (const std::size_t colon = file.find(":/"); colon != std::string::npos && !atoms) {
+        dataset = file.substr(colon);
+        file.resize(colon);
+    }
+    std::vector<fs::path> places = {fs::path(scene.file).parent_path() / file, fs::path(file)};
+    if (scene.positions.where("surface.file").starts_with("--set")) std::swap(places[0], places[1]);
+    std::error_code error;
+    for (const fs::path& place : places)
+        if (fs::is_regular_file(place, error))
+            return fs::absolute(place).lexically_normal().string() + dataset;
+    std::string looked = places[0].string();
+    if (places[1] != places[0]) looked += " and " + places[1].string();
+    const bool named = scene.positions.is_set("surface.file");
+    problems.add(named ? "surface.file" : "surface.kind",
+                 named ? fmt::format("= \"{}\": there is no such file", scene.surface.file)
+                       : fmt::format("= \"{}\" needs surface.file", atoms ? "atoms" : "file"),
+                 "looked for " + looked,
+                 fmt::format("give the path of a {}, relative to the scene or to the working "
+                             "directory",
+                             atoms ? "file of atoms" : "height map"));
+    return {};
+}
+
+/// output.fields; members that the reader has let pass.
+MapTimes maps_of(const Scene& scene, io::Problems& problems) {
+    MapTimes maps;
+    std::vector<std::string> kinds;
+    for (const std::string& field : scene.output.fields) {
+        constexpr std::string_view every = "every:";
+        std::string kind = field;
+        if (field == "zero-load") maps.zero_load = true;
+        if (field == "pull-off") maps.pull_off = true;
+        if (field.starts_with(after_zero_load))
+            maps.after_zero_load.emplace_back(std::stod(field.substr(after_zero_load.size())),
+                                              field);
+        if (field.starts_with(every)) {
+            kind = every;
+            long long n = 0;
+            const char* end = field.data() + field.size();
+            const auto [stop, error] = std::from_chars(field.data() + every.size(), end, n);
+            if (error == std::errc() && stop == end && n > 0)
+                maps.every = n;
+            else
+                problems.add("output.fields", "has an \"every:\" without a number of steps",
+                             "maps are written every so many steps (points of a quasi-static path)",
+                             "for example fields = [\"zero-load\", \"every:1000\"]");
+        }
+        if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end())
+            problems.add("output.fields", fmt::format("has \"{}\" twice", kind),
+                         "maps of one kind are written once", "leave one of them out");
+        kinds.push_back(kind);
+    }
+    std::sort(maps.after_zero_load.begin(), maps.after_zero_load.end());
+    return maps;
+}
+
+BlockOptions block_of(const Scene& scene, bool in_time) {
+    BlockOptions block;
+    block.sites = scene.surface.sites;
+    block.spacing = scene.surface.spacing;
+    block.young = scene.block.young * units::gigapascal;
+    block.poisson = scene.block.poisson;
+    block.atom_mass = scene.block.atom_mass * units::atomic_mass;
+    block.thickness = scene.block.thickness;
+    block.layers_per_level = scene.block.layers_per_level;
+    block.multiscale = in_time && scene.block.model == BlockModel::multiscale;
+    block.finite_strain = scene.block.strain == Strain::finite;
+    return block;
+}
+
+/// Its pairs, beside those by type, or its wall.
+void fill_interface(Case& c) {
+    const Scene& scene = c.scene;
+    const Scene::Interface& i = scene.interface;
+    const double a = scene.surface.spacing, site = a * a;
+    InterfaceOptions& options = c.simulation.interface;
+    options.potential = {i.epsilon, i.r0, i.cutoff};
+    options.tail = i.tail;
+    options.mixed = scene.numerics.precision == Precision::mixed;
+    options.single_too = !c.in_time && !options.mixed;
+    if (i.kind == InterfaceKind::atoms) return;
+    if (i.law == WallLawKind::lennard_jones) {
+        options.wall = LennardJonesWall(options.potential, 1.0 / site, i.tail);
+        return;
+    }
+    const double adhesion = i.adhesion / units::milli_per_unit;
+    // E* q/2 of the shortest wave along an axis, q = pi / a, and the attraction's own curvature.
+    const double modulus =
+        scene.block.young * units::gigapascal / (1.0 - scene.block.poisson * scene.block.poisson);
+    const double shortest_wave = 0.5 * std::numbers::pi * modulus / a;
+    const double curvature = adhesion / (i.range * i.range);
+    const double stiffness = i.stiffness ? *i.stiffness * units::gigapascal
+                                         : std::max(1000.0 * shortest_wave, 50.0 * curvature);
+    options.wall = ExponentialWall(adhesion * site, i.range, stiffness * site);
+}
+
+/// Flat on flat, and of flat layers of each type of atoms what is largest.
+void fill_flat_reference(Case& c, io::Problems& problems) {
+    const BlockOptions& block = c.simulation.block;
+    const InterfaceOptions& interface = c.simulation.interface;
+    if (c.scene.surface.kind == SurfaceKind::atoms)
+        c.notes.push_back(fmt::format(
+            "delta_gamma is that of one flat layer of the block's lattice{}, a unit of measure: "
+            "the substrate has atoms of its own, and no theory applies to it",
+            interface.by_type.empty() ? "" : " with interface.epsilon, r0 and cutoff"));
+    try {
+        c.flat = flat_reference(interface, block.spacing, block.sites, c.substrate());
+    } catch (const std::invalid_argument& e) {
+        problems.add("interface.epsilon", std::string(": ") + e.what());
+    }
+    c.site_stiffness = c.flat.stiffness * block.spacing * block.spacing;
+    c.largest_tension = c.flat.largest_tension;
+    for (const LennardJones& pair : interface.by_type) {
+        InterfaceOptions layer = interface;
+        layer.potential = pair;
+        try {
+            const FlatReference flat =
+                flat_reference(layer, block.spacing, block.sites, c.substrate());
+            c.site_stiffness =
+                std::max(c.site_stiffness, flat.stiffness * block.spacing * block.spacing);
+            c.largest_tension = std::max(c.largest_tension, flat.largest_tension);
+        } catch (const std::invalid_argument&) { // a flat layer of this type does not bind
+        }
+    }
+}
+
+/// Forces that the tolerance lets pass, in the block's longest wave, beside the work of adhesion.
+void note_coarse_tolerance(Case& c) {
+    if (c.in_time) return;
+    constexpr double coarse = 0.01;
+    const BlockOptions& block = c.simulation.block;
+    const double tolerance = c.scene.drive.tolerance, area = block.spacing * block.spacing;
+    const double energy =
+        units::milli_per_unit * 0.5 * tolerance * tolerance / (block.softest_wave() * area * area);
+    const double share = energy / c.flat.work_of_adhesion;
+    if (!(share > coarse) || !std::isfinite(share)) return;
+    c.notes.push_back(fmt::format(
+        "drive.tolerance = {:.2g} eV/Å, {:.2g} MPa on a site, is coarse for this block: in its "
+        "longest wave such forces stand for {:.2g} meV/Å², {:.2g} of the work of adhesion; take "
+        "{:.1g} or less",
+        tolerance, tolerance / area / units::megapascal, energy, share,
+        tolerance * std::sqrt(coarse / share)));
+}
+
+/// No step may jump over the potential, and no pull can be larger than what binds most.
+void limit_steps(Case& c, io::Problems& refused) {
+    const Scene& scene = c.scene;
+    // The width of the potential: its depth over its largest force.
+    const double tension = c.largest_tension * units::gigapascal;
+    const double width = c.flat.work_of_adhesion / units::milli_per_unit / tension;
+    if (tension > 0.0) {
+        c.longest_step = 0.5 * width;
+        if (!c.in_time && scene.drive.step > c.longest_step)
+            c.notes.push_back(
+                fmt::format("drive.step = {:.6g} Å: steps are {:.3g} Å at most, half the width of "
+                            "the potential (its depth over its largest force)",
+                            scene.drive.step, c.longest_step));
+        const double pull = -scene.drive.load * units::megapascal;
+        if (pull > tension && scene.surface.kind != SurfaceKind::atoms)
+            refused.add(
+                "drive.load",
+                fmt::format("= {:.6g} MPa pulls harder than anything binds", scene.drive.load),
+                fmt::format("the largest tension of flat on flat is {:.4g} MPa",
+                            tension / units::megapascal),
+                "take a smaller pull");
+    }
+    if (c.in_time && tension > 0.0) {
+        const double travel = scene.drive.velocity * units::metre_per_second * scene.drive.timestep;
+        if (travel > 0.1 * width)
+            refused.add(
+                "drive.velocity",
+                fmt::format("= {:.6g} m/s moves the block by {:.3g} Å in a time step",
+                            scene.drive.velocity, travel),
+                fmt::format("the potential is {:.3g} Å wide (its depth over its largest force), "
+                            "and a step must not jump over it",
+                            width),
+                fmt::format("take {:.3g} m/s or less with this time step",
+                            scene.drive.velocity * 0.1 * width / travel));
+    }
+}
+
+/// Of a scene whose steps a device takes.
+DeviceChoice device_of(const Scene& scene, io::Problems& refused) {
+    const int asked = scene.numerics.device, there = cuda_device_count();
+    if (asked == emulated_device_asked) return {DeviceChoice::Kind::emulated, 0};
+    const int index = asked == any_device ? 0 : asked;
+    if (index >= there)
+        refused.add("numerics.device",
+                    fmt::format("= {} asks for a CUDA device that is not there", index),
+                    !cuda_device() ? std::string("this program was built without CUDA")
+                    : there == 0   ? std::string("no CUDA device was found on this machine")
+                                   : fmt::format("this machine has {}, counted from 0", there),
+                    "take \"auto\" (a device if there is one), \"none\" or \"emulated\", or a "
+                    "machine that has the device");
+    return {DeviceChoice::Kind::cuda, index};
+}
+
+/// How the block is driven, and its steps.
+void fill_motion(Case& c, io::Problems& refused) {
+    const Scene& scene = c.scene;
+    const BlockOptions& block = c.simulation.block;
+    DriveOptions& drive = c.simulation.drive;
+    const double crossing = block.thickness * block.spacing / block.sound_speed();
+    drive.velocity = scene.drive.velocity * units::metre_per_second;
+    drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
+    drive.load_force = scene.drive.load * units::megapascal * c.area();
+    drive.approach = scene.has(PathPart::approach);
+    drive.pull_off = scene.has(PathPart::pull_off);
+
+    c.simulation.dt = scene.drive.timestep;
+    if (c.on(Effect::damping)) {
+        c.simulation.damping = scene.drive.damping * units::per_picosecond;
+        c.simulation.damping_from = scene.drive.damping_from;
+    }
+    if (c.on(Effect::temperature)) c.simulation.temperature = scene.drive.temperature;
+    c.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
+
+    c.longest_timestep = 2.0 / block.highest_frequency(c.site_stiffness);
+    if (c.on(Effect::inertia) && scene.drive.timestep >= c.longest_timestep)
+        refused.add(
+            "drive.timestep",
+            fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",
+                        scene.drive.timestep, c.longest_timestep),
+            fmt::format("the block's fastest vibration has a period of {:.4g} fs, and velocity "
+                        "Verlet diverges for steps longer than 1/pi of it",
+                        std::numbers::pi * c.longest_timestep),
+            fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a "
+                        "fraction of a percent",
+                        0.1 * std::numbers::pi * c.longest_timestep));
+}
+
+/// Whether the ranks can share the box, and how evenly.
+void look_at_ranks(Case& c, io::Problems& refused) {
+    try {
+        const ProcessGrid grid = c.grid(0);
+        if (grid.imbalance() > 0.1)
+            c.notes.push_back(
+                fmt::format("{} ranks share {} sites unevenly: the largest tile has {:.0f} % "
+                            "more than the mean",
+                            c.ranks, c.scene.surface.sites, 100.0 * grid.imbalance()));
+    } catch (const std::invalid_argument& e) {
+        refused.add("surface.sites", std::string(": ") + e.what());
+    }
+}
+
+/// All that follows from keys that do not contradict each other.
+void derive(Case& c, io::Problems& problems) {
+    io::Problems refused = c.scene.problems();
+    refuse_what_is_not_there_yet(c, refused);
+    c.notes = notes_on_keys(c);
+    fill_interface(c);
+    fill_flat_reference(c, problems);
+    limit_steps(c, refused);
+    note_coarse_tolerance(c);
+    if (c.on(Effect::device)) c.simulation.device = device_of(c.scene, refused);
+    fill_motion(c, refused);
+    look_at_ranks(c, refused);
+    c.refused = refused.list();
+}
+
+} // namespace
+
+ProcessGrid Case::grid(int rank) const {
+    if (!in_time) return ProcessGrid::slabs(ranks, rank, scene.surface.sites);
+    return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(levels.size()));
+}
+
+void Case::require_runnable() const {
+    if (!refused.empty()) throw io::SceneError(refused);
+}
+
+Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
+    Case c;
+    c.scene = scene;
+    c.ranks = ranks;
+    c.in_time = scene.drive.mode == DriveMode::dynamic && !scene.has(PathPart::zero_load);
+    c.simulation.block = block_of(scene, c.in_time);
+    c.levels = level_shapes(c.simulation.block);
+    io::Problems found = scene.problems();
+    c.file = file_of(scene, found);
+    c.maps = maps_of(scene, found);
+    if (scene.surface.kind == SurfaceKind::atoms) parse_pairs(c, found);
+    check_keys(c, found);
+    c.effects = effects_of(c);
+    if (problems.empty() && found.empty()) derive(c, found);
+    for (const io::Problem& problem : found.list()) {
+        const bool told =
+            std::any_of(problems.list().begin(), problems.list().end(),
+                        [&](const io::Problem& p) { return p.where == problem.where; });
+        if (!told) problems.add(problem);
+    }
+    return c;
+}
+
+Case resolve(const Scene& scene, int ranks) {
+    io::Problems problems;
+    Case c = resolve(scene, ranks, problems);
+    problems.throw_if_any();
+    return c;
+}
+
+Case read_case_text(const std::string& text, const std::string& file,
+                    const std::vector<std::string>& overrides, int ranks) {
+    io::Problems problems;
+    const Scene scene = read_scene_text(text, file, overrides, problems);
+    Case c = resolve(scene, ranks, problems);
+    problems.throw_if_any();
+    return c;
+}
+
+Case read_case(const std::string& file, const std::vector<std::string>& overrides, int ranks) {
+    return read_case_text(io::read_scene_file(file), file == io::standard_input ? "stdin" : file,
+                          overrides, ranks);
+}
+
+} // namespace asperity

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Parts of resolve(): each looks at what the case holds so far.
+#pragma once
+
+#include "engine/setup/case.hpp"
+
+namespace asperity {
+
+/// interface.pairs: fills in the types and simulation.interface.by_type.
+void parse_pairs(Case& c, io::Problems& problems);
+/// Contradictions between keys.
+void check_keys(const Case& c, io::Problems& problems);
+/// What keeps the scene from a device.
+std::vector<io::Problem> device_problems(const Case& c);
+/// What this release reads but cannot act upon yet: refused by a run.
+void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused);
+/// What the keys alone tell (a block thinner than wide, keys without effect): one sentence each.
+std::vector<std::string> notes_on_keys(const Case& c);
+
+} // namespace asperity
