@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/plan.hpp"
 
-#include "engine/scene/accuracy.hpp"
 #include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 #include "io/available_memory.hpp"
@@ -306,18 +305,9 @@ void print_plan(std::FILE* to, const Scene& scene, const Plan& plan) {
                      plan.threads, plan.threads == 1 ? "" : "s"));
     table.print(to);
     fmt::print(to, "\n");
-    if (scene.choice)
-        for (const std::string& said : accuracy_lines(*scene.choice))
-            fmt::print(to, "accuracy    {}\n", said);
     if (plan.steps > 0)
         fmt::print(to, "steps       {} of {:.4g} fs{}\n", plan.steps, setup.simulation.dt,
                    plan.steps == scene.drive.max_steps ? " (drive.max_steps)" : "");
-    if (const auto longer = longer_timestep(scene); plan.steps > 0 && longer)
-        fmt::print(to,
-                   "            drive.timestep = {:g} would take {:.2g} times fewer, for up to "
-                   "{:.2g} % of error (docs/accuracy.md)\n",
-                   longer->timestep, longer->timestep / scene.drive.timestep,
-                   100.0 * longer->error);
     if (plan.iterations > 0)
         fmt::print(to, "iterations  about {} in the relaxation (typical){}\n", plan.iterations,
                    setup.effects.on(Effect::states)

@@ -4,7 +4,6 @@
 
 #include "engine/run/smooth_sphere.hpp"
 #include "engine/run/theory_case.hpp"
-#include "engine/scene/accuracy.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
 #include "theory/jkr.hpp"
@@ -97,17 +96,6 @@ void add_dissipation(const Findings& findings, const Scene& scene, io::Result& r
     }
 }
 
-void add_accuracy(const AccuracyChoice& choice, io::Result& result) {
-    std::vector<std::string> chosen;
-    for (const auto& [key, value] : choice.settings)
-        chosen.push_back(key + " = " + value);
-    result.set("accuracy.target", choice.target);
-    result.set("accuracy.expected_error", choice.expected_error);
-    result.set("accuracy.chosen", std::move(chosen));
-    result.set("accuracy.kept", choice.kept);
-    result.set("accuracy.calibration", choice.calibration);
-}
-
 void add_effects(const Effects& effects, io::Result& result) {
     for (std::size_t i = 0; i < effect_count; ++i) {
         const auto effect = static_cast<Effect>(i);
@@ -183,7 +171,6 @@ io::Result run_result(const Scene& scene, const Surface& surface, const Setup& s
     if (findings.dissipated) add_dissipation(findings, scene, result);
     add_theory(scene, surface, setup.flat.work_of_adhesion, result);
     add_sphere(scene, setup.flat, result);
-    if (scene.choice) add_accuracy(*scene.choice, result);
     result.set("run.ranks", ranks);
     result.set("run.threads", omp_get_max_threads());
     result.set("run.kernels", std::string(name(processor_level())));

@@ -3,7 +3,6 @@
 #include "engine/run/summary.hpp"
 
 #include "engine/run/run_record.hpp"
-#include "engine/scene/accuracy.hpp"
 #include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 #include "io/table.hpp"
@@ -12,7 +11,6 @@
 
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace asperity {
 
@@ -142,11 +140,6 @@ void print_opening(std::FILE* to, const Scene& scene, const Setup& setup, const 
                setup.flat.separation, reach_of(setup.simulation.interface),
                setup.simulation.interface.mixed && !setup.simulation.interface.wall ? "single"
                                                                                     : "double");
-    if (scene.choice) {
-        const char* head = "accuracy";
-        for (const std::string& line : accuracy_lines(*scene.choice))
-            fmt::print(to, "  {:<11} {}\n", std::exchange(head, ""), line);
-    }
     fmt::print(to, "  machine     {}, {} thread{} each, {:.0f} MB a rank\n", grid.describe(),
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6);
     if (setup.simulation.device.kind != DeviceChoice::Kind::none)

@@ -44,15 +44,6 @@ inline constexpr int no_device = -3, emulated_device_asked = -2, any_device = -1
 /// Of output.fields: "after-zero-load:140", 140 ps after the approach has ended.
 inline constexpr std::string_view after_zero_load = "after-zero-load:";
 
-/// What numerics.accuracy made of the keys that the scene leaves open (accuracy.hpp).
-struct AccuracyChoice {
-    double target = 0.0;
-    std::vector<std::pair<std::string, std::string>> settings; ///< key and value
-    std::vector<std::string> kept;                             ///< keys that the scene sets itself
-    double expected_error = 0.0;                               ///< of what was chosen, relative
-    std::string calibration;                                   ///< where that is known from
-};
-
 struct Scene {
     struct Surface {
         SurfaceKind kind = SurfaceKind::self_affine;
@@ -134,8 +125,7 @@ struct Scene {
 
     struct Numerics {
         Precision precision = Precision::double_precision;
-        std::optional<double> accuracy; ///< fraction; empty: none
-        int device = no_device;         ///< or one of those below, or the number of a CUDA device
+        int device = no_device; ///< or one of those below, or the number of a CUDA device
     } numerics;
 
     struct Output {
@@ -147,8 +137,6 @@ struct Scene {
     } output;
 
     std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only
-
-    std::optional<AccuracyChoice> choice;
 
     // Where it came from.
     std::string file;           ///< as given on the command line

@@ -3,7 +3,6 @@
 //
 // A scene from its file and the overrides: keys, then what follows from several of them, then the
 // checks; all that is wrong is said at once.
-#include "engine/scene/accuracy.hpp"
 #include "engine/scene/scene.hpp"
 
 #include <algorithm>
@@ -62,12 +61,6 @@ Scene read_scene_text(const std::string& text, const std::string& file,
         !scene.positions.is_set("interface.frictionless"))
         scene.interface.frictionless = true;
 
-    if (wrong.empty()) {
-        io::Problems uncovered = scene.problems();
-        choose_accuracy(scene, uncovered);
-        for (const io::Problem& problem : uncovered.list())
-            wrong.add(problem);
-    }
     // Keys that could not be read still have their defaults, so the checks between keys can go on;
     // what they find about such a key is left out, it has been complained about already.
     io::Problems contradictions = scene.problems();

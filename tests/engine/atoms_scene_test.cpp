@@ -138,8 +138,7 @@ TEST(AtomsScene, RefusesWhatDoesNotGoTogether) {
         {"surface.detrend=plane", "surface.detrend = \"plane\""},
         {"surface.resample=band-limited", "surface.resample = \"band-limited\""},
         {"interface.tail=true", "interface.tail = true"},
-        {"numerics.device=emulated", "numerics.device"},
-        {"numerics.accuracy=1%", "surface.kind"}};
+        {"numerics.device=emulated", "numerics.device"}};
     for (const auto& [key, said] : refused) {
         const std::string what = refusal([&, k = key] { scene_over(file, {k}); });
         EXPECT_NE(what.find(said), std::string::npos) << key << "\n" << what;

@@ -95,7 +95,6 @@ TEST(Scene, DefaultsAreThePapers) {
         {"theory.clip", "true"},
         {"theory.renormalised", "true"},
         {"numerics.precision", "\"double\""},
-        {"numerics.accuracy", "\"none\""},
         {"numerics.device", "\"none\""},
         {"output.trajectory", "\"none\""},
         {"output.velocities", "false"},
@@ -149,7 +148,6 @@ trajectory = 1000
     EXPECT_EQ(s.drive.load, 0.001);
     EXPECT_EQ(s.drive.ramp, 20.0);
     EXPECT_EQ(s.theory.delta_gamma, 100.0);
-    EXPECT_EQ(read_scene_text("numerics.accuracy = \"1%\"", "s.toml").numerics.accuracy, 0.01);
     EXPECT_EQ(s.output.checkpoint, 300.0);
     EXPECT_EQ(s.output.trajectory, 1000);
     EXPECT_EQ(s.name, "my.scene");
@@ -232,7 +230,6 @@ TEST(Scene, Ranges) {
                             "output.checkpoint = -1",
                             "output.trajectory = 0",
                             "theory.beta = 0",
-                            "numerics.accuracy = 0",
                             "theory.delta_gamma = 0"}) {
         const io::Problem p = only(bad);
         EXPECT_NE(p.what.find("is out of range"), std::string::npos) << bad;
