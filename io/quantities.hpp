@@ -192,11 +192,6 @@ inline constexpr Quantity result_quantities[] = {
     {"surface.file_digest", "", "",
      "digest of what was read from surface.file: heights and width of a map, positions and types "
      "of atoms. A sweep takes a result again only if the file still holds the same"},
-    {"accuracy.target", "1", "", "relative error asked for (numerics.accuracy)"},
-    {"accuracy.expected_error", "1", "", "relative error expected with the settings chosen"},
-    {"accuracy.chosen", "", "", "settings chosen, \"key = value\""},
-    {"accuracy.kept", "", "", "keys that the scene sets itself"},
-    {"accuracy.calibration", "", "", "the measurement that the choice is based on"},
     {"run.wall_seconds", "s", "", "wall time of this process"},
     {"run.processor_seconds", "s", per::rank,
      "processor time of all threads, from the first start"},

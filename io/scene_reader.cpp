@@ -218,6 +218,17 @@ Key& Schema::boolean(std::string name, bool& field, std::string doc) {
     return add(std::move(key));
 }
 
+Schema& Schema::removed(Removed what) {
+    removed_.push_back(std::move(what));
+    return *this;
+}
+
+const Schema::Removed* Schema::find_removed(std::string_view key, std::string_view word) const {
+    for (const Removed& gone : removed_)
+        if (gone.key == key && gone.word == word) return &gone;
+    return nullptr;
+}
+
 Schema& Schema::variations(std::string name, std::string doc, std::string example,
                            std::vector<Variation>& into) {
     variations_ = {std::move(name), std::move(doc), std::move(example), &into};

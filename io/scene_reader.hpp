@@ -195,6 +195,14 @@ public:
             std::move(doc));
     }
 
+    /// What scenes of earlier releases have and this one refuses.
+    struct Removed {
+        std::string key;  ///< section.key
+        std::string word; ///< the value that the key no longer takes; empty: the whole key is gone
+        std::string why, fix;
+    };
+    Schema& removed(Removed what);
+
     /// A section without keys of its own: keys of the others, each with a list or range of values.
     /// Only their names are looked at here.
     Schema& variations(std::string name, std::string doc, std::string example,
@@ -204,6 +212,8 @@ public:
     const std::string& variations_section() const { return variations_.name; }
     void keep(Variation variation) const { variations_.into->push_back(std::move(variation)); }
     const Key* find(std::string_view path) const;
+    /// Null: that was never there, or still is.
+    const Removed* find_removed(std::string_view key, std::string_view word = "") const;
 
     /// Reads text (the contents of file) and overrides ("section.key=value"). Problems are added,
     /// not thrown.
@@ -229,6 +239,7 @@ private:
                    std::string doc);
 
     std::vector<Key> keys_;
+    std::vector<Removed> removed_;
     std::vector<std::pair<std::string, std::string>> sections_; ///< name and doc, in order
     struct Variations {
         std::string name, doc, example;

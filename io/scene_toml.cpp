@@ -284,6 +284,9 @@ private:
     void store(const Schema::Key& key, const Schema::Value& value, const std::string& text,
                const Position& at) {
         positions_.set(key.path(), at);
+        if (const auto* gone = schema_.find_removed(key.path(), value.text.value_or("")))
+            return add(at, fmt::format("{} = {} is not a choice any more", key.path(), text),
+                       gone->why, gone->fix);
         const Problem problem = key.store(value);
         if (!problem.what.empty())
             add(at, fmt::format("{} = {} {}", key.path(), text, problem.what), problem.why,
@@ -292,6 +295,8 @@ private:
 
     void unknown(const std::string& path, const Position& at) {
         if (full()) return; // before names are compared
+        if (const auto* gone = schema_.find_removed(path))
+            return add(at, path + " is not a key any more", gone->why, gone->fix);
         const std::size_t dot = path.find('.');
         const std::string section = dot == std::string::npos ? "" : path.substr(0, dot);
         const std::string name = dot == std::string::npos ? path : path.substr(dot + 1);

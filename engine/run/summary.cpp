@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace asperity {
 

@@ -77,18 +77,15 @@ io::Schema bind(Scene& scene) {
 
     auto& block = scene.block;
     schema.section("block", "The elastic block.");
-    auto& model = schema.choice<BlockModel>(
+    schema.choice<BlockModel>(
         "model", block.model,
         {{"lattice", BlockModel::lattice}, {"multiscale", BlockModel::multiscale}},
         "on a path in time: every atom, or coarser with depth; without time the block is the waves "
         "of its lattice");
-    model.store = [store = model.store](const io::Schema::Value& value) -> io::Problem {
-        if (value.text != "spectral") return store(value);
-        return {"", "is not a choice any more",
-                "a path without time is always one of waves, and a path in time never",
-                "leave block.model out, and take drive.mode = \"quasistatic\" or drive.path = "
-                "[\"zero-load\"]"};
-    };
+    schema.removed({"block.model", "spectral",
+                    "a path without time is always one of waves, and a path in time never",
+                    "leave block.model out, and take drive.mode = \"quasistatic\" or drive.path = "
+                    "[\"zero-load\"]"});
     schema.number("young", block.young, "GPa", io::Range{0.0, 1e6, true, false},
                   "Young's modulus E");
     schema.number("poisson", block.poisson, "", io::Range{-1.0, 0.5, true, true},
@@ -206,6 +203,11 @@ io::Schema bind(Scene& scene) {
         "precision", numerics.precision,
         {{"double", Precision::double_precision}, {"mixed", Precision::mixed}},
         "of the pairs across the interface: \"mixed\" works them out in single precision");
+    schema.removed(
+        {"numerics.accuracy", "",
+         "it knew the errors of one material; they are measured on the scene itself now",
+         "leave it out; `asperity cost SCENE --target 1%` prints the cheapest --set that "
+         "keeps an error"});
     std::vector<std::pair<std::string, int>> devices = {
         {"none", no_device}, {"emulated", emulated_device_asked}, {"auto", any_device}};
     for (int n = 0; n < 8; ++n)

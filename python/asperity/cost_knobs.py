@@ -76,8 +76,6 @@ def _value(key: str, v: float, unit: str) -> KnobValue:
 def _refuse(scene: Values) -> None:
     problems = []
     for key, shown, why, fix in (
-            ("numerics.accuracy", "{:.6g}", "cost sets each of what accuracy would choose",
-             "leave it out (--set numerics.accuracy=none)"),
             ("drive.temperature", "{:.6g} K", "differences between runs would be those of their noise",
              "measure the same scene at 0 K"),
             ("drive.max_steps", "{:.0f}", "runs that are cut off cannot be compared", "leave it out")):

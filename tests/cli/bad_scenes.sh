@@ -40,6 +40,7 @@ bad "no TOML" $'[surface]\nrms = 0.3 nm' "scene.toml:2:" "stand in quotes: rms =
 bad "path" $'[drive]\npath = ["pull-off"]' "scene.toml:2:8: drive.path has a \"pull-off\""
 bad "not yet" $'[drive]\npath = ["zero-load", "pull-off"]' "scene.toml:2:8: drive.path = a pull-off from \"zero-load\" in time is not available yet"
 bad "a model that is gone" $'[block]\nmodel = "spectral"' "scene.toml:2:9: block.model = \"spectral\" is not a choice any more" "leave block.model out"
+bad "a key that is gone" $'[numerics]\naccuracy = "1%"' "scene.toml:2:1: numerics.accuracy is not a key any more" "asperity cost SCENE --target 1%"
 bad "waves at finite strain" $'[block]\nstrain = "finite"\n[drive]\npath = ["zero-load"]' \
     "scene.toml:2:10: block.strain = \"finite\" on a path without time" "waves do not add up"
 bad "a wall in time" $'[interface]\nkind = "wall"' "scene.toml:2:8: interface.kind = \"wall\" on a path in time"

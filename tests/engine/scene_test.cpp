@@ -95,7 +95,6 @@ TEST(Scene, DefaultsAreThePapers) {
         {"theory.clip", "true"},
         {"theory.renormalised", "true"},
         {"numerics.precision", "\"double\""},
-        {"numerics.accuracy", "\"none\""},
         {"numerics.device", "\"none\""},
         {"output.trajectory", "\"none\""},
         {"output.velocities", "false"},

@@ -123,6 +123,36 @@ TEST(SceneReader, UnknownKey) {
     EXPECT_EQ(p.fix, "did you mean body.height?");
 }
 
+TEST(SceneReader, WhatIsGoneSaysWhatToDo) {
+    const auto said = [](const std::string& text, const std::vector<std::string>& overrides = {}) {
+        Teapot pot;
+        std::vector<Variation> sweep;
+        Schema schema = bind(pot);
+        schema.variations("kiln", "", "", sweep)
+            .removed({"body.spout", "", "no pot has one", "pour over the rim"})
+            .removed({"surface.glaze", "lead", "it is poisonous", "take celadon"});
+        Positions positions;
+        Problems problems;
+        schema.read(text, "pot.toml", overrides, positions, problems);
+        EXPECT_EQ(problems.list().size(), 1u) << text;
+        return problems.empty() ? Problem{} : problems.list().front();
+    };
+    Problem p = said("[body]\ncups = 3\nspout = 2\n");
+    EXPECT_EQ(p.where, "pot.toml:3:1");
+    EXPECT_EQ(p.what, "body.spout is not a key any more");
+    EXPECT_EQ(p.why, "no pot has one");
+    EXPECT_EQ(p.fix, "pour over the rim");
+    EXPECT_EQ(said("", {"body.spout=none"}).where, "--set body.spout=none");
+    EXPECT_EQ(said("[kiln]\nbody.spout = [1, 2]\n").fix, "pour over the rim");
+    EXPECT_EQ(said("body.spouts = 2\n").what, "body.spouts is no key of a scene");
+    p = said("[surface]\nglaze = \"lead\"\n");
+    EXPECT_EQ(p.where, "pot.toml:2:9");
+    EXPECT_EQ(p.what, "surface.glaze = \"lead\" is not a choice any more");
+    EXPECT_EQ(p.fix, "take celadon");
+    EXPECT_EQ(said("surface.glaze = \"gold\"\n").what,
+              "surface.glaze = \"gold\" is none of its choices");
+}
+
 TEST(SceneReader, KeyOfAnotherSection) {
     const Problem p = only("[surface]\ncups = 3\n");
     EXPECT_EQ(p.where, "pot.toml:2:1");

@@ -77,7 +77,7 @@ def test_knobs_are_those_that_the_scene_has():
                                     "tolerance", "step", "model"]
     assert knobs(surface=small, drive={"path": ["zero-load"]}) == ["cutoff", "tail", "thickness", "precision", "tolerance"]
     assert "damping" not in knobs(surface=small, drive={"damping": 0})
-    for bad in ({"block": {"strain": "finite"}}, {"drive": {"temperature": 300}}, {"drive": {"max_steps": 10}}, {"numerics": {"accuracy": 0.01}}):
+    for bad in ({"block": {"strain": "finite"}}, {"drive": {"temperature": 300}}, {"drive": {"max_steps": 10}}):
         with pytest.raises(asperity.SceneError):
             knobs(surface={"sites": 32}, **bad)
     assert joined(["a.b=1", "c.d=2"], ["a.b=3"]) == ["c.d=2", "a.b=3"]
