@@ -84,20 +84,11 @@ void Directory::sync() const {
                         "check the disk");
 }
 
-Directory::Place Directory::place() const {
+bool Directory::in_place() const {
     struct stat mine {
     }, there{};
-    if (::fstat(fd(), &mine) != 0 || mine.st_nlink == 0) return Place::removed;
-    if (::stat(path_.c_str(), &there) == 0 && there.st_dev == mine.st_dev &&
-        there.st_ino == mine.st_ino)
-        return Place::here;
-    return Place::moved;
-}
-
-std::string Directory::present_path() const {
-    std::error_code error;
-    const auto path = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(fd()), error);
-    return error ? path_ : path.string();
+    return ::fstat(fd(), &mine) == 0 && mine.st_nlink > 0 && ::stat(path_.c_str(), &there) == 0 &&
+           there.st_dev == mine.st_dev && there.st_ino == mine.st_ino;
 }
 
 std::string FilePlace::name() const {

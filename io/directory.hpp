@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// An open directory. Its files are named relative to it (openat and its kind), so they are found
-// and written also when somebody renames the directory.
+// An open directory. Its files are named relative to it (openat and its kind), so a file is never
+// written into another directory that has taken its name.
 #pragma once
 
 #include <memory>
@@ -50,11 +50,8 @@ public:
     /// Names in it on the disk (fsync). Throws FileError.
     void sync() const;
 
-    enum class Place { here, moved, removed };
     /// Whether path() still leads to it.
-    Place place() const;
-    /// Where it is now, as far as the system can tell.
-    std::string present_path() const;
+    bool in_place() const;
 
 private:
     std::string path_;

@@ -101,16 +101,6 @@ bool Journal::in_place() const {
     return ::fstat(file_.get(), &status) == 0 && status.st_nlink > 0;
 }
 
-void Journal::move_to(const Directory& directory) {
-    OutputFile copy({directory, name_});
-    if (!read_parts(file_.get(), bytes_, [&](Bytes part) { copy.write(part); }))
-        fail("cannot be read back");
-    copy.commit();
-    path_ = directory / name_;
-    file_ = directory.open(name_, O_RDWR | O_NOFOLLOW);
-    if (!file_) fail("cannot be opened again");
-}
-
 void PayloadReader::take(std::span<std::byte> to) {
     if (to.size() > bytes_.size())
         throw FileError("run.journal", "holds a record that is too short",

@@ -49,8 +49,6 @@ public:
 
     /// False: somebody has removed the file.
     bool in_place() const;
-    /// Copies itself into another directory and goes on there. Throws FileError.
-    void move_to(const Directory& directory);
 
 private:
     [[noreturn]] void fail(const char* what) const;

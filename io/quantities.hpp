@@ -199,9 +199,7 @@ inline constexpr Quantity result_quantities[] = {
     {"run.iterations", "1", "",
      "iterations: of a path's points, or of the state and of the search for others"},
     {"run.stopped", "", "",
-     "\"max_steps\", \"wall_limit\", \"signal\" or \"directory\" (moved or removed): the path is "
-     "not "
-     "complete"},
+     "\"max_steps\", \"wall_limit\" or \"signal\": the path is not complete"},
     {"run.ranks", "1", "", "MPI ranks"},
     {"run.threads", "1", "", "threads of a rank"},
     {"run.phases.*.seconds", "s", per::rank,

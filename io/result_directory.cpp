@@ -54,8 +54,8 @@ Holds holds(const fs::path& directory) {
     const json stopped = run.is_object() ? run.value("stopped", json("")) : json("");
     const json failure = result.value("failure", json::object());
     const json code = failure.is_object() ? failure.value("exit_code", json(0)) : json(0);
-    const bool goes_on = stopped == "wall_limit" || stopped == "signal" || stopped == "directory" ||
-                         code == exit_code::input_output;
+    const bool goes_on =
+        stopped == "wall_limit" || stopped == "signal" || code == exit_code::input_output;
     return goes_on ? Holds::unfinished : Holds::result;
 }
 
@@ -282,11 +282,6 @@ void ResultDirectory::unlock() {
         mine.st_ino == there.st_ino && mine.st_dev == there.st_dev)
         ::unlinkat(directory_.fd(), run_file::lock, 0);
     lock_ = Descriptor();
-}
-
-void ResultDirectory::make_again() {
-    directory_ = Directory::make(path());
-    lock();
 }
 
 } // namespace asperity::io

@@ -42,8 +42,6 @@ public:
     const std::string& path() const { return directory_.path(); }
     /// What its user should know: another name than expected, a lock that was broken.
     const std::vector<std::string>& notes() const { return notes_; }
-    /// After the directory was removed: makes it again, and takes it.
-    void make_again();
 
 private:
     void lock();

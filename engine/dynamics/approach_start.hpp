@@ -26,8 +26,8 @@ struct ApproachStart {
     /// For checkpoints.
     template <class Visitor>
     void visit(Visitor& v) {
-        v("start.energy", energy);
-        v("start.force", force);
+        v("energy", energy);
+        v("force", force);
     }
 };
 

@@ -47,11 +47,9 @@ public:
     /// The state of the machine, for checkpoints.
     template <class Visitor>
     void visit(Visitor& v) {
-        int leg = static_cast<int>(leg_);
-        v("drive.leg", leg);
-        leg_ = static_cast<Leg>(leg);
-        v("drive.turned_at", turned_at_);
-        v("drive.attracted", attracted_);
+        v("leg", leg_);
+        v("turned_at", turned_at_);
+        v("attracted", attracted_);
     }
 
 private:

@@ -160,7 +160,7 @@ void Simulation::visit(Visitor& v) {
     double top = block_.top();
     v("top", top);
     if (top != block_.top()) block_.set_top(top), host_is_newer_ = true;
-    drive_.visit(v);
+    v("drive", drive_);
     v("record.time", record_.time);
     v("record.top", record_.top);
     v("record.mean_height", record_.mean_height);
@@ -179,11 +179,7 @@ void Simulation::visit(Visitor& v) {
     v("ledger.heat", ledger_.heat);
     v("ledger.approach", ledger_.approach);
     v("ledger.pull_off", ledger_.pull_off);
-    bool started = energy_at_start_.has_value();
-    v("energy.started", started);
-    double at_start = energy_at_start_.value_or(0.0);
-    v("energy.at_start", at_start);
-    if (started) energy_at_start_ = at_start;
+    v("energy.at_start", energy_at_start_);
     v("energy.work_at_start", work_at_start_);
     v("energy.damped_at_start", damped_at_start_);
     v("energy.scale", scale_);

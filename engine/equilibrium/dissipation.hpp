@@ -6,23 +6,26 @@
 // that this sets free goes into vibrations that the path does not follow.
 #pragma once
 
+#include "engine/dynamics/drive.hpp"
+
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace asperity {
 
 struct Instability {
-    double energy = 0.0;                              ///< dissipated, eV
-    double leg = 0.0;                                 ///< 0 approach, 1 pull-off
-    double top = 0.0;                                 ///< displacement of what is held, Å
-    double height_before = 0.0, height_after = 0.0;   ///< mean height of the lowest layer, Å
-    double force_before = 0.0, force_after = 0.0;     ///< that holding it takes, eV/Å
-    double contact_before = 0.0, contact_after = 0.0; ///< sites
-    double site_x = 0.0, site_y = 0.0; ///< the site of the lowest layer that moved most
-    double largest_move = 0.0;         ///< how far, Å
-    double sites_moved = 0.0;          ///< sites that moved more than half as far
+    double energy = 0.0; ///< dissipated, eV
+    Leg leg = Leg::approach;
+    double top = 0.0;                                   ///< displacement of what is held, Å
+    double height_before = 0.0, height_after = 0.0;     ///< mean height of the lowest layer, Å
+    double force_before = 0.0, force_after = 0.0;       ///< that holding it takes, eV/Å
+    std::int64_t contact_before = 0, contact_after = 0; ///< sites
+    int site_x = 0, site_y = 0;   ///< the site of the lowest layer that moved most
+    double largest_move = 0.0;    ///< how far, Å
+    std::int64_t sites_moved = 0; ///< sites that moved more than half as far
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -50,10 +53,9 @@ struct Dissipation {
     std::vector<Instability> jumps;        ///< the strongest, in the order of the path
 
     double total() const { return earlier + approach + pull_off; }
-    /// A leg begins: approach (0) or pull-off (1).
-    void begin(double leg) { earlier += std::exchange(leg == 0.0 ? approach : pull_off, 0.0); }
+    void begin(Leg leg) { earlier += std::exchange(of(leg), 0.0); }
     void add(const Instability& jump) {
-        (jump.leg == 0.0 ? approach : pull_off) += jump.energy;
+        of(jump.leg) += jump.energy;
         ++events;
         jumps.push_back(jump);
         constexpr std::size_t kept = 20;
@@ -66,16 +68,15 @@ struct Dissipation {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("dissipation.approach", approach);
-        v("dissipation.pull_off", pull_off);
-        v("dissipation.earlier", earlier);
-        v("dissipation.events", events);
-        std::size_t count = jumps.size();
-        v("dissipation.jumps", count);
-        jumps.resize(count);
-        for (Instability& jump : jumps)
-            jump.visit(v);
+        v("approach", approach);
+        v("pull_off", pull_off);
+        v("earlier", earlier);
+        v("events", events);
+        v("jumps", jumps);
     }
+
+private:
+    double& of(Leg leg) { return leg == Leg::approach ? approach : pull_off; }
 };
 
 } // namespace asperity

@@ -13,15 +13,6 @@
 
 namespace asperity {
 
-/// Of a number that may be there, for checkpoints.
-template <class Visitor>
-void visit_optional(Visitor& v, const char* name, std::optional<double>& value) {
-    double has = value ? 1.0 : 0.0, number = value.value_or(0.0);
-    v("has", has);
-    v(name, number);
-    if (has != 0.0) value = number;
-}
-
 /// Of the relaxed state under zero load.
 struct ZeroLoad {
     double binding_energy = 0.0; ///< gamma_state = -(U_LJ + U_el) / A0, meV/Å^2
@@ -31,7 +22,7 @@ struct ZeroLoad {
     double repulsive_fraction = 0.0;
     double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
     double residual = 0.0;    ///< largest force left, eV/Å
-    double iterations = 0.0;
+    long long iterations = 0;
     /// Of the binding energy: what forces as large as drive.tolerance stand for in the softest wave
     /// of the box, meV/Å^2.
     double uncertainty = 0.0;
@@ -92,8 +83,10 @@ struct LegEnergies {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        for (auto* value : {&interface_work, &drive_work, &lost, &uncertainty})
-            visit_optional(v, "leg_energy", *value);
+        v("interface_work", interface_work);
+        v("drive_work", drive_work);
+        v("lost", lost);
+        v("uncertainty", uncertainty);
     }
 };
 
@@ -107,20 +100,16 @@ struct Findings {
     std::optional<double> contact_made;    ///< when the approach ended, fs
     std::optional<Dissipation> dissipated; ///< of a quasi-static path (which lists it itself)
 
-    /// By name, for checkpoints: visitor(name, double&).
+    /// For checkpoints; but the states and what was dissipated, which those who find them keep.
     template <class Visitor>
     void visit(Visitor& v) {
-        approach.visit(v);
-        pull_off.visit(v);
-        visit_optional(v, "lost_in_cycle", lost_in_cycle);
+        v("approach", approach);
+        v("pull_off", pull_off);
+        v("lost_in_cycle", lost_in_cycle);
         v("attraction_in", attraction_in);
         v("attraction_out", attraction_out);
-        visit_optional(v, "contact_made", contact_made);
-        double has = zero_load ? 1.0 : 0.0;
-        v("zero_load", has);
-        ZeroLoad z = zero_load.value_or(ZeroLoad{});
-        z.visit(v);
-        if (has != 0.0) zero_load = z;
+        v("contact_made", contact_made);
+        v("zero_load", zero_load);
     }
 };
 

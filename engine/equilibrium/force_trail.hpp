@@ -66,18 +66,17 @@ public:
 
     template <class Visitor>
     void visit(Visitor& v) {
-        std::size_t count = points_.size();
-        v("trail.points", count);
-        points_.resize(count);
-        for (Point& point : points_) {
-            v("trail.x", point.x);
-            v("trail.f", point.f);
-        }
+        v("points", points_);
     }
 
 private:
     struct Point {
         double x = 0.0, f = 0.0;
+        template <class Visitor>
+        void visit(Visitor& v) {
+            v("x", x);
+            v("f", f);
+        }
     };
     static constexpr std::size_t longest = 3;
     std::vector<Point> points_;

@@ -66,9 +66,9 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         attracted_ = false;
         (leg == Leg::approach ? approach_ : pull_off_) = 0.0;
         (leg == Leg::approach ? approach_error_ : pull_off_error_) = {};
-        dissipation_.begin(leg == Leg::approach ? 0.0 : 1.0);
+        dissipation_.begin(leg);
         direction_ = direction;
-        ahead_.known = 0.0;
+        ahead_.known = false;
         predicts_ = reversible_;
         closing_in_ = false;
     }
@@ -113,8 +113,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         }
         // What looks like an instability after a prediction is looked at again without.
         if (std::exchange(predicts_, false) && !state.jumped) continue;
-        if (state.jumped) ahead_ = {1.0, top, state.force};
-        if (state.converged && !step.excess) ahead_ = {1.0, top, state.top_force};
+        if (state.jumped) ahead_ = {true, top, state.force};
+        if (state.converged && !step.excess) ahead_ = {true, top, state.top_force};
         length_ *= 0.5;
         predicts_ = reversible_;
     }
@@ -151,7 +151,7 @@ bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
 /// The next step goes half of the way to the place ahead; or all of it, once the work of such a
 /// step is known well enough: then true.
 bool QuasistaticPath::close_in() {
-    if (ahead_.known == 0.0) return false;
+    if (!ahead_.known) return false;
     const double way = std::abs(ahead_.top - record_.top);
     if (way > smallest_step() && !work_is_known(ahead_.top, ahead_.force)) {
         length_ = std::min(length_, 0.5 * way);
@@ -159,7 +159,7 @@ bool QuasistaticPath::close_in() {
     }
     length_ = way;
     predicts_ = false;
-    ahead_.known = 0.0;
+    ahead_.known = false;
     return true;
 }
 
@@ -230,7 +230,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double top, const StepCh
         trail_.begin(top, state.top_force);
     points_.accept(top);
     predicts_ = reversible_ = step.dissipated == 0.0;
-    if (ahead_.known != 0.0 && direction_ * (ahead_.top - top) <= 0.0) ahead_.known = 0.0;
+    if (ahead_.known && direction_ * (ahead_.top - top) <= 0.0) ahead_.known = false;
     ++record_.step;
     allowed_ += options_.tolerance * sites_ * std::abs(top - record_.top);
     set_record(state, top);
@@ -267,14 +267,14 @@ void QuasistaticPath::set_record(const RelaxedState& state, double top) {
 Instability QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg) const {
     Instability instability;
     instability.energy = energy;
-    instability.leg = leg == Leg::approach ? 0.0 : 1.0;
+    instability.leg = leg;
     instability.top = record_.top;
     instability.height_before = record_.mean_height;
     instability.height_after = options_.reference_height + state.mean_height;
     instability.force_before = record_.top_force;
     instability.force_after = state.top_force;
-    instability.contact_before = static_cast<double>(record_.in_contact);
-    instability.contact_after = static_cast<double>(state.in_contact);
+    instability.contact_before = record_.in_contact;
+    instability.contact_after = state.in_contact;
     const LargestSite most = points_.largest_move();
     std::array<std::int64_t, 1> count = {0};
     const auto moved = points_.moves();
@@ -286,7 +286,7 @@ Instability QuasistaticPath::describe(const RelaxedState& state, double energy, 
     instability.site_x = most.x;
     instability.site_y = most.y;
     instability.largest_move = most.value;
-    instability.sites_moved = static_cast<double>(count[0]);
+    instability.sites_moved = count[0];
     return instability;
 }
 

@@ -114,7 +114,8 @@ private:
     /// A place further on, and the force there, by which steps close in on it. Between the last
     /// point and it the block becomes unstable, or the force is not smooth enough to tell.
     struct Ahead {
-        double known = 0.0, top = 0.0, force = 0.0;
+        bool known = false;
+        double top = 0.0, force = 0.0;
     };
     const LegError& error(Leg leg) const {
         return leg == Leg::approach ? approach_error_ : pull_off_error_;
@@ -172,16 +173,16 @@ void QuasistaticPath::visit(Visitor& v) {
     v("work", record_.work);
     v("dissipated", record_.damped);
     v("residual", record_.residual);
-    points_.visit(v);
+    v("points", points_);
     v("reversible", reversible_);
     v("predicts", predicts_);
     v("closing_in", closing_in_);
     v("length", length_);
-    v("ahead", ahead_.known);
+    v("ahead.known", ahead_.known);
     v("ahead.top", ahead_.top);
     v("ahead.force", ahead_.force);
     v("direction", direction_);
-    trail_.visit(v);
+    v("trail", trail_);
     v("attracted", attracted_);
     v("strongest", strongest_);
     v("approach_work", approach_);
@@ -193,7 +194,7 @@ void QuasistaticPath::visit(Visitor& v) {
     v("energy_at_start", energy_at_start_);
     v("scale", scale_);
     v("allowed", allowed_);
-    dissipation_.visit(v);
+    v("dissipation", dissipation_);
 }
 
 } // namespace asperity

@@ -37,14 +37,14 @@ void StateSearch::start(const ZeroLoad& first) {
     now_.force = options_.load;
     trail_.begin(height, now_.force);
     passed_ = {now_};
-    found_ = {{first, 0.0}};
+    found_ = {{first, 0}};
     if (now_.contact >= 1.0) end_ = StateList::End::contact;
 }
 
 StateSearch::Point StateSearch::point(const RelaxedState& state, double height) const {
     return {height, state.force, state.interface_energy + state.elastic_energy,
             static_cast<double>(state.in_contact) / sites_,
-            outwards_ ? static_cast<double>(instabilities_) : 0.0};
+            outwards_ ? static_cast<int>(instabilities_) : 0};
 }
 
 StateSearch::Outcome StateSearch::advance() {
@@ -193,7 +193,7 @@ double StateSearch::next_height() const {
     if (!outwards_) return now_.height - stride_ * options_.step;
     double next = HUGE_VAL;
     for (const Point& p : passed_)
-        if (p.branch == 0.0 && p.height > now_.height) next = std::min(next, p.height);
+        if (p.branch == 0 && p.height > now_.height) next = std::min(next, p.height);
     return next < HUGE_VAL ? next : now_.height + options_.step;
 }
 
@@ -222,7 +222,7 @@ void StateSearch::add(const ZeroLoad& state) {
         if (std::abs(old.state.mean_height - state.mean_height) < 0.5 * options_.step &&
             std::abs(old.state.binding_energy - state.binding_energy) < energy)
             return;
-    found_.push_back({state, outwards_ ? static_cast<double>(instabilities_) : 0.0});
+    found_.push_back({state, outwards_ ? static_cast<int>(instabilities_) : 0});
 }
 
 void StateSearch::turn_outwards() {
@@ -253,13 +253,13 @@ void StateSearch::turn_inwards() {
 /// The branch followed outwards has come to a point of the way inwards.
 bool StateSearch::joined() const {
     return std::any_of(passed_.begin(), passed_.end(), [&](const Point& p) {
-        return p.branch == 0.0 && p.height == now_.height &&
+        return p.branch == 0 && p.height == now_.height &&
                std::abs(p.energy - now_.energy) <= accuracy();
     });
 }
 
 /// The innermost point of a branch that was followed outwards.
-double StateSearch::inner_end(double branch) const {
+double StateSearch::inner_end(int branch) const {
     double inner = HUGE_VAL;
     for (const Point& p : passed_)
         if (p.branch == branch) inner = std::min(inner, p.height);
@@ -273,12 +273,12 @@ double StateSearch::inner_end(double branch) const {
 std::optional<double> StateSearch::largest_force(const Found& from, const Found& to) const {
     const double start = from.state.mean_height - options_.reference_height;
     double end = to.state.mean_height - options_.reference_height;
-    if (to.branch != 0.0 && to.branch != from.branch) end = std::min(end, inner_end(to.branch));
+    if (to.branch != 0 && to.branch != from.branch) end = std::min(end, inner_end(to.branch));
     const double inner = inner_end(from.branch);
     double largest = 0.0;
     for (const Point& p : passed_)
         if (p.height < start && p.height >= end &&
-            (p.branch == from.branch || (p.branch == 0.0 && p.height < inner)))
+            (p.branch == from.branch || (p.branch == 0 && p.height < inner)))
             largest = std::max(largest, p.force - options_.load);
     if (largest > 0.0) return largest;
     return std::nullopt;

@@ -99,7 +99,7 @@ private:
         double force = 0.0;  ///< F, eV/Å
         double energy = 0.0; ///< U, eV
         double contact = 0.0;
-        double branch = 0.0; ///< 0: passed inwards; n: outwards, after the n-th instability
+        int branch = 0; ///< 0: passed inwards; n: outwards, after the n-th instability
         template <class Visitor>
         void visit(Visitor& v) {
             v("height", height);
@@ -111,10 +111,10 @@ private:
     };
     struct Found {
         ZeroLoad state;
-        double branch = 0.0;
+        int branch = 0;
         template <class Visitor>
         void visit(Visitor& v) {
-            state.visit(v);
+            v("state", state);
             v("branch", branch);
         }
     };
@@ -131,7 +131,7 @@ private:
     std::vector<std::int64_t> sites_by_distance();
     void tabulate_gain();
     double next_height() const;
-    double inner_end(double branch) const;
+    double inner_end(int branch) const;
     std::optional<double> largest_force(const Found& from, const Found& to) const;
     double accuracy() const { return options_.tolerance * sites_ * options_.step; } ///< eV
 
@@ -160,26 +160,19 @@ private:
 
 template <class Visitor>
 void StateSearch::visit(Visitor& v) {
-    points_.visit(v);
+    v("points", points_);
     v("first_top", first_top_);
-    now_.visit(v);
-    turned_at_.visit(v);
-    trail_.visit(v);
-    turned_trail_.visit(v);
+    v("now", now_);
+    v("turned_at", turned_at_);
+    v("trail", trail_);
+    v("turned_trail", turned_trail_);
     v("smooth", smooth_);
     v("outwards", outwards_);
     v("stride", stride_);
     v("instabilities", instabilities_);
     v("outward_points", outward_points_);
-    const auto list = [&v](const char* name, auto& items) {
-        std::size_t count = items.size();
-        v(name, count);
-        items.resize(count);
-        for (auto& item : items)
-            item.visit(v);
-    };
-    list("passed", passed_);
-    list("found", found_);
+    v("passed", passed_);
+    v("found", found_);
     v("end", end_);
 }
 

@@ -58,7 +58,7 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     z.repulsive_fraction = static_cast<double>(s.repulsive) / sites;
     z.mean_height = reference_height + s.mean_height;
     z.residual = s.residual;
-    z.iterations = static_cast<double>(s.iterations);
+    z.iterations = s.iterations;
     // Half of force^2 / stiffness at each site, of the softest wave of the box, by the forces that
     // the tolerance allows: those left say how this relaxation ended, not where others may end.
     const double site_area = c.simulation.block.spacing * c.simulation.block.spacing;
@@ -100,7 +100,9 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     ranks.broadcast(std::span<double>(has));
     if (has[0] == 0.0) return {};
     ZeroLoad z = found.numbers.value_or(ZeroLoad{});
-    const auto share = [&](const char*, double& number) { ranks.broadcast(std::span(&number, 1)); };
+    const auto share = [&](const char*, auto& number) {
+        ranks.broadcast(std::as_writable_bytes(std::span(&number, 1)));
+    };
     z.visit(share);
     found.numbers = z;
     found.layer = VectorField<double>(moving.levels().front().tile, 1);

@@ -9,18 +9,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <span>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace asperity {
 
 namespace {
 
-constexpr int format_version = 2;
+constexpr int format_version = 3;
 
 /// Displacements and half-step velocities of each level.
 std::vector<StateArray> fields_of(Block& block) {
@@ -46,38 +47,94 @@ std::vector<StateArray> joined(std::vector<StateArray> list, const std::vector<S
 
 } // namespace
 
-double RestoreScalars::next(const char* name) {
-    if (at >= values.size() || values[at].first != name)
-        throw io::FileError(
-            "checkpoint", fmt::format("has no number \"{}\" where it is expected", name),
-            "it was written by another version of the program", "run the scene from its start");
-    return values[at++].second;
-}
+namespace {
 
-double RestoreScalars::next_integer(const char* name, double least, double most) {
-    const double value = next(name);
-    if (!(value >= least && value <= most) || value != std::trunc(value))
-        throw io::FileError(
-            "checkpoint", fmt::format("has the number \"{}\" = {:.17g}", name, value),
-            fmt::format("an integer from {:.17g} to {:.17g} is expected", least, most),
-            "run the scene from its start");
-    return value;
-}
+/// Numbers of one type: their names, a line each, and their values.
+template <class T>
+struct NumberList {
+    std::vector<std::uint8_t> names;
+    std::vector<T> values;
+};
+/// As they are written, and sent to other ranks.
+struct NumberLists {
+    NumberList<double> numbers;
+    NumberList<std::int64_t> integers;
+
+    NumberLists() = default;
+    explicit NumberLists(const StateNumbers& from) {
+        const auto add = [](auto& list, const std::string& name, auto value) {
+            list.names.insert(list.names.end(), name.begin(), name.end());
+            list.names.push_back('\n');
+            list.values.push_back(value);
+        };
+        for (const auto& [name, value] : from)
+            if (const double* number = std::get_if<double>(&value))
+                add(numbers, name, *number);
+            else
+                add(integers, name, std::get<std::int64_t>(value));
+    }
+    explicit NumberLists(const io::Hdf5File& file) {
+        each([&](const std::string& set, auto& list) {
+            using T = typename std::remove_reference_t<decltype(list.values)>::value_type;
+            if (!file.exists(set)) return;
+            list.names = file.read<std::uint8_t>(set + "_names");
+            if (file.shape(set) != io::Hdf5File::Shape{static_cast<std::uint64_t>(
+                                       std::count(list.names.begin(), list.names.end(), '\n'))})
+                throw io::FileError(file.path(), "is damaged",
+                                    "its numbers are not as many as their names",
+                                    "take a copy that is whole");
+            list.values = file.read<T>(set);
+        });
+    }
+    void write(io::Hdf5File& file) {
+        each([&](const std::string& set, auto& list) {
+            if (list.values.empty()) return;
+            file.write(set, {list.values.size()}, list.values);
+            file.write(set + "_names", {list.names.size()}, list.names);
+        });
+    }
+    void broadcast(const Communicator& ranks) {
+        each([&](const std::string&, auto& list) {
+            std::uint64_t sizes[2] = {list.names.size(), list.values.size()};
+            ranks.broadcast(std::as_writable_bytes(std::span(sizes)));
+            list.names.resize(sizes[0]);
+            list.values.resize(sizes[1]);
+            ranks.broadcast(std::as_writable_bytes(std::span(list.names)));
+            ranks.broadcast(std::as_writable_bytes(std::span(list.values)));
+        });
+    }
+    StateNumbers by_name() {
+        StateNumbers all;
+        each([&](const std::string&, auto& list) {
+            auto from = list.names.begin();
+            for (const auto value : list.values) {
+                const auto to = std::find(from, list.names.end(), '\n');
+                all[std::string(from, to)] = value;
+                from = to + 1;
+            }
+        });
+        return all;
+    }
+
+private:
+    template <class Do>
+    void each(const Do& action) {
+        action("/numbers", numbers);
+        action("/integers", integers);
+    }
+};
+
+} // namespace
 
 void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                       const ProcessGrid& grid, const std::vector<StateArray>& arrays,
-                      const RunScalars& scalars, const std::string& fingerprint) {
+                      const StateNumbers& numbers, const std::string& fingerprint) {
     std::unique_ptr<io::Hdf5File> file;
     ranks.on_root([&] {
         file = std::make_unique<io::Hdf5File>(place, io::Hdf5File::Mode::create);
         file->write_attribute("/", "asperity_checkpoint", std::int64_t{format_version});
         file->write_attribute("/", "scene", fingerprint);
-        std::string names;
-        std::vector<double> values;
-        for (const auto& [name, value] : scalars)
-            names += name + "\n", values.push_back(value);
-        file->write_attribute("/", "scalar_names", names);
-        file->write<double>("/scalars", {values.size()}, values);
+        NumberLists(numbers).write(*file);
     });
     for (const StateArray& array : arrays) {
         const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
@@ -112,33 +169,6 @@ io::Hdf5File open_checkpoint(const io::FilePlace& place) {
     return file;
 }
 
-/// The scalars' names, one a line, and values, as many of each.
-struct NamedValues {
-    NamedValues() = default;
-    explicit NamedValues(const io::Hdf5File& file)
-        : names(file.read_text_attribute("/", "scalar_names")) {
-        const auto lines = static_cast<std::uint64_t>(std::count(names.begin(), names.end(), '\n'));
-        if (file.shape("/scalars") != io::Hdf5File::Shape{lines})
-            throw io::FileError(file.path(), "is damaged",
-                                "its numbers are not as many as their names",
-                                "take a copy that is whole");
-        values = file.read<double>("/scalars");
-    }
-    RunScalars scalars() const {
-        RunScalars scalars;
-        std::size_t from = 0;
-        for (double value : values) {
-            const auto to = names.find('\n', from);
-            scalars.emplace_back(names.substr(from, to - from), value);
-            from = to + 1;
-        }
-        return scalars;
-    }
-
-    std::string names;
-    std::vector<double> values;
-};
-
 /// The keys, as section.key, in which two fingerprints differ.
 std::string differing_keys(const io::Json& one, const io::Json& other) {
     std::set<std::string> keys;
@@ -153,16 +183,15 @@ std::string differing_keys(const io::Json& one, const io::Json& other) {
 
 } // namespace
 
-RunScalars read_checkpoint_scalars(const io::FilePlace& place) {
-    return NamedValues(open_checkpoint(place)).scalars();
+StateNumbers read_checkpoint_numbers(const io::FilePlace& place) {
+    return NumberLists(open_checkpoint(place)).by_name();
 }
 
-RunScalars read_checkpoint(const io::FilePlace& place, const Communicator& ranks,
-                           const ProcessGrid& grid, const std::vector<StateArray>& arrays,
-                           const std::string& fingerprint) {
+StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ranks,
+                             const ProcessGrid& grid, const std::vector<StateArray>& arrays,
+                             const std::string& fingerprint) {
     std::unique_ptr<io::Hdf5File> file;
-    NamedValues named;
-    std::int64_t sizes[2] = {0, 0};
+    NumberLists lists;
     ranks.on_root([&] {
         file = std::make_unique<io::Hdf5File>(open_checkpoint(place));
         if (const std::string its = file->read_text_attribute("/", "scene"); its != fingerprint)
@@ -171,15 +200,9 @@ RunScalars read_checkpoint(const io::FilePlace& place, const Communicator& ranks
                                       differing_keys(io::parse_json(its, file->path()),
                                                      io::parse_json(fingerprint, "this scene")),
                                   "give the scene it was made with, or start without --resume"});
-        named = NamedValues(*file);
-        sizes[0] = static_cast<std::int64_t>(named.names.size());
-        sizes[1] = static_cast<std::int64_t>(named.values.size());
+        lists = NumberLists(*file);
     });
-    ranks.broadcast(std::as_writable_bytes(std::span(sizes)));
-    named.names.resize(static_cast<std::size_t>(sizes[0]));
-    named.values.resize(static_cast<std::size_t>(sizes[1]));
-    ranks.broadcast(std::as_writable_bytes(std::span(named.names)));
-    ranks.broadcast(std::span<double>(named.values));
+    lists.broadcast(ranks);
     for (const StateArray& array : arrays) {
         const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
         for (int z = 0; z < array.planes; ++z) {
@@ -192,45 +215,39 @@ RunScalars read_checkpoint(const io::FilePlace& place, const Communicator& ranks
             scatter_plane(ranks, grid, array.level, dense, array.field->plane(z));
         }
     }
-    return named.scalars();
+    return lists.by_name();
 }
 
-void write_checkpoint(const io::FilePlace& place, Simulation& simulation, const RunScalars& scalars,
-                      const std::string& fingerprint, const std::vector<StateArray>& run_arrays) {
-    CollectScalars collect;
-    simulation.visit(collect);
-    for (const auto& [name, value] : scalars)
-        collect.values.emplace_back("run." + name, value);
+void write_checkpoint(const io::FilePlace& place, Simulation& simulation, CollectNumbers numbers,
+                      const std::string& fingerprint, const std::vector<StateArray>& arrays) {
+    numbers("simulation", simulation);
     write_checkpoint(place, simulation.communicator(), simulation.block().grid(),
-                     joined(fields_to_read(simulation), run_arrays), collect.values, fingerprint);
+                     joined(fields_to_read(simulation), arrays), numbers.numbers, fingerprint);
 }
 
-RunScalars read_checkpoint(const io::FilePlace& place, Simulation& simulation,
-                           const std::string& fingerprint,
-                           const std::vector<StateArray>& run_arrays) {
+StateNumbers read_checkpoint(const io::FilePlace& place, Simulation& simulation,
+                             const std::string& fingerprint,
+                             const std::vector<StateArray>& arrays) {
     Block& block = simulation.block_to_write();
-    const RunScalars scalars = read_checkpoint(place, simulation.communicator(), block.grid(),
-                                               joined(fields_of(block), run_arrays), fingerprint);
-    RestoreScalars restore{scalars};
-    simulation.visit(restore);
+    StateNumbers numbers = read_checkpoint(place, simulation.communicator(), block.grid(),
+                                           joined(fields_of(block), arrays), fingerprint);
+    RestoreNumbers restore(numbers);
+    restore("simulation", simulation);
     block.exchange();
-    RunScalars run;
-    for (std::size_t i = restore.at; i < scalars.size(); ++i)
-        run.emplace_back(scalars[i].first.substr(std::strlen("run.")), scalars[i].second);
-    return run;
+    return numbers;
 }
 
 void Snapshot::take(Simulation& simulation) {
     fields_.take(fields_to_read(simulation));
-    CollectScalars collect;
+    CollectNumbers collect;
     simulation.visit(collect);
-    scalars_ = std::move(collect.values);
+    numbers_ = std::move(collect.numbers);
     step_ = simulation.steps();
 }
 
 void Snapshot::restore(Simulation& simulation) const {
     fields_.restore(fields_of(simulation.block_to_write()));
-    RestoreScalars restore{scalars_};
+    RestoreNumbers restore(numbers_);
     simulation.visit(restore);
 }
 

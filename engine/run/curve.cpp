@@ -3,7 +3,6 @@
 #include "engine/run/curve.hpp"
 
 #include "engine/units.hpp"
-#include "io/hdf5_file.hpp"
 #include "theory/jkr.hpp"
 
 #include <algorithm>
@@ -34,17 +33,6 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
 }
 
 } // namespace
-
-PathSeries read_path(const std::string& file) {
-    const io::Hdf5File run(file, io::Hdf5File::Mode::read);
-    const auto column = [&](const char* name) {
-        return run.read<double>(std::string("/series/") + name);
-    };
-    return {.leg = column("leg"),
-            .time = run.exists("/series/time") ? column("time") : std::vector<double>{},
-            .force = column("force"),
-            .contact_fraction = column("contact_fraction")};
-}
 
 void add_sphere_path(const PathSeries& path, const Scene& scene, io::Result& result) {
     const std::size_t rows = path.leg.size();

@@ -7,7 +7,6 @@
 #include "engine/scene/scene.hpp"
 #include "io/result.hpp"
 
-#include <string>
 #include <vector>
 
 namespace asperity {
@@ -19,9 +18,6 @@ struct PathSeries {
     std::vector<double> force; ///< eV/Å, positive pushes
     std::vector<double> contact_fraction;
 };
-/// From run.h5. Throws io::FileError.
-PathSeries read_path(const std::string& file);
-
 /// What a whole path of approach and pull-off over a sphere adds to a result: jkr.in_averaged,
 /// jkr.out_averaged and contact_radius.pull_off.
 void add_sphere_path(const PathSeries& path, const Scene& scene, io::Result& result);

@@ -40,9 +40,19 @@ public:
             if (!resume()) start();
             integrate();
             name_fields_left();
-            run_.write_kept_fields(simulation_.interface());
+            run_.maps.write_kept(simulation_.interface(), run_.recorder());
         };
         return run_.carry_out(bytes, work, [&](io::Result& result) { add_to(result); });
+    }
+
+    /// Where the loop stands, for checkpoints.
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("ended", ended_);
+        v("concluding", concluding_);
+        v("start", start_);
+        v("kinetic_at_start", kinetic_at_start_);
+        v("turn", turn_);
     }
 
 private:
@@ -194,9 +204,9 @@ private:
 
         template <class Visitor>
         void visit(Visitor& v) {
-            v("turn.drive_work", drive_work);
-            v("turn.damped", damped);
-            v("turn.energy", energy);
+            v("drive_work", drive_work);
+            v("damped", damped);
+            v("energy", energy);
         }
     };
     Account account() const {
@@ -236,7 +246,7 @@ private:
             snapshot_.restore(simulation_);
             const char* file = "last-good.h5";
             try {
-                write_checkpoint(run_.file(file), simulation_, snapshot_scalars_,
+                write_checkpoint(run_.file(file), simulation_, snapshot_numbers_,
                                  run_.fingerprint());
                 kept =
                     fmt::format("the last good state, step {}, is in {}", snapshot_.step(), file);
@@ -275,7 +285,8 @@ private:
         run_.recorder().row(simulation_.now(), pulling, scene_.surface.sites);
         if (!keep) return;
         snapshot_.take(simulation_);
-        snapshot_scalars_ = run_.scalars();
+        snapshot_numbers_ = {};
+        run_.collect(snapshot_numbers_);
     }
 
     /// Of the positions that the next step starts from, if one is due; else nothing.
@@ -291,12 +302,12 @@ private:
 
     /// The block is a step further than what was observed: no more than it moves in one.
     void watch_step(const StepRecord& now) {
-        if (!run_.watches_fields()) return;
-        if (!now.observed && !run_.field_is_due(now.step)) return;
+        if (!run_.maps.any()) return;
+        if (!now.observed && !run_.maps.due(now.step)) return;
         const auto t = run_.phases.time(Phase::output);
-        run_.watch_fields(now.step, simulation_.leg(), now.observed ? -now.force : 0.0,
-                          simulation_.block().lowest_layer(), simulation_.interface(),
-                          simulation_.reference_height());
+        run_.maps.watch(now.step, simulation_.leg(), now.observed ? -now.force : 0.0,
+                        simulation_.block().lowest_layer(), simulation_.interface(),
+                        simulation_.reference_height(), run_.recorder());
     }
 
     /// Goes on from a checkpoint if asked. True if it did.
@@ -306,11 +317,11 @@ private:
             run_.open_recorder();
             return false;
         }
-        const RunScalars scalars =
-            read_checkpoint(*place, simulation_, run_.fingerprint(), run_.arrays());
-        RestoreScalars restore{scalars};
-        visit(restore);
-        run_.restore({scalars.begin() + static_cast<std::ptrdiff_t>(restore.at), scalars.end()});
+        const StateNumbers numbers =
+            read_checkpoint(*place, simulation_, run_.fingerprint(), run_.maps.arrays());
+        RestoreNumbers restore(numbers);
+        restore("loop", *this);
+        run_.restore(restore);
         run_.open_recorder();
         std::erase_if(delayed_fields_, [&](const auto& field) { // written before it stopped
             return is_due(field.first, simulation_.now().time);
@@ -322,29 +333,13 @@ private:
 
     RunSession::WriteState state_writer() {
         return [&](const io::FilePlace& place) {
-            CollectScalars collect;
-            visit(collect);
-            const RunScalars run = run_.scalars();
-            collect.values.insert(collect.values.end(), run.begin(), run.end());
-            write_checkpoint(place, simulation_, collect.values, run_.fingerprint(), run_.arrays());
+            CollectNumbers collect;
+            collect("loop", *this);
+            run_.collect(collect);
+            write_checkpoint(place, simulation_, collect, run_.fingerprint(), run_.maps.arrays());
         };
     }
     std::string position() const { return fmt::format("step {}", simulation_.steps()); }
-
-    /// Where the loop stands, for checkpoints.
-    template <class Visitor>
-    void visit(Visitor& v) {
-        const auto leg = [&](const char* name, std::optional<Leg>& value) {
-            int number = value ? static_cast<int>(*value) : -1;
-            v(name, number);
-            value = number < 0 ? std::nullopt : std::optional(static_cast<Leg>(number));
-        };
-        leg("ended", ended_);
-        leg("concluding", concluding_);
-        start_.visit(v);
-        v("start.kinetic", kinetic_at_start_);
-        turn_.visit(v);
-    }
 
     io::Progress::State progress_state(const StepRecord& now) const {
         return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force),
@@ -374,7 +369,7 @@ private:
     std::optional<Leg> concluding_;    ///< the leg that ended the step before
     std::vector<std::pair<double, std::string>> delayed_fields_ = case_.maps.after_zero_load;
     Snapshot snapshot_;
-    RunScalars snapshot_scalars_;
+    CollectNumbers snapshot_numbers_;
 };
 
 } // namespace

@@ -40,7 +40,7 @@ public:
             resume();
             run_.open_recorder();
             follow_parts();
-            run_.write_kept_fields(interface_);
+            run_.maps.write_kept(interface_, run_.recorder());
         };
         return run_.carry_out(block_.bytes() +
                                   relaxation_bytes(block_.tile(), block_.components(),
@@ -138,8 +138,8 @@ private:
         attraction = std::max(attraction, -now.force);
         run_.findings.dissipated = path_.dissipation();
         run_.recorder().row(now, leg == Leg::pull_off, scene_.surface.sites);
-        run_.watch_fields(now.step, leg, -now.force, block_.lowest_layer(), interface_,
-                          reference_height());
+        run_.maps.watch(now.step, leg, -now.force, block_.lowest_layer(), interface_,
+                        reference_height(), run_.recorder());
         if (run_.progress.due()) run_.progress.update(path_progress());
     }
 
@@ -253,43 +253,42 @@ private:
         return [&](const io::FilePlace& file) { write_state(file); };
     }
     void write_state(const io::FilePlace& file) {
-        CollectScalars collect;
+        CollectNumbers collect;
         Place place{block_.top(), part_,      at_end_,
                     points(),     searching_, run_.findings.states && !searching_};
-        place.visit(collect);
-        if (place.on_path) path_.visit(collect);
-        if (place.searching || place.searched) search_.visit(collect);
-        const RunScalars run = run_.scalars();
-        collect.values.insert(collect.values.end(), run.begin(), run.end());
-        write_checkpoint(file, run_.ranks, run_.grid, arrays(place), collect.values,
+        collect("place", place);
+        if (place.on_path) collect("path", path_);
+        if (place.searching || place.searched) collect("search", search_);
+        run_.collect(collect);
+        write_checkpoint(file, run_.ranks, run_.grid, arrays(place), collect.numbers,
                          run_.fingerprint());
     }
     std::vector<StateArray> arrays(const Place& place) {
         std::vector<StateArray> list = place.on_path     ? path_.states()
                                        : place.searching ? search_.states()
                                                          : state_of(block_);
-        for (const StateArray& array : run_.arrays())
+        for (const StateArray& array : run_.maps.arrays())
             list.push_back(array);
         return list;
     }
     void resume() {
         const std::optional<io::FilePlace> from = run_.checkpoint_to_resume();
         if (!from) return;
-        const RunScalars scalars =
+        const StateNumbers numbers =
             read_checkpoint(*from, run_.ranks, run_.grid, {}, run_.fingerprint());
-        RestoreScalars restore{scalars};
+        RestoreNumbers restore(numbers);
         Place place{};
-        place.visit(restore);
+        restore("place", place);
         part_ = place.part;
         at_end_ = place.at_end;
         read_checkpoint(*from, run_.ranks, run_.grid, arrays(place), run_.fingerprint());
         if (place.on_path) {
-            path_.visit(restore);
+            restore("path", path_);
             path_.resume();
             run_.findings.dissipated = path_.dissipation();
         }
         if (place.searching || place.searched) {
-            search_.visit(restore);
+            restore("search", search_);
             run_.findings.states = search_.found();
         }
         if (place.searching) {
@@ -298,7 +297,7 @@ private:
         } else if (!place.on_path) {
             block_.settle(Constraint::top(place.top));
         }
-        run_.restore({scalars.begin() + static_cast<std::ptrdiff_t>(restore.at), scalars.end()});
+        run_.restore(restore);
         resumed_ = true;
         run_.progress.say(fmt::format("going on from {} of {}", position(), from->path()));
     }

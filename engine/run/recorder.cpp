@@ -58,13 +58,6 @@ bool is_in(const RecordColumn& c, DriveMode mode) {
     return c.in == In::both || (c.in == In::dynamic) == (mode == DriveMode::dynamic);
 }
 
-std::vector<std::string> columns(DriveMode mode) {
-    std::vector<std::string> list;
-    for (const RecordColumn& c : record_columns)
-        if (is_in(c, mode)) list.emplace_back(c.name);
-    return list;
-}
-
 /// A tile's map as the whole box's, on the root.
 std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
                           const std::vector<double>& tile_map) {
@@ -332,22 +325,16 @@ void Recorder::build() {
     io::Hdf5File file({directory_, "run.h5"}, io::Hdf5File::Mode::create);
     io::write_h5md_head(file, io::build_info().version);
     write_substrate(file, surface_);
-    const std::vector<std::string> names = columns(mode_);
-    std::vector<std::vector<double>> series(names.size());
     TrajectoryWriter trajectory(file);
     journal_->replay([&](std::uint64_t kind, io::Journal::Bytes payload) {
         io::PayloadReader record(payload);
-        if (kind == rows_record)
-            while (!record.at_end())
-                for (std::vector<double>& column : series)
-                    column.push_back(record.get<double>());
-        else if (kind == fields_record)
+        if (kind == fields_record)
             write_fields(file, record);
-        else
+        else if (kind == frame_record)
             trajectory.append(record);
     });
-    for (std::size_t i = 0; i < names.size(); ++i)
-        io::write_described(file, "/series/" + names[i], {series[i].size()}, series[i]);
+    for (const auto& [name, values] : series())
+        io::write_described(file, "/series/" + name, {values.size()}, values);
     add_(file);
     file.close();
     built_ = Clock::now();
@@ -356,9 +343,18 @@ void Recorder::build() {
 
 bool Recorder::in_place() const { return !journal_ || journal_->in_place(); }
 
-void Recorder::move_to(const io::Directory& directory) {
-    directory_ = directory;
-    journal_->move_to(directory);
+std::map<std::string, std::vector<double>> Recorder::series() const {
+    std::map<std::string, std::vector<double>> all;
+    std::vector<std::vector<double>*> columns;
+    for (const RecordColumn& c : record_columns)
+        if (is_in(c, mode_)) columns.push_back(&all[c.name]);
+    journal_->replay([&](std::uint64_t kind, io::Journal::Bytes payload) {
+        io::PayloadReader record(payload);
+        while (kind == rows_record && !record.at_end())
+            for (std::vector<double>* column : columns)
+                column->push_back(record.get<double>());
+    });
+    return all;
 }
 
 void Recorder::remove_journal() { directory_.remove(io::run_file::journal); }

@@ -18,6 +18,7 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ public:
     struct Position {
         std::uint64_t rows = 0;
         io::Journal::Mark mark; ///< on the root
+        template <class Visitor>
+        void visit(Visitor& v) {
+            v("rows", rows);
+            v("bytes", mark.bytes);
+            v("digest", mark.digest);
+        }
     };
 
     /// What else goes into run.h5, when the records are in it.
@@ -72,8 +79,9 @@ public:
 
     // Root only.
     void write_on_root();
+    /// The series so far: a column by its name in run.h5, a value a row.
+    std::map<std::string, std::vector<double>> series() const;
     bool in_place() const; ///< nobody has removed the journal
-    void move_to(const io::Directory& directory);
     void remove_journal(); ///< the run is over
 
 private:
@@ -83,7 +91,7 @@ private:
     void build();
 
     Communicator communicator_;
-    io::Directory directory_;
+    const io::Directory directory_;
     const Surface& surface_;
     AddToFile add_;
     DriveMode mode_;

@@ -80,14 +80,16 @@ void add_dissipation(const Findings& findings, const Scene& scene, io::Result& r
     for (std::size_t i = 0; i < lost.jumps.size(); ++i) {
         const Instability& jump = lost.jumps[i];
         const auto both = [](double before, double after) { return std::vector{before, after}; };
-        result.set("dissipated.jumps[].leg", i, jump.leg == 0.0 ? "approach" : "pull-off");
+        result.set("dissipated.jumps[].leg", i,
+                   jump.leg == Leg::approach ? "approach" : "pull-off");
         result.set("dissipated.jumps[].energy", i, jump.energy);
         result.set("dissipated.jumps[].top", i, jump.top);
         result.set("dissipated.jumps[].mean_height", i,
                    both(jump.height_before, jump.height_after));
         result.set("dissipated.jumps[].force", i, both(jump.force_before, jump.force_after));
         result.set("dissipated.jumps[].contact_fraction", i,
-                   both(jump.contact_before / sites, jump.contact_after / sites));
+                   both(static_cast<double>(jump.contact_before) / sites,
+                        static_cast<double>(jump.contact_after) / sites));
         result.set(
             "dissipated.jumps[].site", i,
             std::vector{static_cast<long long>(jump.site_x), static_cast<long long>(jump.site_y)});

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run_session.hpp"
 
+#include "engine/run/curve.hpp"
 #include "engine/run/plan.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/smooth_sphere.hpp"
-#include "engine/run/stop_signals.hpp"
 #include "engine/run/summary.hpp"
 #include "io/described.hpp"
 #include "io/json.hpp"
@@ -14,12 +14,9 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
-#include <span>
+#include <exception>
 #include <system_error>
-#include <utility>
 
 #include <sys/resource.h>
 
@@ -60,11 +57,13 @@ std::string physics_of(const Case& c, const Surface& surface) {
 } // namespace
 
 RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& on)
-    : ranks(on), case_(c), options_(options), surface(surface_of(c, ranks)),
+    : case_(c), options_(options), ranks(on), surface(surface_of(c, ranks)),
       grid(c.grid(ranks.rank())), storage_(options, c.scene.name, ranks),
-      progress(options.progress, !ranks.root()), fingerprint_(physics_of(c, surface)) {
+      interruptions_(options, c.on(Effect::checkpoints) ? c.scene.output.checkpoint : HUGE_VAL,
+                     ranks),
+      progress(options.progress, !ranks.root()), maps(c.maps, grid),
+      fingerprint_(physics_of(c, surface)) {
     progress.tell(options.listener);
-    if (c.maps.pull_off) strongest_.layer = VectorField<double>(grid.tile(0), 1);
     print_notes();
 }
 
@@ -76,7 +75,7 @@ void RunSession::print_notes() {
 
 int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
                           const AddToResult& add_to) {
-    last_checkpoint_ = seconds();
+    interruptions_.checkpoint_written();
     try {
         if (ranks.root() && !options_.silent)
             print_unless_closed([&] {
@@ -85,7 +84,6 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
             });
         work();
         const auto t = phases.time(Phase::output);
-        bring_back_directory(); // the numbers are there: they go where they can
         recorder_->write();
     } catch (const io::Error& error) {
         progress.finish();
@@ -103,82 +101,52 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
     progress.finish();
     ranks.on_root([&] {
         const io::Result result = write_result(nullptr, add_to);
-        throw_if_directory_gone();
         if (options_.silent) return;
         print_unless_closed([&] {
             print_summary(stdout, case_, result, findings.states, storage_.path());
-            if (!stopped_.empty())
-                fmt::print("  Stopped early ({}): the path is not complete.\n", stopped_);
+            if (stopped_ != Stopped::no)
+                fmt::print("  Stopped early ({}): the path is not complete.\n", name(stopped_));
         });
     });
-    return stopped_ == "wall_limit" || stopped_ == "signal" ? io::exit_code::stopped
-                                                            : io::exit_code::done;
+    const bool can_go_on = stopped_ == Stopped::wall_limit || stopped_ == Stopped::signal;
+    return can_go_on ? io::exit_code::stopped : io::exit_code::done;
 }
 
-void RunSession::throw_if_directory_gone() {
-    if (stopped_ != "directory") return;
-    throw io::FileError(
-        storage_.directory().path(), "was moved or removed while the run was using it",
-        fmt::format("at {} it was not there any more", saved_at_),
-        fmt::format("the state is in {0}; resume with --resume auto --out {0}", storage_.path()));
-}
-
-/// What this rank knows of.
-RunSession::Reason RunSession::reason() const {
-    Reason reason = Reason::none;
-    if (ranks.root()) {
-        const double now = seconds();
-        if (case_.on(Effect::checkpoints) &&
-            now - last_checkpoint_ >= case_.scene.output.checkpoint)
-            reason = Reason::checkpoint;
-        if (options_.wall_limit && now >= *options_.wall_limit) reason = Reason::wall_limit;
-        if (options_.stop && options_.stop()) reason = Reason::signal;
+const char* RunSession::name(Stopped stopped) {
+    switch (stopped) {
+    case Stopped::max_steps:
+        return "max_steps";
+    case Stopped::wall_limit:
+        return "wall_limit";
+    case Stopped::signal:
+        return "signal";
+    case Stopped::no:
+        break;
     }
-    if (stop_signals::caught()) reason = Reason::signal;
-    if (ranks.root() && !storage_.in_place(*recorder_)) reason = Reason::directory;
-    return reason;
+    return "";
 }
 
-bool RunSession::wants_stop() const { return reason() > Reason::checkpoint; }
-
-RunSession::Due RunSession::due() {
-    const auto agreed = static_cast<Reason>(std::lround(ranks.max(static_cast<double>(reason()))));
-    if (agreed == Reason::none) return Due::nothing;
-    if (agreed == Reason::checkpoint) return Due::save;
-    stopped_ = agreed == Reason::wall_limit ? "wall_limit"
-               : agreed == Reason::signal   ? "signal"
-                                            : "directory";
-    return Due::stop;
-}
-
-bool RunSession::look_is_due() {
-    if (--steps_to_look_ > 0) return false;
-    // The root's clock decides how many steps are about half a second.
-    constexpr double most = 1000.0;
-    const double interval =
-        case_.on(Effect::checkpoints) ? std::min(0.5, case_.scene.output.checkpoint) : 0.5;
-    std::array<double, 1> stride = {1.0};
-    if (ranks.root()) {
-        const double each = (seconds() - last_look_) / static_cast<double>(looked_every_);
-        stride[0] = std::clamp(std::floor(interval / std::max(each, 1e-9)), 1.0, most);
-    }
-    ranks.broadcast(std::span<double>(stride));
-    steps_to_look_ = looked_every_ = static_cast<long long>(stride[0]);
-    last_look_ = seconds();
-    return true;
+/// On the way, of all ranks together.
+Interruption RunSession::ask() {
+    const Interruption now = interruptions_.agreed();
+    if (now == Interruption::wall_limit) stopped_ = Stopped::wall_limit;
+    if (now == Interruption::signal) stopped_ = Stopped::signal;
+    return now;
 }
 
 bool RunSession::stop_here(const WriteState& write, const std::string& where) {
-    const Due now = due();
-    if (now == Due::stop) stop_now(write, where);
-    if (now == Due::save) save(write);
-    last_look_ = seconds();
-    return !stopped_.empty();
+    ranks.on_root([&] { storage_.require_in_place(*recorder_); });
+    const Interruption now = ask();
+    if (now > Interruption::checkpoint) {
+        stop_now(write, where);
+        return true;
+    }
+    if (now == Interruption::checkpoint) save(write);
+    interruptions_.looked();
+    return false;
 }
 
 void RunSession::stop_now(const WriteState& write, const std::string& where) {
-    saved_at_ = where;
-    bring_back_directory();
     save(write);
     if (ranks.root())
         progress.say(fmt::format(
@@ -187,34 +155,18 @@ void RunSession::stop_now(const WriteState& write, const std::string& where) {
 }
 
 bool RunSession::stop_relaxation(const WriteState& write) {
-    const Due now = due();
-    if (now == Due::save && write) save(write);
-    return now == Due::stop;
+    const Interruption now = ask();
+    if (now == Interruption::checkpoint && write) save(write);
+    return now > Interruption::checkpoint;
 }
 
 void RunSession::save(const WriteState& write) {
     const auto t = phases.time(Phase::checkpoint);
-    const auto save_once = [&] {
-        recorder_->synchronize();
-        storage_.save(write);
-    };
-    try {
-        save_once();
-    } catch (const std::exception&) { // on every rank; the root knows whether it was this:
-        if (!bring_back_directory()) throw;
-        stopped_ = "directory";
-        save_once();
-    }
+    ranks.on_root([&] { storage_.require_in_place(*recorder_); });
+    recorder_->synchronize();
+    storage_.save(write);
     recorder_->write_if_cheap();
-    last_checkpoint_ = seconds();
-}
-
-/// Of a directory that was moved or removed: makes it usable again. False: it was not. Collective.
-bool RunSession::bring_back_directory() {
-    const bool away = ranks.root() && !storage_.in_place(*recorder_);
-    const bool gone = ranks.max(away ? 1.0 : 0.0) != 0.0;
-    if (gone) ranks.on_root([&] { storage_.bring_back(*recorder_); });
-    return gone;
+    interruptions_.checkpoint_written();
 }
 
 void RunSession::save_if_on(const WriteState& write) {
@@ -242,58 +194,22 @@ void RunSession::open_recorder() {
                       add);
 }
 
-void RunSession::watch_fields(long long step, Leg leg, double attraction,
-                              const VectorPlane<const double>& layer, const Interface& interface,
-                              double reference_height) {
-    if (field_is_due(step))
-        recorder_->fields(fmt::format("step-{}", step), layer, grid, interface, reference_height);
-    if (leg != Leg::pull_off || attraction <= strongest_.attraction || !case_.maps.pull_off) return;
-    strongest_.attraction = attraction;
-    strongest_.reference_height = reference_height;
-    strongest_.kept = true;
-    const VectorPlane<double> to = strongest_.layer.plane(0);
-    for (int y = 0; y < to.x.ny; ++y) {
-        std::copy_n(layer.x.line(y), to.x.nx, to.x.line(y));
-        std::copy_n(layer.y.line(y), to.y.nx, to.y.line(y));
-        std::copy_n(layer.z.line(y), to.z.nx, to.z.line(y));
-    }
+void RunSession::collect(CollectNumbers& numbers) {
+    Recorder::Position records = recorder_->position();
+    double processor = processor_seconds();
+    numbers("run.records", records);
+    numbers("run.processor_seconds", processor);
+    numbers("run.maps", maps);
+    numbers("run.findings", findings);
 }
 
-void RunSession::write_kept_fields(const Interface& interface) {
-    if (!strongest_.kept) return;
-    recorder_->fields("pull-off", std::as_const(strongest_.layer).plane(0), grid, interface,
-                      strongest_.reference_height);
-    strongest_.kept = false;
-}
-
-RunScalars RunSession::scalars() {
-    CollectScalars collect;
-    add_position(recorder_->position(), collect.values);
-    collect("strongest.attraction", strongest_.attraction);
-    collect("strongest.reference_height", strongest_.reference_height);
-    collect("strongest.kept", strongest_.kept);
-    collect.values.emplace_back("processor_seconds", processor_seconds());
-    findings.visit(collect);
-    return collect.values;
-}
-
-std::vector<StateArray> RunSession::arrays() {
-    if (strongest_.layer.empty()) return {};
-    return {{"/pull-off/x", 0, &strongest_.layer.x, 1},
-            {"/pull-off/y", 0, &strongest_.layer.y, 1},
-            {"/pull-off/z", 0, &strongest_.layer.z, 1}};
-}
-
-void RunSession::restore(const RunScalars& from) {
-    resumed_at_ = position_in(from);
-    RestoreScalars restore{from};
-    for (const char* name : {"rows", "journal.bytes", "journal.digest"})
-        restore.next(name);
-    restore("strongest.attraction", strongest_.attraction);
-    restore("strongest.reference_height", strongest_.reference_height);
-    restore("strongest.kept", strongest_.kept);
-    restore("processor_seconds", processor_before_);
-    findings.visit(restore);
+void RunSession::restore(RestoreNumbers& numbers) {
+    Recorder::Position records;
+    numbers("run.records", records);
+    resumed_at_ = records;
+    numbers("run.processor_seconds", processor_before_);
+    numbers("run.maps", maps);
+    numbers("run.findings", findings);
 }
 
 double RunSession::processor_seconds() const {
@@ -328,18 +244,24 @@ void RunSession::write_failure(const Failure& failure, const AddToResult& add_to
 io::Result RunSession::write_result(const Failure* failure, const AddToResult& add_to) {
     io::Result result = run_result(case_, surface, findings);
     add_to(result);
-    result.set("run.wall_seconds", seconds());
+    result.set("run.wall_seconds", interruptions_.seconds());
     result.set("run.processor_seconds", processor_seconds());
     add_phases(phases, result);
-    if (!stopped_.empty()) result.set("run.stopped", stopped_);
+    if (stopped_ != Stopped::no) result.set("run.stopped", std::string(name(stopped_)));
     if (failure) {
         result.set("failure.exit_code", failure->code);
         result.set("failure.reason", failure->reason);
     }
-    if (recorder_ && case_.scene.surface.radius)
-        add_sphere_path(read_path(storage_.path() + "/run.h5"), case_.scene, result);
+    if (recorder_ && case_.scene.surface.radius) {
+        auto series = recorder_->series();
+        add_sphere_path({.leg = series["leg"],
+                         .time = series["time"], // none of a quasi-static path
+                         .force = series["force"],
+                         .contact_fraction = series["contact_fraction"]},
+                        case_.scene, result);
+    }
     io::write_result(storage_.directory(), result);
-    if (failure || !stopped_.empty()) return result;
+    if (failure || stopped_ != Stopped::no) return result;
     storage_.remove_checkpoints();
     recorder_->remove_journal();
     return result;

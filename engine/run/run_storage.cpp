@@ -41,38 +41,13 @@ io::ResultRequest request(const RunOptions& options, const std::string& name) {
     return request;
 }
 
-double number(const RunScalars& scalars, const std::string& name) {
-    // Those of a simulation have a prefix (checkpoint.cpp).
-    const auto found = std::find_if(scalars.begin(), scalars.end(), [&](const auto& s) {
-        return s.first == name || s.first == "run." + name;
-    });
-    if (found == scalars.end())
-        throw io::FileError("checkpoint", "has no number \"" + name + "\"",
-                            "it was written by another version of the program",
-                            "run the scene from its start");
-    return found->second;
-}
-
 } // namespace
 
-void add_position(const Recorder::Position& position, RunScalars& scalars) {
-    scalars.emplace_back("rows", static_cast<double>(position.rows));
-    scalars.emplace_back("journal.bytes", static_cast<double>(position.mark.bytes));
-    scalars.emplace_back("journal.digest", static_cast<double>(position.mark.digest));
-}
-
-Recorder::Position position_in(const RunScalars& scalars) {
-    const auto integer = [&](const char* name, double most) {
-        const double value = number(scalars, name);
-        if (!(value >= 0.0 && value <= most))
-            throw io::FileError("checkpoint", fmt::format("has {} = {}", name, value),
-                                "no record of a run is there", "run the scene from its start");
-        return static_cast<std::uint64_t>(value);
-    };
-    constexpr double exact = 9007199254740992.0; // 2^53
-    return {integer("rows", exact),
-            {integer("journal.bytes", exact),
-             static_cast<std::uint32_t>(integer("journal.digest", 4294967295.0))}};
+Recorder::Position position_in(const StateNumbers& numbers) {
+    Recorder::Position position;
+    RestoreNumbers restore(numbers);
+    restore("run.records", position);
+    return position;
 }
 
 RunStorage::RunStorage(const RunOptions& options, const std::string& name,
@@ -88,11 +63,6 @@ RunStorage::RunStorage(const RunOptions& options, const std::string& name,
                                   "the run in it has ended",
                                   "nothing is left to do; for a new run give another --out"});
     });
-}
-
-std::string RunStorage::path() const {
-    const io::Directory& d = directory();
-    return d.place() == io::Directory::Place::moved ? d.present_path() : d.path();
 }
 
 std::vector<std::string> RunStorage::take_notes() { return std::exchange(notes_, {}); }
@@ -116,7 +86,7 @@ std::optional<io::FilePlace> RunStorage::newest_whole() {
         if (!directory().exists(name)) continue;
         std::string what;
         try {
-            const Recorder::Position position = position_in(read_checkpoint_scalars(file(name)));
+            const Recorder::Position position = position_in(read_checkpoint_numbers(file(name)));
             if (io::Journal::holds(directory(), journal, position.mark)) {
                 if (!damaged.empty())
                     notes_.push_back(
@@ -146,7 +116,7 @@ std::optional<io::FilePlace> RunStorage::newest_whole() {
 /// A checkpoint of another directory brings its records along.
 std::optional<io::FilePlace> RunStorage::named() {
     const io::FilePlace place(options_.resume);
-    const Recorder::Position position = position_in(read_checkpoint_scalars(place));
+    const Recorder::Position position = position_in(read_checkpoint_numbers(place));
     const io::Directory from(folder_of(options_.resume));
     if (!io::Journal::holds(from, journal, position.mark))
         throw io::FileError(options_.resume, "cannot be gone on from",
@@ -172,13 +142,12 @@ void RunStorage::remove_checkpoints() {
         directory().remove(name);
 }
 
-bool RunStorage::in_place(const Recorder& recorder) const {
-    return directory().place() == io::Directory::Place::here && recorder.in_place();
-}
-
-void RunStorage::bring_back(Recorder& recorder) {
-    if (directory().place() == io::Directory::Place::removed) owner_->make_again();
-    if (!recorder.in_place()) recorder.move_to(directory());
+void RunStorage::require_in_place(const Recorder& recorder) const {
+    if (directory().in_place() && recorder.in_place()) return;
+    throw io::FileError(path(), "was moved or removed while the run was using it",
+                        "the run's records and checkpoints would not be found there",
+                        "if a checkpoint is left where it was moved to, go on from it: --resume "
+                        "auto --out DIR; else start again");
 }
 
 } // namespace asperity

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The result directory of a run: who owns it, its checkpoints, and what becomes of it when somebody
-// moves or removes it.
+// The result directory of a run: who owns it, and its checkpoints.
 //
 //     run.lock               while a run uses the directory (io/result_directory.hpp)
 //     run.journal            what was recorded; until the run is over
@@ -34,8 +33,8 @@ public:
     /// Takes the directory. Collective.
     RunStorage(const RunOptions& options, const std::string& name, const Communicator& ranks);
 
-    /// Where it is now. Root only, like all that follows.
-    std::string path() const;
+    // Root only, like all that follows.
+    const std::string& path() const { return directory().path(); }
     io::FilePlace file(const std::string& name) const { return {directory(), name}; }
     const io::Directory& directory() const { return owner_->directory(); }
     /// What the user should know, once.
@@ -52,10 +51,8 @@ public:
     /// The run is over: what only serves to go on is removed.
     void remove_checkpoints();
 
-    /// Whether the directory and the journal are where they were.
-    bool in_place(const Recorder& recorder) const;
-    /// Of a removed directory: makes it again and saves the journal. A moved one is used as it is.
-    void bring_back(Recorder& recorder);
+    /// Throws io::FileError where the directory or the journal is not where it was.
+    void require_in_place(const Recorder& recorder) const;
 
 private:
     std::optional<io::FilePlace> newest_whole();
@@ -67,9 +64,7 @@ private:
     std::vector<std::string> notes_;
 };
 
-/// The position of the journal among the scalars of a run.
-void add_position(const Recorder::Position& position, RunScalars& scalars);
-/// Throws io::FileError where it is missing.
-Recorder::Position position_in(const RunScalars& scalars);
+/// How much was recorded when a checkpoint was written. Throws io::FileError where it is missing.
+Recorder::Position position_in(const StateNumbers& numbers);
 
 } // namespace asperity

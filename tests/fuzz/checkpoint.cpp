@@ -20,18 +20,13 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     bytes.append("asperity digest\n", 16).append(reinterpret_cast<const char*>(end), sizeof end);
     const fuzz::MemoryFile file(bytes);
     fuzz::try_out([&] {
-        const RunScalars scalars = read_checkpoint_scalars(file.name());
-        position_in(scalars);
+        const StateNumbers numbers = read_checkpoint_numbers(file.name());
+        fuzz::try_out([&] { position_in(numbers); });
+        RestoreNumbers restore(numbers);
         Findings findings;
-        findings.dissipated.emplace();
-        for (std::size_t at = 0; at < scalars.size(); ++at)
-            fuzz::try_out([&] { // from wherever they may begin
-                RestoreScalars restore{scalars, at};
-                if (scalars[at].first == "dissipation.approach")
-                    findings.dissipated->visit(restore);
-                else
-                    findings.visit(restore);
-            });
+        Dissipation dissipation;
+        fuzz::try_out([&] { restore("run.findings", findings); });
+        fuzz::try_out([&] { restore("path.dissipation", dissipation); });
         const ProcessGrid grid(1, 0, 4, 1);
         Field<double> field(grid.tile(0), 2);
         read_checkpoint(file.name(), Communicator(), grid, {{"/level0/u_x", 0, &field, 2}},

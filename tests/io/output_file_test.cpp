@@ -93,17 +93,18 @@ TEST(OutputFile, AppearsWholeOrNotAtAll) {
     EXPECT_EQ(contents(path), "new");
 }
 
-TEST(OutputFile, FollowsARenamedDirectory) {
+TEST(OutputFile, KnowsWhetherItsDirectoryIsInPlace) {
     const Scratch scratch;
     const Directory directory = Directory::make(scratch / "here");
-    EXPECT_EQ(directory.place(), Directory::Place::here);
+    EXPECT_TRUE(directory.in_place());
     std::filesystem::rename(scratch / "here", scratch / "there");
-    EXPECT_EQ(directory.place(), Directory::Place::moved);
+    EXPECT_FALSE(directory.in_place());
+    std::filesystem::create_directory(scratch / "here");
+    EXPECT_FALSE(directory.in_place()) << "another of the same name";
     write_whole({directory, "a.txt"}, "x");
-    EXPECT_EQ(contents(scratch / "there/a.txt"), "x");
-    EXPECT_EQ(std::filesystem::path(directory.present_path()).filename(), "there");
+    EXPECT_EQ(contents(scratch / "there/a.txt"), "x") << "never into another";
     std::filesystem::remove_all(scratch / "there");
-    EXPECT_EQ(directory.place(), Directory::Place::removed);
+    EXPECT_FALSE(directory.in_place());
     EXPECT_THROW(write_whole({directory, "a.txt"}, "x"), FileError);
 }
 
@@ -195,20 +196,18 @@ TEST(Journal, IsCutAndCheckedByItsMark) {
         ASSERT_EQ(found.size(), 101u);
         EXPECT_EQ(found[42], "record 42");
         EXPECT_EQ(found.back(), "again");
-        // Removed under its hands, it can still be saved.
-        std::filesystem::remove(file);
-        EXPECT_FALSE(journal.in_place());
-        journal.move_to(Directory::make(scratch / "e"));
-        EXPECT_TRUE(journal.in_place());
-        journal.append(3, bytes("more"));
     }
-    EXPECT_TRUE(Journal::holds(Directory(scratch / "e"), "j", mark));
-    std::string damaged = contents(scratch / "e/j");
+    EXPECT_TRUE(Journal::holds(directory, "j", mark));
+    std::string damaged = contents(file);
     damaged[100] = static_cast<char>(damaged[100] ^ 1);
-    scratch.write("e/j", damaged);
-    EXPECT_FALSE(Journal::holds(Directory(scratch / "e"), "j", mark));
-    scratch.write("e/j", damaged.substr(0, 50));
-    EXPECT_FALSE(Journal::holds(Directory(scratch / "e"), "j", mark));
+    scratch.write("d/j", damaged);
+    EXPECT_FALSE(Journal::holds(directory, "j", mark));
+    scratch.write("d/j", damaged.substr(0, 50));
+    EXPECT_FALSE(Journal::holds(directory, "j", mark));
+    Journal journal(directory, "k");
+    EXPECT_TRUE(journal.in_place());
+    std::filesystem::remove(scratch / "d/k");
+    EXPECT_FALSE(journal.in_place());
 }
 
 TEST(Journal, ARecordThatFailedIsNotForgotten) {

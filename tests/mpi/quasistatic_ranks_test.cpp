@@ -97,24 +97,23 @@ struct Contact {
                              -path.work(Leg::pull_off), static_cast<double>(path.iterations())})
             hash = test::mix(hash, value);
         for (const Instability& jump : path.dissipation().jumps)
-            for (double value : {jump.energy, jump.top, jump.site_x, jump.site_y, jump.sites_moved})
+            for (double value :
+                 {jump.energy, jump.top, static_cast<double>(jump.site_x),
+                  static_cast<double>(jump.site_y), static_cast<double>(jump.sites_moved)})
                 hash = test::mix(hash, value);
         return hash;
     }
     void write(const std::string& file, const Communicator& ranks) {
-        CollectScalars collect;
-        double pulls_off = leg == Leg::pull_off ? 1.0 : 0.0;
-        collect("leg", pulls_off);
-        path.visit(collect);
-        write_checkpoint(file, ranks, grid, path.states(), collect.values, "it");
+        CollectNumbers collect;
+        collect("leg", leg);
+        collect("path", path);
+        write_checkpoint(file, ranks, grid, path.states(), collect.numbers, "it");
     }
     void read(const std::string& file, const Communicator& ranks) {
-        const RunScalars scalars = read_checkpoint(file, ranks, grid, path.states(), "it");
-        RestoreScalars restore{scalars};
-        double pulls_off = 0.0;
-        restore("leg", pulls_off);
-        leg = pulls_off != 0.0 ? Leg::pull_off : Leg::approach;
-        path.visit(restore);
+        const StateNumbers numbers = read_checkpoint(file, ranks, grid, path.states(), "it");
+        RestoreNumbers restore(numbers);
+        restore("leg", leg);
+        restore("path", path);
         path.resume();
     }
 };

@@ -128,8 +128,12 @@ Trace relaxation(const Stack& stack, const Communicator& ranks) {
     const LayerAtRest rest = test::bring_to_rest(block, surface, 8.0, options, 1e-3);
     Trace trace;
     const ZeroLoad& z = rest.numbers.value();
-    trace.numbers = {z.binding_energy, z.pairwise,   z.mean_height,
-                     z.residual,       z.iterations, z.repulsive_fraction};
+    trace.numbers = {z.binding_energy,
+                     z.pairwise,
+                     z.mean_height,
+                     z.residual,
+                     static_cast<double>(z.iterations),
+                     z.repulsive_fraction};
     trace.in_contact = std::llround(1024.0 * z.contact_fraction);
     // Every rank has its tile of the layer.
     const auto layer = std::as_const(rest.layer).view()[0];

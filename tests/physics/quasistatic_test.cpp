@@ -319,7 +319,7 @@ TEST(Dissipation, KeepsTheStrongestInstabilitiesInTheOrderOfThePath) {
     for (int i = 0; i < 30; ++i) {
         Instability jump;
         jump.energy = (7 * i) % 30 + 1.0; // 1 to 30, each once
-        jump.leg = i < 15 ? 0.0 : 1.0;
+        jump.leg = i < 15 ? Leg::approach : Leg::pull_off;
         jump.top = -i;
         lost.add(jump);
         sum += jump.energy;

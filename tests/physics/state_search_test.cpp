@@ -282,17 +282,17 @@ void expect_same_when_resumed(const std::string& file, int points,
         if (part == 0) {
             s.start();
         } else {
-            const RunScalars scalars = read_checkpoint(file, Communicator(), c.grid, {}, "it");
+            const StateNumbers numbers = read_checkpoint(file, Communicator(), c.grid, {}, "it");
             read_checkpoint(file, Communicator(), c.grid, s.search.states(), "it");
-            RestoreScalars restore{scalars};
-            s.search.visit(restore);
+            RestoreNumbers restore(numbers);
+            restore("search", s.search);
             s.search.resume();
         }
         for (int i = 0; i < points && !done; ++i)
             done = s.search.advance() == StateSearch::Outcome::done;
-        CollectScalars collect;
-        s.search.visit(collect);
-        write_checkpoint(file, Communicator(), c.grid, s.search.states(), collect.values, "it");
+        CollectNumbers collect;
+        collect("search", s.search);
+        write_checkpoint(file, Communicator(), c.grid, s.search.states(), collect.numbers, "it");
         if (!done) continue;
         const StateList found = s.search.found();
         EXPECT_GT(part, 3);

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The numbers of a run's state by name, for checkpoints, and the two visitors that collect and
+// restore them.
+//
+// A class lists its members once, for both ways:
+//
+//     template <class Visitor>
+//     void visit(Visitor& v) {
+//         v("force", force);   // a double, an integer, an enumeration, a bool,
+//         v("trail", trail);   // a class with a visit() of its own: "trail.points",
+//         v("jumps", jumps);   // a vector of these: "jumps.count", "jumps.0.energy",
+//         v("lost", lost);     // an optional of these: "lost.given", "lost"
+//     }
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace asperity {
+
+/// Integers are integers.
+using StateNumbers = std::map<std::string, std::variant<double, std::int64_t>>;
+
+/// Finds the numbers of what it is given; Self has number(name, double&) and
+/// integer(name, std::int64_t&, least, most).
+template <class Self>
+class NumberVisitor {
+public:
+    template <class T>
+    void operator()(const std::string& name, T& value) {
+        if constexpr (std::is_floating_point_v<T>) {
+            self().number(prefix_ + name, value);
+        } else if constexpr (std::is_enum_v<T>) {
+            std::underlying_type_t<T> number = static_cast<std::underlying_type_t<T>>(value);
+            (*this)(name, number);
+            value = static_cast<T>(number);
+        } else if constexpr (std::is_integral_v<T>) {
+            using Limits = std::numeric_limits<T>;
+            constexpr std::uint64_t largest = std::numeric_limits<std::int64_t>::max();
+            auto number = static_cast<std::int64_t>(value);
+            self().integer(prefix_ + name, number, static_cast<std::int64_t>(Limits::lowest()),
+                           static_cast<std::int64_t>(
+                               std::min(static_cast<std::uint64_t>(Limits::max()), largest)));
+            value = static_cast<T>(number);
+        } else {
+            visit_members(name, value);
+        }
+    }
+
+private:
+    template <class T>
+    void visit_members(const std::string& name, std::optional<T>& value) {
+        bool given = value.has_value();
+        (*this)(name + ".given", given);
+        if (!given) return value.reset();
+        if (!value) value.emplace();
+        (*this)(name, *value);
+    }
+    template <class T>
+    void visit_members(const std::string& name, std::vector<T>& list) {
+        auto count = static_cast<std::int64_t>(list.size());
+        self().integer(prefix_ + name + ".count", count, 0, self().longest_list());
+        list.resize(static_cast<std::size_t>(count));
+        for (std::size_t i = 0; i < list.size(); ++i)
+            (*this)(name + "." + std::to_string(i), list[i]);
+    }
+    template <class T>
+    void visit_members(const std::string& name, T& object) {
+        const std::string outside = std::exchange(prefix_, prefix_ + name + ".");
+        object.visit(self());
+        prefix_ = outside;
+    }
+    Self& self() { return static_cast<Self&>(*this); }
+
+    std::string prefix_;
+};
+
+class CollectNumbers : public NumberVisitor<CollectNumbers> {
+public:
+    StateNumbers numbers;
+
+    /// Throw std::logic_error where the name is taken.
+    void number(const std::string& name, double& value) { put(name, value); }
+    void integer(const std::string& name, std::int64_t& value, std::int64_t, std::int64_t) {
+        put(name, value);
+    }
+    std::int64_t longest_list() const { return std::numeric_limits<std::int64_t>::max(); }
+
+private:
+    void put(const std::string& name, std::variant<double, std::int64_t> value);
+};
+
+class RestoreNumbers : public NumberVisitor<RestoreNumbers> {
+public:
+    /// The numbers must outlive it.
+    explicit RestoreNumbers(const StateNumbers& numbers) : numbers_(numbers) {}
+
+    /// Throw io::FileError where there is none of the name, or it is of the other kind.
+    void number(const std::string& name, double& value) const;
+    void integer(const std::string& name, std::int64_t& value, std::int64_t least,
+                 std::int64_t most) const;
+    std::int64_t longest_list() const { return static_cast<std::int64_t>(numbers_.size()); }
+
+private:
+    template <class T>
+    const T& find(const std::string& name) const;
+
+    const StateNumbers& numbers_;
+};
+
+} // namespace asperity
