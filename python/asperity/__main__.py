@@ -67,6 +67,8 @@ def _parser() -> argparse.ArgumentParser:
                "The same command goes on where it stopped.")
     scene(cost, "results/<scene>-cost")
     cost.add_argument("--jobs", type=_many, default=1, metavar="N", help="runs side by side, one thread each")
+    cost.add_argument("--target", metavar="ERROR",
+                      help="find the cheapest numerical settings that keep this error: 1%%, 0.01")
     cost.add_argument("--knobs", default="", metavar="NAMES", help="only these: timestep,cutoff,layers,...")
     report = add("report", "a run or a sweep as one self-contained HTML page")
     report.add_argument("directory", metavar="DIR", help="the result directory")
@@ -115,7 +117,7 @@ def _carry_out(given: argparse.Namespace) -> int:
             raise SceneError("command line", "more than one scene is given", f"{scenes[0]} and {scenes[1]}",
                              "for example: asperity cost scenes/cost/small.toml")
         return cost_command(scenes[0], given.sets, [k for k in given.knobs.split(",") if k], given.out,
-                            PoolOptions(given.jobs, 1, progress=given.progress))
+                            PoolOptions(given.jobs, 1, progress=given.progress), given.target)
     limit = parse_duration(given.wall_limit) if given.wall_limit else None
     pool = PoolOptions(given.jobs, 0, given.launch.split(), limit, given.progress)
     return sweep_command(scenes, given.sets, given.out, given.theory_only, pool)

@@ -2,16 +2,21 @@
 # SPDX-License-Identifier: MIT
 """`asperity cost`: what accuracy costs in time for a scene.
 
-Runs the reference, the scene as it is, every value of every knob (cost_knobs.py), and then combinations: of
-each knob the cheapest value whose own error is within the target's share. Each is a process of its own with
+Runs the reference, the scene as it is, every value of every knob (cost_knobs.py), and then combinations: a value
+of each knob, the cheapest whose own errors add up to no more than a target. Each is a process of its own with
 one thread, in a directory of its own; those that are there are not run again.
+
+With a target of the user only the numerics are varied, and a combination is chosen once it was run and its error
+against the reference is within the target.
 """
 
 from __future__ import annotations
 
-import difflib
+import itertools
 import json
 import math
+import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -19,9 +24,9 @@ from typing import Any
 import numpy as np
 
 from . import files, program, terminal
-from .cost_knobs import CostCase, Knob, KnobValue, Setting, cost_case, joined
+from .cost_knobs import Base, CostCase, Knob, KnobValue, Setting, cost_case, joined
 from .errors import SceneError
-from .pool import DONE, FAILED, STOPPED, WAITING, Job, Outcome, Pool, PoolOptions, look_at_all
+from .pool import DONE, FAILED, PHYSICS, STOPPED, WAITING, Job, Outcome, Pool, PoolOptions, look_at_all
 from .result import Values
 
 QUANTITIES = ("gamma", "contact", "approach", "pull-off", "force")
@@ -31,6 +36,8 @@ that a cutoff is not blamed for the adhesion that it takes from both."""
 ASKED = {"state": 2, "path": len(QUANTITIES)}
 """What a setting can be asked for: the relaxed state (the first two quantities), or all of the path too."""
 TARGETS = (0.05, 0.01, 0.001)
+TRIES = 4
+"""combinations that are run for a target of the user"""
 NAN = math.nan
 
 
@@ -111,11 +118,30 @@ class CostRow:
     seconds: float = NAN
     """of the processor"""
     wall: float = NAN
+    added: float = NAN
+    """of a combination: the sum of its own errors"""
 
     @property
     def text(self) -> str:
         """The setting as a user would give it."""
         return "--set " + " ".join(self.setting) if self.setting else "the scene as it is"
+
+
+@dataclass
+class Combination:
+    """A row of each part of a base: own errors add, factors of time multiply."""
+
+    rows: tuple[CostRow, ...]
+    error: float
+    time: float
+    """over that of the twins"""
+
+    def row(self, base: Base) -> CostRow:
+        setting = base.setting
+        for one in self.rows:
+            setting = joined(setting, one.own)
+        return CostRow("combination", ", ".join([*filter(None, [base.label]), *(one.label for one in self.rows)]), setting, [],
+                       added=self.error)
 
 
 @dataclass
@@ -125,7 +151,13 @@ class Cost:
     name: str
     scene: dict[str, Any]
     case: CostCase
+    target: float | None = None
+    """of the user"""
     rows: list[CostRow] = field(default_factory=list)
+    chosen: CostRow | None = None
+    """for the target"""
+    smallest: float = NAN
+    """if there is none: smallest error of those that were run, or sum of own errors if none was worth it"""
     orders: list[tuple[Knob, list[float | None]]] = field(default_factory=list)
     cheapest: dict[str, list[int | None]] = field(default_factory=dict)
 
@@ -158,36 +190,69 @@ class Cost:
             self.orders.append((knob, [order_of([r.x for r in others], [r.own_error[q] for r in others], x0)
                                        for q in range(len(QUANTITIES))]))
 
-    def _cheapest_of_part(self, part: str, question: str, share: float) -> CostRow | None:
-        """Of a part's knobs the cheapest value whose own error is within the share."""
+    @property
+    def question(self) -> str:
+        """What the scene itself answers."""
+        return "state" if "zero-load" in Values(self.scene).find("drive.path") else "path"
+
+    def _of_part(self, part: str, question: str) -> list[Combination]:
+        """The values of a part's knobs, those that have an error."""
         found = []
         for knob in self.case.knobs:
             twin = self.twin_of(knob)
             if knob.part != part or twin is None:
                 continue
-            found += [r for r in self.rows if r.knob == knob.name
-                      and not (r is twin and knob.name == "velocity")  # it is another base
-                      and largest_error(r.numbers, twin.numbers, question) <= share]
-        return min(found, key=lambda r: r.seconds, default=None)
-
-    def combinations(self) -> list[CostRow]:
-        """Of each base and target the cheapest values together."""
-        found: list[CostRow] = []
-        there = {knob.part for knob in self.case.knobs}
-        for base in self.case.bases:
-            question = "state" if base.label == "zero load alone" else "path"
-            for target in TARGETS:
-                row = CostRow("combination", base.label, base.setting, [])
-                chosen = [self._cheapest_of_part(part, question, target / len(base.parts))
-                          for part in base.parts if part in there]
-                if any(c is None for c in chosen):
+            for row in (r for r in self.rows if r.knob == knob.name):
+                # Without time the velocity is another base.
+                if row is twin and (not knob.twin_is_exact or knob.name == "velocity"):
                     continue
-                for one in chosen:
-                    row.setting = joined(row.setting, one.own)
-                    row.label += ", " + one.label
-                if all(row.setting != other.setting for other in found):
+                error = largest_error(row.numbers, twin.numbers, question)
+                if not math.isnan(error):
+                    found.append(Combination((row,), error, row.seconds / twin.seconds))
+        return found
+
+    def combinations(self, base: Base, question: str) -> list[Combination]:
+        """All of a base, the cheapest first."""
+        there = {knob.part for knob in self.case.knobs}
+        parts = [self._of_part(part, question) for part in base.parts if part in there]
+        return sorted((Combination(tuple(one.rows[0] for one in some), sum(one.error for one in some),
+                                   math.prod(one.time for one in some)) for some in itertools.product(*parts)),
+                      key=lambda c: c.time)
+
+    def cheapest_combinations(self) -> list[CostRow]:
+        """Of each base and target."""
+        found: list[CostRow] = []
+        for base in self.case.bases:
+            all_of_base = self.combinations(base, "state" if base.label == "zero load alone" else "path")
+            for target in TARGETS:
+                row = next((c.row(base) for c in all_of_base if c.error <= target), None)
+                if row and all(row.setting != other.setting for other in found):
                     found.append(row)
         return found
+
+    def choose(self, run: Callable[[list[CostRow]], bool]) -> bool:
+        """Runs the cheapest combinations within the target until one keeps it. False: stopped before."""
+        assert self.target is not None
+        left = self.combinations(self.case.bases[0], self.question)
+        self.smallest = min((c.error for c in left), default=NAN)
+        left = [c for c in left if c.error <= self.target]
+        measured = []
+        while left and len(measured) < TRIES:
+            tried = left[0]
+            row = tried.row(self.case.bases[0])
+            if not run([row]):
+                return False
+            self.rows.append(row)
+            self.judge()
+            error = row.error[self.question]
+            if error <= self.target:
+                self.chosen = row
+                break
+            # The errors added up to less than there is, or the run failed: the next has to promise half.
+            measured.append(error)
+            self.smallest = min((e for e in measured if not math.isnan(e)), default=NAN)
+            left = [c for c in left[1:] if c.error <= 0.5 * tried.error]
+        return True
 
 
 class _Runs:
@@ -224,29 +289,34 @@ class _Runs:
         return complete
 
 
-def _chosen(knobs: list[Knob], names: list[str]) -> list[Knob]:
-    there = [knob.name for knob in knobs]
-    for name in names:
-        if name not in there:
-            near = difflib.get_close_matches(name, there, 1)
-            raise SceneError(f"--knobs {name}", "is no knob of this scene", "knobs: " + ", ".join(there),
-                             f"did you mean {near[0]}?" if near else "leave --knobs out for all of them")
-    return [knob for knob in knobs if not names or knob.name in names]
-
-
 def _row(knob: Knob, value: KnobValue) -> CostRow:
     return CostRow(knob.name, value.label, joined(knob.base, value.setting), value.setting, value.x,
                    judged=knob.name != "thickness")
 
 
-def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str | None, options: PoolOptions) -> int:
-    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed."""
+def target_of(text: str) -> float:
+    """"1%" and "0.01" are 0.01. Raises SceneError."""
+    found = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(%?)\s*", text)
+    try:
+        target = float(found[1]) * (0.01 if found[2] else 1.0) if found else NAN
+    except ValueError:
+        target = NAN
+    if not 0.0 < target < 1.0:
+        raise SceneError(f"--target {text}", "is no error to keep", "a relative error is needed, above 0 and below 100 %",
+                         "for example --target 1%, or --target 0.01")
+    return target
+
+
+def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str | None, options: PoolOptions,
+                 target: str | None = None) -> int:
+    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if no settings keep the
+    target."""
+    asked = None if target is None else target_of(target)
     found = program.check(scene, overrides)
-    case = cost_case(found["scene"], found.get("longest_timestep", 0.0))
+    case = cost_case(found["scene"], found.get("longest_timestep", 0.0), knobs, same_experiment=asked is not None)
     if found["problems"]:
         raise SceneError("\n".join(found["problems"]))
-    case.knobs = _chosen(case.knobs, knobs)
-    cost = Cost(found["name"], found["scene"], case)
+    cost = Cost(found["name"], found["scene"], case, asked)
     cost.rows = [CostRow("reference", "reference", case.reference, case.reference, judged=False),
                  CostRow("scene", "as it is", [], [])]
     cost.rows += [_row(knob, value) for knob in case.knobs
@@ -261,18 +331,22 @@ def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str | 
             print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
             return reference.exit_code
         cost.judge()
-        if complete:
-            combinations = cost.combinations()
+        if complete and asked is not None:
+            complete = cost.choose(runs.run)
+        elif complete:
+            combinations = cost.cheapest_combinations()
             complete = not combinations or runs.run(combinations)
             cost.rows += combinations
             cost.judge()
         written = write(cost, directory)
     print(text_of(cost))
     print(f"in {directory}:" + "".join(f" {name}" for name in written))
-    if complete:
-        return 0
-    print("Stopped early: the same command goes on from here.")
-    return STOPPED
+    if not complete:
+        print("Stopped early: the same command goes on from here.")
+        return STOPPED
+    if asked is not None:
+        print("\n" + answer_of(cost))
+    return PHYSICS if asked is not None and cost.chosen is None else 0
 
 
 # What is left behind.
@@ -297,6 +371,7 @@ def json_of(cost: Cost) -> dict[str, Any]:
                  "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers),
                  "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
                  "pareto": dict(row.front),
+                 **({} if math.isnan(row.added) else {"added_error": row.added}),
                  **({"failed": row.outcome.reason} if row.outcome.status == FAILED else {})} for row in cost.rows]
     orders = [{"knob": knob.name, "expected": knob.expected,
                **({} if knob.order is None else {"expected_order": knob.order}), "measured": by_quantity(measured)}
@@ -305,8 +380,17 @@ def json_of(cost: Cost) -> dict[str, Any]:
                             "processor_seconds": cost.rows[i].seconds}
                            for target, i in zip(TARGETS, places) if i is not None]
                 for question, places in cost.cheapest.items()}
-    return {"scene": cost.scene, "reference": cost.case.reference_text, "settings": settings, "orders": orders,
-            "cheapest": {question: found for question, found in cheapest.items() if found}}
+    result = {"scene": cost.scene, "reference": cost.case.reference_text, "settings": settings, "orders": orders}
+    if cost.target is None:
+        return {**result, "cheapest": {question: found for question, found in cheapest.items() if found}}
+    answer: dict[str, Any] = {"target": cost.target, "question": cost.question}
+    if row := cost.chosen:
+        answer |= {"set": row.setting, "error": row.error[cost.question], "added_error": row.added,
+                   "time_over_scene": known(row.seconds / cost.rows[1].seconds),
+                   "time_over_reference": known(row.seconds / cost.rows[0].seconds)}
+    else:
+        answer["smallest_error"] = known(cost.smallest)
+    return {**result, "chosen": answer}
 
 
 def write(cost: Cost, directory: Path) -> list[str]:
@@ -366,7 +450,7 @@ def text_of(cost: Cost) -> str:
                                      for knob, measured in cost.orders], left=(0, 6)))
     for question, what in zip(ASKED, ("the state at zero load (γ, contact)",
                                           "the whole path (works, pull-off force too)")):
-        if not cost.answered(question):
+        if cost.target is not None or not cost.answered(question):
             continue
         parts.append(f"\nCheapest for {what}:")
         for target, i in zip(TARGETS, cost.cheapest[question]):
@@ -378,3 +462,20 @@ def text_of(cost: Cost) -> str:
     parts += [f"note: {note}" for note in cost.case.notes]
     parts += [f"failed: {r.knob} {r.label}: {r.outcome.reason}" for r in cost.rows if r.outcome.status == FAILED]
     return "\n".join(parts)
+
+
+def answer_of(cost: Cost) -> str:
+    """What was found for the target; the last line is what to put behind a command."""
+    assert cost.target is not None
+    target = f"{100 * cost.target:.6g} %"
+    row, kept = cost.chosen, "varied: " + ", ".join(knob.name for knob in cost.case.knobs)
+    if row is None:
+        tried = any(r.knob == "combination" for r in cost.rows)
+        best = "none could be measured" if math.isnan(cost.smallest) else (
+            f"the smallest error {'of those tried' if tried else 'that they add up to'} is {percent(cost.smallest)} %")
+        return (f"No settings keep {target}: {best} ({kept}).\n"
+                "Ask for more, or start from a scene with finer settings.")
+    scene, reference = cost.rows[1].seconds, cost.rows[0].seconds
+    return (f"The cheapest settings within {target} ({kept}): error {percent(row.error[cost.question])} % of the reference,\n"
+            f"{row.seconds:.2f} s: {row.seconds / scene:.2f} of the scene's time, {row.seconds / reference:.2f} of the "
+            f"reference's.\n{row.text}")

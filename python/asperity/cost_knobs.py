@@ -4,11 +4,13 @@
 
 All of it follows by rule from the scene, before anything has run. A knob is varied alone, all others stay as
 the scene has them; its own error is that against the same scene with this one knob at its best (`twin`). The
-error that counts in the end is that against the reference, which is the best in every knob at once.
+error that counts in the end is that against the reference, which is the best in every knob at once; for a
+target it is the same experiment with the best numerics.
 """
 
 from __future__ import annotations
 
+import difflib
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -17,6 +19,8 @@ from .result import Values
 
 Setting = list[str]
 """Keys of the scene and what they are set to: "section.key=value"."""
+NUMERICS = ("block", "precision", "timestep", "tolerance", "step")
+"""Parts that change no experiment: what a target may choose."""
 
 
 @dataclass
@@ -40,7 +44,7 @@ class Knob:
     """knobs of one part exclude each other in a combination; "": never in one"""
     order: float | None = None
     twin_is_exact: bool = False
-    """nothing of the knob's error is left in its twin"""
+    """nothing of the knob's error is left in its twin: it may be chosen too"""
     base: Setting = field(default_factory=list)
     """of all its runs, where it has no effect on the scene as it is"""
 
@@ -50,6 +54,7 @@ class Base:
     """Where a combination starts: how the path is followed, and the parts that matter there."""
 
     label: str
+    """"": as the scene says"""
     setting: Setting
     parts: list[str]
 
@@ -73,7 +78,7 @@ def _value(key: str, v: float, unit: str) -> KnobValue:
     return KnobValue(f"{v:.6g} {unit}".strip(), [f"{key}={v:.6g}"], v)
 
 
-def _refuse(scene: Values) -> None:
+def _refuse(scene: Values, same_experiment: bool) -> None:
     problems = []
     for key, shown, why, fix in (
             ("drive.temperature", "{:.6g} K", "differences between runs would be those of their noise",
@@ -82,18 +87,32 @@ def _refuse(scene: Values) -> None:
         value = scene.number(key)
         if value:
             problems.append({"where": "", "what": f"{key} = {shown.format(value)}", "why": why, "fix": fix})
-    if scene.text("block.strain") == "finite":
+    if scene.text("block.strain") == "finite" and not same_experiment:
         problems.append({"where": "", "what": 'block.strain = "finite"',
                          "why": "errors are measured against the path without time, and there is none at finite strain",
-                         "fix": "measure the same scene at small strain"})
+                         "fix": "measure the same scene at small strain, or with --target"})
     if problems:
         raise SceneError.of(problems)
 
 
-def cost_case(keys: dict[str, Any], longest_timestep: float) -> CostCase:
-    """keys: the scene as it is used; longest_timestep: its stability limit, fs. Raises SceneError."""
+def _chosen(knobs: list[Knob], names: list[str]) -> list[Knob]:
+    there = [knob.name for knob in knobs]
+    for name in names:
+        if name not in there:
+            near = difflib.get_close_matches(name, there, 1)
+            raise SceneError(f"--knobs {name}", "is none of the knobs", "knobs: " + ", ".join(there),
+                             f"did you mean {near[0]}?" if near else "leave --knobs out for all of them")
+    return [knob for knob in knobs if not names or knob.name in names]
+
+
+def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | None = None,
+              same_experiment: bool = False) -> CostCase:
+    """keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the knobs, all if there are none.
+
+    same_experiment: only knobs of the numerics, and the reference is the scene with these at their best. Raises SceneError.
+    """
     scene = Values(keys)
-    _refuse(scene)
+    _refuse(scene, same_experiment)
 
     def own(key: str) -> float:
         return scene.number(key) or 0.0
@@ -155,7 +174,7 @@ def cost_case(keys: dict[str, Any], longest_timestep: float) -> CostCase:
     still = at_rest if dynamic else []
     knobs.append(Knob("tolerance", scaled("drive.tolerance", "eV/Å", 100, 10, 1),
                       _value("drive.tolerance", 0.1 * tolerance, "eV/Å"), "up to 2: a minimum is flat", "tolerance", None,
-                      True, still))
+                      False, still))
     if legs:
         knobs.append(Knob("step", scaled("drive.step", "Å", 4, 2, 1, 0.5), _value("drive.step", 0.25 * step, "Å"),
                           "none: steps are cut where needed", "step", None, False, still))
@@ -164,10 +183,17 @@ def cost_case(keys: dict[str, Any], longest_timestep: float) -> CostCase:
         models += [KnobValue("quasi-static", at_rest), KnobValue("zero load alone", ["drive.path=zero-load"])]
         knobs.append(Knob("model", models, None, ""))
 
+    if same_experiment:
+        # Knobs with a base of their own have no effect on the scene as it is.
+        knobs = _chosen([k for k in knobs if k.part in NUMERICS and not k.base], names or [])
+        twins = [k.twin for k in knobs if k.twin]
+        return CostCase([one for twin in twins for one in twin.setting],
+                        "the scene with " + ", ".join(twin.label for twin in twins), knobs,
+                        [Base("", [], [k.part for k in knobs])], [])
     bases = []
     if dynamic:
         bases.append(Base("in time", [], ["interaction", "block", "precision", "timestep", "velocity"]))
     if legs:
         bases.append(Base("quasi-static", at_rest, ["interaction", "precision", "tolerance", "step"]))
     bases.append(Base("zero load alone", ["drive.path=zero-load"], ["interaction", "precision", "tolerance"]))
-    return CostCase(reference, text, knobs, bases, notes)
+    return CostCase(reference, text, _chosen(knobs, names or []), bases, notes)

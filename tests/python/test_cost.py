@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What accuracy costs: errors, fronts and orders on made-up runs, the knobs of a scene, and a run of it all."""
+"""What accuracy costs: errors, fronts, orders and choices on made-up runs, the knobs of a scene, and a run of it all."""
 
 import csv
+import json
 import math
 import os
 import signal
@@ -14,7 +15,7 @@ import pytest
 
 import asperity
 from asperity import cost, program
-from asperity.cost_knobs import CostCase, Knob, KnobValue, cost_case, joined
+from asperity.cost_knobs import Base, CostCase, Knob, KnobValue, cost_case, joined
 from asperity.result import Values
 from conftest import command
 from asperity.scene import scene_file
@@ -61,10 +62,10 @@ def test_no_order_is_made_up():
     assert cost.order_of([], [], None) is None
 
 
-def case(**sections):
+def case(same_experiment=False, **sections):
     with scene_file(sections) as file:
         found = program.check(file)
-    return cost_case(found["scene"], found["longest_timestep"])
+    return cost_case(found["scene"], found["longest_timestep"], same_experiment=same_experiment)
 
 
 def knobs(**sections):
@@ -81,6 +82,147 @@ def test_knobs_are_those_that_the_scene_has():
         with pytest.raises(asperity.SceneError):
             knobs(surface={"sites": 32}, **bad)
     assert joined(["a.b=1", "c.d=2"], ["a.b=3"]) == ["c.d=2", "a.b=3"]
+
+
+PHYSICS = ("interface.", "surface.", "drive.mode", "drive.path", "drive.velocity", "drive.damping", "block.thickness")
+
+
+@pytest.mark.parametrize("sections, names", [
+    ({}, ["layers", "precision", "timestep"]), ({"drive": {"mode": "quasistatic"}}, ["precision", "tolerance", "step"]),
+    ({"drive": {"path": ["zero-load"]}}, ["precision", "tolerance"]), ({"block": {"strain": "finite"}}, ["layers", "precision", "timestep"])])
+def test_a_target_chooses_no_physics(sections, names):
+    found = case(True, surface={"sites": 16}, **sections)
+    assert [k.name for k in found.knobs] == names and found.bases[0].setting == []
+    for setting in [found.reference, *(v.setting for k in found.knobs for v in [*k.values, k.twin])]:
+        assert setting and not any(one.startswith(PHYSICS) for one in setting)
+
+
+def made_up(values, target):
+    """Knobs with values of (own error, seconds) over twins of one second, none of which may be chosen."""
+    def knob(name):
+        return Knob(name, [], KnobValue("best", [f"a.{name}=best"]), "", name)
+
+    knobs = [knob(name) for name in values]
+    made = cost.Cost("made up", {"drive": {"path": ["zero-load"]}},
+                     CostCase([], "", knobs, [Base("", [], list(values))], []), target)
+    best = np.array([1.0, 1.0, NAN, NAN, NAN])
+    made.rows = [cost.CostRow("reference", "", [], [], judged=False, numbers=best, seconds=1.0),
+                 cost.CostRow("scene", "", [], [], numbers=best, seconds=1.0)]
+    for name, some in values.items():
+        for label, error, seconds in [("best", 0.0, 1.0), *((str(i), *v) for i, v in enumerate(some))]:
+            setting = [f"a.{name}={label}"]
+            made.rows.append(cost.CostRow(name, label, setting, setting, numbers=best + [error, 0, 0, 0, 0],
+                                          seconds=seconds))
+    made.judge()
+    return made
+
+
+def outcome_of(made, measured):
+    """What is chosen if combinations have the errors of `measured`, by their labels; NaN: the run fails. And what was run."""
+    ran = []
+
+    def run(rows):
+        for row in rows:
+            ran.append(row.label)
+            row.numbers = made.rows[0].numbers + [measured.get(row.label, row.added), 0, 0, 0, 0]
+            row.seconds = 0.5
+        return True
+
+    assert made.choose(run)
+    return made.chosen and made.chosen.label, ran
+
+
+VALUES = {"one": [(8e-3, 0.1), (4e-3, 0.5), (0.0, 0.9)], "other": [(8e-3, 0.1), (1e-3, 0.5)]}
+
+
+def test_errors_add_and_times_multiply():
+    """Each of the cheapest is within 1 %, both together are not."""
+    assert outcome_of(made_up(VALUES, 0.01), {}) == ("0, 1", ["0, 1"])
+    assert outcome_of(made_up(VALUES, 0.02), {}) == ("0, 0", ["0, 0"])
+    # "best" has no error by definition: only a twin in which nothing of it is left may be chosen.
+    nothing = made_up(VALUES, 5e-4)
+    assert outcome_of(nothing, {}) == (None, []) and nothing.smallest == pytest.approx(1e-3)
+    for knob in nothing.case.knobs:
+        knob.twin_is_exact = True
+    assert outcome_of(nothing, {})[0] == "2, best"
+
+
+def test_only_what_was_measured_is_chosen():
+    """A combination that misses, or whose run fails, gives way to one that promises half of its error."""
+    assert outcome_of(made_up(VALUES, 0.02), {"0, 0": 0.03}) == ("2, 0", ["0, 0", "2, 0"])
+    assert outcome_of(made_up(VALUES, 0.02), {"0, 0": NAN}) == ("2, 0", ["0, 0", "2, 0"])
+    made = made_up(VALUES, 0.02)
+    assert outcome_of(made, {"0, 0": 0.03, "2, 0": 0.021, "2, 1": 0.04}) == (None, ["0, 0", "2, 0", "2, 1"])
+    assert made.smallest == pytest.approx(0.021)
+    assert "No settings keep 2 %" in cost.answer_of(made) and "2.1 %" in cost.answer_of(made)
+
+
+def test_targets():
+    for text in ("1%", "1 %", "0.01", " 1e-2 ", "1.0e0%"):
+        assert cost.target_of(text) == pytest.approx(0.01)
+    for text in ("", "one", "1%%", "0", "-1%", "1", "100 %", "nan", "inf", "1.2.3", "%", "1e-400"):
+        with pytest.raises(asperity.SceneError, match="--target"):
+            cost.target_of(text)
+
+
+TINY = """[surface]
+sites = 16
+rms = 0.5
+[block]
+thickness = 16
+[drive]
+velocity = 40
+timestep = 20
+"""
+AT_REST = ["drive.mode=quasistatic", "drive.tolerance=0.001"]
+
+
+@pytest.mark.parametrize("given, best", [
+    ([], ["block.model=lattice", "drive.timestep=10"]),
+    (AT_REST, ["drive.tolerance=1e-4", "drive.step=0.0625"]),
+    (["drive.path=zero-load"], ["drive.tolerance=1e-5"])], ids=["in time", "quasi-static", "state"])
+def test_the_settings_for_a_target_keep_it(tmp_path, monkeypatch, given, best):
+    """What is printed, put behind `run`, against the same experiment with the best numerics."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "tiny.toml").write_text(TINY)
+    words = ["cost", "tiny.toml", "--progress", "off", "--out", "cost", *(["--set", *given] if given else [])]
+    said = command(*words, "--target", "1%").splitlines()
+    assert said[-1].startswith("--set ")
+
+    def quantities(*more):
+        place = "run-" + str(len(list(tmp_path.iterdir())))
+        command("run", "tiny.toml", "--progress", "off", "--out", place, "--set", *given, *more)
+        result = Values(json.loads((tmp_path / place / "result.json").read_text()))
+        flat = result.number("delta_gamma")
+        found = {"gamma": result.number("binding_energy") / flat, "contact": result.number("contact_fraction")}
+        if given != ["drive.path=zero-load"]:
+            found |= {"in": result.number("work_of_drive.approach") / flat, "force": result.number("pull_off_force"),
+                      "out": result.number("work_of_drive.pull_off") / flat}
+        return found
+
+    reference, reached = quantities(*best), quantities(*said[-1].split()[1:])
+    errors = {key: abs(reached[key] / value - 1.0) for key, value in reference.items()}
+    assert 0 < max(errors.values()) <= 0.01, errors
+    found = json.loads((tmp_path / "cost/cost.json").read_text())["chosen"]
+    assert found["target"] == 0.01 and said[-1].split()[1:] == found["set"]
+    assert found["error"] == pytest.approx(max(errors.values()), rel=1e-6)
+    assert found["time_over_reference"] > 0
+
+    # Of what was run nothing is run again; there is no setting with no error but the reference.
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.glob("cost/*/result.json")}
+    said = command(*words, "--target", "1e-13", expect=3).splitlines()
+    assert "No settings keep 1e-11 %: the smallest error" in said[-2]
+    found = json.loads((tmp_path / "cost/cost.json").read_text())["chosen"]
+    assert found["smallest_error"] > 1e-13 and "set" not in found
+    assert all(path.stat().st_mtime_ns == time for path, time in before.items())
+
+
+def test_a_target_that_is_none_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "tiny.toml").write_text(TINY)
+    assert "a relative error is needed" in command("cost", "tiny.toml", "--target", "good", expect=2)
+    assert "layers, precision, timestep" in command("cost", "tiny.toml", "--target", "1%", "--knobs", "cutoff", expect=2)
+    assert [p.name for p in tmp_path.iterdir()] == ["tiny.toml"]
 
 
 def test_knobs_go_from_coarse_to_fine():
