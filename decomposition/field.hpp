@@ -5,6 +5,7 @@
 // vectors.
 #pragma once
 
+#include "decomposition/aligned_array.hpp"
 #include "decomposition/rows_of_thread.hpp"
 #include "decomposition/tile.hpp"
 #include "kernels/views.hpp"
@@ -12,9 +13,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
-#include <new>
 #include <span>
 
 #if defined(__linux__)
@@ -49,10 +47,7 @@ public:
         view_.nx = tile.nx;
         view_.ny = tile.ny;
         view_.nz = planes;
-        data_.reset(static_cast<T*>(std::aligned_alloc(
-            64,
-            static_cast<std::size_t>(round_up(static_cast<std::ptrdiff_t>(size_))) * sizeof(T))));
-        if (!data_) throw std::bad_alloc();
+        data_ = aligned_array<T>(size_);
         prefer_large_pages(data_.get(), size_ * sizeof(T));
         view_.origin = data_.get() + halo * view_.row + left;
         T* const data = data_.get();
@@ -96,10 +91,7 @@ private:
                static_cast<std::size_t>(2 * line);
     }
 
-    struct Free {
-        void operator()(void* p) const { std::free(p); }
-    };
-    std::unique_ptr<T[], Free> data_;
+    AlignedArray<T> data_;
     std::size_t size_ = 0;
     VolumeView<T> view_{};
     int halo_ = halo_width;
@@ -119,9 +111,6 @@ struct VectorField {
     VectorPlane<T> plane(int k) { return {x.plane(k), y.plane(k), z.plane(k)}; }
     VectorPlane<const T> plane(int k) const { return {x.plane(k), y.plane(k), z.plane(k)}; }
     bool empty() const { return x.empty(); }
-    static std::size_t bytes_for(const Tile& tile, int planes, int halo = halo_width) {
-        return 3 * Field<T>::bytes_for(tile, planes, halo);
-    }
     std::size_t bytes() const { return x.empty() ? 0 : x.bytes() + y.bytes() + z.bytes(); }
     void copy_from(const VectorField& other) {
         x.copy_from(other.x);

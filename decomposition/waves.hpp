@@ -10,15 +10,13 @@
 // A rank holds the same rows of the sites and of the waves (surface_transform.hpp).
 #pragma once
 
+#include "decomposition/aligned_array.hpp"
 #include "decomposition/communicator.hpp"
 #include "decomposition/tile.hpp"
 #include "kernels/surface_rows.hpp"
 
 #include <array>
 #include <cstddef>
-#include <cstdlib>
-#include <memory>
-#include <new>
 #include <vector>
 
 namespace asperity {
@@ -49,8 +47,7 @@ public:
     Waves(const Slab& slab, int components)
         : slab_(slab), components_(components), component_((2 * slab.capacity + 15) / 16 * 16) {
         const std::size_t size = static_cast<std::size_t>(components) * component_;
-        data_.reset(static_cast<T*>(std::aligned_alloc(64, size * sizeof(T))));
-        if (!data_) throw std::bad_alloc();
+        data_ = aligned_array<T>(size);
         clear();
     }
     void clear() {
@@ -80,13 +77,10 @@ private:
     std::size_t offset(int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(length());
     }
-    struct Free {
-        void operator()(void* p) const { std::free(p); }
-    };
     Slab slab_;
     int components_ = 0;
     std::size_t component_ = 0;
-    std::unique_ptr<T[], Free> data_;
+    AlignedArray<T> data_;
 };
 
 /// Sums over all waves: row by row, then in the order of rows, then of ranks, whatever the number

@@ -198,27 +198,4 @@ std::size_t Block::bytes() const {
     return total;
 }
 
-std::size_t Block::motion_bytes() const {
-    std::size_t total = 0;
-    for (const Level& level : levels_)
-        total += level.v.bytes();
-    return total;
-}
-
-Block::Memory Block::memory_for(const BlockOptions& options, const ProcessGrid& grid) {
-    Memory memory;
-    for (const LevelShape& shape : level_shapes(options)) {
-        const auto planes = [&](int n) {
-            return VectorField<double>::bytes_for(grid.tile(shape.level), n);
-        };
-        const std::size_t motion = planes(shape.cells);
-        memory.motion += motion;
-        memory.displacements += planes(shape.cells + 1);
-        const std::size_t level = motion + planes(shape.cells + 1) + 2 * planes(1);
-        memory.bytes += level;
-        if (shape.level > 0) memory.coarse += level;
-    }
-    return memory;
-}
-
 } // namespace asperity

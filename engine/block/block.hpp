@@ -158,18 +158,10 @@ public:
     /// Sum of u_z over the lowest layer, Å.
     void add_lowest_z(ExactSum& sum) const;
     std::size_t bytes() const;
-    /// Of these, what only a path in time needs.
-    std::size_t motion_bytes() const;
     /// Of these, what lies in levels coarser than the first.
     std::size_t coarse_bytes() const { return bytes() - levels_.front().bytes() - finite_bytes(); }
     /// Of these, what a path in time at finite strain needs: nothing before its first step.
     std::size_t finite_bytes() const;
-    static std::size_t finite_bytes_for(const BlockOptions&, const ProcessGrid&, int threads);
-    /// The first three numbers, and the displacements' share, without making the block.
-    struct Memory {
-        std::size_t bytes = 0, motion = 0, coarse = 0, displacements = 0;
-    };
-    static Memory memory_for(const BlockOptions& options, const ProcessGrid& grid);
     std::size_t halo_bytes() const { return halo_.bytes_sent(); }
 
     /// True if this rank counts a level's nodes in global sums (levels held whole count once).

@@ -140,12 +140,4 @@ Tile Block::scratch_tile(const ProcessGrid& grid, int levels) {
     return {0, 0, widest, band, grid.tile(0).sites};
 }
 
-std::size_t Block::finite_bytes_for(const BlockOptions& options, const ProcessGrid& grid,
-                                    int threads) {
-    const int levels = static_cast<int>(level_shapes(options).size());
-    return options.finite_strain ? static_cast<std::size_t>(threads) *
-                                       VectorField<double>::bytes_for(scratch_tile(grid, levels), 2)
-                                 : 0;
-}
-
 } // namespace asperity

@@ -310,21 +310,6 @@ Interface::TableSizes Interface::tables_for(const InterfaceOptions& options, con
             size(substrate_sites, substrate_sites) * sizeof(double)};
 }
 
-std::size_t Interface::bytes_for(const InterfaceOptions& options, const Tile& tile, double spacing,
-                                 int substrate_sites) {
-    if (options.wall) return Field<double>::bytes_for(tile, 1, 0);
-    const TableSizes size = tables_for(options, tile, spacing, substrate_sites);
-    return size.heights + size.fixed + size.mean_height + 2 * size.reach + size.columns + size.map;
-}
-
-std::size_t Interface::bytes_over_atoms(const InterfaceOptions& options, const Tile& tile,
-                                        double spacing, std::size_t atoms) {
-    const auto sites = static_cast<std::size_t>(tile.sites);
-    return sites * sites * sizeof(double) +
-           SubstrateCells::bytes_for(atoms, tile,
-                                     cell_options(options, spacing, sideways_margin(spacing)));
-}
-
 /// The tile's heights with their halo, and how many offsets lie within each lateral distance.
 void Interface::build_lattice() {
     const LatticeReach reach(options_.potential.cutoff + margin_, spacing_);

@@ -138,12 +138,6 @@ public:
     int substrate_sites() const { return map_.sites; }
     const InterfaceOptions& options() const { return options_; }
     std::size_t bytes() const;
-    /// What an interface over a substrate of N x N atoms would hold, without making it; and about
-    /// what one over so many atoms anywhere would.
-    static std::size_t bytes_for(const InterfaceOptions& options, const Tile& tile, double spacing,
-                                 int substrate_sites);
-    static std::size_t bytes_over_atoms(const InterfaceOptions& options, const Tile& tile,
-                                        double spacing, std::size_t atoms);
     std::size_t tail_bytes() const { return mean_height_.empty() ? 0 : mean_height_.bytes(); }
 
 private:

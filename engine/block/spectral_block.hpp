@@ -119,6 +119,8 @@ public:
 
     /// S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2. Frictionless: its one number, as zz.
     SurfaceMatrix stiffness(int nx, int ny) const;
+    /// Of the table of stiffness, which each rank has whole.
+    std::size_t table_bytes() const { return table_.size() * sizeof(double); }
     std::size_t bytes() const;
 
 private:

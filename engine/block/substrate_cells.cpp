@@ -253,25 +253,4 @@ std::size_t SubstrateCells::bytes() const {
                 images_, block_first_);
 }
 
-std::size_t SubstrateCells::bytes_for(std::size_t atoms, const Tile& tile,
-                                      const CellOptions& options) {
-    const auto count = static_cast<double>(atoms);
-    const auto types = static_cast<double>(options.cutoffs.size());
-    const double cells = std::ceil(count / cell_atoms) + types - 1.0;
-    const double a = options.spacing, edge = tile.sites * a;
-    const double blocks = static_cast<double>(blocks_of(tile)) * tile.ny;
-    // Cells that a disk of the widest reach, moved along a block of sites, touches: those of a
-    // layer, or about four spacings wide; wider where types share it.
-    const double widest = *std::max_element(options.cutoffs.begin(), options.cutoffs.end());
-    const double reach = widest + options.margin, along = (interface_block - 1) * a;
-    const double cell = std::sqrt(types) * std::max(4.0 * a, edge / std::sqrt(cells));
-    const double area = (std::numbers::pi * reach + 2.0 * along) * reach +
-                        cell * (along + 4.0 * reach) + cell * cell;
-    const double listed = blocks * std::ceil(area * cells / (edge * edge));
-    const double slot = (options.in_double ? 24.0 : 0.0) + (options.in_mixed ? 12.0 : 0.0);
-    return static_cast<std::size_t>(
-        (types > 1.0 ? 28.0 : 24.0) * count + cells * (cell_atoms * slot + 64.0) +
-        8.0 * (types + 1.0) * blocks + 8.0 + sizeof(CellImage) * listed);
-}
-
 } // namespace asperity

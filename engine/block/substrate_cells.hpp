@@ -41,8 +41,6 @@ public:
     SubstrateAtoms atoms() const;
 
     std::size_t bytes() const;
-    /// About what the cells of so many atoms would hold, without making them.
-    static std::size_t bytes_for(std::size_t atoms, const Tile& tile, const CellOptions& options);
 
 private:
     struct Tree;

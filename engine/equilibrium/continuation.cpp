@@ -8,6 +8,18 @@
 
 namespace asperity {
 
+SequenceOptions sequence_options(const Case& c, const Interface& interface,
+                                 std::function<bool(long long, double)> report) {
+    SequenceOptions o;
+    o.step = std::min(c.scene.drive.step, c.longest_step);
+    o.tolerance = c.scene.drive.tolerance;
+    o.site_stiffness = c.site_stiffness;
+    o.load = c.simulation.drive.load_force;
+    o.reference_height = interface.start_height();
+    o.report = std::move(report);
+    return o;
+}
+
 void Continuation::begin(double at) {
     last_.take(state_of(block_));
     at_ = before_at_ = at;

@@ -28,6 +28,10 @@ struct SequenceOptions {
     std::function<bool(long long, double)> report;
 };
 
+/// As a case has them, over its interface; report: as above.
+SequenceOptions sequence_options(const Case& c, const Interface& interface,
+                                 std::function<bool(long long, double)> report = {});
+
 class Continuation {
 public:
     struct Options {

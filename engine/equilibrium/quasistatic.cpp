@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/equilibrium/quasistatic.hpp"
 
+#include "engine/units.hpp"
 #include "io/error.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +13,15 @@
 #include <utility>
 
 namespace asperity {
+
+PathOptions path_options(const Case& c, const Interface& interface,
+                         std::function<bool(long long, double)> report) {
+    PathOptions o{sequence_options(c, interface, std::move(report))};
+    o.along = c.scene.drive.hold == Hold::top ? Constraint::Of::top : Constraint::Of::mean_height;
+    const double flat = c.flat.work_of_adhesion / units::milli_per_unit;
+    if (flat > 0.0) o.depth = flat * c.area();
+    return o;
+}
 
 QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options)
     : block_(block), interface_(interface), options_(std::move(options)),

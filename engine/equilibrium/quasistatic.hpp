@@ -51,6 +51,10 @@ struct PathOptions : SequenceOptions {
     double depth = HUGE_VAL; ///< energy that flat surfaces of this area bind with, eV
 };
 
+/// As a case has them, over its interface.
+PathOptions path_options(const Case& c, const Interface& interface,
+                         std::function<bool(long long, double)> report = {});
+
 class QuasistaticPath {
 public:
     QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options);

@@ -14,6 +14,29 @@
 
 namespace asperity {
 
+StateSearchOptions search_options(const Case& c, SpectralBlock& block, const Interface& interface,
+                                  std::function<bool(long long, double)> report) {
+    StateSearchOptions o{sequence_options(c, interface, std::move(report))};
+    o.area = c.area();
+    o.largest_tension = units::gigapascal * c.largest_tension;
+    // Atoms anywhere can bind more than a flat layer does.
+    if (c.scene.surface.kind != SurfaceKind::atoms)
+        o.flat_energy = [&c, &interface](double distance) {
+            const double a = c.scene.surface.spacing;
+            return flat_pair_sum(interface.options(), a, c.scene.surface.sites,
+                                 interface.substrate_sites(), distance)
+                       .energy /
+                   (a * a);
+        };
+    o.flat_depth = c.flat.work_of_adhesion / units::milli_per_unit;
+    o.softest_wave = c.simulation.block.softest_wave();
+    o.relax_free = [&c, &block, &interface, report = o.report] {
+        return find_zero_load(block, interface, interface.start_height(),
+                              c.simulation.drive.load_force, c, report);
+    };
+    return o;
+}
+
 StateSearch::StateSearch(SpectralBlock& block, Interface& interface, StateSearchOptions options)
     : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),

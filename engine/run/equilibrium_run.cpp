@@ -11,7 +11,6 @@
 #include "engine/run/guard.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
-#include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
@@ -32,8 +31,8 @@ public:
           interface_(run_.surface, run_.grid.tile(0), c.scene.surface.spacing,
                      c.simulation.interface),
           block_(c.simulation.block, ranks, c.scene.interface.frictionless),
-          path_(block_, interface_, path_options()), search_(block_, interface_, search_options()) {
-    }
+          path_(block_, interface_, path_options(c, interface_, report())),
+          search_(block_, interface_, search_options(c, block_, interface_, report())) {}
 
     int carry_out() {
         const auto work = [&] {
@@ -42,11 +41,8 @@ public:
             follow_parts();
             run_.maps.write_kept(interface_, run_.recorder());
         };
-        return run_.carry_out(block_.bytes() +
-                                  relaxation_bytes(block_.tile(), block_.components(),
-                                                   scene_.interface.kind == InterfaceKind::wall) +
-                                  interface_.bytes(),
-                              work, [&](io::Result& result) { add_to(result); });
+        return run_.carry_out(block_.bytes() + interface_.bytes(), work,
+                              [&](io::Result& result) { add_to(result); });
     }
 
 private:
@@ -303,14 +299,9 @@ private:
     }
 
     double reference_height() const { return interface_.start_height(); }
-    SequenceOptions sequence_options() {
-        SequenceOptions o;
-        o.step = std::min(scene_.drive.step, case_.longest_step);
-        o.tolerance = scene_.drive.tolerance;
-        o.site_stiffness = case_.site_stiffness;
-        o.load = case_.simulation.drive.load_force;
-        o.reference_height = interface_.start_height();
-        o.report = [this](long long iteration, double) {
+    /// Told of the iterations of a point: shows them, and asks whether to stop.
+    std::function<bool(long long, double)> report() {
+        return [this](long long iteration, double) {
             if (run_.progress.due()) {
                 io::Progress::State now =
                     searching_ ? io::Progress::State{position(), search_.iterations()}
@@ -321,37 +312,6 @@ private:
             }
             return run_.stop_relaxation();
         };
-        return o;
-    }
-    PathOptions path_options() {
-        PathOptions o{sequence_options()};
-        o.along =
-            scene_.drive.hold == Hold::top ? Constraint::Of::top : Constraint::Of::mean_height;
-        const double flat = case_.flat.work_of_adhesion / units::milli_per_unit;
-        if (flat > 0.0) o.depth = flat * case_.area();
-        return o;
-    }
-    StateSearchOptions search_options() {
-        StateSearchOptions o{sequence_options()};
-        o.area = case_.area();
-        o.largest_tension = units::gigapascal * case_.largest_tension;
-        // Atoms anywhere can bind more than a flat layer does.
-        if (scene_.surface.kind != SurfaceKind::atoms)
-            o.flat_energy = [this](double distance) {
-                const double a = scene_.surface.spacing;
-                return flat_pair_sum(interface_.options(), a, scene_.surface.sites,
-                                     interface_.substrate_sites(), distance)
-                           .energy /
-                       (a * a);
-            };
-        o.flat_depth = case_.flat.work_of_adhesion / units::milli_per_unit;
-        o.softest_wave = case_.simulation.block.softest_wave();
-        o.relax_free = [this] {
-            return find_zero_load(block_, interface_, reference_height(),
-                                  case_.simulation.drive.load_force, case_,
-                                  sequence_options().report);
-        };
-        return o;
     }
 
     RunSession run_;

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/plan.hpp"
 
-#include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 #include "io/available_memory.hpp"
 #include "io/table.hpp"
+#include "kernels/variant.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -18,20 +18,15 @@ namespace asperity {
 
 namespace {
 
-/// Typical: writing a checkpoint, bytes/s; one solution of the theory, s.
-constexpr double disk = 2e8, theory_seconds = 0.3;
-/// Typical iterations of a relaxation (first-contact and flat-3A, N = 64 to 512) or of a
-/// quasi-static path (first-contact, N = 32 to 128, some with large instabilities).
-long long typical_iterations(const Case& c, double start) {
-    const Scene& scene = c.scene;
-    if (scene.drive.mode == DriveMode::quasistatic &&
-        (scene.has(PathPart::approach) || scene.has(PathPart::pull_off))) {
-        const ExpectedPath path = expected_path(c, start);
-        const double points = 1.5 * (path.approach + path.pull_off) / scene.drive.step;
-        return std::llround(65.0 * points);
-    }
-    return 130;
-}
+/// Typical: writing a checkpoint or maps, bytes/s.
+constexpr double disk = 2e8;
+/// Sites up to which a surface is made to know its highest point; typical: that of larger ones over
+/// their rms height.
+constexpr int largest_surface = 512;
+constexpr double highest_over_rms = 4.5;
+/// Typical of a quasi-static path (first-contact, N = 32 to 128): points, over those of steps of
+/// the full length; iterations of a point.
+constexpr double points_over_steps = 1.5, iterations_of_point = 40.0;
 
 std::string time_text(double seconds) {
     if (seconds < 0.0005) return "0";
@@ -76,258 +71,144 @@ long long expected_steps(const Case& c, double start) {
 
 namespace {
 
-/// Sites above which a piece of the surface is made instead of it.
-constexpr int largest_surface = 512;
-/// Typical: highest point of a rough surface over its rms height.
-constexpr double highest_over_rms = 4.5;
-
-/// A box of largest_surface sites with those waves of the scene's surface that fit into it.
-Case smaller_box(const Case& c) {
-    Case piece = c;
-    const Scene& scene = c.scene;
-    auto& s = piece.scene.surface;
-    const double part = static_cast<double>(largest_surface) / s.sites;
-    s.sites = largest_surface;
-    if (s.kind == SurfaceKind::flat) return piece;
-    // Of the variance, 2 pi int q C dq with C flat to the roll-off and then q^(-2(1+H)), what lies
-    // above the new q_L. q in q_L of the scene.
-    const double top = std::min(s.cutoff, 0.5 * scene.surface.sites);
-    const auto variance = [&](double from) {
-        constexpr int steps = 2000;
-        double sum = 0.0;
-        for (int i = 0; i < steps; ++i) {
-            const double q = from * std::pow(top / from, (i + 0.5) / steps);
-            sum += q * q * (q <= s.rolloff ? 1.0 : std::pow(q / s.rolloff, -2.0 * (1.0 + s.hurst)));
-        }
-        return sum * std::log(top / from) / steps;
-    };
-    s.rms *= top > 1.0 / part ? std::sqrt(variance(1.0 / part) / variance(1.0)) : 0.0;
-    s.rolloff = std::max(1.0, s.rolloff * part);
-    s.cutoff = std::max(s.rolloff, s.cutoff * part);
-    return piece;
+/// Height of the lowest layer at the start, Å.
+double start_of(const Case& c, const Surface* of_file) {
+    double highest = 0.0;
+    if (of_file)
+        highest = of_file->statistics.highest;
+    else if (c.scene.surface.sites <= largest_surface)
+        highest = surface_of(c).statistics.highest;
+    else if (c.scene.surface.kind != SurfaceKind::flat)
+        highest = highest_over_rms * c.scene.surface.rms;
+    return highest + reach_of(c.simulation.interface);
 }
-
-/// Fills in a plan: the work of a scene times the rates of this process.
-class Estimate {
-public:
-    Estimate(Plan& plan, const Case& c, const std::optional<Rates>& rates)
-        : plan_(plan), case_(c), scene_(c.scene) {
-        const Scene& scene = c.scene;
-        const auto begin = std::chrono::steady_clock::now();
-        const bool whole = scene.surface.reads_file() || scene.surface.sites <= largest_surface;
-        surface_ = surface_of(whole ? c : smaller_box(c));
-        const double measured = static_cast<double>(surface_.height.size());
-        surface_seconds_ =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        highest_ = surface_.statistics.highest;
-        atoms_ = std::pow(c.substrate(), 2);
-        if (!whole) {
-            surface_seconds_ *= atoms_ / measured;
-            highest_ = scene.surface.kind == SurfaceKind::flat
-                           ? 0.0
-                           : highest_over_rms * scene.surface.rms;
-        }
-        need_ = memory_of(c, plan.threads);
-        rates_ = rates ? *rates : measure_rates(c, surface_);
-        plan.rates = rates_.origin;
-        count_work();
-        coarse_bytes_ = coarse_bytes();
-    }
-
-    /// Before the first step: the surface and the tables made from it.
-    void making() {
-        plan_.making = {need_.making, surface_seconds_ + share_ * sites_ * rates_.making};
-    }
-
-    void interface() {
-        const double site = rates_.far + in_contact_ * (rates_.near - rates_.far);
-        const double touched = share_ * sites_ * steps_;
-        plan_.interface = {need_.surface + need_.interface, touched * site};
-        if (on(Effect::tail)) cost(Effect::tail) = {8.0 * sites_, touched * rates_.tail};
-        cost(Effect::skipping) = {8.0 * interface_rings * sites_ / interface_block,
-                                  -touched * (1.0 - in_contact_) * (rates_.near - rates_.far)};
-    }
-
-    /// The block in motion.
-    void motion() {
-        if (!on(Effect::inertia)) return;
-        const double node_steps = share_ * steps_ * nodes_, site_steps = share_ * steps_ * sites_;
-        cost(Effect::inertia) = {need_.motion, node_steps * rates_.node + site_steps * rates_.rest};
-        cost(Effect::lateral).bytes = 2.0 * (need_.block + need_.motion) / 3.0;
-        if (on(Effect::temperature)) cost(Effect::temperature).seconds = node_steps * rates_.noise;
-        const double rows = steps_ / static_cast<double>(scene_.output.series);
-        cost(Effect::observation) = {need_.snapshot, share_ * rows * nodes_ * rates_.observation};
-        if (on(Effect::coarse_levels))
-            cost(Effect::coarse_levels).seconds =
-                share_ * steps_ * coarse_ * rates_.node + site_steps * rates_.hanging;
-    }
-
-    /// Relaxations: of the state at zero load, or at every point of a path without time.
-    void relaxation() {
-        EffectCost& all = cost(Effect::relaxation);
-        if (on(Effect::relaxation)) {
-            plan_.iterations = typical_iterations(case_, start_);
-            // In time the root relaxes alone.
-            const double share = on(Effect::inertia) ? share_ * case_.ranks : share_;
-            all = {need_.relaxation + (on(Effect::inertia) ? 0.0 : need_.block),
-                   share * iterations() * sites_ * rates_.iteration};
-        }
-        if (on(Effect::coarse_levels)) cost(Effect::coarse_levels).bytes = coarse_bytes_;
-        if (on(Effect::inertia)) return;
-        // Without inertia, all time goes into the relaxation.
-        if (on(Effect::lateral)) cost(Effect::lateral).bytes = 2.0 * all.bytes / 3.0;
-    }
-
-    void finite_strain() {
-        if (!on(Effect::finite_strain)) return;
-        EffectCost& finite = cost(Effect::finite_strain);
-        finite.seconds = share_ * steps_ * nodes_ * rates_.finite;
-        finite.bytes = need_.finite;
-    }
-
-    void output() {
-        if (on(Effect::maps)) cost(Effect::maps) = {56.0 * sites_, 56.0 * sites_ / disk};
-        if (on(Effect::theory)) cost(Effect::theory).seconds = theory_seconds;
-    }
-
-    /// The sum of all lines but those that are part of another one.
-    void add_up() {
-        plan_.bytes = need_.most() + cost(Effect::maps).bytes;
-        plan_.seconds = plan_.making.seconds + plan_.interface.seconds;
-        for (std::size_t i = 0; i < effect_count; ++i) {
-            const auto effect = static_cast<Effect>(i);
-            if (effect == Effect::lateral || effect == Effect::coarse_levels ||
-                effect == Effect::skipping || effect == Effect::finite_strain)
-                continue;
-            plan_.seconds += cost(effect).seconds;
-        }
-        if (on(Effect::coarse_levels)) plan_.seconds += share_ * steps_ * sites_ * rates_.hanging;
-        if (!on(Effect::checkpoints)) return;
-        const double files = std::floor(plan_.seconds / scene_.output.checkpoint);
-        cost(Effect::checkpoints).seconds = files * 48.0 * nodes_ / disk;
-        plan_.seconds += cost(Effect::checkpoints).seconds;
-    }
-
-private:
-    /// Steps, nodes and sites, and what the slowest rank has of them.
-    void count_work() {
-        const double measured_threads = omp_get_max_threads();
-        const double uneven = 1.0 + case_.grid(0).imbalance();
-        share_ = uneven / case_.ranks * measured_threads / plan_.threads;
-        sites_ = static_cast<double>(scene_.surface.sites) * scene_.surface.sites;
-        nodes_ = on(Effect::inertia) ? nodes_of(case_.levels) : sites_;
-        coarse_ = nodes_ - sites_ * (on(Effect::inertia) ? case_.levels.front().cells : 1);
-        start_ = highest_ + reach_of(case_.simulation.interface);
-        plan_.steps = expected_steps(case_, start_);
-        steps_ = static_cast<double>(plan_.steps);
-        const double turning =
-            case_.simulation.drive.pull_off && steps_ > 0.0
-                ? std::min(1.0, expected_path(case_, start_).turn / (steps_ * case_.simulation.dt))
-                : 0.0;
-        // During approach and pull-off the cost of a site changes between that of one out of reach
-        // and that of one in contact; in the turn it is in contact.
-        in_contact_ = turning + 0.5 * (1.0 - turning);
-    }
-
-    /// Of all levels but the finest, on all ranks.
-    double coarse_bytes() const {
-        double bytes = 0.0;
-        for (int rank = 0; rank < case_.ranks && on(Effect::inertia); ++rank)
-            bytes += static_cast<double>(
-                Block::memory_for(case_.simulation.block, case_.grid(rank)).coarse);
-        return bytes;
-    }
-
-    bool on(Effect effect) const { return case_.on(effect); }
-    EffectCost& cost(Effect effect) { return plan_.costs[static_cast<std::size_t>(effect)]; }
-    double iterations() const { return static_cast<double>(plan_.iterations); }
-
-    Plan& plan_;
-    const Case& case_;
-    const Scene& scene_;
-    Surface surface_;
-    double surface_seconds_ = 0.0; ///< to make it
-    double highest_ = 0.0;         ///< of its points, Å
-    double atoms_ = 0.0;           ///< of the substrate
-    MemoryNeed need_;
-    Rates rates_;
-    double share_ = 1.0; ///< of the work, on the slowest rank with its threads, over this process
-    double sites_ = 0.0, nodes_ = 0.0, coarse_ = 0.0; ///< coarse: nodes above level 0
-    double steps_ = 0.0;
-    double start_ = 0.0;        ///< height of the lowest layer at the start, Å
-    double in_contact_ = 0.5;   ///< fraction of the steps that a site is in contact
-    double coarse_bytes_ = 0.0; ///< of the block's coarse levels
-};
 
 } // namespace
 
-Plan make_plan(const Case& c, int threads, const std::optional<Rates>& rates) {
+Plan make_plan(const Case& c, int threads) {
+    using Part = Rehearsal::Part;
+    const auto begin = std::chrono::steady_clock::now();
+    std::optional<Surface> of_file;
+    if (c.scene.surface.reads_file()) of_file = surface_of(c);
+    const Surface* const surface = of_file ? &*of_file : nullptr;
+    const double start = start_of(c, surface);
+    const Rehearsal rehearsal(c, Rehearsal::Kind::timed, surface);
+
     Plan plan;
     plan.threads = threads;
-    Estimate estimate(plan, c, rates);
-    estimate.making();
-    estimate.interface();
-    estimate.motion();
-    estimate.relaxation();
-    estimate.finite_strain();
-    estimate.output();
-    estimate.add_up();
+    const auto bytes = [&](Part part) {
+        double sum = 0.0;
+        for (int rank = 0; rank < c.ranks; ++rank)
+            sum += rehearsal.bytes(part, rank);
+        return sum;
+    };
+    for (int rank = 0; rank < c.ranks; ++rank)
+        plan.whole.bytes += rehearsal.most_bytes(rank);
+    // The slowest rank's share of the work, with its threads over those of the rehearsal.
+    const double alone = static_cast<double>(omp_get_max_threads()) / threads;
+    const double share = alone * (1.0 + c.grid(0).imbalance()) / c.ranks;
+
+    plan.making = {bytes(Part::surface) + bytes(Part::interface), alone * rehearsal.making()};
+    plan.steps = expected_steps(c, start);
+    const auto steps = static_cast<double>(plan.steps);
+    const ExpectedPath path = expected_path(c, start);
+    // During approach and pull-off the cost of a step changes between that out of reach and that in
+    // contact; in the turn the block is in contact.
+    const double turn = steps > 0.0 ? std::min(1.0, path.turn / (steps * c.simulation.dt)) : 0.0;
+    const double near = turn + 0.5 * (1.0 - turn);
+    plan.block = {bytes(Part::block),
+                  share * steps *
+                      ((1.0 - near) * rehearsal.far_step() + near * rehearsal.near_step())};
+    plan.snapshots = {bytes(Part::snapshots), share * steps /
+                                                  static_cast<double>(c.scene.output.series) *
+                                                  rehearsal.observing()};
+    plan.state.bytes = bytes(Part::state);
+    if (c.on(Effect::relaxation)) {
+        plan.typical = !c.in_time && c.on(Effect::observation);
+        plan.state_ended = rehearsal.state_ended();
+        plan.iterations = rehearsal.iterations();
+        if (plan.typical)
+            plan.iterations += std::llround(iterations_of_point * points_over_steps *
+                                            (path.approach + path.pull_off) /
+                                            std::min(c.scene.drive.step, c.longest_step));
+        // In time the root relaxes alone.
+        plan.state.seconds = (c.in_time ? alone : share) * static_cast<double>(plan.iterations) *
+                             rehearsal.iteration();
+    }
+    plan.maps = {bytes(Part::maps), bytes(Part::maps) / disk};
+    for (const Cost* cost : {&plan.making, &plan.block, &plan.snapshots, &plan.state, &plan.maps})
+        plan.whole.seconds += cost->seconds;
+    if (c.on(Effect::checkpoints)) {
+        const double files = std::floor(plan.whole.seconds / c.scene.output.checkpoint);
+        plan.checkpoints.seconds = files * bytes(c.in_time ? Part::block : Part::snapshots) / disk;
+        plan.whole.seconds += plan.checkpoints.seconds;
+    }
+    plan.rates =
+        fmt::format("rehearsed in {:.1f} s on {} x {} sites with {} thread{}, kernels for {}",
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+                    rehearsal.sites(), rehearsal.sites(), omp_get_max_threads(),
+                    omp_get_max_threads() == 1 ? "" : "s", name(processor_level()));
     return plan;
 }
 
 void print_plan(std::FILE* to, const Case& c, const Plan& plan) {
     const Scene& scene = c.scene;
-    const auto& s = scene.surface;
     fmt::print(to, "{}: {} x {} sites, box {:.6g} Å, {} layers in {} level{}\n\n", scene.name,
-               s.sites, s.sites, scene.edge(), scene.block.thickness, c.levels.size(),
-               c.levels.size() == 1 ? "" : "s");
-    io::Table table({"effect", "", "memory", "time", "because"});
-    table.align_left(1);
-    table.align_left(4);
-    const auto line = [&](std::string_view what, const char* state, const EffectCost& cost,
-                          const std::string& why) {
-        const bool saves = cost.seconds < 0.0;
-        table.row({std::string(what), state, memory_text(cost.bytes),
-                   (saves ? "-" : "") + time_text(std::abs(cost.seconds)), why});
-    };
+               scene.surface.sites, scene.surface.sites, scene.edge(), scene.block.thickness,
+               c.levels.size(), c.levels.size() == 1 ? "" : "s");
+    io::Table effects({"effect", "", "because"});
+    effects.align_left(1);
+    effects.align_left(2);
     for (std::size_t i = 0; i < effect_count; ++i) {
         const auto effect = static_cast<Effect>(i);
-        line(name(effect), c.on(effect) ? "on" : "off", plan.cost(effect), c.effects.why(effect));
+        effects.row(
+            {std::string(name(effect)), c.on(effect) ? "on" : "off", c.effects.why(effect)});
     }
+    effects.print(to);
+    fmt::print(to, "\n");
+    io::Table table({"part of the run", "memory", "time", ""});
+    table.align_left(3);
+    const auto line = [&](const char* what, const Cost& cost, const std::string& remark) {
+        table.row({what, memory_text(cost.bytes), time_text(cost.seconds), remark});
+    };
+    line("surface and interface", plan.making, "made before the first step");
+    line("block", plan.block,
+         plan.steps > 0
+             ? fmt::format("{} steps of {:.4g} fs{}", plan.steps, c.simulation.dt,
+                           plan.steps == scene.drive.max_steps ? " (drive.max_steps)" : "")
+             : "");
+    if (c.on(Effect::observation) || plan.snapshots.bytes > 0.0)
+        line("states kept", plan.snapshots,
+             c.in_time ? "for the energy guard; rows of the series" : "to go back to");
+    if (c.on(Effect::relaxation))
+        line("relaxation", plan.state,
+             fmt::format("{}{} iterations{}", plan.state_ended ? "about " : "more than ",
+                         plan.iterations,
+                         plan.typical           ? " (typical of a path)"
+                         : c.on(Effect::states) ? " of the first state; the search for all takes "
+                                                  "many times as long"
+                                                : ""));
+    if (c.on(Effect::maps)) line("maps", plan.maps, "while nothing is relaxed");
+    if (c.on(Effect::checkpoints)) line("checkpoints", plan.checkpoints, "");
     table.rule();
-    line("the interface itself", "", plan.interface,
-         fmt::format("{:.4g} Å of reach", reach_of(c.simulation.interface)));
-    line("making surface and tables", "", plan.making, "before the first step");
-    line("altogether", "", {plan.bytes, plan.seconds},
-         fmt::format("{} rank{} of {} thread{}", c.ranks, c.ranks == 1 ? "" : "s", plan.threads,
-                     plan.threads == 1 ? "" : "s"));
+    line("altogether", plan.whole,
+         fmt::format("{} rank{} of {} thread{}; memory: the most at once", c.ranks,
+                     c.ranks == 1 ? "" : "s", plan.threads, plan.threads == 1 ? "" : "s"));
     table.print(to);
     fmt::print(to, "\n");
-    if (plan.steps > 0)
-        fmt::print(to, "steps       {} of {:.4g} fs{}\n", plan.steps, c.simulation.dt,
-                   plan.steps == scene.drive.max_steps ? " (drive.max_steps)" : "");
-    if (plan.iterations > 0)
-        fmt::print(to, "iterations  about {} in the relaxation (typical){}\n", plan.iterations,
-                   c.on(Effect::states)
-                       ? "; the search for all states takes many times as long and is not counted"
-                       : "");
     const io::AvailableMemory there = io::available_memory();
-    fmt::print(to, "memory      {}, the most held at once on all ranks; {} available here ({})\n",
-               memory_text(plan.bytes), memory_text(there.bytes), there.because);
-    if (plan.bytes > there.bytes)
-        fmt::print(
-            to, "            This does not fit into this machine: `asperity run` will refuse "
-                "it here. Fewer sites, coarser or fewer\n            layers, or more machines\n");
+    fmt::print(to, "memory      {} available here ({})\n", memory_text(there.bytes), there.because);
+    if (plan.whole.bytes > there.bytes)
+        fmt::print(to, "            The run does not fit into this machine: `asperity run` will "
+                       "refuse it here. Fewer sites, coarser or\n            fewer layers, or more "
+                       "machines\n");
     if (const DeviceChoice& device = c.simulation.device; device.kind != DeviceChoice::Kind::none)
-        fmt::print(to, "device      {}, {} of its memory on each rank; rates are the processor's\n",
-                   describe_device(device), memory_text(device_memory_of(c, c.grid(0))));
-    fmt::print(to, "wall time   {}, without messages between machines; {}\n",
-               time_text(plan.seconds), plan.rates);
-    fmt::print(
-        to,
-        "Damping, coarse levels, lateral displacements and the time of finite strain are parts of "
-        "inertia or\nrelaxation; the time that skipping saves is already left out of the "
-        "interface's line. Nothing was run or written.\n");
+        fmt::print(to, "device      {}, {} of its memory on each rank; times are the processor's\n",
+                   describe_device(device),
+                   memory_text(static_cast<double>(DeviceBlock::bytes_for(
+                       c.simulation.block, c.grid(0), c.simulation.interface, c.substrate()))));
+    fmt::print(to, "wall time   without messages between machines; {}\n", plan.rates);
+    fmt::print(to, "Nothing was run or written.\n");
 }
 
 } // namespace asperity

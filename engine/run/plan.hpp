@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// `asperity plan`: what a scene will cost, effect by effect, before it is run.
+// `asperity plan`: what a scene will simulate and what not, and what it will cost, before it is
+// run.
 //
-// Memory follows from sizes. Time follows from the work (node-steps, site-steps, iterations) and
-// the rates of the real kernels, measured for some 0.3 s on a smaller piece of the scene: the same
-// layers, the same interface and a part of the same surface. Numbers that are not known beforehand
-// (instabilities, iterations of a relaxation) are typical ones and are called that.
+// Memory and speed are rehearsed on small pieces of the scene (rehearsal.hpp); how many steps or
+// points a run takes follows from the path. Numbers that are not known beforehand (instabilities,
+// iterations of a path) are typical ones and are called that.
 #pragma once
 
-#include "engine/run/plan_rates.hpp"
-#include "engine/scene/surface.hpp"
+#include "engine/run/rehearsal.hpp"
 #include "engine/setup/case.hpp"
 
 #include <array>
@@ -31,27 +30,28 @@ ExpectedPath expected_path(const Case& c, double start);
 /// Time steps of this path, at most the scene's drive.max_steps. 0 where no time passes.
 long long expected_steps(const Case& c, double start);
 
-struct EffectCost {
-    double bytes = 0.0; ///< on all ranks
-    double seconds = 0.0;
+struct Cost {
+    double bytes = 0.0;   ///< at most at once, on all ranks
+    double seconds = 0.0; ///< of wall time, without messages between machines
 };
 
 struct Plan {
     int threads = 1;          ///< of a rank
     long long steps = 0;      ///< expected
-    long long iterations = 0; ///< expected, of the relaxation
-    std::array<EffectCost, effect_count> costs;
-    EffectCost interface; ///< the sweep, without its tail
-    EffectCost making;    ///< surface, tables, block
-    double bytes = 0.0;   ///< at most held at once, on all ranks
-    double seconds = 0.0; ///< expected wall time, without communication between machines
-    std::string rates;    ///< where they come from, in words
-    const EffectCost& cost(Effect effect) const { return costs[static_cast<std::size_t>(effect)]; }
+    long long iterations = 0; ///< expected, of relaxations
+    bool typical = false;     ///< iterations are typical ones; else those of a smaller piece
+    bool state_ended = true;  ///< there, within the time for a rehearsal
+    Cost making;              ///< surface, tables
+    Cost block;               ///< and its steps, with the interface's forces
+    Cost snapshots; ///< of the energy guard, with the rows of the series; points of a path
+    Cost state;     ///< relaxations
+    Cost maps, checkpoints;
+    Cost whole;
+    std::string rates; ///< where times come from, in words
 };
 
-/// threads: of a rank. rates: of a process with omp_get_max_threads() threads; none: measured on
-/// this process alone.
-Plan make_plan(const Case& c, int threads, const std::optional<Rates>& rates = std::nullopt);
+/// threads: of a rank.
+Plan make_plan(const Case& c, int threads);
 void print_plan(std::FILE* to, const Case& c, const Plan& plan);
 
 } // namespace asperity

@@ -202,10 +202,19 @@ void Recorder::append_rows() {
 void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
                       const ProcessGrid& grid, const Interface& interface,
                       double reference_height) {
+    const io::PayloadWriter record =
+        record_of_fields(state, layer, communicator_, grid, interface, reference_height);
+    communicator_.on_root([&] { journal_->append(fields_record, record.bytes()); });
+}
+
+io::PayloadWriter Recorder::record_of_fields(const std::string& state,
+                                             const VectorPlane<const double>& layer,
+                                             const Communicator& ranks, const ProcessGrid& grid,
+                                             const Interface& interface, double reference_height) {
     const InterfaceMaps maps = interface.maps(layer, reference_height);
     const auto sites = static_cast<std::size_t>(grid.tile(0).sites);
     io::PayloadWriter record;
-    communicator_.on_root([&] {
+    ranks.on_root([&] {
         record.reserve(64 + state.size() + 49 * sites * sites);
         record.put<std::uint64_t>(state.size());
         record.put(std::span<const char>(state));
@@ -213,17 +222,15 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
         record.put(reference_height);
     });
     const auto put = [&](const std::vector<double>& column) { // one at a time: they are large
-        communicator_.on_root([&] { record.put(column); });
+        ranks.on_root([&] { record.put(column); });
     };
     for (const auto* map : {&maps.gap, &maps.pressure, &maps.distance})
-        put(whole(communicator_, grid, *map));
+        put(whole(ranks, grid, *map));
     for (const auto& component : {layer.x, layer.y, layer.z})
-        put(gather_plane(communicator_, grid, 0, component));
-    const auto touching = whole(communicator_, grid, {maps.contact.begin(), maps.contact.end()});
-    communicator_.on_root([&] {
-        record.put(std::vector<std::uint8_t>(touching.begin(), touching.end()));
-        journal_->append(fields_record, record.bytes());
-    });
+        put(gather_plane(ranks, grid, 0, component));
+    const auto touching = whole(ranks, grid, {maps.contact.begin(), maps.contact.end()});
+    ranks.on_root([&] { record.put(std::vector<std::uint8_t>(touching.begin(), touching.end())); });
+    return record;
 }
 
 namespace {

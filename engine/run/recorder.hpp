@@ -56,6 +56,11 @@ public:
     /// Once for each name.
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface, double reference_height);
+    /// What that appends to the journal, on the root. Collective.
+    static io::PayloadWriter record_of_fields(const std::string& state,
+                                              const VectorPlane<const double>& layer,
+                                              const Communicator& ranks, const ProcessGrid& grid,
+                                              const Interface& interface, double reference_height);
     /// The lowest layer before a step, on the root, and its velocities half a step before.
     struct Frame {
         long long step = 0;

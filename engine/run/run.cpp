@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run.hpp"
 
+#include "engine/run/rehearsal.hpp"
 #include "engine/run/run_session.hpp"
-#include "engine/setup/memory.hpp"
-
-#include <omp.h>
 
 namespace asperity {
 
 int run(const Case& c, const RunOptions& options, const Communicator& communicator) {
     c.require_runnable();
-    require_memory(c, communicator, omp_get_max_threads());
+    require_memory(c, communicator);
     return c.in_time ? run_in_time(c, options, communicator)
                      : run_equilibrium(c, options, communicator);
 }

@@ -3,7 +3,6 @@
 #include "engine/run/summary.hpp"
 
 #include "engine/run/run_record.hpp"
-#include "engine/setup/memory.hpp"
 #include "engine/units.hpp"
 #include "io/table.hpp"
 
@@ -144,7 +143,10 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6);
     if (c.simulation.device.kind != DeviceChoice::Kind::none)
         fmt::print(to, "  device      {}, {:.0f} MB of its memory a rank\n",
-                   describe_device(c.simulation.device), device_memory_of(c, grid) / 1e6);
+                   describe_device(c.simulation.device),
+                   static_cast<double>(DeviceBlock::bytes_for(
+                       c.simulation.block, grid, c.simulation.interface, c.substrate())) /
+                       1e6);
     fmt::print(to, "  results     {}\n", directory);
     for (const std::string& note : c.notes)
         fmt::print(to, "  note: {}\n", note);

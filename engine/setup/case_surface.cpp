@@ -4,8 +4,8 @@
 // The surface of a case: made from its spectrum, or from the map or the atoms of its file.
 #include "engine/setup/case.hpp"
 
-#include "engine/setup/memory.hpp"
 #include "io/atoms_file.hpp"
+#include "io/available_memory.hpp"
 #include "io/digest.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
@@ -140,8 +140,29 @@ io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
 
 } // namespace
 
+namespace {
+
+/// Before anything is allocated: the heights, and the waves that they are made from and measured by
+/// (make_surface(), measure()). Throws io::SceneError.
+void require_memory_for_heights(const Case& c) {
+    const double n = c.substrate();
+    const double needed = n * n * (8.0 + (c.scene.surface.kind == SurfaceKind::flat ? 16.0 : 32.0));
+    const io::AvailableMemory there = io::available_memory();
+    if (needed <= there.bytes) return;
+    io::Problems problems = c.scene.problems();
+    problems.add(
+        "surface.sites",
+        fmt::format("= {}: its surface does not fit into memory", c.scene.surface.sites),
+        fmt::format("{:.3g} GB are needed on this machine, and {:.3g} GB are available ({})",
+                    needed / 1e9, there.bytes / 1e9, there.because),
+        "take fewer sites; every rank makes the whole surface");
+    problems.throw_if_any();
+}
+
+} // namespace
+
 Surface surface_of(const Case& c, const Communicator& world) {
-    require_memory_for_surface(c);
+    require_memory_for_heights(c);
     const Scene& scene = c.scene;
     const auto& s = scene.surface;
     SurfaceOptions options;

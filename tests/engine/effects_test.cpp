@@ -4,36 +4,17 @@
 // Effects are switched by the scene; one that is off holds no memory, is not called and leaves
 // nothing in the files of a run.
 #include "engine/equilibrium/zero_load.hpp"
+#include "engine/run/memory_meter.hpp"
 #include "engine/setup/case.hpp"
-#include "engine/setup/memory.hpp"
 #include "io/hdf5_file.hpp"
 #include "kernels/variant.hpp"
 #include "support/cases.hpp"
 #include "support/run_scene.hpp"
 
-#include <atomic>
-#include <cstdlib>
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <filesystem>
-#include <new>
-
-namespace {
-/// Calls of operator new since the program began.
-std::atomic<long long> allocations = 0;
-} // namespace
-
-// Not inlined: gcc warns of free() of what it sees came from new.
-[[gnu::noinline]] void* operator new(std::size_t bytes) {
-    ++allocations;
-    if (void* memory = std::malloc(bytes ? bytes : 1)) return memory;
-    throw std::bad_alloc();
-}
-// The standard's own calls the one above; that of the address sanitizer does not.
-[[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
-    ++allocations;
-    return std::malloc(bytes ? bytes : 1);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 using namespace asperity;
 
@@ -79,11 +60,17 @@ struct Left {
     }
 };
 
-/// Memory that a block needs to relax.
-std::size_t relaxing_bytes(const std::vector<std::string>& overrides) {
+/// The most that the state of a scene takes at once.
+double relaxing_bytes(const std::vector<std::string>& overrides) {
     const Case c = case_with(overrides);
-    const SpectralBlock block(c.simulation.block, Communicator(), c.scene.interface.frictionless);
-    return block.bytes() + relaxation_bytes(block.tile(), block.components(), false);
+    const Surface surface = surface_of(c);
+    MemoryMeter meter;
+    SpectralBlock block(c.simulation.block, Communicator(), c.scene.interface.frictionless);
+    const Interface interface(surface, block.tile(), c.scene.surface.spacing,
+                              c.simulation.interface);
+    const double tables = meter.held();
+    find_zero_load(block, interface, 6.0, 0.0, c, {});
+    return meter.take_peak() - tables + static_cast<double>(block.bytes());
 }
 
 } // namespace
@@ -243,10 +230,10 @@ TEST(Effects, AStepAllocatesNoField) {
         Simulation s = started(case_with(overrides));
         s.step(true); // room for the threads of finite strain
         const std::size_t bytes = s.block().bytes() + s.interface().bytes();
-        const long long before = allocations;
+        const MemoryMeter meter;
         for (int n = 0; n < 10; ++n)
             s.step(n % 2 == 0);
-        EXPECT_LE(allocations - before, 10) << "more than the exchange's list of fields";
+        EXPECT_LE(meter.allocations(), 10) << "more than the exchange's list of fields";
         EXPECT_EQ(s.block().bytes() + s.interface().bytes(), bytes);
     }
 }

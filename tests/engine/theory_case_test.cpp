@@ -125,6 +125,7 @@ TEST(TheoryOfAScene, RenormalisedIsLeftOutWhereTheSceneSaysSo) {
     add_theory(resolve(s), surface_of(resolve(s)), result);
     EXPECT_EQ(io::find(result.json(), "theory.renormalised"), nullptr);
     s.theory.renormalised = true;
+    s.drive.path = {PathPart::zero_load};
     s.interface.frictionless = true;
     const TheoryCase without = theory_case(resolve(s));
     s.interface.frictionless = false;
@@ -194,6 +195,8 @@ TEST(TheoryOfAScene, ExpectedErrorCoversSimulatedStates) {
         s.interface.cutoff = 4 * row.r0;
         if (row.wall) {
             s.interface.kind = InterfaceKind::wall;
+            s.interface.frictionless = true;
+            s.drive.path = {PathPart::zero_load};
             s.interface.law = WallLawKind::lennard_jones;
         }
         s.theory.spectrum = TheorySpectrum::realised;

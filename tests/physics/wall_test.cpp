@@ -424,7 +424,7 @@ TEST(Wall, IsRefusedWhereItCannotBe) {
     const auto wrong = [](const std::vector<std::string>& keys) {
         std::vector<std::string> all = {"interface.kind=wall"};
         all.insert(all.end(), keys.begin(), keys.end());
-        EXPECT_THROW(read_scene_text("[surface]\nsites = 32\n", "wall.toml", all), io::SceneError);
+        EXPECT_THROW(read_case_text("[surface]\nsites = 32\n", "wall.toml", all), io::SceneError);
     };
     wrong({});
     wrong({"drive.path=zero-load", "interface.frictionless=false"});

@@ -111,6 +111,7 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     Scene scene;
     scene.surface.sites = options.block.sites;
     scene.surface.spacing = options.block.spacing;
+    scene.interface.cutoff = std::min(scene.interface.cutoff, 0.5 * scene.edge());
     scene.drive.tolerance = tolerance;
     Case c = resolve(scene);
     c.simulation = options;
