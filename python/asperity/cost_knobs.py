@@ -57,6 +57,8 @@ class Base:
     """"": as the scene says"""
     setting: Setting
     parts: list[str]
+    question: str = "path"
+    """what it answers: the state at zero load, or all of the path too"""
 
 
 @dataclass
@@ -189,11 +191,11 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
         twins = [k.twin for k in knobs if k.twin]
         return CostCase([one for twin in twins for one in twin.setting],
                         "the scene with " + ", ".join(twin.label for twin in twins), knobs,
-                        [Base("", [], [k.part for k in knobs])], [])
+                        [Base("", [], [k.part for k in knobs], "path" if legs else "state")], [])
     bases = []
     if dynamic:
         bases.append(Base("in time", [], ["interaction", "block", "precision", "timestep", "velocity"]))
     if legs:
         bases.append(Base("quasi-static", at_rest, ["interaction", "precision", "tolerance", "step"]))
-    bases.append(Base("zero load alone", ["drive.path=zero-load"], ["interaction", "precision", "tolerance"]))
+    bases.append(Base("zero load alone", ["drive.path=zero-load"], ["interaction", "precision", "tolerance"], "state"))
     return CostCase(reference, text, _chosen(knobs, names or []), bases, notes)
