@@ -164,7 +164,9 @@ class Search:
         self.tried += 1
         if error <= self.target:
             self.chosen, self.left = row, []
-        else:  # own errors added up to less than it has, or the run failed: the next has to promise half
+        elif math.isnan(error):  # the run failed, something is too coarse there: what is finer takes longer
+            self.left = [c for c in self.left if c.time >= 1.5 * self.left[0].time]
+        else:  # own errors added up to less than it has: the next has to promise half
             self.left = [c for c in self.left[1:] if c.error <= 0.5 * self.left[0].error]
 
 
