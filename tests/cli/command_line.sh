@@ -88,9 +88,6 @@ expect 0 plan --set surface.sites=32 block.thickness=32 surface.rms=1 drive.temp
 says "4 ranks"
 says "drive.temperature = 10 K"
 says "wall time"
-case $out in *"times fewer"*) fail "a longer step was offered to a warm scene" ;; esac
-expect 0 plan --set surface.sites=32 block.thickness=32 surface.rms=1 plain.toml
-says "drive.timestep = 60 would take 6 times fewer"
 expect 2 plan plain.toml --ranks 0
 expect 2 plan plain.toml --set drive.timestep=1000
 says "stability limit"
