@@ -140,8 +140,8 @@ class Combination:
         setting = base.setting
         for one in self.rows:
             setting = joined(setting, one.own)
-        return CostRow("combination", ", ".join([*filter(None, [base.label]), *(one.label for one in self.rows)]), setting, [],
-                       added=self.error)
+        label = ", ".join([*filter(None, [base.label]), *(one.label for one in self.rows)])
+        return CostRow("combination", label, setting, [], added=self.error)
 
 
 @dataclass
@@ -312,7 +312,7 @@ def target_of(text: str) -> float:
 
 def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str | None, options: PoolOptions,
                  target: str | None = None) -> int:
-    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if no settings keep the
+    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the
     target."""
     asked = None if target is None else target_of(target)
     found = program.check(scene, overrides)

@@ -109,9 +109,10 @@ def _chosen(knobs: list[Knob], names: list[str]) -> list[Knob]:
 
 def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | None = None,
               same_experiment: bool = False) -> CostCase:
-    """keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the knobs, all if there are none.
+    """keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the knobs, none: all.
 
-    same_experiment: only knobs of the numerics, and the reference is the scene with these at their best. Raises SceneError.
+    same_experiment: only knobs of the numerics, and the reference is the scene with these at their best.
+    Raises SceneError.
     """
     scene = Values(keys)
     _refuse(scene, same_experiment)
