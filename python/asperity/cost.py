@@ -140,8 +140,34 @@ class Combination:
         setting = base.setting
         for one in self.rows:
             setting = joined(setting, one.own)
-        return CostRow("combination", ", ".join([*filter(None, [base.label]), *(one.label for one in self.rows)]), setting, [],
-                       added=self.error)
+        label = ", ".join([*filter(None, [base.label]), *(one.label for one in self.rows)])
+        return CostRow("combination", label, setting, [], added=self.error)
+
+
+@dataclass
+class Search:
+    """For the cheapest combination of a base that keeps a target: what was measured of it decides."""
+
+    base: Base
+    target: float
+    left: list[Combination]
+    """that may keep it, the cheapest first; none: the search has ended"""
+    smallest: float
+    """smallest error: measured, or sum of own errors if none was run"""
+    tried: int = 0
+    chosen: CostRow | None = None
+
+    def look_at(self, row: CostRow) -> None:
+        """row: of the first that is left, after its run."""
+        error = row.error[self.base.question]
+        self.smallest = error if self.tried == 0 else float(np.fmin(error, self.smallest))
+        self.tried += 1
+        if error <= self.target:
+            self.chosen, self.left = row, []
+        elif math.isnan(error):  # the run failed, something is too coarse there: what is finer takes longer
+            self.left = [c for c in self.left if c.time >= 1.5 * self.left[0].time]
+        else:  # own errors added up to less than it has: the next has to promise half
+            self.left = [c for c in self.left[1:] if c.error <= 0.5 * self.left[0].error]
 
 
 @dataclass
@@ -151,13 +177,9 @@ class Cost:
     name: str
     scene: dict[str, Any]
     case: CostCase
-    target: float | None = None
-    """of the user"""
     rows: list[CostRow] = field(default_factory=list)
-    chosen: CostRow | None = None
-    """for the target"""
-    smallest: float = NAN
-    """if there is none: smallest error of those that were run, or sum of own errors if none was worth it"""
+    asked: Search | None = None
+    """for a target of the user"""
     orders: list[tuple[Knob, list[float | None]]] = field(default_factory=list)
     cheapest: dict[str, list[int | None]] = field(default_factory=dict)
 
@@ -190,11 +212,6 @@ class Cost:
             self.orders.append((knob, [order_of([r.x for r in others], [r.own_error[q] for r in others], x0)
                                        for q in range(len(QUANTITIES))]))
 
-    @property
-    def question(self) -> str:
-        """What the scene itself answers."""
-        return "state" if "zero-load" in Values(self.scene).find("drive.path") else "path"
-
     def _of_part(self, part: str, question: str) -> list[Combination]:
         """The values of a part's knobs, those that have an error."""
         found = []
@@ -211,47 +228,33 @@ class Cost:
                     found.append(Combination((row,), error, row.seconds / twin.seconds))
         return found
 
-    def combinations(self, base: Base, question: str) -> list[Combination]:
-        """All of a base, the cheapest first."""
+    def search(self, base: Base, target: float) -> Search:
         there = {knob.part for knob in self.case.knobs}
-        parts = [self._of_part(part, question) for part in base.parts if part in there]
-        return sorted((Combination(tuple(one.rows[0] for one in some), sum(one.error for one in some),
-                                   math.prod(one.time for one in some)) for some in itertools.product(*parts)),
-                      key=lambda c: c.time)
+        parts = [self._of_part(part, base.question) for part in base.parts if part in there]
+        every = [Combination(tuple(one.rows[0] for one in some), sum(one.error for one in some),
+                             math.prod(one.time for one in some)) for some in itertools.product(*parts)]
+        return Search(base, target, sorted((c for c in every if c.error <= target), key=lambda c: c.time),
+                      min((c.error for c in every), default=NAN))
 
-    def cheapest_combinations(self) -> list[CostRow]:
-        """Of each base and target."""
-        found: list[CostRow] = []
-        for base in self.case.bases:
-            all_of_base = self.combinations(base, "state" if base.label == "zero load alone" else "path")
-            for target in TARGETS:
-                row = next((c.row(base) for c in all_of_base if c.error <= target), None)
-                if row and all(row.setting != other.setting for other in found):
-                    found.append(row)
-        return found
-
-    def choose(self, run: Callable[[list[CostRow]], bool]) -> bool:
-        """Runs the cheapest combinations within the target until one keeps it. False: stopped before."""
-        assert self.target is not None
-        left = self.combinations(self.case.bases[0], self.question)
-        self.smallest = min((c.error for c in left), default=NAN)
-        left = [c for c in left if c.error <= self.target]
-        measured = []
-        while left and len(measured) < TRIES:
-            tried = left[0]
-            row = tried.row(self.case.bases[0])
-            if not run([row]):
-                return False
-            self.rows.append(row)
+    def choose(self, searches: list[Search], run: Callable[[list[CostRow]], bool]) -> bool:
+        """Runs the first combination of each, and the next of those that missed. False: stopped before."""
+        there: list[CostRow] = []
+        for _ in range(TRIES):
+            tried, new = [], []
+            for search in (s for s in searches if s.left):
+                row = search.left[0].row(search.base)
+                same = next((other for other in there + new if other.setting == row.setting), None)
+                if same is None:
+                    new.append(row)
+                tried.append((search, same or row))
+            complete = not new or run(new)
+            there += new
+            self.rows += new
             self.judge()
-            error = row.error[self.question]
-            if error <= self.target:
-                self.chosen = row
-                break
-            # The errors added up to less than there is, or the run failed: the next has to promise half.
-            measured.append(error)
-            self.smallest = min((e for e in measured if not math.isnan(e)), default=NAN)
-            left = [c for c in left[1:] if c.error <= 0.5 * tried.error]
+            if not complete:
+                return False
+            for search, row in tried:
+                search.look_at(row)
         return True
 
 
@@ -309,14 +312,14 @@ def target_of(text: str) -> float:
 
 def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str | None, options: PoolOptions,
                  target: str | None = None) -> int:
-    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if no settings keep the
+    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the
     target."""
     asked = None if target is None else target_of(target)
     found = program.check(scene, overrides)
     case = cost_case(found["scene"], found.get("longest_timestep", 0.0), knobs, same_experiment=asked is not None)
     if found["problems"]:
         raise SceneError("\n".join(found["problems"]))
-    cost = Cost(found["name"], found["scene"], case, asked)
+    cost = Cost(found["name"], found["scene"], case)
     cost.rows = [CostRow("reference", "reference", case.reference, case.reference, judged=False),
                  CostRow("scene", "as it is", [], [])]
     cost.rows += [_row(knob, value) for knob in case.knobs
@@ -331,22 +334,20 @@ def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str | 
             print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
             return reference.exit_code
         cost.judge()
-        if complete and asked is not None:
-            complete = cost.choose(runs.run)
-        elif complete:
-            combinations = cost.cheapest_combinations()
-            complete = not combinations or runs.run(combinations)
-            cost.rows += combinations
-            cost.judge()
+        searches = [cost.search(base, t) for base in case.bases for t in (TARGETS if asked is None else [asked])]
+        if asked is not None:
+            cost.asked = searches[0]
+        complete = complete and cost.choose(searches, runs.run)
         written = write(cost, directory)
     print(text_of(cost))
     print(f"in {directory}:" + "".join(f" {name}" for name in written))
     if not complete:
         print("Stopped early: the same command goes on from here.")
         return STOPPED
-    if asked is not None:
-        print("\n" + answer_of(cost))
-    return PHYSICS if asked is not None and cost.chosen is None else 0
+    if cost.asked is None:
+        return 0
+    print("\n" + answer_of(cost, cost.asked))
+    return 0 if cost.asked.chosen else PHYSICS
 
 
 # What is left behind.
@@ -381,15 +382,16 @@ def json_of(cost: Cost) -> dict[str, Any]:
                            for target, i in zip(TARGETS, places) if i is not None]
                 for question, places in cost.cheapest.items()}
     result = {"scene": cost.scene, "reference": cost.case.reference_text, "settings": settings, "orders": orders}
-    if cost.target is None:
+    if cost.asked is None:
         return {**result, "cheapest": {question: found for question, found in cheapest.items() if found}}
-    answer: dict[str, Any] = {"target": cost.target, "question": cost.question}
-    if row := cost.chosen:
-        answer |= {"set": row.setting, "error": row.error[cost.question], "added_error": row.added,
+    question = cost.asked.base.question
+    answer: dict[str, Any] = {"target": cost.asked.target, "question": question}
+    if row := cost.asked.chosen:
+        answer |= {"set": row.setting, "error": row.error[question], "added_error": row.added,
                    "time_over_scene": known(row.seconds / cost.rows[1].seconds),
                    "time_over_reference": known(row.seconds / cost.rows[0].seconds)}
     else:
-        answer["smallest_error"] = known(cost.smallest)
+        answer["smallest_error"] = known(cost.asked.smallest)
     return {**result, "chosen": answer}
 
 
@@ -450,7 +452,7 @@ def text_of(cost: Cost) -> str:
                                      for knob, measured in cost.orders], left=(0, 6)))
     for question, what in zip(ASKED, ("the state at zero load (γ, contact)",
                                           "the whole path (works, pull-off force too)")):
-        if cost.target is not None or not cost.answered(question):
+        if cost.asked or not cost.answered(question):
             continue
         parts.append(f"\nCheapest for {what}:")
         for target, i in zip(TARGETS, cost.cheapest[question]):
@@ -464,18 +466,17 @@ def text_of(cost: Cost) -> str:
     return "\n".join(parts)
 
 
-def answer_of(cost: Cost) -> str:
+def answer_of(cost: Cost, asked: Search) -> str:
     """What was found for the target; the last line is what to put behind a command."""
-    assert cost.target is not None
-    target = f"{100 * cost.target:.6g} %"
-    row, kept = cost.chosen, "varied: " + ", ".join(knob.name for knob in cost.case.knobs)
+    target, varied = f"{100 * asked.target:.6g} %", "varied: " + ", ".join(knob.name for knob in cost.case.knobs)
+    row = asked.chosen
     if row is None:
-        tried = any(r.knob == "combination" for r in cost.rows)
-        best = "none could be measured" if math.isnan(cost.smallest) else (
-            f"the smallest error {'of those tried' if tried else 'that they add up to'} is {percent(cost.smallest)} %")
-        return (f"No settings keep {target}: {best} ({kept}).\n"
+        best = "none could be measured" if math.isnan(asked.smallest) else (
+            f"the smallest error {'of those tried' if asked.tried else 'that they add up to'} is "
+            f"{percent(asked.smallest)} %")
+        return (f"No settings keep {target}: {best} ({varied}).\n"
                 "Ask for more, or start from a scene with finer settings.")
     scene, reference = cost.rows[1].seconds, cost.rows[0].seconds
-    return (f"The cheapest settings within {target} ({kept}): error {percent(row.error[cost.question])} % of the reference,\n"
-            f"{row.seconds:.2f} s: {row.seconds / scene:.2f} of the scene's time, {row.seconds / reference:.2f} of the "
-            f"reference's.\n{row.text}")
+    return (f"The cheapest settings within {target} ({varied}): error {percent(row.error[asked.base.question])} % of the "
+            f"reference,\n{row.seconds:.2f} s: {row.seconds / scene:.2f} of the scene's time, {row.seconds / reference:.2f} of "
+            f"the reference's.\n{row.text}")

@@ -57,6 +57,8 @@ class Base:
     """"": as the scene says"""
     setting: Setting
     parts: list[str]
+    question: str = "path"
+    """what it answers: the state at zero load, or all of the path too"""
 
 
 @dataclass
@@ -107,9 +109,10 @@ def _chosen(knobs: list[Knob], names: list[str]) -> list[Knob]:
 
 def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | None = None,
               same_experiment: bool = False) -> CostCase:
-    """keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the knobs, all if there are none.
+    """keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the knobs, none: all.
 
-    same_experiment: only knobs of the numerics, and the reference is the scene with these at their best. Raises SceneError.
+    same_experiment: only knobs of the numerics, and the reference is the scene with these at their best.
+    Raises SceneError.
     """
     scene = Values(keys)
     _refuse(scene, same_experiment)
@@ -189,11 +192,11 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
         twins = [k.twin for k in knobs if k.twin]
         return CostCase([one for twin in twins for one in twin.setting],
                         "the scene with " + ", ".join(twin.label for twin in twins), knobs,
-                        [Base("", [], [k.part for k in knobs])], [])
+                        [Base("", [], [k.part for k in knobs], "path" if legs else "state")], [])
     bases = []
     if dynamic:
         bases.append(Base("in time", [], ["interaction", "block", "precision", "timestep", "velocity"]))
     if legs:
         bases.append(Base("quasi-static", at_rest, ["interaction", "precision", "tolerance", "step"]))
-    bases.append(Base("zero load alone", ["drive.path=zero-load"], ["interaction", "precision", "tolerance"]))
+    bases.append(Base("zero load alone", ["drive.path=zero-load"], ["interaction", "precision", "tolerance"], "state"))
     return CostCase(reference, text, _chosen(knobs, names or []), bases, notes)

@@ -97,14 +97,14 @@ def test_a_target_chooses_no_physics(sections, names):
         assert setting and not any(one.startswith(PHYSICS) for one in setting)
 
 
-def made_up(values, target):
+def made_up(values):
     """Knobs with values of (own error, seconds) over twins of one second, none of which may be chosen."""
     def knob(name):
         return Knob(name, [], KnobValue("best", [f"a.{name}=best"]), "", name)
 
     knobs = [knob(name) for name in values]
-    made = cost.Cost("made up", {"drive": {"path": ["zero-load"]}},
-                     CostCase([], "", knobs, [Base("", [], list(values))], []), target)
+    made = cost.Cost("made up", {},
+                     CostCase([], "", knobs, [Base("", [], list(values), "state")], []))
     best = np.array([1.0, 1.0, NAN, NAN, NAN])
     made.rows = [cost.CostRow("reference", "", [], [], judged=False, numbers=best, seconds=1.0),
                  cost.CostRow("scene", "", [], [], numbers=best, seconds=1.0)]
@@ -117,8 +117,8 @@ def made_up(values, target):
     return made
 
 
-def outcome_of(made, measured):
-    """What is chosen if combinations have the errors of `measured`, by their labels; NaN: the run fails. And what was run."""
+def outcome_of(made, target, measured):
+    """The search if combinations have the errors of `measured`, by their labels; NaN: the run fails. And what was run."""
     ran = []
 
     def run(rows):
@@ -128,8 +128,9 @@ def outcome_of(made, measured):
             row.seconds = 0.5
         return True
 
-    assert made.choose(run)
-    return made.chosen and made.chosen.label, ran
+    search = made.search(made.case.bases[0], target)
+    assert made.choose([search], run)
+    return search, search.chosen and search.chosen.label, ran
 
 
 VALUES = {"one": [(8e-3, 0.1), (4e-3, 0.5), (0.0, 0.9)], "other": [(8e-3, 0.1), (1e-3, 0.5)]}
@@ -137,24 +138,42 @@ VALUES = {"one": [(8e-3, 0.1), (4e-3, 0.5), (0.0, 0.9)], "other": [(8e-3, 0.1), 
 
 def test_errors_add_and_times_multiply():
     """Each of the cheapest is within 1 %, both together are not."""
-    assert outcome_of(made_up(VALUES, 0.01), {}) == ("0, 1", ["0, 1"])
-    assert outcome_of(made_up(VALUES, 0.02), {}) == ("0, 0", ["0, 0"])
+    assert outcome_of(made_up(VALUES), 0.01, {})[1:] == ("0, 1", ["0, 1"])
+    assert outcome_of(made_up(VALUES), 0.02, {})[1:] == ("0, 0", ["0, 0"])
     # "best" has no error by definition: only a twin in which nothing of it is left may be chosen.
-    nothing = made_up(VALUES, 5e-4)
-    assert outcome_of(nothing, {}) == (None, []) and nothing.smallest == pytest.approx(1e-3)
-    for knob in nothing.case.knobs:
+    made = made_up(VALUES)
+    search, *outcome = outcome_of(made, 5e-4, {})
+    assert outcome == [None, []] and search.smallest == pytest.approx(1e-3)
+    for knob in made.case.knobs:
         knob.twin_is_exact = True
-    assert outcome_of(nothing, {})[0] == "2, best"
+    assert outcome_of(made, 5e-4, {})[1] == "2, best"
 
 
 def test_only_what_was_measured_is_chosen():
-    """A combination that misses, or whose run fails, gives way to one that promises half of its error."""
-    assert outcome_of(made_up(VALUES, 0.02), {"0, 0": 0.03}) == ("2, 0", ["0, 0", "2, 0"])
-    assert outcome_of(made_up(VALUES, 0.02), {"0, 0": NAN}) == ("2, 0", ["0, 0", "2, 0"])
-    made = made_up(VALUES, 0.02)
-    assert outcome_of(made, {"0, 0": 0.03, "2, 0": 0.021, "2, 1": 0.04}) == (None, ["0, 0", "2, 0", "2, 1"])
-    assert made.smallest == pytest.approx(0.021)
-    assert "No settings keep 2 %" in cost.answer_of(made) and "2.1 %" in cost.answer_of(made)
+    """A combination that misses gives way to one that promises half of its error, one whose run fails to one that
+    takes longer."""
+    assert outcome_of(made_up(VALUES), 0.02, {"0, 0": 0.03})[1:] == ("2, 0", ["0, 0", "2, 0"])
+    assert outcome_of(made_up(VALUES), 0.02, {"0, 0": NAN})[1:] == ("0, 1", ["0, 0", "0, 1"])
+    made = made_up(VALUES)
+    search, *outcome = outcome_of(made, 0.02, {"0, 0": NAN, "0, 1": 0.021, "2, 1": 0.04})
+    assert outcome == [None, ["0, 0", "0, 1", "2, 1"]] and search.smallest == pytest.approx(0.021)
+    assert "No settings keep 2 %" in cost.answer_of(made, search) and "2.1 %" in cost.answer_of(made, search)
+
+
+def test_searches_share_their_runs():
+    made, ran = made_up(VALUES), []
+
+    def run(rows):
+        for row in rows:
+            ran.append(row.label)
+            row.numbers = made.rows[0].numbers + [row.added, 0, 0, 0, 0]
+        return len(ran) < 3
+
+    searches = [made.search(made.case.bases[0], target) for target in (0.02, 0.05, 0.01)]
+    assert made.choose(searches, run)
+    assert ran == ["0, 0", "0, 1"] and [s.chosen.label for s in searches] == ["0, 0", "0, 0", "0, 1"]
+    assert sum(r.knob == "combination" for r in made.rows) == 2
+    assert not made.choose([made.search(made.case.bases[0], 0.006)], run)  # stopped
 
 
 def test_targets():
