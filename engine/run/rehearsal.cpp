@@ -66,7 +66,7 @@ Case piece_of(const Case& c, int sites) {
     Scene::Surface& surface = piece.scene.surface;
     const double share = static_cast<double>(sites) / surface.sites;
     const bool levels = c.levels.size() > 1;
-    if (share < 1.0 || c.levels.front().cells > most_layers_of_lattice)
+    if (c.in_time && (share < 1.0 || c.levels.front().cells > most_layers_of_lattice))
         block.thickness = std::min(block.thickness, levels ? most_layers : most_layers_of_lattice);
     if (share < 1.0 && surface.kind == SurfaceKind::self_affine) keep_short_waves(surface, share);
     surface.sites = block.sites = sites;
@@ -380,8 +380,7 @@ double Rehearsal::bytes(Part part, int rank) const {
         const double whole = part == Part::block   ? piece.everywhere
                              : part == Part::state ? 0.5 * piece.everywhere
                                                    : 0.0;
-        const bool kept =
-            part == Part::interface || part == Part::block || part == Part::snapshots;
+        const bool kept = part == Part::interface || part == Part::block || part == Part::snapshots;
         return std::pair((kept ? stage.held : stage.peak) - whole, whole);
     };
     const auto line = [](double x1, double y1, double x2, double y2, double x) {
