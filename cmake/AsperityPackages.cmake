@@ -9,13 +9,6 @@ find_package(PkgConfig REQUIRED)
 find_package(Boost 1.74 REQUIRED)
 pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
 pkg_check_modules(FFTWF REQUIRED IMPORTED_TARGET fftw3f)
-# Threads inside a transform; without them the spectral block transforms on one.
-find_library(FFTW_THREADS_LIBRARY fftw3_omp HINTS ${FFTW_LIBRARY_DIRS})
-find_library(FFTWF_THREADS_LIBRARY fftw3f_omp HINTS ${FFTWF_LIBRARY_DIRS})
-
-# Slabs over the ranks.
-find_library(FFTW_MPI_LIBRARY fftw3_mpi HINTS ${FFTW_LIBRARY_DIRS} REQUIRED)
-find_library(FFTWF_MPI_LIBRARY fftw3f_mpi HINTS ${FFTWF_LIBRARY_DIRS} REQUIRED)
 
 # HDF5: the build that matches Open MPI where there is one. The C API alone is used. pkg-config first:
 # CMake's own search runs h5pcc, which fails where a path has a space in it.

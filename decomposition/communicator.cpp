@@ -75,8 +75,6 @@ int Communicator::alike_on_machine(std::uint64_t number) const {
     return static_cast<int>(std::count(all.begin(), all.end(), number));
 }
 
-int Communicator::handle() const { return MPI_Comm_c2f(mpi_->all); }
-
 double Communicator::max(double value) const {
     if (mpi_) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, mpi_->all);
     return value;

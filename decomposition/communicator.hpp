@@ -4,10 +4,9 @@
 // The ranks of a run behind one value type.
 //
 // A run started by mpirun uses MPI; a run started alone never initialises it: there, what all ranks
-// do together costs nothing. Every raw MPI call of the project is in communicator.cpp, but those of
-// FFTW's transforms over all ranks (surface_transform.cpp). All member functions but abort() and
-// those that only tell (rank, size and the like) are collective: every rank calls them in the same
-// order.
+// do together costs nothing. Every MPI call of the project is in communicator.cpp. All member
+// functions but abort() and those that only tell (rank, size and the like) are collective: every
+// rank calls them in the same order.
 #pragma once
 
 #include <cstddef>
@@ -47,8 +46,6 @@ public:
     bool root() const { return rank() == 0; }
     /// Whether messages may lie in the memory of a CUDA device.
     bool takes_device_memory() const;
-    /// MPI's communicator as a handle of Fortran (MPI_Comm_c2f); only with several ranks.
-    int handle() const;
 
     /// Element-wise sum over the ranks, in place. The values must be such that their sum is exact
     /// in any order (ExactSum bins, counts).

@@ -57,19 +57,17 @@ ProcessGrid::ProcessGrid(int ranks, int rank, int sites, int levels) : rank_(ran
 }
 
 ProcessGrid ProcessGrid::slabs(int ranks, int rank, int sites) {
-    const int rows = (sites + ranks - 1) / ranks;
-    if (rows * (ranks - 1) >= sites)
+    if (ranks > sites)
         throw std::invalid_argument("a surface of " + std::to_string(sites) +
                                     " rows cannot be cut into " + std::to_string(ranks) +
-                                    " slabs, because FFTW's slabs are of " + std::to_string(rows) +
-                                    " rows each and none is left for the last; use fewer ranks");
+                                    " slabs; use fewer ranks");
     ProcessGrid grid;
     grid.py_ = ranks;
     grid.rank_ = rank;
     grid.sites_ = sites;
     grid.cut_x_ = {0, sites};
     for (int r = 0; r <= ranks; ++r)
-        grid.cut_y_.push_back(std::min(r * rows, sites));
+        grid.cut_y_.push_back(static_cast<int>(static_cast<long long>(sites) * r / ranks));
     return grid;
 }
 

@@ -23,9 +23,8 @@ public:
     /// which level l has sites / 2^l nodes across. Throws std::invalid_argument if there are more
     /// ranks than tiles of at least two nodes.
     ProcessGrid(int ranks, int rank, int sites, int levels);
-    /// One level cut into slabs of whole rows, as FFTW-MPI requires: all have the same
-    /// number of rows but the last, which has the rest. Throws std::invalid_argument if that is
-    /// none.
+    /// One level cut into slabs of whole rows, as many on each rank to one row. Throws
+    /// std::invalid_argument where there are more ranks than rows.
     static ProcessGrid slabs(int ranks, int rank, int sites);
 
     int ranks() const { return px_ * py_; }

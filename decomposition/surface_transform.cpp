@@ -4,13 +4,15 @@
 
 #include "decomposition/process_grid.hpp"
 
-#include <fftw3-mpi.h>
+#include <fftw3.h>
 #include <omp.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace asperity {
 
@@ -20,59 +22,41 @@ namespace {
 struct DoubleFftw {
     using Plan = fftw_plan;
     using Complex = fftw_complex;
-    static constexpr auto forward = fftw_plan_many_dft_r2c;
-    static constexpr auto backward = fftw_plan_many_dft_c2r;
-    static constexpr auto run_forward = fftw_execute_dft_r2c;
-    static constexpr auto run_backward = fftw_execute_dft_c2r;
+    static constexpr auto real_to_waves = fftw_plan_dft_r2c_1d;
+    static constexpr auto waves_to_real = fftw_plan_dft_c2r_1d;
+    static constexpr auto along = fftw_plan_many_dft;
+    static constexpr auto run_real_to_waves = fftw_execute_dft_r2c;
+    static constexpr auto run_waves_to_real = fftw_execute_dft_c2r;
+    static constexpr auto run_along = fftw_execute_dft;
     static constexpr auto destroy = fftw_destroy_plan;
-    static constexpr auto init_ranks = fftw_mpi_init;
-    static constexpr auto slab_forward = fftw_mpi_plan_dft_r2c_2d;
-    static constexpr auto slab_backward = fftw_mpi_plan_dft_c2r_2d;
-    static constexpr auto run_slab_forward = fftw_mpi_execute_dft_r2c;
-    static constexpr auto run_slab_backward = fftw_mpi_execute_dft_c2r;
-#if ASPERITY_FFTW_THREADS
-    static constexpr auto init_threads = fftw_init_threads;
-    static constexpr auto threads = fftw_plan_with_nthreads;
-#endif
 };
 struct FloatFftw {
     using Plan = fftwf_plan;
     using Complex = fftwf_complex;
-    static constexpr auto forward = fftwf_plan_many_dft_r2c;
-    static constexpr auto backward = fftwf_plan_many_dft_c2r;
-    static constexpr auto run_forward = fftwf_execute_dft_r2c;
-    static constexpr auto run_backward = fftwf_execute_dft_c2r;
+    static constexpr auto real_to_waves = fftwf_plan_dft_r2c_1d;
+    static constexpr auto waves_to_real = fftwf_plan_dft_c2r_1d;
+    static constexpr auto along = fftwf_plan_many_dft;
+    static constexpr auto run_real_to_waves = fftwf_execute_dft_r2c;
+    static constexpr auto run_waves_to_real = fftwf_execute_dft_c2r;
+    static constexpr auto run_along = fftwf_execute_dft;
     static constexpr auto destroy = fftwf_destroy_plan;
-    static constexpr auto init_ranks = fftwf_mpi_init;
-    static constexpr auto slab_forward = fftwf_mpi_plan_dft_r2c_2d;
-    static constexpr auto slab_backward = fftwf_mpi_plan_dft_c2r_2d;
-    static constexpr auto run_slab_forward = fftwf_mpi_execute_dft_r2c;
-    static constexpr auto run_slab_backward = fftwf_mpi_execute_dft_c2r;
-#if ASPERITY_FFTW_THREADS
-    static constexpr auto init_threads = fftwf_init_threads;
-    static constexpr auto threads = fftwf_plan_with_nthreads;
-#endif
 };
 template <class T>
 using Fftw = std::conditional_t<std::is_same_v<T, double>, DoubleFftw, FloatFftw>;
 
-MPI_Comm mpi_of(const Communicator& ranks) { return MPI_Comm_f2c(ranks.handle()); }
-
-/// FFTW's threads are to start before its ranks.
+/// A complex number, moved as a whole.
 template <class T>
-bool start_threads() {
-#if ASPERITY_FFTW_THREADS
-    static const bool threaded = Fftw<T>::init_threads() != 0;
-    return threaded;
-#else
-    return false;
-#endif
+struct Wave {
+    T re, im;
+};
+template <class T>
+Wave<T>* waves_in(T* row) {
+    return reinterpret_cast<Wave<T>*>(row);
 }
-template <class T>
-void start_ranks() {
-    start_threads<T>();
-    static const bool started = (Fftw<T>::init_ranks(), true);
-    (void)started;
+
+/// Of `count` things, the first that part `p` of `parts` has.
+int first_of(int count, int parts, int p) {
+    return static_cast<int>(static_cast<long long>(count) * p / parts);
 }
 
 } // namespace
@@ -81,83 +65,198 @@ Slab::Slab(int n, const Communicator& communicator) : ranks(communicator), sites
     const Tile mine = ProcessGrid::slabs(ranks.size(), ranks.rank(), sites).tile(0);
     first = mine.y0;
     rows = mine.ny;
-    capacity = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns());
-    if (ranks.size() == 1) return;
-    start_ranks<double>();
-    std::ptrdiff_t its_rows = 0, its_first = 0;
-    capacity = static_cast<std::size_t>(
-        fftw_mpi_local_size_2d(sites, columns(), mpi_of(ranks), &its_rows, &its_first));
-    if (its_rows != rows || its_first != first)
-        throw std::logic_error("FFTW-MPI cuts the surface into other slabs than the process grid");
 }
 
 std::vector<double> RowSums::total() const {
-    std::vector<double> mine(sums_, 0.0);
-    for (std::size_t i = 0; i < parts_.size(); ++i)
-        mine[i % sums_] += parts_[i];
-    const auto ranks = static_cast<std::size_t>(slab_.ranks.size());
-    std::vector<double> all(ranks * sums_);
-    slab_.ranks.all_gather(mine, std::vector<int>(ranks, static_cast<int>(sums_)), all);
-    std::fill(mine.begin(), mine.end(), 0.0);
+    // Of all rows in their order, whatever the ranks are.
+    const int ranks = slab_.ranks.size();
+    std::vector<int> counts;
+    for (int r = 0; r < ranks; ++r)
+        counts.push_back(static_cast<int>(sums_) *
+                         ProcessGrid::slabs(ranks, r, slab_.sites).tile(0).ny);
+    std::vector<double> all(static_cast<std::size_t>(slab_.sites) * sums_);
+    slab_.ranks.all_gather(parts_, counts, all);
+    std::vector<double> sum(sums_, 0.0);
     for (std::size_t i = 0; i < all.size(); ++i)
-        mine[i % sums_] += all[i];
-    for (double& sum : mine)
-        sum *= static_cast<double>(slab_.sites) * slab_.sites;
-    return mine;
+        sum[i % sums_] += all[i];
+    for (double& s : sum)
+        s *= static_cast<double>(slab_.sites) * slab_.sites;
+    return sum;
 }
 
 template <class T>
-struct SurfaceTransform<T>::Plans {
-    typename Fftw<T>::Plan forward = nullptr, backward = nullptr;
-    bool slabs = false; ///< in place, in the waves: FFTW-MPI's rows of the field are as long
-    Plans() = default;
-    Plans(const Plans&) = delete;
-    Plans& operator=(const Plans&) = delete;
-    ~Plans() {
-        if (forward) Fftw<T>::destroy(forward);
-        if (backward) Fftw<T>::destroy(backward);
+struct SurfaceTransform<T>::Parts {
+    using F = Fftw<T>;
+    using Complex = typename F::Complex;
+    /// Columns that a thread takes at a time: a cache line of a row. Always as many, whatever they
+    /// are: what FFTW does to one does not depend on the others.
+    static constexpr int at_once = 32 / static_cast<int>(sizeof(T));
+
+    Slab slab;
+    typename F::Plan rows_forward = nullptr, rows_backward = nullptr;
+    typename F::Plan columns_forward = nullptr, columns_backward = nullptr;
+    /// Of each thread: columns of waves, [y][column], and their transforms; or a row of waves.
+    std::vector<AlignedArray<T>> own;
+    /// Of several ranks: the waves of this rank's rows, and those of its columns, both by rank and
+    /// column, and within a column by row.
+    AlignedArray<T> of_rows, of_columns;
+
+    explicit Parts(const Slab& of) : slab(of) {
+        const std::size_t n = static_cast<std::size_t>(slab.sites);
+        const std::size_t room = 2 * transformed();
+        for (int t = 0; t < omp_get_max_threads(); ++t) {
+            own.push_back(aligned_array<T>(room));
+            std::fill_n(own.back().get(), room, T(0));
+        }
+        if (slab.ranks.size() > 1) {
+            of_rows = aligned_array<T>(2 * static_cast<std::size_t>(slab.rows) *
+                                       static_cast<std::size_t>(slab.columns()));
+            of_columns = aligned_array<T>(2 * n * static_cast<std::size_t>(my_columns()));
+        }
+        auto* const waves = reinterpret_cast<Complex*>(own.front().get());
+        Field<T> field(slab.tile(), 1, 0);
+        T* const sites = field.plane(0).line(0);
+        rows_forward = F::real_to_waves(slab.sites, sites, waves, FFTW_ESTIMATE);
+        rows_backward = F::waves_to_real(slab.sites, waves, sites, FFTW_ESTIMATE);
+        const auto columns = [&](int sign) {
+            return F::along(1, &slab.sites, at_once, waves, nullptr, at_once, 1,
+                            waves + transformed() / 2, nullptr, at_once, 1, sign, FFTW_ESTIMATE);
+        };
+        columns_forward = columns(FFTW_FORWARD);
+        columns_backward = columns(FFTW_BACKWARD);
+        if (!rows_forward || !rows_backward || !columns_forward || !columns_backward)
+            throw std::runtime_error("FFTW has no plan for a surface of " +
+                                     std::to_string(slab.sites) + " sites across");
+    }
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+    ~Parts() {
+        for (auto plan : {rows_forward, rows_backward, columns_forward, columns_backward})
+            if (plan) F::destroy(plan);
+    }
+
+    /// No more than there were when the arrays were made.
+    int threads() const { return std::min(omp_get_max_threads(), static_cast<int>(own.size())); }
+    /// Numbers before the transforms of some columns.
+    std::size_t transformed() const { return 2 * at_once * static_cast<std::size_t>(slab.sites); }
+    T* mine() { return own[static_cast<std::size_t>(omp_get_thread_num())].get(); }
+
+    int first_column(int rank) const { return first_of(slab.columns(), slab.ranks.size(), rank); }
+    int my_columns() const {
+        return first_column(slab.ranks.rank() + 1) - first_column(slab.ranks.rank());
+    }
+    int first_row(int rank) const { return first_of(slab.sites, slab.ranks.size(), rank); }
+
+    /// Of columns [y][at_once], some of which may be of no meaning. Returns their transforms.
+    Wave<T>* transform_some(Wave<T>* columns, bool forward) const {
+        Wave<T>* const out = columns + transformed() / 2;
+        F::run_along(forward ? columns_forward : columns_backward,
+                     reinterpret_cast<Complex*>(columns), reinterpret_cast<Complex*>(out));
+        return out;
+    }
+
+    /// All columns of the waves, which are whole on one rank.
+    void columns_of_one_rank(Waves<T>& waves, int component, bool forward) {
+        const int columns = slab.columns();
+#pragma omp parallel for schedule(static) num_threads(threads())
+        for (int x0 = 0; x0 < columns; x0 += at_once) {
+            const int width = std::min(at_once, columns - x0);
+            Wave<T>* const some = waves_in(mine());
+            const auto row = [&](int y) { return waves_in(waves.row(component, y)) + x0; };
+            for (int y = 0; y < slab.sites; ++y)
+                std::copy_n(row(y), width, some + y * at_once);
+            const Wave<T>* const done = transform_some(some, forward);
+            for (int y = 0; y < slab.sites; ++y)
+                std::copy_n(done + y * at_once, width, row(y));
+        }
+    }
+
+    /// The same of several: every rank transforms its columns.
+    void columns_of_all_ranks(Waves<T>& waves, int component, bool forward) {
+        copy_rows(waves, component, true);
+        exchange(true);
+#pragma omp parallel for schedule(static) num_threads(threads())
+        for (int x0 = 0; x0 < my_columns(); x0 += at_once) {
+            const int width = std::min(at_once, my_columns() - x0);
+            Wave<T>* const some = waves_in(mine());
+            const auto each = [&](Wave<T>* all, const auto& copy) {
+                for (int r = 0; r < slab.ranks.size(); ++r)
+                    for (int i = 0; i < width; ++i) {
+                        Wave<T>* const column = in_columns(r, x0 + i);
+                        for (int y = first_row(r); y < first_row(r + 1); ++y)
+                            copy(all[y * at_once + i], column[y - first_row(r)]);
+                    }
+            };
+            each(some, [](Wave<T>& to, const Wave<T>& from) { to = from; });
+            each(transform_some(some, forward),
+                 [](const Wave<T>& from, Wave<T>& to) { to = from; });
+        }
+        exchange(false);
+        copy_rows(waves, component, false);
+    }
+
+    /// Of rank r's rows, this rank's column x.
+    Wave<T>* in_columns(int r, int x) {
+        const auto rows = static_cast<std::ptrdiff_t>(first_row(r + 1) - first_row(r));
+        return waves_in(of_columns.get()) +
+               static_cast<std::ptrdiff_t>(first_row(r)) * my_columns() + x * rows;
+    }
+    /// Between the waves and `of_rows`, where column x starts at x * rows.
+    void copy_rows(Waves<T>& waves, int component, bool out) {
+#pragma omp parallel for schedule(static)
+        for (int x = 0; x < slab.columns(); ++x) {
+            Wave<T>* const column =
+                waves_in(of_rows.get()) + static_cast<std::ptrdiff_t>(x) * slab.rows;
+            for (int y = 0; y < slab.rows; ++y) {
+                Wave<T>& here = waves_in(waves.row(component, y))[x];
+                if (out)
+                    column[y] = here;
+                else
+                    here = column[y];
+            }
+        }
+    }
+    /// Every rank's rows of this rank's columns come here, or go back.
+    void exchange(bool to_columns) {
+        std::vector<Message> messages;
+        const int me = slab.ranks.rank();
+        for (int r = 0; r < slab.ranks.size(); ++r) {
+            Wave<T>* const rows =
+                waves_in(of_rows.get()) + static_cast<std::ptrdiff_t>(first_column(r)) * slab.rows;
+            const auto its = static_cast<std::size_t>(first_column(r + 1) - first_column(r)) *
+                             static_cast<std::size_t>(slab.rows);
+            Wave<T>* const columns = in_columns(r, 0);
+            const auto mine_of_it = static_cast<std::size_t>(first_row(r + 1) - first_row(r)) *
+                                    static_cast<std::size_t>(my_columns());
+            if (r == me) {
+                if (to_columns)
+                    std::copy_n(rows, its, columns);
+                else
+                    std::copy_n(columns, mine_of_it, rows);
+                continue;
+            }
+            // A wave in single precision is as long as a double.
+            const auto span = [](Wave<T>* at, std::size_t count) {
+                return std::span(reinterpret_cast<double*>(at),
+                                 count * (sizeof(Wave<T>) / sizeof(double)));
+            };
+            const auto here = span(rows, its), there = span(columns, mine_of_it);
+            messages.push_back(to_columns ? Message{r, r, 0, here, there}
+                                          : Message{r, r, 0, there, here});
+        }
+        slab.ranks.exchange(messages);
+    }
+
+    void transform_columns(Waves<T>& waves, int component, bool forward) {
+        if (slab.ranks.size() == 1)
+            columns_of_one_rank(waves, component, forward);
+        else
+            columns_of_all_ranks(waves, component, forward);
     }
 };
 
 template <class T>
-SurfaceTransform<T>::SurfaceTransform(const Slab& slab, std::ptrdiff_t row)
-    : plans_(std::make_unique<Plans>()) {
-    using F = Fftw<T>;
-    const bool threaded = start_threads<T>();
-#if ASPERITY_FFTW_THREADS
-    if (threaded) F::threads(omp_get_max_threads());
-#endif
-    // A plan depends on strides and alignment only; one made on these arrays is valid for all.
-    Waves<T> waves(slab, 1);
-    auto* const complex = reinterpret_cast<typename F::Complex*>(waves.component(0));
-    plans_->slabs = slab.ranks.size() > 1;
-    if (plans_->slabs) {
-        start_ranks<T>();
-        plans_->forward = F::slab_forward(slab.sites, slab.sites, waves.component(0), complex,
-                                          mpi_of(slab.ranks), FFTW_ESTIMATE);
-        plans_->backward = F::slab_backward(slab.sites, slab.sites, complex, waves.component(0),
-                                            mpi_of(slab.ranks), FFTW_ESTIMATE);
-    } else {
-        Field<T> field(slab.tile(), 1, 0);
-        const int n[2] = {slab.sites, slab.sites};
-        const int real[2] = {slab.sites, static_cast<int>(row)};
-        const int half[2] = {slab.sites, slab.columns()};
-        T* const sites = field.plane(0).origin;
-        plans_->forward =
-            F::forward(2, n, 1, sites, real, 1, 0, complex, half, 1, 0, FFTW_ESTIMATE);
-        plans_->backward =
-            F::backward(2, n, 1, complex, half, 1, 0, sites, real, 1, 0, FFTW_ESTIMATE);
-    }
-#if ASPERITY_FFTW_THREADS
-    if (threaded) F::threads(1); // as others expect it
-#else
-    (void)threaded;
-#endif
-    if (!plans_->forward || !plans_->backward)
-        throw std::runtime_error("FFTW has no plan for a surface of " + std::to_string(slab.sites) +
-                                 " sites across");
-}
-
+SurfaceTransform<T>::SurfaceTransform(const Slab& slab) : parts_(std::make_unique<Parts>(slab)) {}
 template <class T>
 SurfaceTransform<T>::~SurfaceTransform() = default;
 template <class T>
@@ -168,27 +267,29 @@ SurfaceTransform<T>& SurfaceTransform<T>::operator=(SurfaceTransform&&) noexcept
 template <class T>
 void SurfaceTransform<T>::forward(const PlaneView<const T>& field, Waves<T>& waves,
                                   int component) const {
-    auto* const complex = reinterpret_cast<typename Fftw<T>::Complex*>(waves.component(component));
-    if (!plans_->slabs) { // out of place, FFTW only reads
-        Fftw<T>::run_forward(plans_->forward, const_cast<T*>(field.origin), complex);
-        return;
+#pragma omp parallel for schedule(static) num_threads(parts_->threads())
+    for (int y = 0; y < waves.rows(); ++y) {
+        T* const row = parts_->mine();
+        // Out of place, FFTW only reads.
+        Fftw<T>::run_real_to_waves(parts_->rows_forward, const_cast<T*>(field.line(y)),
+                                   reinterpret_cast<typename Fftw<T>::Complex*>(row));
+        std::copy_n(row, waves.length(), waves.row(component, y));
     }
-    for (int y = 0; y < waves.rows(); ++y)
-        std::copy_n(field.line(y), field.nx, waves.row(component, y));
-    Fftw<T>::run_slab_forward(plans_->forward, waves.component(component), complex);
+    parts_->transform_columns(waves, component, true);
 }
 
 template <class T>
 void SurfaceTransform<T>::backward(Waves<T>& waves, int component,
                                    const PlaneView<T>& field) const {
-    auto* const complex = reinterpret_cast<typename Fftw<T>::Complex*>(waves.component(component));
-    if (!plans_->slabs) {
-        Fftw<T>::run_backward(plans_->backward, complex, field.origin);
-        return;
+    parts_->transform_columns(waves, component, false);
+#pragma omp parallel for schedule(static) num_threads(parts_->threads())
+    for (int y = 0; y < waves.rows(); ++y) {
+        T* const row = parts_->mine();
+        std::copy_n(waves.row(component, y), waves.length(), row);
+        Fftw<T>::run_waves_to_real(parts_->rows_backward,
+                                   reinterpret_cast<typename Fftw<T>::Complex*>(row),
+                                   field.line(y));
     }
-    Fftw<T>::run_slab_backward(plans_->backward, complex, waves.component(component));
-    for (int y = 0; y < waves.rows(); ++y)
-        std::copy_n(waves.row(component, y), field.nx, field.line(y));
 }
 
 template class SurfaceTransform<double>;

@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The Fourier transform of a surface, one rank with threads or slabs of rows over the ranks.
+// The Fourier transform of a surface in slabs of rows over the ranks.
 //
-// Transforms are FFTW's real ones: its threaded ones on one rank, its MPI ones on several. Plans
-// are made by estimate, not by measurement, so that two runs do the same arithmetic. Between one
-// and several ranks the order of the arithmetic differs: results agree to rounding.
+// FFTW transforms one row and a few columns at a time, in arrays of a thread's own, by plans made
+// by estimate, not by measurement. So a transform has the same bits on any number of threads and
+// ranks. Between rows and columns the ranks exchange all their waves.
 #pragma once
 
+#include "decomposition/aligned_array.hpp"
 #include "decomposition/field.hpp"
 #include "decomposition/waves.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -27,11 +29,12 @@ SiteField<T> site_field(const Slab& slab, int components) {
     return field;
 }
 
-/// Between the sites of a surface and its waves; T is double or float. Both directions collective.
+/// Between the sites of a surface and its waves; T is double or float. Both directions collective;
+/// one at a time. Fields are those of site_field(), whose rows start on cache lines.
 template <class T>
 class SurfaceTransform {
 public:
-    SurfaceTransform(const Slab& slab, std::ptrdiff_t row); ///< row: of the fields
+    explicit SurfaceTransform(const Slab& slab);
     ~SurfaceTransform();
     SurfaceTransform(SurfaceTransform&&) noexcept;
     SurfaceTransform& operator=(SurfaceTransform&&) noexcept;
@@ -42,8 +45,8 @@ public:
     void backward(Waves<T>& waves, int component, const PlaneView<T>& field) const;
 
 private:
-    struct Plans;
-    std::unique_ptr<Plans> plans_;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 } // namespace asperity

@@ -27,7 +27,6 @@ struct Slab {
     int sites = 0;
     int first = 0; ///< row
     int rows = 0;
-    std::size_t capacity = 0; ///< complex numbers that a transform needs room for
 
     /// The whole surface, or this rank's share of it. Collective. Throws std::invalid_argument
     /// where a rank would have no row.
@@ -45,7 +44,11 @@ template <class T>
 class Waves {
 public:
     Waves(const Slab& slab, int components)
-        : slab_(slab), components_(components), component_((2 * slab.capacity + 15) / 16 * 16) {
+        : slab_(slab), components_(components),
+          component_(
+              (2 * static_cast<std::size_t>(slab.rows) * static_cast<std::size_t>(slab.columns()) +
+               15) /
+              16 * 16) {
         const std::size_t size = static_cast<std::size_t>(components) * component_;
         data_ = aligned_array<T>(size);
         clear();
@@ -83,8 +86,8 @@ private:
     AlignedArray<T> data_;
 };
 
-/// Sums over all waves: row by row, then in the order of rows, then of ranks, whatever the number
-/// of threads.
+/// Sums over all waves: row by row, then in the order of rows, whatever the number of threads and
+/// ranks.
 class RowSums {
 public:
     RowSums(const Slab& slab, std::size_t sums)

@@ -80,8 +80,7 @@ SpectralBlock::SpectralBlock(const BlockOptions& options, const Communicator& co
     : options_(options), slab_(options.sites, communicator), components_(frictionless ? 1 : 3),
       columns_(static_cast<std::size_t>(slab_.columns())),
       table_(stiffness_table(options, frictionless)), layer_(tile(), 1, 0), force_(tile(), 1, 0),
-      waves_(slab_, components_), transform_(slab_, layer_.plane(0).x.row),
-      single_(slab_, new_field<float>()[0].plane(0).row) {
+      waves_(slab_, components_), transform_(slab_), single_(slab_) {
     uniform_ = stiffness(0, 0).zz;
     constrain({});
 }

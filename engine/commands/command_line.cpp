@@ -118,6 +118,25 @@ void add(CLI::App& command, const Option& option, Arguments& given) {
 
 } // namespace
 
+namespace {
+
+/// `--set a.b=1 c.d=2` as `--set a.b=1 --set c.d=2`, so that of one key the last one counts.
+std::vector<std::string> spelt_out(int argc, char** argv) {
+    std::vector<std::string> words;
+    for (int i = 1; i < argc; ++i) {
+        words.emplace_back(argv[i]);
+        if (words.back() != takes::set.name || i + 1 == argc) continue;
+        words.emplace_back(argv[++i]);
+        for (; i + 1 < argc && is_override(argv[i + 1]); ++i) {
+            words.push_back(takes::set.name);
+            words.emplace_back(argv[i + 1]);
+        }
+    }
+    return words;
+}
+
+} // namespace
+
 int carry_out(const std::vector<Command>& commands, int argc, char** argv,
               const Communicator& world) {
     CLI::App app("Adhesion between randomly rough elastic solids, from the atoms up", "asperity");
@@ -147,7 +166,9 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
             near.empty() ? "asperity --help" : fmt::format("did you mean `asperity {}`?", near)});
     }
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> words = spelt_out(argc, argv);
+        std::reverse(words.begin(), words.end()); // as the library wants them
+        app.parse(words);
     } catch (const CLI::Success& asked) { // --help, --version
         return world.root() ? app.exit(asked) : 0;
     } catch (const CLI::ParseError& error) {

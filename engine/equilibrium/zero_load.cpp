@@ -70,46 +70,29 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
                           const Case& c, const std::function<bool(long long, double)>& stop) {
     const Communicator& ranks = moving.communicator();
+    const ProcessGrid slabs =
+        ProcessGrid::slabs(ranks.size(), ranks.rank(), c.simulation.block.sites);
     const auto components = [](const auto& field) { return std::array{field.x, field.y, field.z}; };
-    std::array<std::vector<double>, 3> whole; // on the root
-    for (std::size_t k = 0; k < 3; ++k)
-        whole[k] = gather_plane(ranks, moving.grid(), 0, components(moving.lowest_layer())[k]);
-    LayerAtRest found;
-    ranks.on_root([&] {
-        SpectralBlock block(c.simulation.block, Communicator());
-        const Tile tile = block.tile();
-        InterfaceOptions options = c.simulation.interface;
-        options.single_too = !options.mixed;
-        const Interface interface(surface, tile, c.scene.surface.spacing, options);
-        const auto row = [&tile](int y) {
-            return static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.nx);
-        };
-        for (std::size_t k = 0; k < 3; ++k) {
-            const PlaneView<double> u = components(block.layer().plane(0))[k];
-            for (int y = 0; y < tile.ny; ++y)
-                std::copy_n(&whole[k][row(y)], tile.nx, u.line(y));
-        }
-        found.numbers = find_zero_load(block, interface, reference_height, 0.0, c, stop);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const PlaneView<const double> u = components(block.lowest_layer())[k];
-            for (int y = 0; y < tile.ny; ++y)
-                std::copy_n(u.line(y), tile.nx, &whole[k][row(y)]);
-        }
-    });
-    std::array<double, 1> has = {found.numbers ? 1.0 : 0.0};
-    ranks.broadcast(std::span<double>(has));
-    if (has[0] == 0.0) return {};
-    ZeroLoad z = found.numbers.value_or(ZeroLoad{});
-    const auto share = [&](const char*, auto& number) {
-        ranks.broadcast(std::as_writable_bytes(std::span(&number, 1)));
+    /// One component of a layer, from tiles to slabs or back.
+    const auto move = [&](const ProcessGrid& from, const PlaneView<const double>& u,
+                          const ProcessGrid& to, const PlaneView<double>& v) {
+        std::vector<double> whole = gather_plane(ranks, from, 0, u); // on the root
+        scatter_plane(ranks, to, 0, whole, v);
     };
-    z.visit(share);
-    found.numbers = z;
+    SpectralBlock block(c.simulation.block, ranks);
+    InterfaceOptions options = c.simulation.interface;
+    options.single_too = !options.mixed;
+    const Interface interface(surface, block.tile(), c.simulation.block.spacing, options);
+    for (std::size_t k = 0; k < 3; ++k)
+        move(moving.grid(), components(moving.lowest_layer())[k], slabs,
+             components(block.layer().plane(0))[k]);
+    LayerAtRest found;
+    found.numbers = find_zero_load(block, interface, reference_height, 0.0, c, stop);
+    if (!found.numbers) return found;
     found.layer = VectorField<double>(moving.levels().front().tile, 1);
-    for (std::size_t k = 0; k < 3; ++k) {
-        scatter_plane(ranks, moving.grid(), 0, whole[k], components(found.layer.plane(0))[k]);
-        whole[k] = {};
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+        move(slabs, components(block.lowest_layer())[k], moving.grid(),
+             components(found.layer.plane(0))[k]);
     return found;
 }
 

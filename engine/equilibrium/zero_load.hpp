@@ -32,10 +32,9 @@ struct LayerAtRest {
     VectorField<double> layer; ///< displacements of the lowest layer of this rank's tile, Å
 };
 /// The state at zero load below a block in motion. At rest the displacements of its lowest layer
-/// are all that the state depends on (spectral_block.hpp): the root has those of the whole surface
-/// and relaxes alone, with its threads, so that the state is the same bits on any number of ranks.
-/// stop is called there. Collective. Without numbers, and without a layer, if stop asked for an
-/// end.
+/// are all that the state depends on (spectral_block.hpp): they go from the ranks' tiles to slabs
+/// of rows, where all ranks relax them, and back. The state is the same bits on any number of
+/// ranks. Collective. Without numbers, and without a layer, if stop asked for an end.
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
                           const Case& c, const std::function<bool(long long, double)>& stop);
 

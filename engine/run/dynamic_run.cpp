@@ -220,15 +220,13 @@ private:
     bool find_state() {
         const auto t = run_.phases.time(Phase::relax);
         const double height = simulation_.reference_height();
-        const auto stop = [&](long long iteration, double residual) { // on the root
-            show_relaxation(run_.progress, iteration, residual);
-            return run_.wants_stop();
-        };
-        LayerAtRest found;
-        while (!found.numbers) {
-            found = bring_to_rest(simulation_.block(), run_.surface, height, case_, stop);
-            if (!found.numbers && run_.stop_relaxation()) return false;
-        }
+        const LayerAtRest found =
+            bring_to_rest(simulation_.block(), run_.surface, height, case_,
+                          [&](long long iteration, double residual) {
+                              show_relaxation(run_.progress, iteration, residual);
+                              return run_.stop_relaxation();
+                          });
+        if (!found.numbers) return false;
         run_.findings.zero_load = found.numbers;
         if (case_.maps.zero_load)
             run_.recorder().fields("zero-load", std::as_const(found.layer).view()[0], run_.grid,

@@ -20,7 +20,7 @@ Interruption Interruptions::here() const {
     return now - last_checkpoint_ >= checkpoint_ ? Interruption::checkpoint : Interruption::none;
 }
 
-Interruption Interruptions::agreed() const {
+Interruption Interruptions::now() const {
     return static_cast<Interruption>(std::lround(ranks_.max(static_cast<double>(here()))));
 }
 

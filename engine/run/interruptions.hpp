@@ -21,10 +21,8 @@ public:
     Interruptions(const RunOptions& options, double checkpoint, const Communicator& ranks)
         : options_(options), checkpoint_(checkpoint), ranks_(ranks) {}
 
-    /// As far as this rank knows.
-    Interruption here() const;
     /// The same on all ranks. Collective.
-    Interruption agreed() const;
+    Interruption now() const;
     /// Whether it is time to ask, about every half second (more often where checkpoints are): for
     /// steps too short to ask at each. Collective.
     bool look_is_due();
@@ -36,6 +34,9 @@ public:
     }
 
 private:
+    /// As far as this rank knows.
+    Interruption here() const;
+
     const RunOptions& options_;
     const double checkpoint_;
     const Communicator ranks_;

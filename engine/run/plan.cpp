@@ -131,9 +131,7 @@ Plan make_plan(const Case& c, int threads) {
             plan.iterations += std::llround(iterations_of_point * points_over_steps *
                                             (path.approach + path.pull_off) /
                                             std::min(c.scene.drive.step, c.longest_step));
-        // In time the root relaxes alone.
-        plan.state.seconds = (c.in_time ? alone : share) * static_cast<double>(plan.iterations) *
-                             rehearsal.iteration();
+        plan.state.seconds = share * static_cast<double>(plan.iterations) * rehearsal.iteration();
     }
     plan.maps = {bytes(Part::maps), bytes(Part::maps) / disk};
     for (const Cost* cost : {&plan.making, &plan.block, &plan.snapshots, &plan.state, &plan.maps})

@@ -336,6 +336,7 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
             std::max(0.0, shortest(0.05, [&] { simulation->step(true); }) - done.far_step);
     }
     make_waves();
+    done.everywhere = static_cast<double>(waves->table_bytes());
     find_height();
     waves.reset();
     LayerAtRest rest;
@@ -363,23 +364,23 @@ double Rehearsal::share(Part part, const Measure& m, bool in_time) {
     case Part::snapshots:
         return in_time ? m.nodes : m.here;
     case Part::state:
-        return in_time ? m.whole : m.here;
+        return m.here;
     default:
         return m.whole;
     }
 }
 
 double Rehearsal::bytes(Part part, int rank) const {
-    // In time the root relaxes alone; it collects the maps.
-    if (rank > 0 && (part == Part::maps || (part == Part::state && case_.in_time))) return 0.0;
+    if (rank > 0 && part == Part::maps) return 0.0; // the root collects them
     const Measure to = measure(case_, rank, atoms_);
     const auto at = [&](const Piece& piece) {
         const Stage& stage = piece.stages[static_cast<std::size_t>(part)];
         // What each rank holds whole: the table of the waves' stiffness, and half of that again
-        // for its inverse, which the first relaxation makes.
-        const double whole = part == Part::block   ? piece.everywhere
-                             : part == Part::state ? 0.5 * piece.everywhere
-                                                   : 0.0;
+        // for its inverse, which a relaxation makes.
+        const double tables = part == Part::state   ? (case_.in_time ? 1.5 : 0.5)
+                              : part == Part::block ? (case_.in_time ? 0.0 : 1.0)
+                                                    : 0.0;
+        const double whole = tables * piece.everywhere;
         const bool kept = part == Part::interface || part == Part::block || part == Part::snapshots;
         return std::pair((kept ? stage.held : stage.peak) - whole, whole);
     };

@@ -62,7 +62,7 @@ private:
     struct Piece {
         Measure measure;
         std::array<Stage, parts> stages;
-        double everywhere = 0.0; ///< bytes of the block that each rank holds whole
+        double everywhere = 0.0; ///< bytes of the waves' stiffness, which each rank holds whole
         double far_step = 0.0, near_step = 0.0, observing = 0.0, iteration = 0.0;
         long long iterations = 0;
         bool ended = true;

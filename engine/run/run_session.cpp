@@ -128,7 +128,7 @@ const char* RunSession::name(Stopped stopped) {
 
 /// On the way, of all ranks together.
 Interruption RunSession::ask() {
-    const Interruption now = interruptions_.agreed();
+    const Interruption now = interruptions_.now();
     if (now == Interruption::wall_limit) stopped_ = Stopped::wall_limit;
     if (now == Interruption::signal) stopped_ = Stopped::signal;
     return now;

@@ -99,8 +99,6 @@ public:
     /// meanwhile is written where the relaxation can go on from one. True: the relaxation must end,
     /// and the run after stop_now().
     bool stop_relaxation(const WriteState& write = {});
-    /// Whether the next of these will say so, as far as this rank knows: where it works alone.
-    bool wants_stop() const { return interruptions_.here() > Interruption::checkpoint; }
     /// With a checkpoint.
     void stop_now(const WriteState& write, const std::string& where);
 

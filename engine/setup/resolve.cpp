@@ -263,6 +263,7 @@ void fill_motion(Case& c, io::Problems& refused) {
 void look_at_ranks(Case& c, io::Problems& refused) {
     try {
         const ProcessGrid grid = c.grid(0);
+        if (c.on(Effect::relaxation)) ProcessGrid::slabs(c.ranks, 0, c.scene.surface.sites);
         if (grid.imbalance() > 0.1)
             c.notes.push_back(
                 fmt::format("{} ranks share {} sites unevenly: the largest tile has {:.0f} % "

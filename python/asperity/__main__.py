@@ -84,6 +84,16 @@ def _is_override(word: str) -> bool:
     return bool(equals) and "." in before and "/" not in before and not os.path.exists(word)
 
 
+def _spelt_out(words: list[str]) -> list[str]:
+    """`--set a.b=1 c.d=2` as `--set a.b=1 --set c.d=2`, so that of one key the last one counts."""
+    out: list[str] = []
+    for word in words:
+        if _is_override(word) and len(out) > 1 and out[-2] == "--set":
+            out.append("--set")
+        out.append(word)
+    return out
+
+
 def _scenes(given: argparse.Namespace) -> list[str]:
     given.sets += [word for word in given.words if _is_override(word)]
     found = [word for word in given.words if not _is_override(word)]
@@ -134,7 +144,7 @@ def main(words: list[str]) -> int:
     try:
         program.refuse_ranks()
         # Options and scenes in any order.
-        return _carry_out(commands[words[0]].parse_intermixed_args(words[1:], argparse.Namespace(command=words[0])))
+        return _carry_out(commands[words[0]].parse_intermixed_args(_spelt_out(words[1:]), argparse.Namespace(command=words[0])))
     except Error as error:
         print(error, file=sys.stderr)
         if error.code == SceneError.code:

@@ -83,6 +83,9 @@ expect 2 check plain.toml --set
 expect 0 check --set surface.sites=64 block.thickness=32 plain.toml
 says "64 x 64 sites"
 says "32 layers"
+# of one key the last one counts
+expect 0 check plain.toml --set surface.sites=64 block.thickness=32 --set block.thickness=48
+says "48 layers"
 # plan runs nothing and writes nothing
 expect 0 plan --set surface.sites=32 block.thickness=32 surface.rms=1 drive.temperature=10 plain.toml --ranks 4
 says "4 ranks"

@@ -118,3 +118,27 @@ TEST(Relaxation, WhatIsNoNumberIsNoEquilibrium) {
     state_of(c.block)[2].field->view()(3, 3, 0) = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(c.relax_with(1e-2).converged);
 }
+
+TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
+    // Iterations may be swept in single precision; what is told of the state is not.
+    BlockOptions options = test::paper_block(32, 32, 0);
+    const Surface surface = rough_surface(32, 1.0);
+    SpectralBlock block(options, Communicator());
+    InterfaceOptions both = test::paper_interface();
+    both.single_too = true;
+    const Interface interface(surface, block.tile(), options.spacing, both);
+    const double height =
+        height_of_strongest_attraction(block, interface, surface.statistics.lowest);
+    RelaxOptions o;
+    o.tolerance = 1e-6;
+    Phases phases;
+    const RelaxedState state = relax(block, interface, height, {}, o, phases);
+    ASSERT_TRUE(state.converged);
+    const auto energy = [&](bool in_single) {
+        return interface
+            .sweep(block.lowest_layer(), block.interface_force(), height, true, in_single)
+            .energy.value();
+    };
+    EXPECT_EQ(state.interface_energy, energy(false));
+    EXPECT_NE(state.interface_energy, energy(true)) << "the two must differ, or nothing is tested";
+}

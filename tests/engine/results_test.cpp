@@ -10,6 +10,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/quantities.hpp"
 #include "io/units.hpp"
+#include "support/cases.hpp"
 #include "support/run_scene.hpp"
 #include "theory/half_space.hpp"
 #include "theory/periodic_sphere.hpp"
@@ -244,6 +245,19 @@ TEST(Results, OfACurvedSceneHoldTheTheoryOfTheSmoothSphere) {
     const double strongest = -*std::min_element(force.begin(), force.end());
     EXPECT_NEAR(strongest, 1.5 * std::numbers::pi * 300.0 * run.number("delta_gamma", "eV/Å^2"),
                 1e-3 * strongest);
+}
+
+TEST(Results, AStateIsTheOneBelowTheStrongestAttraction) {
+    const Case c = read_case_text("[surface]\nsites = 32\nrms = 1.5\n[drive]\ntolerance = 1e-6\n"
+                                  "path = [\"zero-load\"]\n",
+                                  "s.toml");
+    const io::Scratch scratch;
+    const Json json = test::run_scene(c, scratch / "run");
+    const test::Relaxed alone =
+        test::relax_spectral(c.simulation.block, c.simulation.interface, surface_of(c), 1e-6);
+    EXPECT_GT(alone.binding_energy, 1.0);
+    EXPECT_NEAR(json.at("binding_energy").get<double>(), alone.binding_energy,
+                1e-9 * alone.binding_energy);
 }
 
 TEST(Results, TheFirstOfSeveralStatesIsWhereTheSearchStarted) {

@@ -260,6 +260,11 @@ TEST(TheoryOfAScene, OfASphereIsJkrWithTheEffectiveEnergy) {
                 0.1);
     s.surface.rms = 9;
     EXPECT_EQ(solve_theory(theory_case(resolve(s))).jkr_pull_off_force.value(), 0.0);
+    s.surface.rms = 1.0;
+    const TheoryCase what = theory_case(resolve(s));
+    io::Result result;
+    record_theory(what, solve_theory(what), result);
+    EXPECT_EQ(result.number("theory.jkr_pull_off_force"), solve_theory(what).jkr_pull_off_force);
 }
 
 TEST(TheoryOfAScene, NeverMakesARunFail) {

@@ -252,5 +252,5 @@ def test_a_run_takes_the_memory_that_its_plan_says(results, effects):
 
     # The run of few sites has the libraries; some of their buffers grow with the sites.
     taken = peak(384) - peak(24)
-    planned = 1e6 * float(re.search(r"^memory +([0-9.]+) MB", command("plan", "-", *words(384)), re.MULTILINE)[1])
+    planned = 1e6 * float(re.search(r"^ *altogether +([0-9.]+) MB", command("plan", "-", *words(384)), re.MULTILINE)[1])
     assert 0.7 * planned < taken < 1.05 * planned
