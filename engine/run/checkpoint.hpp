@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Checkpoints: the whole state of a run in one HDF5 file, from which it goes on, on any number of
-// ranks: a simulation or a quasi-static path as if it had never stopped, bit for bit (the spectral
-// block on the same number of ranks); a relaxation from the same state.
+// ranks: a simulation or a quasi-static path as if it had never stopped, bit for bit; a relaxation
+// from the same state.
 //
 // A file holds the state's arrays (of a simulation: each level's displacements and half-step
 // velocities) as whole planes, so it does not know how the box was cut, and numbers by name. It

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A quasi-static path that is stopped, between points or within a relaxation, and resumed from a
-// checkpoint on the same number of ranks is the same bits as one that never stopped.
+// checkpoint is the same bits as one that never stopped, and as that of one rank.
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "support/cases.hpp"
@@ -143,6 +143,7 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
           Kind{.name = "frictionless", .frictionless = true},
           Kind{.name = "wall", .frictionless = true, .wall = ExponentialWall(0.7, 0.4, 1000.0)}}) {
         const std::vector<std::uint64_t> whole = cycle(world(), kind, 45);
+        EXPECT_EQ(whole, cycle(Communicator(), kind, 45)) << kind.name << " on one rank";
         // Each stretch by objects of its own.
         std::size_t point = 0;
         int stops = 0, within = 0;
