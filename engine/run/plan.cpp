@@ -176,6 +176,11 @@ public:
         if (on(Effect::lateral)) cost(Effect::lateral).bytes = 2.0 * all.bytes / 3.0;
     }
 
+    void seams() {
+        if (on(Effect::seams))
+            cost(Effect::seams) = {need_.absorption, share_ * steps_ * sites_ * rates_.absorption};
+    }
+
     void finite_strain() {
         if (!on(Effect::finite_strain)) return;
         EffectCost& finite = cost(Effect::finite_strain);
@@ -271,6 +276,7 @@ Plan make_plan(const Scene& scene, int ranks, int threads, const std::optional<R
     estimate.interface();
     estimate.motion();
     estimate.relaxation();
+    estimate.seams();
     estimate.finite_strain();
     estimate.output();
     estimate.add_up();

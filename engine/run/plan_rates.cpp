@@ -132,6 +132,8 @@ void measure_steps(const Piece& piece, Rates& rates) {
     rates.noise = best[1] / nodes;
     rates.hanging = best[2] / sites;
     rates.rest = (best[3] + best[4] + best[5]) / sites;
+    if (piece.options.block.absorption_span > 0.0)
+        rates.absorption = spent(Phase::absorb) / static_cast<double>(simulation.steps()) / sites;
     const double observed = shortest(0.04, [&] { simulation.step(true); });
     rates.observation = std::max(0.0, observed - plain) / nodes;
 }

@@ -21,6 +21,7 @@ struct Rates {
     double far = 0.0;         ///< a site out of reach
     double near = 0.0;        ///< a site in contact
     double tail = 0.0;        ///< what the tail adds to either
+    double absorption = 0.0;  ///< of seams, of a site and step
     double hanging = 0.0;     ///< interpolation, of a site and step
     double rest = 0.0;        ///< halos, sums, mean height: of a site and step
     double observation = 0.0; ///< of a node and observed step

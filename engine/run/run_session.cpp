@@ -240,7 +240,7 @@ void RunSession::open_recorder() {
     };
     recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
                       scene.without_time() ? DriveMode::quasistatic : DriveMode::dynamic,
-                      resumed_at_, add);
+                      setup.effects.on(Effect::seams), resumed_at_, add);
 }
 
 void RunSession::watch_fields(long long step, Leg leg, double attraction,

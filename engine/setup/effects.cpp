@@ -100,6 +100,12 @@ constexpr std::array<Rule, effect_count> rules = {{
                                                  : Switch{false, "block.strain = \"linear\""};
      }},
     {Effect::coarse_levels, "coarse levels", coarse_levels},
+    {Effect::seams, "absorbing seams",
+     [](const Scene& s) {
+         if (const Switch levels = coarse_levels(s); !levels.on) return levels;
+         const bool absorb = s.block.seams == Seams::absorb;
+         return Switch{absorb, fmt::format("block.seams = \"{}\"", absorb ? "absorb" : "reflect")};
+     }},
     {Effect::skipping, "skipping of far sites",
      [](const Scene& s) {
          if (s.interface.kind == InterfaceKind::wall)

@@ -88,7 +88,7 @@ void refuse(const Scene& scene, const char* what, double needed, const io::Avail
 
 double MemoryNeed::most() const {
     return std::max(making, surface + interface + block + motion + snapshot +
-                                std::max(relaxation, maps) + finite);
+                                std::max(relaxation, maps) + finite + absorption);
 }
 
 MemoryNeed& MemoryNeed::operator+=(const MemoryNeed& other) {
@@ -101,6 +101,7 @@ MemoryNeed& MemoryNeed::operator+=(const MemoryNeed& other) {
     relaxation += other.relaxation;
     maps += other.maps;
     finite += other.finite;
+    absorption += other.absorption;
     return *this;
 }
 
@@ -159,6 +160,8 @@ MemoryNeed memory_of_rank(const Scene& scene, const Setup& setup, int ranks, int
         need.snapshot = static_cast<double>(memory.displacements) + need.motion;
     if (on(Effect::relaxation) && rank == 0)
         need.relaxation = bytes_of_bringing_to_rest(scene, setup);
+    need.absorption =
+        static_cast<double>(Block::absorption_bytes_for(setup.simulation.block, grid, threads));
     if (on(Effect::finite_strain))
         need.finite =
             static_cast<double>(Block::finite_bytes_for(setup.simulation.block, grid, threads));

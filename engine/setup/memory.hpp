@@ -20,6 +20,7 @@ struct MemoryNeed {
     double relaxation = 0.0; ///< what relaxing takes beside the block; in time the root alone
     double maps = 0.0;       ///< while maps are written; nothing is relaxed meanwhile
     double finite = 0.0;     ///< finite strain's own arrays
+    double absorption = 0.0; ///< absorbing seams' own planes and rows
 
     /// The most held at once.
     double most() const;

@@ -375,18 +375,26 @@ Setup make_setup(const Scene& scene, int ranks) {
     setup.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
 
     setup.longest_timestep = 2.0 / block.highest_frequency(setup.site_stiffness);
+    const double period = std::numbers::pi * setup.longest_timestep; // of the fastest vibration
+    if (on(Effect::seams)) {
+        // Twice in a period of the fastest vibration over pi, or as often as there are steps. That
+        // of a single step is stable where (omega dt/2)² + share/2 < 1, and a share is 1 at most.
+        const double rare = std::floor(0.5 * setup.longest_timestep / scene.drive.timestep);
+        block.absorption_span = std::max(1.0, rare) * scene.drive.timestep;
+        setup.longest_timestep *= std::numbers::sqrt2 / 2.0;
+    }
     if (on(Effect::inertia) && scene.drive.timestep >= setup.longest_timestep)
         problems.add(
             "drive.timestep",
             fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",
                         scene.drive.timestep, setup.longest_timestep),
-            fmt::format(
-                "the block's fastest vibration has a period of {:.4g} fs, and velocity Verlet "
-                "diverges for steps longer than 1/pi of it",
-                std::numbers::pi * setup.longest_timestep),
+            fmt::format("the block's fastest vibration has a period of {:.4g} fs, and velocity "
+                        "Verlet diverges for steps longer than 1/{} of it{}",
+                        period, on(Effect::seams) ? "(√2 pi)" : "pi",
+                        on(Effect::seams) ? " where seams absorb" : ""),
             fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a "
                         "fraction of a percent",
-                        0.1 * std::numbers::pi * setup.longest_timestep));
+                        0.1 * period));
     try {
         const ProcessGrid grid = make_grid(scene, setup, ranks, 0);
         if (grid.imbalance() > 0.1)
