@@ -25,29 +25,33 @@
 
 namespace asperity {
 
-/// One component of the velocity on a level that absorbs.
+/// A level that absorbs.
 struct AbsorbingCells {
-    int first = 0, cells = 0;        ///< cells [first, cells) absorb
-    const double* share = nullptr;   ///< of each cell
-    VolumeView<const double> v;      ///< planes 0 .. cells - 1, halo current from plane `first` on
-    PlaneView<const double> hanging; ///< of plane `cells`, halo current
-    PlaneView<double> impulse;       ///< on plane `cells`, over the mass of a node inside; written
+    int first = 0, cells = 0;          ///< cells [first, cells) absorb
+    const double* share = nullptr;     ///< of each cell
+    double mass = 0.0, lowest = 0.0;   ///< of a node inside, and of plane 0, eV fs^2/Å^2
+    VectorVolume<double> v;            ///< planes 0 .. cells - 1, halo current from `first` on
+    VectorPlane<const double> hanging; ///< velocity of plane `cells`, halo current
+    VectorPlane<double> impulse;       ///< on plane `cells`, over `mass`; written
 
-    /// Elements of a row of working memory, and what changes() needs of it.
-    std::ptrdiff_t row() const { return (v.nx + 71) / 8 * 8; }
     int planes() const { return cells - first; }
-    std::ptrdiff_t smooth_size() const { return (planes() + 2) * row(); }
+    /// Elements of a row of working memory; what changes() needs of it, and what it leaves.
+    std::ptrdiff_t row() const { return (v.x.nx + 71) / 8 * 8; }
+    std::ptrdiff_t smooth_size() const { return (planes() + 1) * row(); }
+    std::ptrdiff_t changes_size() const { return 3 * planes() * row(); }
 };
 
 /// The functions compiled for one processor level.
 struct AbsorptionKernels {
-    /// Changes of row y of the planes first .. cells - 1, plane by plane, `row()` elements each,
-    /// for nodes of the mass inside the level; and the row of the impulse, one node beyond the
-    /// tile. In the rows -1 and ny beside the tile: the impulse alone. smooth: working memory.
+    /// Changes of row y of the planes first .. cells - 1; and the row of the impulse, one node
+    /// beyond the tile. In the rows -1 and ny beside the tile: the impulse alone. smooth: working
+    /// memory.
     void (*changes)(const AbsorbingCells& cells, int y, double* smooth, double* changes);
-    /// v <- v + factor change, for nx nodes of this mass, and the kinetic energy that they lose.
-    void (*add)(double* v, const double* change, double factor, double mass, int nx,
-                ExactSum& taken);
+    /// Makes these changes of row y. taken: the kinetic energy that is lost, eV.
+    void (*apply)(const AbsorbingCells& cells, int y, const double* changes, ExactSum& taken);
+    /// Nodes of this mass, row y of a plane, take impulses, given over another mass.
+    void (*take)(const VectorPlane<double>& v, const VectorPlane<const double>& impulse,
+                 double impulse_mass, double mass, int y, ExactSum& taken);
 };
 
 const AbsorptionKernels& absorption_kernels();

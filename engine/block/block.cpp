@@ -24,14 +24,15 @@ double BlockOptions::absorbed_share(int level, int cells, int z) const {
     if (z < from) return 0.0;
     // Rates over c_P / s, found by the search of docs/seams.md.
     const double height = (z - from + 0.5) / (cells - from);
-    const double rate = level > 0 ? 3.0 * std::sqrt(height) : 2.2 * height;
-    const double crossing = spacing * (1 << level) / sound_speed();
-    return std::min(1.0, rate * absorption_span / crossing);
+    const double rate = level > 0 ? 3.0 * std::sqrt(height) : 2.3 * height;
+    // Time between two absorptions of a level, in that sound takes to cross a cell of it.
+    const double span = absorption_span * sound_speed() / spacing;
+    return std::min(1.0, rate * span);
 }
 
 int BlockOptions::absorbs_from(int level, int cells) const {
     // Cells of level 0 cost most, and adhesion happens at the lowest.
-    return level > 0 ? 0 : std::max(0, cells - 3);
+    return level > 0 ? 0 : std::max(0, cells - 2);
 }
 
 double BlockOptions::highest_frequency(double site_stiffness) const {

@@ -44,7 +44,7 @@ struct BlockOptions {
     int layers_per_level = 4;
     bool multiscale = true;
     bool finite_strain = false;
-    /// Time between two absorptions at the seams between levels, fs; 0: seams reflect.
+    /// Time between two absorptions at the seam above level 0, fs; 0: seams reflect.
     double absorption_span = 0.0;
 
     double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
@@ -160,8 +160,9 @@ public:
     void interpolate();
     void advance(const StepParameters& step, KickSums& sums);
     /// Only where seams absorb; before interpolate(), for it takes the places of the forces between
-    /// levels. taken: this rank's share of the kinetic energy that is lost, eV.
-    void absorb(ExactSum& taken);
+    /// levels. number: of the absorption since the start; level l takes part in every 2^l-th.
+    /// taken: this rank's share of the kinetic energy that is lost is added, eV.
+    void absorb(long long number, ExactSum& taken);
     void exchange();
     /// In place of advance: forces on all moving planes (incoming ones included) into out[level].
     void forces(std::vector<VectorField<double>>& out);
@@ -212,7 +213,7 @@ private:
     LevelSeam seam(std::size_t fine) const;
     void follow(std::size_t fine_level, const VectorPlane<const double>& coarse,
                 const VectorPlane<double>& fine) const;
-    void exchange_absorbing();
+    void exchange_absorbing(std::size_t absorbing);
     void absorb_in_cells(std::size_t level, ExactSum& taken);
     void absorb_from_below(std::size_t level, ExactSum& taken);
     void restrict_forces(std::size_t fine);

@@ -20,31 +20,25 @@ namespace {
 constexpr int waiting_rows = 3;
 constexpr std::size_t alignment = 64;
 
-AbsorbingCells cells_of(const Block::Level& level, VolumeView<const double> v,
-                        PlaneView<const double> hanging, PlaneView<double> impulse) {
-    return {level.absorbs_from, level.shape.cells, level.share.data(), v, hanging, impulse};
-}
-
 std::size_t working_memory(const AbsorbingCells& c) {
-    return static_cast<std::size_t>(c.smooth_size() + waiting_rows * c.planes() * c.row()) +
+    return static_cast<std::size_t>(c.smooth_size() + waiting_rows * c.changes_size()) +
            alignment / sizeof(double);
 }
 
 } // namespace
 
-/// Of the velocities that an absorption reads beyond its own rows.
-void Block::exchange_absorbing() {
+/// Of the velocities that an absorption of these levels reads beyond its own rows.
+void Block::exchange_absorbing(std::size_t absorbing) {
     std::vector<HaloField> fields;
     fields.reserve(3 * levels_.size());
-    bool below = false; // the finer level hangs on this one, and absorbs
-    for (Level& level : levels_) {
-        const int from = below ? 0 : level.absorbs_from;
-        const int to = level.absorbs() ? level.shape.cells : below ? 1 : from;
-        below = level.absorbs();
+    for (std::size_t l = 0; l <= absorbing; ++l) {
+        Level& level = levels_[l];
+        const int from = l > 0 ? 0 : level.absorbs_from; // the finer level hangs on plane 0
+        const int to = l < absorbing ? level.shape.cells : 1;
         const auto v = level.v.view();
         for (VolumeView<double> component : {v.x, v.y, v.z}) {
             component.origin += from * component.plane;
-            if (to > from) fields.push_back({component, to - from, level.tiled});
+            fields.push_back({component, to - from, level.tiled});
         }
     }
     halo_.exchange(fields);
@@ -52,18 +46,20 @@ void Block::exchange_absorbing() {
 
 /// Every change is made of the velocities from before. What the changes of a level do to the plane
 /// that it hangs on goes there as an impulse, the way forces do.
-void Block::absorb(ExactSum& taken) {
-    exchange_absorbing();
-#pragma omp parallel
-    for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
-        if (levels_[l].absorbs())
-            follow(l, std::as_const(levels_[l + 1].v).plane(0), levels_[l].hanging_v.plane(0));
-    for (std::size_t l = 0; l < levels_.size(); ++l) {
-        if (levels_[l].absorbs()) {
+void Block::absorb(long long number, ExactSum& taken) {
+    std::size_t absorbing = 0; // levels
+    while (absorbing + 1 < levels_.size() && number % (1ll << absorbing) == 0)
+        ++absorbing;
+    exchange_absorbing(absorbing);
+#pragma omp parallel if (levels_.front().nodes() > worth_threads)
+    for (std::size_t l = 0; l < absorbing; ++l)
+        follow(l, std::as_const(levels_[l + 1].v).plane(0), levels_[l].hanging_v.plane(0));
+    for (std::size_t l = 0; l <= absorbing; ++l) {
+        if (l < absorbing) {
             absorb_in_cells(l, taken);
             share_restricted_forces(l);
         }
-        if (l > 0 && levels_[l - 1].absorbs()) absorb_from_below(l, taken);
+        if (l > 0) absorb_from_below(l, taken);
     }
 }
 
@@ -75,48 +71,39 @@ void Block::absorb_in_cells(std::size_t l, ExactSum& taken) {
     const int ny = level.tile.ny;
     const auto threads = static_cast<std::size_t>(omp_get_max_threads());
     if (absorption_rows_.size() < threads) absorption_rows_.resize(threads);
-    const VectorVolume<double> v = level.v.view();
-    const VectorPlane<const double> hanging = std::as_const(level.hanging_v).plane(0);
-    const VectorPlane<double> impulse = level.upper_force.plane(0);
+    const AbsorbingCells cells{level.absorbs_from,
+                               level.shape.cells,
+                               level.share.data(),
+                               level.node_mass,
+                               level.mass(0),
+                               level.v.view(),
+                               std::as_const(level.hanging_v).plane(0),
+                               level.upper_force.plane(0)};
     ExactSum sum;
 #pragma omp parallel if (level.nodes() > worth_threads)
     {
         const auto [first, last] = rows_of_thread(ny);
         std::vector<double>& memory =
             absorption_rows_[static_cast<std::size_t>(omp_get_thread_num())];
-        ExactSum mine;
-        const auto component = [&](const VolumeView<double>& speed, const auto& hangs,
-                                   const auto& pushes) {
-            const AbsorbingCells cells = cells_of(level, speed, hangs, pushes);
-            if (memory.size() < working_memory(cells)) memory.resize(working_memory(cells));
-            void* begin = memory.data();
-            std::size_t size = memory.size() * sizeof(double);
-            auto* const smooth =
-                static_cast<double*>(std::align(alignment, size - alignment, begin, size));
-            const auto changes = [&, outermost = first](int y) {
-                const int slot = y == outermost ? 0 : 1 + (y & 1);
-                return smooth + cells.smooth_size() + slot * cells.planes() * cells.row();
-            };
-            const auto change = [&](int y) {
-                for (int n = 0; n < cells.planes(); ++n) {
-                    const int z = cells.first + n;
-                    kernels.add(speed[z].line(y), changes(y) + n * cells.row(),
-                                level.node_mass / level.mass(z), level.mass(z), speed.nx, mine);
-                }
-            };
-            if (first == 0 && last > 0) kernels.changes(cells, -1, smooth, nullptr);
-            for (int y = first; y < last; ++y) {
-                kernels.changes(cells, y, smooth, changes(y));
-                if (y - 1 > first) change(y - 1);
-            }
-            if (last == ny && first < last) kernels.changes(cells, ny, smooth, nullptr);
-#pragma omp barrier
-            if (first < last) change(first);
-            if (first + 1 < last) change(last - 1);
+        if (memory.size() < working_memory(cells)) memory.resize(working_memory(cells));
+        void* begin = memory.data();
+        std::size_t size = memory.size() * sizeof(double);
+        auto* const smooth =
+            static_cast<double*>(std::align(alignment, size - alignment, begin, size));
+        const auto changes = [&, outermost = first](int y) {
+            const int slot = y == outermost ? 0 : 1 + (y & 1);
+            return smooth + cells.smooth_size() + slot * cells.changes_size();
         };
-        component(v.x, hanging.x, impulse.x);
-        component(v.y, hanging.y, impulse.y);
-        component(v.z, hanging.z, impulse.z);
+        ExactSum mine;
+        if (first == 0 && last > 0) kernels.changes(cells, -1, smooth, changes(0));
+        for (int y = first; y < last; ++y) {
+            kernels.changes(cells, y, smooth, changes(y));
+            if (y - 1 > first) kernels.apply(cells, y - 1, changes(y - 1), mine);
+        }
+        if (last == ny && first < last) kernels.changes(cells, ny, smooth, nullptr);
+#pragma omp barrier
+        if (first < last) kernels.apply(cells, first, changes(first), mine);
+        if (first + 1 < last) kernels.apply(cells, last - 1, changes(last - 1), mine);
         restrict_forces(l);
 #pragma omp critical(asperity_block_sums)
         sum.merge(mine);
@@ -126,17 +113,11 @@ void Block::absorb_in_cells(std::size_t l, ExactSum& taken) {
 
 /// The lowest plane takes the impulse of the hanging plane below.
 void Block::absorb_from_below(std::size_t l, ExactSum& taken) {
-    const AbsorptionKernels& kernels = absorption_kernels();
     Level& level = levels_[l];
-    const VectorPlane<double> v = level.v.plane(0);
-    const VectorPlane<const double> impulse = std::as_const(level.incoming).plane(0);
-    const double mass = level.mass(0), factor = levels_[l - 1].node_mass / mass;
     ExactSum sum;
-    for (int y = 0; y < level.tile.ny; ++y) {
-        kernels.add(v.x.line(y), impulse.x.line(y), factor, mass, v.x.nx, sum);
-        kernels.add(v.y.line(y), impulse.y.line(y), factor, mass, v.y.nx, sum);
-        kernels.add(v.z.line(y), impulse.z.line(y), factor, mass, v.z.nx, sum);
-    }
+    for (int y = 0; y < level.tile.ny; ++y)
+        absorption_kernels().take(level.v.plane(0), std::as_const(level.incoming).plane(0),
+                                  levels_[l - 1].node_mass, level.mass(0), y, sum);
     if (counts(level)) taken.merge(sum);
 }
 
@@ -152,7 +133,7 @@ std::size_t Block::absorption_bytes_for(const BlockOptions& options, const Proce
         AbsorbingCells cells;
         cells.first = options.absorbs_from(shape.level, shape.cells);
         cells.cells = shape.cells;
-        cells.v.nx = tile.nx;
+        cells.v.x.nx = tile.nx;
         rows = std::max(rows, working_memory(cells));
     }
     return planes + static_cast<std::size_t>(threads) * rows * sizeof(double);

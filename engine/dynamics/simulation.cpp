@@ -105,7 +105,7 @@ void Simulation::download() const {
     device_is_newer_ = false;
 }
 
-void Simulation::absorb_at_seams() { block_.absorb(radiated_); }
+void Simulation::absorb_at_seams() { block_.absorb(step_ / absorbs_every_, radiated_); }
 
 void Simulation::sweep_interface(bool observe) {
     interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),

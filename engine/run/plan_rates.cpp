@@ -120,20 +120,25 @@ void measure_steps(const Piece& piece, Rates& rates) {
                                Phase::exchange, Phase::sums,       Phase::observe};
     std::array<double, phases.size()> best;
     best.fill(1e300);
+    double absorption = 1e300; // of those steps that have one
     const double plain = shortest(0.06, [&] {
+        const double absorbed = spent(Phase::absorb);
         std::array<double, phases.size()> before;
         for (std::size_t i = 0; i < phases.size(); ++i)
             before[i] = spent(phases[i]);
         simulation.step(false);
         for (std::size_t i = 0; i < phases.size(); ++i)
             best[i] = std::min(best[i], spent(phases[i]) - before[i]);
+        if (spent(Phase::absorb) > absorbed)
+            absorption = std::min(absorption, spent(Phase::absorb) - absorbed);
     });
     rates.node = best[0] / nodes;
     rates.noise = best[1] / nodes;
     rates.hanging = best[2] / sites;
     rates.rest = (best[3] + best[4] + best[5]) / sites;
     if (piece.options.block.absorption_span > 0.0)
-        rates.absorption = spent(Phase::absorb) / static_cast<double>(simulation.steps()) / sites;
+        rates.absorption =
+            absorption * piece.options.dt / piece.options.block.absorption_span / sites;
     const double observed = shortest(0.04, [&] { simulation.step(true); });
     rates.observation = std::max(0.0, observed - plain) / nodes;
 }

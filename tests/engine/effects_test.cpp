@@ -89,9 +89,10 @@ std::size_t relaxing_bytes(const std::vector<std::string>& overrides) {
 TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
     const Effects effects(scene_with({"drive.damping=0", "block.model=lattice", "block.thickness=4",
                                       "output.fields=[]", "output.checkpoint=0"}));
-    for (Effect off : {Effect::damping, Effect::temperature, Effect::finite_strain,
-                       Effect::coarse_levels, Effect::tail, Effect::curvature, Effect::maps,
-                       Effect::trajectory, Effect::checkpoints, Effect::states, Effect::device})
+    for (Effect off :
+         {Effect::damping, Effect::temperature, Effect::finite_strain, Effect::coarse_levels,
+          Effect::tail, Effect::curvature, Effect::maps, Effect::trajectory, Effect::checkpoints,
+          Effect::states, Effect::device, Effect::seams})
         EXPECT_FALSE(effects.on(off)) << name(off);
     for (Effect on :
          {Effect::inertia, Effect::lateral, Effect::skipping, Effect::observation, Effect::theory})
@@ -152,6 +153,16 @@ TEST(Effects, EachHasAKeyThatSwitchesIt) {
         EXPECT_TRUE(on.on(effect)) << key;
         EXPECT_FALSE(on.why(effect).empty()) << key;
     }
+    // Seams are those of levels.
+    const std::vector<std::string> levels = {"block.model=multiscale", "block.thickness=32"};
+    for (const char* seams : {"reflect", "absorb"})
+        for (const bool multiscale : {false, true}) {
+            std::vector<std::string> keys = multiscale ? levels : plain;
+            keys.push_back(std::string("block.seams=") + seams);
+            EXPECT_EQ(Effects(scene_with(keys)).on(Effect::seams),
+                      multiscale && std::string(seams) == "absorb")
+                << seams;
+        }
     const Effects late(scene_with({"output.fields=[\"after-zero-load:3\"]"}));
     EXPECT_TRUE(late.on(Effect::maps));
     const Effects timeless(scene_with({"drive.path=zero-load", "drive.temperature=100"}));
@@ -171,6 +182,9 @@ TEST(Effects, OffInAStepIsNoCallAndNoByte) {
         follow(scene_with({"drive.damping=0", "block.model=lattice", "block.thickness=4"}), 20);
     EXPECT_EQ(s.phases()[Phase::thermostat].calls, 0);
     EXPECT_EQ(s.phases()[Phase::interpolate].calls, 0);
+    EXPECT_EQ(s.phases()[Phase::absorb].calls, 0);
+    EXPECT_EQ(s.block().absorption_bytes(), 0u);
+    EXPECT_EQ(s.ledger().radiated, 0.0);
     EXPECT_EQ(s.block().coarse_bytes(), 0u);
     EXPECT_EQ(s.block().finite_bytes(), 0u);
     EXPECT_EQ(s.interface().tail_bytes(), 0u);
@@ -193,6 +207,45 @@ TEST(Effects, OnInAStepTakesPlace) {
     EXPECT_GT(s.ledger().damped, 0.0);
     EXPECT_NE(s.ledger().drag_work, 0.0);
     EXPECT_NE(s.ledger().heat, 0.0);
+}
+
+TEST(Effects, SeamsAbsorbEveryFewSteps) {
+    // Every 0.65 of the limit of a step, 79.9 fs here.
+    const auto calls = [](const char* step) {
+        return follow(scene_with({"block.seams=absorb", "block.thickness=32", step}), 24)
+            .phases()[Phase::absorb]
+            .calls;
+    };
+    EXPECT_EQ(calls("drive.timestep=10"), 5);
+    EXPECT_EQ(calls("drive.timestep=13"), 8);
+    EXPECT_EQ(calls("drive.timestep=25"), 24);
+    const Simulation s = follow(scene_with({"block.seams=absorb", "block.thickness=32"}), 100);
+    EXPECT_GT(s.ledger().radiated, 0.0);
+    const Setup setup = make_setup(scene_with({"block.seams=absorb", "block.thickness=32"}), 1);
+    EXPECT_EQ(static_cast<double>(s.block().absorption_bytes()),
+              static_cast<double>(Block::absorption_bytes_for(
+                  setup.simulation.block, test::serial_grid(setup.simulation.block), 1)));
+}
+
+TEST(Effects, WhatSeamsCannotAbsorbWithIsRefused) {
+    const auto problem = [](const std::vector<std::string>& keys) {
+        std::vector<std::string> all = {"block.seams=absorb"};
+        all.insert(all.end(), keys.begin(), keys.end());
+        try {
+            make_setup(scene_with(all), 1);
+        } catch (const io::SceneError& error) {
+            return error.problems().front().where + error.problems().front().what +
+                   error.problems().front().why;
+        }
+        return std::string("taken");
+    };
+    EXPECT_NE(problem({"drive.temperature=100"}).find("block.seams"), std::string::npos);
+    EXPECT_NE(problem({"numerics.device=emulated"}).find("block.seams"), std::string::npos);
+    // A step that velocity Verlet would still take.
+    EXPECT_NE(problem({"drive.timestep=60"}).find("where seams absorb"), std::string::npos);
+    EXPECT_EQ(problem({"drive.timestep=50"}), "taken");
+    EXPECT_FALSE(
+        Effects(scene_with({"block.seams=absorb", "numerics.device=auto"})).on(Effect::device));
 }
 
 TEST(Effects, DampingActsOnTheLayersItIsGivenAlone) {

@@ -129,7 +129,7 @@ double echo(const BlockOptions& options, const Packet& packet, double depth, dou
     KickSums sums;
     ExactSum taken;
     for (long long n = 0; static_cast<double>(n) * dt < time; ++n) {
-        if (every > 0 && n % every == 0) block.absorb(taken);
+        if (every > 0 && n % every == 0) block.absorb(n / every, taken);
         block.interpolate();
         const auto joint = field.u.plane(below.shape.cells);
         const auto lowest = std::as_const(above.u).plane(0);
