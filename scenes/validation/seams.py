@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """What the seams of the multiscale block return of sound (docs/seams.md).
 
-    scenes/validation/seams.py returned [--layers 2 4 8] [--long] [--picture FILE]
+    scenes/validation/seams.py returned [--layers 2 4 8] [--angles 0 45] [--long] [--picture FILE]
     scenes/validation/seams.py echoes [--program build/release/perf/seam_echo]
     scenes/validation/seams.py snap | cycles [--program build/release/engine/asperity] [--out results/seams]
 
@@ -73,11 +73,15 @@ def leaving(kx: float, w: float, mass: float, up: bool) -> np.ndarray:
     return v[:3, take] @ np.diag(1 / t[take] if up else t[take]) @ np.linalg.inv(v[:3, take])
 
 
+SPAN = 0.626
+"""Time between two absorptions, in a / c_P: 50 fs, that of steps of 10, 25 and 50 fs."""
+
+
 def rate(level: int, cells: int, z: int) -> float:
-    """BlockOptions::absorbed_share over time, in c_P / s of the level."""
-    first = 0 if level else max(0, cells - 3)
+    """BlockOptions::absorbed_share over the time between two absorptions, in c_P / s of the level."""
+    first = 0 if level else max(0, cells - 2)
     height = (z - first + 0.5) / (cells - first)
-    return 0.0 if z < first else 3.0 * np.sqrt(height) if level else 2.2 * height
+    return 0.0 if z < first else min(1.0, SPAN * (3.0 * np.sqrt(height) if level else 2.3 * height)) / SPAN
 
 
 def returned(layers: int, levels: int, lam: float, angle: float, absorbs: bool) -> dict:
@@ -165,18 +169,18 @@ def returned(layers: int, levels: int, lam: float, angle: float, absorbs: bool) 
 WAVES = ("P", "SV", "SH")
 
 
-def table(layers: list, long: bool, picture: str) -> None:
+def table(layers: list, angles: list, long: bool, picture: str) -> None:
     lengths = [4, 5, 6, 7, 8, 10, 12, 16, 24, 32, 64, 128] if long else [4, 6, 8, 12, 16, 32]
     curves = {}
     for n in layers:
         for absorbs in (False, True):
             print(f"\n{n} layers a level, seams {'absorb' if absorbs else 'reflect'}: share of the energy returned")
             print("angle wave " + "".join(f"{lam:>8g}" for lam in lengths))
-            for angle in (0, 45):
-                found = [returned(n, 7 if not angle else 6 if long else 5, lam, angle, absorbs) for lam in lengths]
+            for angle in angles if absorbs else [0]:
+                found = [returned(n, 7 if not angle else 6 if lam > 40 else 5, lam, angle, absorbs) for lam in lengths]
                 for wave in WAVES if angle else ("P", "SV"):
                     curves[n, absorbs, angle, wave] = [f[wave] for f in found]
-                    print(f"{angle:5d} {wave:4s} " + "".join(f"{f[wave]:8.3f}" for f in found), flush=True)
+                    print(f"{angle:5g} {wave:4s} " + "".join(f"{f[wave]:8.3f}" for f in found), flush=True)
     if picture:
         draw(picture, lengths, curves, layers)
 
@@ -192,14 +196,14 @@ def draw(picture: str, lengths: list, curves: dict, layers: list) -> None:
         if count != n or (not absorbs and (angle or wave != "P")):
             continue
         label = f"levels, absorbing: {wave}, {angle}°" if absorbs else "levels, reflecting: all of these"
-        ax.loglog(lengths, np.maximum(values, 1e-4), "k:" if not absorbs else "-" if not angle else "--",
-                  color=None if not absorbs else colours[wave], lw=1.2, label=label)
+        ax.loglog(lengths, np.maximum(values, 1e-4), ":" if not absorbs else "-" if not angle else "--",
+                  color="k" if not absorbs else colours[wave], lw=1.2, label=label)
     ax.axhline(0.05, color="0.6", lw=0.6)
-    ax.text(lengths[-1], 0.055, "5 %", ha="right", color="0.4", fontsize=8)
+    ax.text(lengths[0], 0.055, "5 %", ha="left", color="0.4", fontsize=8)
     ax.set(xlabel="wavelength (a)", ylabel="share of the energy returned", ylim=(1e-4, 2), title=f"{n} layers a level; the lattice returns nothing")
     ax.set_xticks(lengths, [f"{lam:g}" for lam in lengths])
     ax.minorticks_off()
-    ax.legend(fontsize=7, frameon=False)
+    ax.legend(fontsize=7, frameon=False, loc="lower left", ncol=2)
     figure.savefig(picture, dpi=120)
 
 
@@ -209,9 +213,9 @@ def echoes(program: pathlib.Path) -> None:
     packets += [(8, w, 1, 8) for w in ("P", "SV", "SH")] + [(16, w, 1, 16) for w in ("P", "SV", "SH")]
     print("wave  angle  wavelength   reflect    absorb   plane waves")
     for sites, wave, across, rise in packets:
-        depth, waves = 4 * (1 + 2 + 4 + (8 if rise > 8 else 0)), 2.0
-        said = [subprocess.run([program, str(sites), "4", "512", span, "20"], input=f"{wave} {across} {rise} {waves} {depth}",
-                               capture_output=True, text=True, check=True).stdout.split() for span in ("0", "40")]
+        depth, waves = 4 * (1 + 2 + 4 + (8 if rise > 8 else 0)), 2.0  # those levels whose seams matter
+        said = [subprocess.run([program, str(sites), "4", "512", span, "25"], input=f"{wave} {across} {rise} {waves} {depth}",
+                               capture_output=True, text=True, check=True).stdout.split() for span in ("0", "50")]
         kx, q0 = 2 * np.pi * across / sites, 2 * np.pi / rise
         total = weights = 0.0
         for d in np.linspace(-2, 2, 9):
@@ -236,14 +240,14 @@ def run(program: pathlib.Path, out: pathlib.Path, keys: dict) -> pathlib.Path:
         text = "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
         scene = out.with_suffix(".toml")
         scene.write_text(text)
-        subprocess.run([program, "run", scene, "--out", out], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([program, "run", scene, "--out", out, "--progress", "off"], check=True, stdout=subprocess.DEVNULL)
     return out
 
 
 def snap(program: pathlib.Path, out: pathlib.Path) -> None:
     import h5py
     base = {"surface.kind": "flat", "surface.sites": 16, "block.thickness": 128, "drive.velocity": 20.0, "drive.timestep": 10.0,
-            "drive.damping": 0.05, "drive.path": ["approach"], "output.series": 2, "output.fields": []}
+            "drive.path": ["approach", "pull-off"], "drive.max_steps": 5200, "output.series": 2, "output.fields": []}
     print("rms of the force's part faster than 1.2 ps, eV/Å, so many ps after the snap")
     print(f"{'':20s}" + "".join(f"{span:>10s}" for span in ("2-4", "4-8", "8-14")) + "   snap at, ps   steps")
     for name, keys in BLOCKS.items():
@@ -259,14 +263,14 @@ def snap(program: pathlib.Path, out: pathlib.Path) -> None:
 
 def cycles(program: pathlib.Path, out: pathlib.Path) -> None:
     base = {"surface.sites": 32, "surface.rms": 0.3, "block.thickness": 64, "drive.velocity": 20.0}
-    print("meV/Å²: energy lost in a cycle; works of the drive in and out")
+    print("meV/Å², four seeds: energy lost in a cycle (work of adhesion in, out)")
     for name, keys in BLOCKS.items():
         row = f"{name:20s}"
         for seed in (1, 2, 3, 4):
             result = json.loads((run(program, out / "cycles" / f"{name.replace(', ', '-').replace(' ', '-')}-{seed}",
                                      base | keys | {"surface.seed": seed}) / "result.json").read_text())
             work = result["work_of_adhesion"]
-            row += f"   {result['lost']['cycle']:7.2f} ({work['approach_drive']:.2f}, {work['pull_off_drive']:.2f})"
+            row += f"   {result['lost']['cycle']:7.2f} ({work['approach']:.2f}, {work['pull_off']:.2f})"
         print(row, flush=True)
 
 
@@ -274,6 +278,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=("returned", "echoes", "snap", "cycles"))
     parser.add_argument("--layers", type=int, nargs="+", default=[2, 4, 8])
+    parser.add_argument("--angles", type=float, nargs="+", default=[0, 45], help="to the vertical, degrees")
     parser.add_argument("--long", action="store_true", help="wavelengths up to 128 a; minutes")
     parser.add_argument("--picture", default="")
     parser.add_argument("--program", type=pathlib.Path)
@@ -282,7 +287,7 @@ def main() -> None:
     root = pathlib.Path(__file__).resolve().parents[2]
     asperity = arguments.program or root / "build/release/engine/asperity"
     if arguments.what == "returned":
-        table(arguments.layers, arguments.long, arguments.picture)
+        table(arguments.layers, arguments.angles, arguments.long, arguments.picture)
     elif arguments.what == "echoes":
         echoes(arguments.program or root / "build/release/perf/seam_echo")
     elif arguments.what == "snap":

@@ -221,7 +221,7 @@ TEST(Effects, SeamsAbsorbEveryFewSteps) {
     EXPECT_EQ(calls("drive.timestep=25"), 24);
     const Simulation s = follow(scene_with({"block.seams=absorb", "block.thickness=32"}), 100);
     EXPECT_GT(s.ledger().radiated, 0.0);
-    const Setup setup = make_setup(scene_with({"block.seams=absorb", "block.thickness=32"}), 1);
+    const auto setup = make_setup(scene_with({"block.seams=absorb", "block.thickness=32"}), 1);
     EXPECT_EQ(static_cast<double>(s.block().absorption_bytes()),
               static_cast<double>(Block::absorption_bytes_for(
                   setup.simulation.block, test::serial_grid(setup.simulation.block), 1)));
