@@ -377,9 +377,9 @@ Setup make_setup(const Scene& scene, int ranks) {
     setup.longest_timestep = 2.0 / block.highest_frequency(setup.site_stiffness);
     const double period = std::numbers::pi * setup.longest_timestep; // of the fastest vibration
     if (on(Effect::seams)) {
-        // Every 0.65 of the limit of a step, or as often as there are steps. That
+        // Every 0.7 of the limit of a step, or as often as there are steps. That
         // of a single step is stable where (omega dt/2)² + share/2 < 1, and a share is 1 at most.
-        const double rare = std::floor(0.65 * setup.longest_timestep / scene.drive.timestep);
+        const double rare = std::floor(0.7 * setup.longest_timestep / scene.drive.timestep);
         block.absorption_span = std::max(1.0, rare) * scene.drive.timestep;
         setup.longest_timestep *= std::numbers::sqrt2 / 2.0;
     }

@@ -210,7 +210,7 @@ TEST(Effects, OnInAStepTakesPlace) {
 }
 
 TEST(Effects, SeamsAbsorbEveryFewSteps) {
-    // Every 0.65 of the limit of a step, 79.9 fs here.
+    // Every 0.7 of the limit of a step, 73.7 fs here.
     const auto calls = [](const char* step) {
         return follow(scene_with({"block.seams=absorb", "block.thickness=32", step}), 24)
             .phases()[Phase::absorb]
