@@ -5,12 +5,13 @@
 
     scenes/validation/seams.py returned [--layers 2 4 8] [--angles 0 45] [--long] [--picture FILE]
     scenes/validation/seams.py echoes [--program build/release/perf/seam_echo]
-    scenes/validation/seams.py snap | cycles [--program build/release/engine/asperity] [--out results/seams]
+    scenes/validation/seams.py snap | cycles [--leaving] [--program build/release/engine/asperity] [--out results/seams]
 
 returned: share of the energy of a plane wave that comes back to level 0, from the equations of the block at one frequency: the
 levels on a half-space of the lattice, under a half-space of cells twice as large as the last level's. echoes: packets of waves
 through steps of the engine, beside the same numbers. snap: a flat snap-in, the fast part of the force after it. cycles: energy
-lost in a cycle on four surfaces.
+lost in a cycle on four surfaces; --leaving: with sound damped in the upper six tenths of the block, so that it does not come
+back from the rigid top either.
 """
 import argparse
 import json
@@ -261,8 +262,11 @@ def snap(program: pathlib.Path, out: pathlib.Path) -> None:
         print(f"{name:20s}" + "".join(f"{np.std(s):10.3f}" if len(s) > 10 else "         -" for s in spans) + f"{time[at]:12.2f} {len(time):8d}", flush=True)
 
 
-def cycles(program: pathlib.Path, out: pathlib.Path) -> None:
+def cycles(program: pathlib.Path, out: pathlib.Path, leaving: bool) -> None:
     base = {"surface.sites": 32, "surface.rms": 0.3, "block.thickness": 64, "drive.velocity": 20.0}
+    if leaving:
+        base |= {"drive.damping": 1.0, "drive.damping_from": 0.4}
+        out = out / "leaving"
     print("meV/Å², four seeds: energy lost in a cycle (work of adhesion in, out)")
     for name, keys in BLOCKS.items():
         row = f"{name:20s}"
@@ -280,6 +284,7 @@ def main() -> None:
     parser.add_argument("--layers", type=int, nargs="+", default=[2, 4, 8])
     parser.add_argument("--angles", type=float, nargs="+", default=[0, 45], help="to the vertical, degrees")
     parser.add_argument("--long", action="store_true", help="wavelengths up to 128 a; minutes")
+    parser.add_argument("--leaving", action="store_true")
     parser.add_argument("--picture", default="")
     parser.add_argument("--program", type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/seams"))
@@ -293,7 +298,7 @@ def main() -> None:
     elif arguments.what == "snap":
         snap(asperity, arguments.out)
     else:
-        cycles(asperity, arguments.out)
+        cycles(asperity, arguments.out, arguments.leaving)
 
 
 if __name__ == "__main__":
