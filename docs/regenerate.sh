@@ -59,6 +59,9 @@ cp $place/readings/readings.svg $gallery/fig2-readings.svg
 made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-readings.svg $gallery/fig2-readings.svg \
     $gallery/small-fig5-curves.svg
 
+"$python" scenes/validation/seams.py returned --long --layers 4 --picture $gallery/seams.png >$place/seams.txt
+made $gallery/seams.png
+
 if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then
     ./asperity run scenes/first-contact.toml --set drive.path=zero-load surface.sites=96 \
         --progress off --out $place/maps >$place/log.txt

@@ -12,6 +12,7 @@ namespace asperity {
 
 enum class Phase {
     interpolate, ///< hanging planes follow the coarse planes
+    absorb,      ///< seams take what the next level cannot carry, every so many steps
     interface,   ///< Lennard-Jones sweep
     advance,     ///< elastic forces, kick and drift, level by level
     thermostat,  ///< noise of a scene with a temperature
@@ -25,8 +26,8 @@ enum class Phase {
 };
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names =
-    {"interpolate", "interface", "advance", "thermostat", "exchange",
-     "sums",        "observe",   "relax",   "checkpoint", "output"};
+    {"interpolate", "absorb",  "interface", "advance",    "thermostat", "exchange",
+     "sums",        "observe", "relax",     "checkpoint", "output"};
 
 struct PhaseClock {
     double seconds = 0.0;

@@ -183,6 +183,8 @@ inline constexpr Quantity result_quantities[] = {
      "energy of the interface at the last recorded step: pairs, or the wall's law"},
     {"energy.damped", "eV", per::block,
      "energy lost since the start: damped in time, dissipated at instabilities without time"},
+    {"energy.radiated", "eV", per::block,
+     "energy taken by absorbing seams since the start (block.seams = \"absorb\")"},
     {"surface.rms", "Å", "", "rms height of the substrate, without the cap"},
     {"surface.rms_slope", "1", "", "rms slope √⟨(∇h)²⟩, without the cap"},
     {"surface.min", "Å", "", "lowest height of the substrate"},
@@ -241,6 +243,7 @@ inline constexpr Quantity run_quantities[] = {
      "work of the interface's force on the mean height since the start, ∫ F dz; at a held mean "
      "height without time it is -work"},
     {"series/damped", "eV", per::block, "energy damped since the start"},
+    {"series/radiated", "eV", per::block, "energy taken by absorbing seams since the start"},
     {"series/dissipated", "eV", per::block, "energy dissipated at instabilities since the start"},
     {"series/residual", "1", "largest term",
      "energy balance: work less change of energy less loss"},

@@ -3,6 +3,7 @@
 //
 // The tables of kernels, one of each for every processor level (variant.hpp), and which of them the
 // running processor takes.
+#include "kernels/absorption.hpp"
 #include "kernels/elastic_level.hpp"
 #include "kernels/interface_sweep.hpp"
 #include "kernels/level_transfer.hpp"
@@ -13,6 +14,7 @@
     namespace variant {                                                                            \
     extern const ElasticKernels small_strain_kernels, finite_strain_kernels;                       \
     extern const TransferKernels transfer_kernels;                                                 \
+    extern const AbsorptionKernels absorption_kernels;                                             \
     extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;                        \
     extern const InterfaceKernels::Sweeps<RowSubstrate> row_sweeps;                                \
     extern const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps;                   \
@@ -53,6 +55,7 @@ const ElasticKernels& elastic_kernels(CellStrain strain) {
                                         : ASPERITY_TABLE(small_strain_kernels);
 }
 const TransferKernels& transfer_kernels() { return ASPERITY_TABLE(transfer_kernels); }
+const AbsorptionKernels& absorption_kernels() { return ASPERITY_TABLE(absorption_kernels); }
 const InterfaceKernels& interface_kernels() {
     static const InterfaceKernels kernels = {ASPERITY_TABLE(lattice_sweeps),
                                              ASPERITY_TABLE(row_sweeps),

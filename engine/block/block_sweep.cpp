@@ -12,13 +12,6 @@
 
 namespace asperity {
 
-namespace {
-
-/// Below this many nodes a level's work is done sooner than threads are woken.
-constexpr long long worth_threads = 8192;
-
-} // namespace
-
 int Block::Level::first_plane_from(double share_of_thickness, int thickness) const {
     int z = 0;
     while (z < shape.cells &&

@@ -15,6 +15,8 @@ Simulation::Simulation(const SimulationOptions& options, const Surface& substrat
     : options_(options), block_(options.block, communicator, grid),
       interface_(substrate, grid.tile(0), options.block.spacing, options.interface),
       drive_(options.drive) {
+    if (options.block.absorption_span > 0.0)
+        absorbs_every_ = std::max(1LL, std::llround(options.block.absorption_span / options.dt));
     if (options.temperature > 0.0)
         thermostat_.emplace(options.temperature, options.damping, options.seed);
     if (options.device.kind != DeviceChoice::Kind::none)
@@ -30,6 +32,7 @@ void Simulation::start(double height) {
 }
 
 // A step, and what must be current when:
+//   absorb        every so many steps, where seams absorb: v(n-1/2) of the cells that do
 //   interpolate   hanging planes of u(n), from coarse planes with current halos, if there are any
 //   interface     forces of the substrate at u(n)          -> incoming of level 0
 //   observe       energies of u(n), if this step is observed
@@ -51,6 +54,8 @@ const StepRecord& Simulation::step(bool observe) {
 }
 
 void Simulation::step_on_processor(bool observe) {
+    if (absorbs() && step_ % absorbs_every_ == 0)
+        phases_.during(Phase::absorb, [&] { absorb_at_seams(); });
     if (block_.hangs()) phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
     phases_.during(Phase::interface, [&] { sweep_interface(observe); });
     phases_.during(Phase::observe, [&] { collect(observe); });
@@ -100,6 +105,8 @@ void Simulation::download() const {
     device_is_newer_ = false;
 }
 
+void Simulation::absorb_at_seams() { block_.absorb(step_ / absorbs_every_, radiated_); }
+
 void Simulation::sweep_interface(bool observe) {
     interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
                                        reference_height_, observe);
@@ -141,11 +148,13 @@ void Simulation::begin_record(bool observe) {
 
 void Simulation::update_energy_balance() {
     // One reduction a step (and one for the counts of an observed one).
-    const auto sums = global_sums(communicator(),
-                                  std::array{interface_sums_.force_z, lowest_z_, top_force_,
-                                             kick_sums_.dissipated, kick_sums_.dragged, heat_,
-                                             interface_sums_.energy, elastic_, kick_sums_.kinetic});
-    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic] = sums;
+    const auto sums =
+        global_sums(communicator(),
+                    std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                               kick_sums_.dissipated, kick_sums_.dragged, heat_,
+                               interface_sums_.energy, elastic_, kick_sums_.kinetic, radiated_});
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic,
+                radiated] = sums;
 
     const double sites = static_cast<double>(options_.block.sites);
     const double mean_height = reference_height_ + lowest / (sites * sites);
@@ -162,6 +171,10 @@ void Simulation::update_energy_balance() {
         ledger_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
         ledger_.heat += pending_.heat;
     }
+
+    // Taken at the start of the step, before its energies.
+    ledger_.radiated += radiated;
+    radiated_ = {};
 
     has_previous_ = true;
     pending_ = {dissipated, velocity * dragged, heat};
@@ -182,15 +195,16 @@ void Simulation::update_energy_balance() {
     if (!energy_at_start_) {
         energy_at_start_ = lj + elastic + kinetic;
         work_at_start_ = ledger_.work();
-        damped_at_start_ = ledger_.damped;
+        lost_at_start_ = ledger_.lost();
     }
     scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(ledger_.work())});
     const double change = lj + elastic + kinetic - *energy_at_start_;
     record_.work = ledger_.work();
     record_.interface_work = ledger_.approach + ledger_.pull_off;
     record_.damped = ledger_.damped;
+    record_.radiated = ledger_.radiated;
     const double balance =
-        (record_.work - work_at_start_) - change - (record_.damped - damped_at_start_);
+        (record_.work - work_at_start_) - change - (ledger_.lost() - lost_at_start_);
     record_.residual = scale_ > 0.0 ? balance / scale_ : 0.0;
 }
 

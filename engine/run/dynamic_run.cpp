@@ -177,7 +177,7 @@ private:
         in.drive_work = -per_area_ * (turn_.drive_work + start_.energy + kinetic_at_start_);
         if (reaches_the_state())
             in.lost =
-                per_area_ * (turn_.damped + turn_.energy) + run_.findings.zero_load->binding_energy;
+                per_area_ * (turn_.lost + turn_.energy) + run_.findings.zero_load->binding_energy;
     }
     void conclude_pull_off() {
         Findings& found = run_.findings;
@@ -187,7 +187,7 @@ private:
         found.pull_off.drive_work =
             per_area_ * (end.drive_work - turn_.drive_work - bound - kinetic_at_start_);
         if (scene_.drive.temperature > 0.0) return; // heat goes both ways
-        found.lost_in_cycle = per_area_ * (end.damped + end.energy - bound - kinetic_at_start_);
+        found.lost_in_cycle = per_area_ * (end.lost + end.energy - bound - kinetic_at_start_);
         if (reaches_the_state()) found.pull_off.lost = *found.lost_in_cycle - *found.approach.lost;
     }
     /// The approach ends, but for vibrations, in the state at zero load.
@@ -199,20 +199,20 @@ private:
     /// At an observed step, eV.
     struct Account {
         double drive_work = 0.0; ///< of the top plane and the damping medium, which move alike
-        double damped = 0.0;
-        double energy = 0.0; ///< kinetic, elastic and of the interface
+        double lost = 0.0;       ///< damped, or taken by absorbing seams
+        double energy = 0.0;     ///< kinetic, elastic and of the interface
 
         template <class Visitor>
         void visit(Visitor& v) {
             v("drive_work", drive_work);
-            v("damped", damped);
+            v("lost", lost);
             v("energy", energy);
         }
     };
     Account account() const {
         const StepRecord& now = simulation_.now();
         const Ledger& ledger = simulation_.ledger();
-        return {ledger.top_work + ledger.drag_work, ledger.damped,
+        return {ledger.top_work + ledger.drag_work, ledger.lost(),
                 now.interface_energy + now.elastic_energy + now.kinetic_energy};
     }
 
@@ -351,7 +351,9 @@ private:
         const StepRecord& now = failed_ ? *failed_ : simulation_.now();
         result.set("run.steps", failed_ ? failed_->step : simulation_.steps());
         result.set("run.device", describe_device(case_.simulation.device));
-        if (simulation_.steps() > 0) add_energies(now, result);
+        if (simulation_.steps() == 0) return;
+        add_energies(now, result);
+        if (case_.on(Effect::seams)) result.set("energy.radiated", now.radiated);
     }
 
     RunSession run_;

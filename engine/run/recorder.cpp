@@ -23,7 +23,8 @@ struct Row {
     double sites; ///< N^2
 };
 
-enum class In { both, dynamic, quasistatic };
+/// absorbing: in time, where seams absorb.
+enum class In { both, dynamic, absorbing, quasistatic };
 
 struct RecordColumn {
     const char* name;
@@ -45,6 +46,7 @@ const RecordColumn record_columns[] = {
     {"work", In::both, [](const Row& w) { return w.r.work; }},
     {"interface_work", In::dynamic, [](const Row& w) { return w.r.interface_work; }},
     {"damped", In::dynamic, [](const Row& w) { return w.r.damped; }},
+    {"radiated", In::absorbing, [](const Row& w) { return w.r.radiated; }},
     {"dissipated", In::quasistatic, [](const Row& w) { return w.r.damped; }},
     {"residual", In::both, [](const Row& w) { return w.r.residual; }},
     {"contact_fraction", In::both,
@@ -54,7 +56,8 @@ const RecordColumn record_columns[] = {
     {"closest", In::both, [](const Row& w) { return w.r.closest; }},
 };
 
-bool is_in(const RecordColumn& c, DriveMode mode) {
+bool is_in(const RecordColumn& c, DriveMode mode, bool absorbs) {
+    if (c.in == In::absorbing) return absorbs;
     return c.in == In::both || (c.in == In::dynamic) == (mode == DriveMode::dynamic);
 }
 
@@ -172,10 +175,10 @@ private:
 } // namespace
 
 Recorder::Recorder(const io::Directory& directory, const Surface& surface,
-                   const Communicator& communicator, DriveMode mode,
+                   const Communicator& communicator, DriveMode mode, bool absorbs,
                    const std::optional<Position>& resume, AddToFile add)
     : communicator_(communicator), directory_(directory), surface_(surface), add_(std::move(add)),
-      mode_(mode) {
+      mode_(mode), absorbs_(absorbs) {
     if (resume) rows_ = resume->rows;
     communicator_.on_root([&] {
         journal_.emplace(directory_, io::run_file::journal, resume ? resume->mark.bytes : 0);
@@ -188,7 +191,7 @@ void Recorder::row(const StepRecord& record, bool pulling, int sites) {
     ++rows_;
     communicator_.on_root([&] {
         for (const RecordColumn& c : record_columns)
-            if (is_in(c, mode_)) waiting_.push_back(c.value(row));
+            if (is_in(c, mode_, absorbs_)) waiting_.push_back(c.value(row));
         if (rows_ % rows_in_memory == 0) append_rows();
     });
 }
@@ -354,7 +357,7 @@ std::map<std::string, std::vector<double>> Recorder::series() const {
     std::map<std::string, std::vector<double>> all;
     std::vector<std::vector<double>*> columns;
     for (const RecordColumn& c : record_columns)
-        if (is_in(c, mode_)) columns.push_back(&all[c.name]);
+        if (is_in(c, mode_, absorbs_)) columns.push_back(&all[c.name]);
     journal_->replay([&](std::uint64_t kind, io::Journal::Bytes payload) {
         io::PayloadReader record(payload);
         while (kind == rows_record && !record.at_end())

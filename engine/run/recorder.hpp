@@ -43,9 +43,9 @@ public:
     using AddToFile = std::function<void(io::Hdf5File&)>;
 
     /// A new journal, or one that goes on from a position which it holds (Journal::holds). The
-    /// surface must outlive the recorder.
+    /// surface must outlive the recorder. absorbs: seams of the block do.
     Recorder(const io::Directory& directory, const Surface& surface,
-             const Communicator& communicator, DriveMode mode,
+             const Communicator& communicator, DriveMode mode, bool absorbs,
              const std::optional<Position>& resume, AddToFile add);
 
     /// One row: an observed step, or a point of a quasi-static path (which has no time, no kinetic
@@ -100,6 +100,7 @@ private:
     const Surface& surface_;
     AddToFile add_;
     DriveMode mode_;
+    bool absorbs_;
     std::optional<io::Journal> journal_; ///< root only
     std::vector<double> waiting_;        ///< rows that are not in the journal yet; root only
     std::uint64_t rows_ = 0;

@@ -330,8 +330,13 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
     part(Part::snapshots, [&] {
         if (piece.on(Effect::observation)) snapshot.take(*simulation);
     });
+    constexpr int few_steps = 8; // seams that absorb do so every few
+    const auto steps = [&] {
+        for (int n = 0; n < few_steps; ++n)
+            simulation->step(false);
+    };
     if (timed) {
-        done.far_step = shortest(0.1, [&] { simulation->step(false); });
+        done.far_step = shortest(0.1, steps) / few_steps;
         done.observing =
             std::max(0.0, shortest(0.05, [&] { simulation->step(true); }) - done.far_step);
     }
@@ -349,7 +354,7 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
             });
         });
     if (rest.numbers) lay_down(simulation->block_to_write(), rest.layer);
-    if (timed) done.near_step = shortest(0.2, [&] { simulation->step(false); });
+    if (timed) done.near_step = shortest(0.2, steps) / few_steps;
     record_maps(simulation->block().lowest_layer());
     return done;
 }

@@ -190,8 +190,8 @@ void RunSession::open_recorder() {
         write_sphere_curves(file, case_, rough);
     };
     recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
-                      case_.in_time ? DriveMode::dynamic : DriveMode::quasistatic, resumed_at_,
-                      add);
+                      case_.in_time ? DriveMode::dynamic : DriveMode::quasistatic,
+                      case_.on(Effect::seams), resumed_at_, add);
 }
 
 void RunSession::collect(CollectNumbers& numbers) {

@@ -98,6 +98,10 @@ io::Schema bind(Scene& scene) {
     schema.choice<Strain>("strain", block.strain,
                           {{"linear", Strain::linear}, {"finite", Strain::finite}},
                           "small strain, or geometrically exact springs");
+    schema.choice<Seams>("seams", block.seams,
+                         {{"reflect", Seams::reflect}, {"absorb", Seams::absorb}},
+                         "what the levels of the multiscale block do with waves that the next "
+                         "level cannot carry");
 
     auto& interface = scene.interface;
     schema.section("interface", "What acts between substrate and lowest layer.");

@@ -117,7 +117,7 @@ def _energies(page: Page, run: Result) -> None:
     page.section("energies", "Energies")
     page.figure("energy", "Energies", "Energies over the path. Work is done by the top plane and the moving medium of "
                 "the damping.", partial(plots.energy, run))
-    page.figure("balance", "Energy balance", "Work done minus energy gained minus energy damped, over the largest of "
+    page.figure("balance", "Energy balance", "Work done minus energy gained minus energy damped or radiated, over the largest of "
                 "these terms so far.", partial(plots.balance, run))
     page.figure("loading", "Force and displacement of the top plane", "Elastic force on the driven top plane over its "
                 "displacement: what a testing machine would record. Between the curves lies the energy lost in a "

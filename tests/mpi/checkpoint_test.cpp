@@ -58,8 +58,8 @@ std::uint64_t trace(Simulation& s) {
     const Ledger& l = s.ledger();
     for (double value : {now.time, now.top, now.mean_height, now.force, now.top_force,
                          now.interface_energy, now.elastic_energy, now.kinetic_energy, l.top_work,
-                         l.drag_work, l.damped, l.heat, l.approach, l.pull_off, now.residual,
-                         static_cast<double>(s.leg()), s.drive().velocity(s.time())})
+                         l.drag_work, l.damped, l.radiated, l.heat, l.approach, l.pull_off,
+                         now.residual, static_cast<double>(s.leg()), s.drive().velocity(s.time())})
         hash = test::mix(hash, value);
     return hash;
 }
@@ -157,25 +157,42 @@ TEST(Checkpoint, WrittenByOneAndTakenUpByAllRanks) {
     EXPECT_EQ(trace(after), expected);
 }
 
-TEST(Checkpoint, AtFiniteStrain) {
-    const Scratch scratch("finite");
-    const auto finite = [] {
-        SimulationOptions o = options();
-        o.block.finite_strain = true;
+namespace {
+
+/// A run of these options goes on from its checkpoint as it would have gone on without.
+void goes_on(const SimulationOptions& o, const char* name) {
+    const Scratch scratch(name);
+    const auto made = [&] {
         return Simulation(o, test::reference_surface("c3_N32_T32_rms1.5"), world(),
                           test::grid_for(o.block, world()));
     };
-    Simulation before = finite();
+    Simulation before = made();
     before.start(start_height);
     advance(before, first_leg);
     write_checkpoint(scratch.path, before, {}, "scene A");
     world().barrier();
-    Simulation after = finite();
+    Simulation after = made();
     read_checkpoint(scratch.path, after, "scene A");
     advance(before, second_leg);
     advance(after, second_leg);
     EXPECT_GT(before.now().elastic_energy, 0.0);
     EXPECT_EQ(trace(after), trace(before));
+}
+
+} // namespace
+
+TEST(Checkpoint, AtFiniteStrain) {
+    SimulationOptions o = options();
+    o.block.finite_strain = true;
+    goes_on(o, "finite");
+}
+
+TEST(Checkpoint, WithSeamsThatAbsorb) {
+    SimulationOptions o = options();
+    o.temperature = 0.0;
+    o.block.absorption_span = 7 * o.dt; // between two absorptions, when it stops
+    static_assert(first_leg % 7 != 0);
+    goes_on(o, "absorbing");
 }
 
 TEST(Checkpoint, OfAnotherSceneIsRefusedByTheKeysThatDiffer) {

@@ -34,9 +34,10 @@ struct Stack {
     const char* name;
     int thickness, layers;
     double temperature;
-    bool finite = false; ///< strain
-    bool atoms = false;  ///< a substrate of atoms anywhere
-    bool types = false;  ///< of two types
+    bool finite = false;  ///< strain
+    bool atoms = false;   ///< a substrate of atoms anywhere
+    bool types = false;   ///< of two types
+    bool absorbs = false; ///< at its seams
 };
 constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"deep", 62, 2, 0.0},
@@ -45,7 +46,9 @@ constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"finite", 32, 3, 0.0, true},
                             {"finite lattice", 6, 0, 0.0, true},
                             {"atoms", 32, 3, 0.0, false, true},
-                            {"types", 32, 3, 0.0, false, true, true}};
+                            {"types", 32, 3, 0.0, false, true, true},
+                            {"absorbing", 32, 3, 0.0, false, false, false, true},
+                            {"absorbing, deep", 62, 2, 0.0, true, false, false, true}};
 void PrintTo(const Stack& s, std::ostream* out) { *out << s.name; }
 
 Surface surface_of(const Stack& stack, const char* name) {
@@ -66,6 +69,7 @@ InterfaceOptions interface_of(const Stack& stack) {
 BlockOptions block_of(const Stack& stack) {
     BlockOptions options = test::paper_block(32, stack.thickness, stack.layers);
     options.finite_strain = stack.finite;
+    options.absorption_span = stack.absorbs ? 30.0 : 0.0;
     return options;
 }
 
@@ -109,7 +113,8 @@ Trace run(const Stack& stack, const Communicator& ranks) {
         trace.in_contact = std::max(trace.in_contact, now.in_contact);
     }
     const Ledger& l = s.ledger();
-    for (double value : {l.top_work, l.drag_work, l.damped, l.heat, l.approach, l.pull_off})
+    for (double value :
+         {l.top_work, l.drag_work, l.damped, l.radiated, l.heat, l.approach, l.pull_off})
         trace.numbers.push_back(value);
     trace.state = test::fingerprint(s.block());
     return trace;
