@@ -218,7 +218,7 @@ TEST(Effects, SeamsAbsorbEveryFewSteps) {
     };
     EXPECT_EQ(calls("drive.timestep=10"), 5);
     EXPECT_EQ(calls("drive.timestep=13"), 8);
-    EXPECT_EQ(calls("drive.timestep=25"), 24);
+    EXPECT_EQ(calls("drive.timestep=30"), 24);
     const Simulation s = follow(scene_with({"block.seams=absorb", "block.thickness=32"}), 100);
     EXPECT_GT(s.ledger().radiated, 0.0);
     const auto setup = make_setup(scene_with({"block.seams=absorb", "block.thickness=32"}), 1);
