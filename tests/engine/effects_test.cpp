@@ -206,7 +206,7 @@ TEST(Effects, SeamsAbsorbEveryFewSteps) {
     };
     EXPECT_EQ(calls("drive.timestep=10"), 5);
     EXPECT_EQ(calls("drive.timestep=13"), 8);
-    EXPECT_EQ(calls("drive.timestep=25"), 24);
+    EXPECT_EQ(calls("drive.timestep=30"), 24);
     const Simulation s = follow(case_with({"block.seams=absorb", "block.thickness=32"}), 100);
     EXPECT_GT(s.ledger().radiated, 0.0);
     EXPECT_GT(s.block().absorption_bytes(), 0u);
