@@ -7,11 +7,11 @@
     scenes/validation/seams.py echoes [--program build/release/perf/seam_echo]
     scenes/validation/seams.py snap | cycles [--leaving] [--program build/release/engine/asperity] [--out results/seams]
 
-returned: share of the energy of a plane wave that comes back to level 0, from the equations of the block at one frequency: the
-levels on a half-space of the lattice, under a half-space of cells twice as large as the last level's. echoes: packets of waves
-through steps of the engine, beside the same numbers. snap: a flat snap-in, the fast part of the force after it. cycles: energy
-lost in a cycle on four surfaces; --leaving: with sound damped in the upper six tenths of the block, so that it does not come
-back from the rigid top either.
+returned: share of the energy of a plane wave that comes back to level 0, from the equations of the block at
+one frequency: the levels on a half-space of the lattice, under a half-space of cells twice as large as the
+last level's. echoes: packets of waves through steps of the engine, beside the same numbers. snap: a flat
+snap-in, the fast part of the force after it. cycles: energy lost in a cycle on four surfaces; --leaving: with
+sound damped in the upper six tenths of the block, so that it does not come back from the rigid top either.
 """
 import argparse
 import json
@@ -133,7 +133,8 @@ def returned(layers: int, levels: int, lam: float, angle: float, absorbs: bool) 
     phases = kx + 2 * np.pi * np.arange(width[0]) / width[0]
     fourier = np.exp(1j * np.outer(np.arange(width[0]), phases))
     bare = layer(kx)
-    waves, vectors = np.linalg.eigh(bare[:3, :3] + bare[3:, 3:] + bare[:3, 3:] * np.exp(1j * kz) + bare[3:, :3] * np.exp(-1j * kz))
+    waves, vectors = np.linalg.eigh(bare[:3, :3] + bare[3:, 3:] + bare[:3, 3:] * np.exp(1j * kz)
+                                    + bare[3:, :3] * np.exp(-1j * kz))
     along = np.array([np.sin(np.radians(angle)), 0, np.cos(np.radians(angle))])
     across = np.array([along[2], 0, -along[0]])
     found = {}
@@ -201,7 +202,8 @@ def draw(picture: str, lengths: list, curves: dict, layers: list) -> None:
                   color="k" if not absorbs else colours[wave], lw=1.2, label=label)
     ax.axhline(0.05, color="0.6", lw=0.6)
     ax.text(lengths[0], 0.055, "5 %", ha="left", color="0.4", fontsize=8)
-    ax.set(xlabel="wavelength (a)", ylabel="share of the energy returned", ylim=(1e-4, 2), title=f"{n} layers a level; the lattice returns nothing")
+    ax.set(xlabel="wavelength (a)", ylabel="share of the energy returned", ylim=(1e-4, 2),
+           title=f"{n} layers a level; the lattice returns nothing")
     ax.set_xticks(lengths, [f"{lam:g}" for lam in lengths])
     ax.minorticks_off()
     ax.legend(fontsize=7, frameon=False, loc="lower left", ncol=2)
@@ -215,8 +217,9 @@ def echoes(program: pathlib.Path) -> None:
     print("wave  angle  wavelength   reflect    absorb   plane waves")
     for sites, wave, across, rise in packets:
         depth, waves = 4 * (1 + 2 + 4 + (8 if rise > 8 else 0)), 2.0  # those levels whose seams matter
-        said = [subprocess.run([program, str(sites), "4", "512", span, "25"], input=f"{wave} {across} {rise} {waves} {depth}",
-                               capture_output=True, text=True, check=True).stdout.split() for span in ("0", "50")]
+        said = [subprocess.run([program, str(sites), "4", "512", span, "25"],
+                               input=f"{wave} {across} {rise} {waves} {depth}", capture_output=True,
+                               text=True, check=True).stdout.split() for span in ("0", "50")]
         kx, q0 = 2 * np.pi * across / sites, 2 * np.pi / rise
         total = weights = 0.0
         for d in np.linspace(-2, 2, 9):
@@ -225,7 +228,8 @@ def echoes(program: pathlib.Path) -> None:
             weight = np.exp(-d * d)
             total += weight * returned(4, 5, 2 * np.pi / k, angle, True)[wave]
             weights += weight
-        print(f"{wave:4s} {said[0][1]:>6s} {said[0][2]:>10s} {said[0][3]:>10s} {said[1][3]:>9s} {total / weights:12.5f}", flush=True)
+        print(f"{wave:4s} {said[0][1]:>6s} {said[0][2]:>10s} {said[0][3]:>10s} {said[1][3]:>9s} "
+              f"{total / weights:12.5f}", flush=True)
 
 
 BLOCKS = {"lattice": {"block.model": "lattice"},
@@ -241,25 +245,29 @@ def run(program: pathlib.Path, out: pathlib.Path, keys: dict) -> pathlib.Path:
         text = "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
         scene = out.with_suffix(".toml")
         scene.write_text(text)
-        subprocess.run([program, "run", scene, "--out", out, "--progress", "off"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([program, "run", scene, "--out", out, "--progress", "off"], check=True,
+                       stdout=subprocess.DEVNULL)
     return out
 
 
 def snap(program: pathlib.Path, out: pathlib.Path) -> None:
     import h5py
-    base = {"surface.kind": "flat", "surface.sites": 16, "block.thickness": 128, "drive.velocity": 20.0, "drive.timestep": 10.0,
-            "drive.path": ["approach", "pull-off"], "drive.max_steps": 5200, "output.series": 2, "output.fields": []}
+    base = {"surface.kind": "flat", "surface.sites": 16, "block.thickness": 128, "drive.velocity": 20.0,
+            "drive.timestep": 10.0, "drive.path": ["approach", "pull-off"], "drive.max_steps": 5200,
+            "output.series": 2, "output.fields": []}
     print("rms of the force's part faster than 1.2 ps, eV/Å, so many ps after the snap")
     print(f"{'':20s}" + "".join(f"{span:>10s}" for span in ("2-4", "4-8", "8-14")) + "   snap at, ps   steps")
     for name, keys in BLOCKS.items():
-        with h5py.File(run(program, out / "snap" / name.replace(", ", "-").replace(" ", "-"), base | keys) / "run.h5") as file:
+        done = run(program, out / "snap" / name.replace(", ", "-").replace(" ", "-"), base | keys)
+        with h5py.File(done / "run.h5") as file:
             time, force, height = (file["series/" + column][:] for column in ("time", "force", "mean_height"))
         at = int(np.argmax(abs(np.diff(height))))
         step = time[1] - time[0]
         window = int(1.2 / step) | 1
         fast = force - np.convolve(force, np.ones(window) / window, "same")
         spans = [fast[at + int(lo / step):at + int(hi / step)] for lo, hi in ((2, 4), (4, 8), (8, 14))]
-        print(f"{name:20s}" + "".join(f"{np.std(s):10.3f}" if len(s) > 10 else "         -" for s in spans) + f"{time[at]:12.2f} {len(time):8d}", flush=True)
+        rms = "".join(f"{np.std(s):10.3f}" if len(s) > 10 else "         -" for s in spans)
+        print(f"{name:20s}{rms}{time[at]:12.2f} {len(time):8d}", flush=True)
 
 
 def cycles(program: pathlib.Path, out: pathlib.Path, leaving: bool) -> None:
