@@ -62,6 +62,7 @@ TEST(Scene, DefaultsAreThePapers) {
         {"block.thickness", "512"},
         {"block.layers_per_level", "4"},
         {"block.strain", "\"linear\""},
+        {"block.seams", "\"reflect\""},
         {"interface.kind", "\"atoms\""},
         {"interface.epsilon", "0.1"},
         {"interface.r0", "3.28"},
