@@ -66,7 +66,7 @@ struct StateSearchOptions : SequenceOptions {
     std::function<std::optional<ZeroLoad>()> relax_free{};
 };
 
-/// As a case has them, for this block over its interface; both must outlive the search.
+/// As a case has them, for this block over its interface; all three must outlive the search.
 StateSearchOptions search_options(const Case& c, SpectralBlock& block, const Interface& interface,
                                   std::function<bool(long long, double)> report = {});
 

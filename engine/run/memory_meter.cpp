@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/memory_meter.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
@@ -11,7 +12,7 @@
 
 namespace {
 
-std::atomic<bool> counting = false;
+std::atomic<int> counting = 0; ///< meters
 std::atomic<long long> bytes_held = 0, most_held = 0, calls = 0;
 
 void* counted(void* memory) {
@@ -51,13 +52,21 @@ void release(void* memory) {
 
 namespace asperity {
 
-MemoryMeter::MemoryMeter() {
-    bytes_held = most_held = calls = 0;
-    counting = true;
+MemoryMeter::MemoryMeter()
+    : held_before_(bytes_held), calls_before_(calls), outer_peak_(most_held.exchange(bytes_held)) {
+    ++counting;
 }
-MemoryMeter::~MemoryMeter() { counting = false; }
-double MemoryMeter::held() const { return static_cast<double>(bytes_held); }
-double MemoryMeter::take_peak() { return static_cast<double>(most_held.exchange(bytes_held)); }
-long long MemoryMeter::allocations() const { return calls; }
+MemoryMeter::~MemoryMeter() {
+    take_peak();
+    --counting;
+    most_held = std::max<long long>(outer_peak_, most_held);
+}
+double MemoryMeter::held() const { return static_cast<double>(bytes_held - held_before_); }
+double MemoryMeter::take_peak() {
+    const long long peak = most_held.exchange(bytes_held);
+    outer_peak_ = std::max(outer_peak_, peak); // it was one of a meter around this one too
+    return static_cast<double>(peak - held_before_);
+}
+long long MemoryMeter::allocations() const { return calls - calls_before_; }
 
 } // namespace asperity

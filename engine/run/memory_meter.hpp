@@ -7,7 +7,8 @@
 
 namespace asperity {
 
-/// Counts from its construction on, all threads together. One at a time.
+/// Counts from its construction on, all threads together. One may be made and gone while another
+/// counts.
 class MemoryMeter {
 public:
     MemoryMeter();
@@ -21,6 +22,9 @@ public:
     double take_peak();
     /// Calls of operator new.
     long long allocations() const;
+
+private:
+    long long held_before_, calls_before_, outer_peak_; ///< before it was made
 };
 
 } // namespace asperity

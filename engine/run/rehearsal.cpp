@@ -148,13 +148,6 @@ double nodes_with_halos(const std::vector<LevelShape>& levels, const ProcessGrid
     return nodes;
 }
 
-double nodes_of(const std::vector<LevelShape>& levels) {
-    double nodes = 0.0;
-    for (const LevelShape& l : levels)
-        nodes += static_cast<double>(l.sites) * l.sites * l.cells;
-    return nodes;
-}
-
 /// Puts the lowest layer of a block where it is at rest.
 void lay_down(Block& block, const VectorField<double>& layer) {
     const VectorPlane<double> to = block.fields(block.levels().front()).u.plane(0);
@@ -170,21 +163,27 @@ void lay_down(Block& block, const VectorField<double>& layer) {
 /// Ends a relaxation that is rehearsed: after a few iterations, or some time.
 class Limit {
 public:
-    explicit Limit(bool timed) : timed_(timed) {}
+    explicit Limit(bool to_the_end) : to_the_end_(to_the_end) {}
     bool operator()(long long iteration, double) {
         iterations_ = iteration;
-        stopped_ = timed_ ? since(start_) > relaxation_seconds : iteration >= few_iterations;
-        return stopped_;
+        return to_the_end_ ? since(start_) > relaxation_seconds : iteration >= few_iterations;
     }
     long long iterations() const { return iterations_; }
 
 private:
-    bool timed_, stopped_ = false;
+    bool to_the_end_;
     long long iterations_ = 0;
     Clock::time_point start_ = Clock::now();
 };
 
 } // namespace
+
+double nodes_of(const std::vector<LevelShape>& levels) {
+    double nodes = 0.0;
+    for (const LevelShape& l : levels)
+        nodes += static_cast<double>(l.sites) * l.sites * l.cells;
+    return nodes;
+}
 
 Rehearsal::Measure Rehearsal::measure(const Case& c, int rank, double atoms) {
     const ProcessGrid grid = c.grid(rank);
@@ -230,9 +229,9 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
         meter.take_peak();
         const auto begin = Clock::now();
         work();
-        stage.seconds = since(begin);
-        stage.held = meter.held() - before;
-        stage.peak = meter.take_peak() - before;
+        stage.seconds += since(begin);
+        stage.held += meter.held() - before;
+        stage.peak = std::max(stage.peak, meter.take_peak() - before);
     };
     Surface surface;
     part(Part::surface, [&] {
@@ -272,8 +271,10 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
                 Recorder::record_of_fields("", layer, Communicator(), grid, *interface, height);
             });
     };
-    Limit limit(timed);
+    // All states are searched for from the first one, which has to be there.
+    const bool to_the_end = timed || piece.on(Effect::states);
     const auto relax = [&](const auto& find) {
+        Limit limit(to_the_end);
         const auto begin = Clock::now();
         try {
             const std::optional<ZeroLoad> found =
@@ -293,8 +294,14 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
         const double start = interface->start_height();
         std::optional<QuasistaticPath> path;
         std::optional<StateSearch> search;
+        const auto keep_points = [&](const auto& work) {
+            try {
+                part(Part::snapshots, work);
+            } catch (const io::PhysicsError&) { // for the run to tell
+            }
+        };
         if (piece.on(Effect::observation))
-            part(Part::snapshots, [&] {
+            keep_points([&] {
                 path.emplace(*waves, *interface, path_options(piece, *interface));
                 path->start();
                 path->advance(Leg::approach);
@@ -307,7 +314,7 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
             });
         });
         if (piece.on(Effect::states) && done.ended)
-            part(Part::snapshots, [&] {
+            keep_points([&] {
                 search.emplace(*waves, *interface, search_options(piece, *waves, *interface));
                 search->start({});
                 search->advance();

@@ -12,8 +12,12 @@
 #include "engine/setup/case.hpp"
 
 #include <array>
+#include <vector>
 
 namespace asperity {
+
+/// Of all levels together.
+double nodes_of(const std::vector<LevelShape>& levels);
 
 class Rehearsal {
 public:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/summary.hpp"
 
+#include "engine/run/rehearsal.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/units.hpp"
 #include "io/table.hpp"
@@ -21,13 +22,10 @@ std::string levels_text(const Case& c) {
     const char* strain = c.scene.block.strain == Strain::finite ? "; finite strain" : "";
     if (levels.size() == 1)
         return fmt::format("one lattice of {} layers{}", levels.front().cells, strain);
-    long long nodes = 0;
-    for (const LevelShape& l : levels)
-        nodes += static_cast<long long>(l.sites) * l.sites * l.cells;
     const auto& block = c.simulation.block;
     const double all = static_cast<double>(block.sites) * block.sites * block.thickness;
     return fmt::format("{} levels, {:.3g} nodes for {:.3g} atoms{}", levels.size(),
-                       static_cast<double>(nodes), all, strain);
+                       nodes_of(levels), all, strain);
 }
 
 std::string surface_text(const Scene& scene, const Surface& surface) {
