@@ -5,7 +5,7 @@
 // running processor takes.
 #include "kernels/absorption.hpp"
 #include "kernels/elastic_level.hpp"
-#include "kernels/interface_sweep.hpp"
+#include "kernels/interface_kernels.hpp"
 #include "kernels/level_transfer.hpp"
 #include "kernels/surface_rows.hpp"
 #include "kernels/variant.hpp"
@@ -18,7 +18,7 @@
     extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;                        \
     extern const InterfaceKernels::Sweeps<RowSubstrate> row_sweeps;                                \
     extern const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps;                   \
-    extern const InterfaceKernels::AllWalls walls;                                                 \
+    extern const InterfaceKernels::WallKernels wall_kernels;                                       \
     extern const RowKernels row_kernels;                                                           \
     }
 
@@ -57,9 +57,9 @@ const ElasticKernels& elastic_kernels(CellStrain strain) {
 const TransferKernels& transfer_kernels() { return ASPERITY_TABLE(transfer_kernels); }
 const AbsorptionKernels& absorption_kernels() { return ASPERITY_TABLE(absorption_kernels); }
 const InterfaceKernels& interface_kernels() {
-    static const InterfaceKernels kernels = {ASPERITY_TABLE(lattice_sweeps),
-                                             ASPERITY_TABLE(row_sweeps),
-                                             ASPERITY_TABLE(cell_sweeps), ASPERITY_TABLE(walls)};
+    static const InterfaceKernels kernels = {
+        ASPERITY_TABLE(lattice_sweeps), ASPERITY_TABLE(row_sweeps), ASPERITY_TABLE(cell_sweeps),
+        ASPERITY_TABLE(wall_kernels)};
     return kernels;
 }
 const RowKernels& row_kernels() { return ASPERITY_TABLE(row_kernels); }

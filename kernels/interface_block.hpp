@@ -5,6 +5,7 @@
 // loop over a tile's rows.
 #pragma once
 
+#include "kernels/interface_kernels.hpp"
 #include "kernels/interface_site.hpp"
 #include "kernels/simd.hpp"
 
@@ -113,13 +114,13 @@ struct Totals {
 
 /// Replaces the sites that the tables do not cover by the reference loop.
 template <class Judge, class Potential>
-void sum_beyond(const InterfaceSites& sites, const Judge& judge, const Potential& lj,
+void sum_beyond(const InterfaceSites& sites, const Judge& judge, const Potential& potential,
                 unsigned beyond, int x, int y, int count, SiteTerms& s) {
     const auto& u = sites.displacement;
     for (int i = 0; i < count; ++i) {
         if (!(beyond >> i & 1u)) continue;
         const PairSum p =
-            pair_sum(judge, lj, (sites.x0 + x + i + 0.5) * sites.spacing + u.x(x + i, y),
+            pair_sum(judge, potential, (sites.x0 + x + i + 0.5) * sites.spacing + u.x(x + i, y),
                      (sites.y0 + y + 0.5) * sites.spacing + u.y(x + i, y),
                      sites.reference_height + u.z(x + i, y));
         s.x[i] = p.force[0];
@@ -142,10 +143,9 @@ struct Ground {
     double datum() const { return from.heights.datum; }
     double margin() const { return from.reach.offset_margin; }
     const SubstrateMap& judge() const { return from.map; }
-    template <class T>
-    ASPERITY_INLINE Reach reach(int x, int y, const BlockOfSites& site,
-                                const PairTerms<Simd, T>& pair) const {
-        return Reach(from.reach, x, y, from.heights.datum, site, pair.cutoff, pair.floor);
+    template <class Pair>
+    ASPERITY_INLINE Reach reach(int x, int y, const BlockOfSites& site, const Pair& pair) const {
+        return Reach(from.reach, x, y, from.heights.datum, site, pair.cutoff, pair.closest);
     }
 };
 
@@ -153,8 +153,8 @@ struct Ground {
 /// count, terms) is what differs between substrates.
 template <class T, bool observe, class Substrate, class Potential, class Pair, class SumOfPairs>
 ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& substrate,
-                                  const Potential& lj, const Pair& pair, int row_begin, int row_end,
-                                  InterfaceSums& sums, SumOfPairs sum) {
+                                  const Potential& potential, const Pair& pair, int row_begin,
+                                  int row_end, InterfaceSums& sums, SumOfPairs sum) {
     const Ground<Substrate> ground{substrate};
     const double datum = ground.datum();
     const int nx = sites.displacement.x.nx;
@@ -162,7 +162,7 @@ ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& 
     for (int y = row_begin; y < row_end; ++y)
         for (int x = 0; x < nx; x += interface_block) {
             const int count = nx - x < interface_block ? nx - x : interface_block;
-            const BlockOfSites site(sites, x, y, count, datum, deepest<T>(lj.cutoff), ceiling<T>,
+            const BlockOfSites site(sites, x, y, count, datum, deepest<T>(pair.cutoff), ceiling<T>,
                                     ground.margin());
             const auto reach = ground.reach(x, y, site, pair);
             if (reach.from_rest < 0.0 && !site.beyond) {
@@ -181,7 +181,8 @@ ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& 
             } else {
                 terms.clear();
             }
-            if (site.beyond) sum_beyond(sites, ground.judge(), lj, site.beyond, x, y, count, terms);
+            if (site.beyond)
+                sum_beyond(sites, ground.judge(), potential, site.beyond, x, y, count, terms);
             totals.take<observe>(sites, terms, x, y, count);
         }
     totals.give(sums);

@@ -29,17 +29,14 @@ struct Ground<CellSubstrate> {
     const SubstrateAtoms& judge() const { return from.atoms; }
     struct Some {
         double from_rest; ///< negative: nothing is in reach
-        bool close;       ///< a pair may be as near as r2_floor
+        bool close;       ///< a pair may be nearer than it can be
     };
     ASPERITY_INLINE Some reach(int x, int y, const BlockOfSites& site,
                                const PairTable& pairs) const {
         const double highest =
             from.highest[static_cast<std::ptrdiff_t>(y) * from.blocks + x / interface_block];
         const double gap = site.lowest_z - highest;
-        double floor2 = 0.0;
-        for (int type = 0; type < pairs.types; ++type)
-            floor2 = std::fmax(floor2, pairs.of[type].r2_floor());
-        return {pairs.cutoff - gap, !(gap > 0.01 && (gap - 0.01) * (gap - 0.01) > floor2)};
+        return {pairs.cutoff - gap, !(gap - 0.01 > pairs.closest)};
     }
 };
 
@@ -200,7 +197,8 @@ struct CellSums {
     using V = Pack<T>;
     V x, y, z, energy, nearest;
 
-    ASPERITY_INLINE explicit CellSums(const PairTerms<Simd, T>& pair)
+    template <class P>
+    ASPERITY_INLINE explicit CellSums(const PairTerms<Simd, T, P>& pair)
         : x(T(0)), y(T(0)), z(T(0)), energy(T(0)), nearest(pair.r2_cut) {}
     ASPERITY_INLINE CellSums(const BlockSums<T>& of, int i)
         : x(V::load(of.x[i])), y(V::load(of.y[i])), z(V::load(of.z[i])), energy(T(0)),
@@ -219,7 +217,8 @@ struct CellSums {
             nearest.store(to.nearest[i]);
         }
     }
-    ASPERITY_INLINE void add(const PairTerms<Simd, T>& pair, V dx, V dy, V dz, V r2, V t) {
+    template <class P>
+    ASPERITY_INLINE void add(const PairTerms<Simd, T, P>& pair, V dx, V dy, V dz, V r2, V t) {
         const V f = pair.force(t, r2, std::true_type{});
         x = fma(f, dx, x);
         y = fma(f, dy, y);
@@ -229,13 +228,13 @@ struct CellSums {
             nearest = min(nearest, r2);
         }
     }
-    template <bool close>
-    ASPERITY_INLINE void add_cell(const PairTerms<Simd, T>& pair, const CellView<T>& cell) {
+    template <bool close, class P>
+    ASPERITY_INLINE void add_cell(const PairTerms<Simd, T, P>& pair, const CellView<T>& cell) {
         const auto square = [](V dx, V dy, V dz) { return fma(dx, dx, fma(dy, dy, dz * dz)); };
         if constexpr (V::width == cell_atoms) {
             const V dx = cell.d(0, 0), dy = cell.d(1, 0), dz = cell.d(2, 0),
                     r2 = square(dx, dy, dz);
-            add(pair, dx, dy, dz, r2, pair.template inverse<close>(r2));
+            add(pair, dx, dy, dz, r2, pair.template begin<close>(r2));
         } else {
             for (int k = 0; k < cell_atoms; k += 2 * V::width) {
                 const int l = k + V::width;
@@ -243,14 +242,15 @@ struct CellSums {
                 const V ex = cell.d(0, l), ey = cell.d(1, l), ez = cell.d(2, l);
                 const V r2 = square(dx, dy, dz), s2 = square(ex, ey, ez);
                 V t, s;
-                pair.template inverse<close>(r2, s2, t, s);
+                pair.template begin<close>(r2, s2, t, s);
                 add(pair, dx, dy, dz, r2, t);
                 add(pair, ex, ey, ez, s2, s);
             }
         }
     }
     /// Adds them to those of the types before, if there are any.
-    ASPERITY_INLINE void finish(const PairTerms<Simd, T>& pair, bool first, int to,
+    template <class P>
+    ASPERITY_INLINE void finish(const PairTerms<Simd, T, P>& pair, bool first, int to,
                                 SiteTerms& terms) const {
         const auto over_lanes = [](V lanes) {
             WideSum<Pack<T>> sum;
@@ -277,11 +277,11 @@ struct CellSums {
 };
 
 /// The cells of one type, images [next, end), over a block of sites.
-template <class T, bool observe, bool close>
+template <bool observe, bool close, class T, class P>
 ASPERITY_INLINE void sum_type(const InterfaceSites& sites, const CellSubstrate& atoms,
-                              const PairTerms<Simd, T>& pair, std::int64_t next, std::int64_t end,
-                              bool first, const BlockOfSites& site, int x, int y, int count,
-                              SiteTerms& terms) {
+                              const PairTerms<Simd, T, P>& pair, std::int64_t next,
+                              std::int64_t end, bool first, const BlockOfSites& site, int x, int y,
+                              int count, SiteTerms& terms) {
     const double a = sites.spacing, reach = pair.cutoff;
     const double at_x = (sites.x0 + x + 0.5) * a, at_y = (sites.y0 + y + 0.5) * a;
     const Place least = {at_x - site.sideways, at_y - site.sideways, site.lowest_z, 0.0};
@@ -320,13 +320,17 @@ void cell_sweep(const InterfaceSites& sites, const CellSubstrate& atoms, const P
                     static_cast<std::ptrdiff_t>(y) * atoms.blocks + x / interface_block;
                 for (int type = 0; type < pairs.types; ++type) {
                     const std::int64_t* list = atoms.first + block * pairs.types + type;
-                    const PairTerms<Simd, T> pair(pairs.of[type]);
-                    if (reach.close)
-                        sum_type<T, observe, true>(sites, atoms, pair, list[0], list[1], type == 0,
-                                                   site, x, y, count, terms);
-                    else
-                        sum_type<T, observe, false>(sites, atoms, pair, list[0], list[1], type == 0,
-                                                    site, x, y, count, terms);
+                    std::visit(
+                        [&]<class P>(const P& p) {
+                            const PairTerms<Simd, T, P> pair(p);
+                            if (reach.close)
+                                sum_type<observe, true>(sites, atoms, pair, list[0], list[1],
+                                                        type == 0, site, x, y, count, terms);
+                            else
+                                sum_type<observe, false>(sites, atoms, pair, list[0], list[1],
+                                                         type == 0, site, x, y, count, terms);
+                        },
+                        pairs.of[type]);
                 }
             });
 }
@@ -335,7 +339,7 @@ void cell_sweep(const InterfaceSites& sites, const CellSubstrate& atoms, const P
 
 extern const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps;
 const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps = {
-    {cell_sweep<double, false>, cell_sweep<double, true>},
-    {cell_sweep<float, false>, cell_sweep<float, true>}};
+    {{cell_sweep<double, false>, cell_sweep<double, true>},
+     {cell_sweep<float, false>, cell_sweep<float, true>}}};
 
 } // namespace asperity::ASPERITY_VARIANT

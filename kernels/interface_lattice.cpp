@@ -10,11 +10,11 @@ namespace asperity::ASPERITY_VARIANT {
 namespace {
 
 /// One register of sites, `lane` sites into the block.
-template <class T, bool observe, bool close>
+template <class T, bool observe, bool close, class P>
 ASPERITY_INLINE void sum_register(const BlockOfSites& site, int lane, Columns all, Columns within,
                                   const typename SiteHeight<Simd, T>::Atom* here,
                                   std::ptrdiff_t row, int half_offsets, const Offsets<T>& offsets,
-                                  const PairTerms<Simd, T>& pair, SiteTerms& terms) {
+                                  const PairTerms<Simd, T, P>& pair, SiteTerms& terms) {
     constexpr int width = Pack<T>::width;
     const auto sums = sum_lattice<Simd, T, observe, close>(
         SiteHeight<Simd, T>(site.z + lane), lengths<Simd, T>(site.ux + lane),
@@ -40,22 +40,22 @@ ASPERITY_INLINE void sum_register(const BlockOfSites& site, int lane, Columns al
     }
 }
 
-template <class T, bool observe>
-void lattice_sweep(const InterfaceSites& sites, const LatticeSubstrate& atoms,
-                   const LennardJones& lj, int row_begin, int row_end, InterfaceSums& sums) {
-    const PairTerms<Simd, T> pair(lj);
+template <class T, bool observe, class P>
+void sweep_with(const PairTerms<Simd, T, P>& pair, const InterfaceSites& sites,
+                const LatticeSubstrate& atoms, const PairPotential& potential, int row_begin,
+                int row_end, InterfaceSums& sums) {
     const Offsets<T> offset(sites.spacing, atoms.half_offsets);
     const auto heights = SiteHeight<Simd, T>::of(atoms.heights);
     // No atom of a lattice is laterally nearer to a hollow site than this.
     const double hollow = std::sqrt(0.5) * sites.spacing;
     sweep_blocks<T, observe>(
-        sites, atoms, lj, pair, row_begin, row_end, sums,
+        sites, atoms, potential, pair, row_begin, row_end, sums,
         [&](const BlockOfSites& site, const Reach& reach, int x, int y, int count,
             SiteTerms& terms) __attribute__((always_inline)) {
             // What is in reach is rounded up to the table's steps, what is inside down.
             const Columns all(atoms, static_cast<int>(reach.from_rest * atoms.cuts_per_length) + 1);
             const Columns within(atoms, static_cast<int>(reach.inside * atoms.cuts_per_length));
-            const bool close = reach.close && hollow - site.sideways < pair.floor;
+            const bool close = reach.close && hollow - site.sideways < pair.closest;
             for (int lane = 0; lane < count; lane += Pack<T>::width) {
                 const auto* here = heights.line(y) + x + lane;
                 if (close)
@@ -68,11 +68,23 @@ void lattice_sweep(const InterfaceSites& sites, const LatticeSubstrate& atoms,
         });
 }
 
+template <class T, bool observe>
+void lattice_sweep(const InterfaceSites& sites, const LatticeSubstrate& atoms,
+                   const PairPotential& potential, int row_begin, int row_end,
+                   InterfaceSums& sums) {
+    std::visit(
+        [&]<class P>(const P& p) {
+            sweep_with<T, observe>(PairTerms<Simd, T, P>(p), sites, atoms, potential, row_begin,
+                                   row_end, sums);
+        },
+        potential);
+}
+
 } // namespace
 
 extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;
 const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps = {
-    {lattice_sweep<double, false>, lattice_sweep<double, true>},
-    {lattice_sweep<float, false>, lattice_sweep<float, true>}};
+    {{lattice_sweep<double, false>, lattice_sweep<double, true>},
+     {lattice_sweep<float, false>, lattice_sweep<float, true>}}};
 
 } // namespace asperity::ASPERITY_VARIANT

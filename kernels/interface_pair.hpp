@@ -5,18 +5,14 @@
 // interface_cells.cpp): one text for packs and for the threads of a device. F is the family of
 // values (Simd, Scalar), T the precision of the pairs, double or float.
 //
-// With t = r_m^2 / r^2 and r_m = 2^(1/6) r0 the potential of a pair is
-//
-//     V = epsilon t^3 (t^3 - 2) - V0(r_c),    -V'/r = (12 epsilon / r_m^2) (t^7 - t^4).
-//
-// One division serves two pairs (1/a = b / (ab)). Divisions run in parallel with multiplications if
-// these are independent; so the sweeps begin the next pairs before they finish these.
-// Without the energy a pair takes one fused multiplication for r^2, one and a half for t, four for
-// the force, one for its z component: seven and a half, and what the lateral components take. Pairs
-// in float count lengths in fixed_quantum, in double in Å.
+// Without the energy a Lennard-Jones pair takes one fused multiplication for r^2, one and a half
+// for t, four for the force, one for its z component: seven and a half, and what the lateral
+// components take. Pairs in float count lengths in fixed_quantum, in double in Å.
 #pragma once
 
-#include "kernels/interface_sweep.hpp"
+#include "kernels/interface_sites.hpp"
+#include "kernels/pair_potential.hpp"
+#include "kernels/substrates.hpp"
 #include "kernels/variant.hpp"
 
 #include <type_traits>
@@ -27,49 +23,44 @@ namespace asperity::ASPERITY_VARIANT {
 template <class T>
 inline constexpr double length_unit = std::is_same_v<T, float> ? fixed_quantum : 1.0;
 
-/// Constants of the potential, one copy in every lane where it meets the pairs.
-template <class F, class T>
+/// Constants of the potential P, one copy in every lane where it meets the pairs.
+template <class F, class T, class P>
 struct PairTerms {
     using V = typename F::template Of<T>;
-    V rm2, r2_floor, r2_cut, shift;
-    double force_scale, energy_scale, cutoff, floor, contact_r2;
+    typename P::template Terms<V> potential;
+    V r2_floor, r2_cut, shift;
+    double force_scale, energy_scale, cutoff, closest, contact_r2;
 
-    explicit PairTerms(const LennardJones& lj)
-        : rm2(squared(std::cbrt(2.0) * lj.r0 * lj.r0)), r2_floor(squared(lj.r2_floor())),
-          r2_cut(squared(lj.r2_cut())),
-          shift(static_cast<T>(LennardJones{1.0, lj.r0, lj.cutoff}.shift())),
-          force_scale(12.0 * lj.epsilon / (std::cbrt(2.0) * lj.r0 * lj.r0)),
-          energy_scale(lj.epsilon), cutoff(lj.cutoff), floor(std::sqrt(lj.r2_floor())),
-          contact_r2(lj.contact_distance() * lj.contact_distance()) {}
+    explicit PairTerms(const P& p)
+        : potential(p, length_unit<T>), r2_floor(squared(p.closest() * p.closest())),
+          r2_cut(squared(p.cutoff * p.cutoff)), shift(static_cast<T>(p.shift())),
+          force_scale(potential.force_scale), energy_scale(potential.energy_scale),
+          cutoff(p.cutoff), closest(p.closest()), contact_r2(p.inflection() * p.inflection()) {}
 
-    /// -V'/r in units of force_scale, from t; zero beyond the cutoff, which may be left out
-    /// (false_type) where all of r2 are known to be within it.
+    /// -V'/r in units of force_scale, from what begin() returned; zero beyond the cutoff, which may
+    /// be left out (false_type) where all of r2 are known to be within it.
     template <bool masked>
-    ASPERITY_INLINE V force(V t, V r2, std::bool_constant<masked>) const {
-        const V t2 = t * t, t3 = t2 * t, t4 = t2 * t2;
-        if constexpr (masked)
-            return fms_where_less(r2, r2_cut, t4, t3, t4);
-        else
-            return fms(t4, t3, t4);
+    ASPERITY_INLINE V force(V begun, V r2, std::bool_constant<masked>) const {
+        return potential.force(
+            begun, r2, [&](V a, V b, V c) __attribute__((always_inline)) {
+                if constexpr (masked)
+                    return fms_where_less(r2, r2_cut, a, b, c);
+                else
+                    return fms(a, b, c);
+            });
     }
     /// V in units of energy_scale.
-    ASPERITY_INLINE V energy(V t, V r2) const {
-        const V t3 = t * t * t;
-        return select(r2 < r2_cut, fms(t3, t3, t3 + t3) - shift, V(T(0)));
+    ASPERITY_INLINE V energy(V begun, V r2) const {
+        return select(r2 < r2_cut, potential.energy(begun, r2) - shift, V(T(0)));
     }
-    /// r_m^2 / a and r_m^2 / b by one division.
+    /// Of two squared distances, and of one. close: they may be nearer than any pair can be.
     template <bool close>
-    ASPERITY_INLINE void inverse(V a, V b, V& ta, V& tb) const {
-        a = held<close>(a);
-        b = held<close>(b);
-        const V both = rm2 / (a * b);
-        ta = b * both;
-        tb = a * both;
+    ASPERITY_INLINE void begin(V a, V b, V& of_a, V& of_b) const {
+        potential.begin(held<close>(a), held<close>(b), of_a, of_b);
     }
-    /// r_m^2 / a.
     template <bool close>
-    ASPERITY_INLINE V inverse(V a) const {
-        return rm2 / held<close>(a);
+    ASPERITY_INLINE V begin(V a) const {
+        return potential.begin(held<close>(a));
     }
 
     /// In Å^2. Visited atoms beyond the cutoff are no neighbours.

@@ -9,16 +9,49 @@
 // atoms anywhere: one loop over all of them, and over the images of each within the cutoff.
 //
 // The tail correction is here too: it is one formula per site, no sum over pairs.
-#include "kernels/pair_sum.hpp"
+#include "kernels/interface_kernels.hpp"
 
 namespace asperity {
 
-PairSum pair_sum(const SubstrateMap& map, const LennardJones& potential, double x, double y,
+PairSum pair_sum(const SubstrateMap& map, const PairPotential& potential, double x, double y,
                  double z) {
-    PairSum sum = portable::sum_of_pairs(map, potential, x, y, z);
-    sum.in_contact = sum.nearest_r2 < potential.contact_distance() * potential.contact_distance();
-    return sum;
+    return std::visit(
+        [&](const auto& p) {
+            PairSum sum = portable::sum_of_pairs(map, Pair(p), x, y, z);
+            sum.in_contact = sum.nearest_r2 < p.inflection() * p.inflection();
+            return sum;
+        },
+        potential);
 }
+
+namespace {
+
+/// Adds the atoms of one type.
+template <class P>
+void add_type(const SubstrateAtoms& atoms, int type, const P& potential, double x, double y,
+              double z, PairSum& sum) {
+    const double edge = atoms.edge, reach = potential.cutoff, contact = potential.inflection();
+    const Pair<P> pair(potential);
+    for (std::int64_t i = 0; i < atoms.count; ++i) {
+        if (atoms.type && atoms.type[i] != type) continue;
+        const double dz = z - atoms.z[i];
+        PairSum of_atom;
+        for (double n = std::ceil((y - reach - atoms.y[i]) / edge);
+             n <= std::floor((y + reach - atoms.y[i]) / edge); ++n)
+            for (double m = std::ceil((x - reach - atoms.x[i]) / edge);
+                 m <= std::floor((x + reach - atoms.x[i]) / edge); ++m) {
+                const double dx = x - (atoms.x[i] + m * edge), dy = y - (atoms.y[i] + n * edge);
+                portable::add_pair(pair, dx, dy, dz, of_atom);
+            }
+        for (int k = 0; k < 3; ++k)
+            sum.force[k] += of_atom.force[k];
+        sum.energy += of_atom.energy;
+        sum.nearest_r2 = std::fmin(sum.nearest_r2, of_atom.nearest_r2);
+        sum.in_contact |= of_atom.nearest_r2 < contact * contact;
+    }
+}
+
+} // namespace
 
 PairSum pair_sum(const SubstrateAtoms& atoms, const PairTable& pairs, double x, double y,
                  double z) {
@@ -27,25 +60,8 @@ PairSum pair_sum(const SubstrateAtoms& atoms, const PairTable& pairs, double x, 
         sum.force[0] = sum.force[1] = sum.force[2] = sum.energy = std::nan("");
         return sum;
     }
-    const double edge = atoms.edge;
-    for (std::int64_t i = 0; i < atoms.count; ++i) {
-        const LennardJones& potential = pairs.of[atoms.type ? atoms.type[i] : 0];
-        const double reach = potential.cutoff, contact = potential.contact_distance();
-        const double dz = z - atoms.z[i];
-        PairSum of_atom;
-        for (double n = std::ceil((y - reach - atoms.y[i]) / edge);
-             n <= std::floor((y + reach - atoms.y[i]) / edge); ++n)
-            for (double m = std::ceil((x - reach - atoms.x[i]) / edge);
-                 m <= std::floor((x + reach - atoms.x[i]) / edge); ++m) {
-                const double dx = x - (atoms.x[i] + m * edge), dy = y - (atoms.y[i] + n * edge);
-                portable::add_pair(potential, dx, dy, dz, of_atom);
-            }
-        for (int k = 0; k < 3; ++k)
-            sum.force[k] += of_atom.force[k];
-        sum.energy += of_atom.energy;
-        sum.nearest_r2 = std::fmin(sum.nearest_r2, of_atom.nearest_r2);
-        sum.in_contact |= of_atom.nearest_r2 < contact * contact;
-    }
+    for (int type = 0; type < pairs.types; ++type)
+        std::visit([&](const auto& p) { add_type(atoms, type, p, x, y, z, sum); }, pairs.of[type]);
     return sum;
 }
 
@@ -80,7 +96,7 @@ void sweep_one_by_one(const InterfaceSites& sites, const Substrate& substrate,
 } // namespace
 
 void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
-                     const LennardJones& potential, int row_begin, int row_end,
+                     const PairPotential& potential, int row_begin, int row_end,
                      InterfaceSums& sums) {
     sweep_one_by_one(sites, map, potential, row_begin, row_end, sums);
 }
@@ -89,9 +105,11 @@ void reference_sweep(const InterfaceSites& sites, const SubstrateAtoms& atoms,
     sweep_one_by_one(sites, atoms, pairs, row_begin, row_end, sums);
 }
 
-void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
-                PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
-                InterfaceSums& sums) {
+namespace {
+
+template <class P>
+void add_tail(const Tail<P>& tail, const InterfaceSites& sites, PlaneView<const double> mean_height,
+              int row_begin, int row_end, bool observe, InterfaceSums& sums) {
     for (int y = row_begin; y < row_end; ++y) {
         for (int x = 0; x < mean_height.nx; ++x) {
             const double gap =
@@ -107,6 +125,19 @@ void tail_sweep(const InterfaceSites& sites, const TailCorrection& tail,
         }
         sums.carry();
     }
+}
+
+} // namespace
+
+void tail_sweep(const InterfaceSites& sites, const PairPotential& potential, double density,
+                PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
+                InterfaceSums& sums) {
+    std::visit(
+        [&](const auto& p) {
+            if constexpr (p.has_tail)
+                add_tail(Tail(p, density), sites, mean_height, row_begin, row_end, observe, sums);
+        },
+        potential);
 }
 
 } // namespace asperity

@@ -56,7 +56,7 @@ private:
 };
 
 /// A substrate, and the constants of a sweep over it.
-template <class F, class T>
+template <class F, class T, class P>
 struct AtomRows {
     using V = typename F::template Of<T>;
     using Atom = typename SiteHeight<F, T>::Atom;
@@ -64,7 +64,7 @@ struct AtomRows {
     /// Registers in a group.
     static constexpr int parts = lanes / width;
 
-    PairTerms<F, T> pair;
+    PairTerms<F, T, P> pair;
     PlaneView<const Atom> heights;
     int i0, j0;
     double b, inverse_b;
@@ -72,8 +72,8 @@ struct AtomRows {
     T step;           ///< b in units of length
     T lane_at[lanes]; ///< 0, b, 2b, ... in units of length
 
-    AtomRows(const RowSubstrate& atoms, const LennardJones& lj)
-        : pair(lj), heights(SiteHeight<F, T>::of(atoms.heights)), i0(atoms.i0), j0(atoms.j0),
+    AtomRows(const RowSubstrate& atoms, const P& potential)
+        : pair(potential), heights(SiteHeight<F, T>::of(atoms.heights)), i0(atoms.i0), j0(atoms.j0),
           b(atoms.map.spacing), inverse_b(1.0 / b), step(row_offset(1)) {
         // The diameter of the cutoff in groups, to the nearest, is centred on the site.
         const int across = static_cast<int>(std::lround(2.0 * pair.cutoff / (b * lanes)));
@@ -111,7 +111,7 @@ struct AtomRows {
         return static_cast<int>(std::floor(0.5 * std::floor((y_there + half) * inverse_b)));
     }
 
-    /// Two pairs on their way from distance to force.
+    /// Two pairs on their way from distance to force; t: what begin() returned.
     struct Couple {
         V z, z_next, r2, r2_next, t, t_next;
     };
@@ -182,7 +182,7 @@ private:
             c.z_next = z.above(row + heights.row);
             c.r2 = fma(c.z, c.z, dx2 + aside.dy2(2 * p));
             c.r2_next = fma(c.z_next, c.z_next, dx2 + aside.dy2(2 * p + 1));
-            pair.template inverse<close>(c.r2, c.r2_next, c.t, c.t_next);
+            pair.template begin<close>(c.r2, c.r2_next, c.t, c.t_next);
             row += 2 * heights.row;
             return c;
         };
@@ -223,21 +223,22 @@ private:
 };
 
 /// Of a single site: chords and distances are made where they are needed.
-template <class T>
+template <class T, class P>
 struct ChordsOfOne {
-    const AtomRows<Scalar, T>& rows;
+    const AtomRows<Scalar, T, P>& rows;
     double reach;
     int first, end;
-    ASPERITY_INLINE ChordsOfOne(const AtomRows<Scalar, T>& of, double within)
+    ASPERITY_INLINE ChordsOfOne(const AtomRows<Scalar, T, P>& of, double within)
         : rows(of), reach(within), first(of.first_register(within)),
           end(of.end_of_registers(within)) {}
     ASPERITY_INLINE double half(int k) const { return rows.half_chord(k, reach); }
 };
-template <class T>
+template <class T, class P>
 struct AsideOfOne {
-    const AtomRows<Scalar, T>& rows;
+    const AtomRows<Scalar, T, P>& rows;
     T y;
-    ASPERITY_INLINE AsideOfOne(const AtomRows<Scalar, T>& of, double y_there, const ChordsOfOne<T>&)
+    ASPERITY_INLINE AsideOfOne(const AtomRows<Scalar, T, P>& of, double y_there,
+                               const ChordsOfOne<T, P>&)
         : rows(of), y(static_cast<T>(y_there * (1.0 / length_unit<T>))) {}
     ASPERITY_INLINE Lane<T> dy(int j) const { return Lane<T>(y) - Lane<T>(rows.row_offset(j)); }
     ASPERITY_INLINE Lane<T> dy2(int j) const { return dy(j) * dy(j); }

@@ -108,7 +108,7 @@ struct Reach {
         -1.0;               ///< beyond this, from the undisplaced site, none; negative: none at all
     double from_site = 0.0; ///< likewise from the displaced site
     double inside = 1e6;    ///< within this, from the undisplaced site, all are within the cutoff
-    bool close = false;     ///< some may be closer than r2_floor
+    bool close = false;     ///< some may be closer than any pair can be
 
     template <class Real, int size>
     ASPERITY_INLINE Reach(const ReachBounds& bounds, int x, int y, double datum,
@@ -215,7 +215,7 @@ struct WideSum<Lane<float>> : WideSum<Lane<double>> {
     ASPERITY_INLINE void add(Lane<float> term) { low = low + Lane<double>(term.r); }
 };
 
-/// Four pairs on their way from distance to force.
+/// Four pairs on their way from distance to force; t: what begin() returned.
 template <class V>
 struct Quad {
     V z_sw, z_se, z_nw, z_ne, r2_sw, r2_se, r2_nw, r2_ne, t_sw, t_se, t_nw, t_ne;
@@ -245,12 +245,12 @@ struct Laterals<Scalar, T> {
 
 /// Sums over the quads in reach of sites displaced by ux, uy that stand at z; `here`: the atom of
 /// the first of them.
-template <class F, class T, bool observe, bool close>
+template <class F, class T, bool observe, bool close, class P>
 ASPERITY_INLINE PairSums<typename F::template Of<T>>
 sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F::template Of<T> uy,
             Columns all, Columns within, const typename SiteHeight<F, T>::Atom* here,
             std::ptrdiff_t row, int half_offsets, const Offsets<T>& offsets,
-            const PairTerms<F, T>& pair) {
+            const PairTerms<F, T, P>& pair) {
     using V = typename F::template Of<T>;
     const auto offset = [&](int m) __attribute__((always_inline)) { return V(offsets.at[m]); };
     const Laterals<F, T> lateral(ux, offsets, all.of_row[0]);
@@ -276,8 +276,8 @@ sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F
         q.r2_se = fma(q.z_se, q.z_se, lateral.east2(m) + south2);
         q.r2_nw = fma(q.z_nw, q.z_nw, lateral.west2(m) + north2);
         q.r2_ne = fma(q.z_ne, q.z_ne, lateral.east2(m) + north2);
-        pair.template inverse<close>(q.r2_sw, q.r2_se, q.t_sw, q.t_se);
-        pair.template inverse<close>(q.r2_nw, q.r2_ne, q.t_nw, q.t_ne);
+        pair.template begin<close>(q.r2_sw, q.r2_se, q.t_sw, q.t_se);
+        pair.template begin<close>(q.r2_nw, q.r2_ne, q.t_nw, q.t_ne);
         return q;
     };
     V f_south, f_north; // sums of a row
@@ -338,8 +338,8 @@ struct SiteTotal {
     SiteForce force;
     double energy, nearest;
 };
-template <class F, class T>
-ASPERITY_INLINE SiteForce site_force(const PairTerms<F, T>& pair, double ux, double uy, double f,
+template <class F, class T, class P>
+ASPERITY_INLINE SiteForce site_force(const PairTerms<F, T, P>& pair, double ux, double uy, double f,
                                      double f_cx, double f_cy, double f_z) {
     constexpr double unit = length_unit<T>;
     return {pair.force_scale * (ux * f + unit * f_cx), pair.force_scale * (uy * f + unit * f_cy),

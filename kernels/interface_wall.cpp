@@ -11,14 +11,15 @@ namespace asperity::ASPERITY_VARIANT {
 namespace {
 
 template <class Law, bool observe>
-void wall_sweep(const InterfaceSites& sites, const WallSubstrate<Law>& wall, int row_begin,
-                int row_end, InterfaceSums& sums) {
+void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const double> height,
+                int row_begin, int row_end, InterfaceSums& sums) {
     const int nx = sites.displacement.x.nx;
-    const Law law = wall.law;
+    const typename Law::template In<Real> law(wall);
+    const double contact_gap = wall.contact_gap();
     const Real reference(sites.reference_height);
     Totals totals;
     for (int y = row_begin; y < row_end; ++y) {
-        const double *u = sites.displacement.z.line(y), *below = wall.height.line(y);
+        const double *u = sites.displacement.z.line(y), *below = height.line(y);
         for (int x = 0; x < nx; x += interface_block) {
             const int count = nx - x < interface_block ? nx - x : interface_block;
             SiteTerms terms;
@@ -37,7 +38,7 @@ void wall_sweep(const InterfaceSites& sites, const WallSubstrate<Law>& wall, int
             if constexpr (observe)
                 for (int i = 0; i < count; ++i) {
                     const double gap = terms.nearest[i], open = gap > 0.0 ? gap : 0.0;
-                    terms.in_contact |= unsigned{gap < law.contact_gap()} << i;
+                    terms.in_contact |= unsigned{gap < contact_gap} << i;
                     terms.nearest[i] = open * open;
                 }
             totals.take<observe>(sites, terms, x, y, count);
@@ -47,9 +48,20 @@ void wall_sweep(const InterfaceSites& sites, const WallSubstrate<Law>& wall, int
     totals.give(sums);
 }
 
+template <bool observe>
+void wall_sweep(const InterfaceSites& sites, const PlaneView<const double>& height,
+                const WallLaw& wall, int row_begin, int row_end, InterfaceSums& sums) {
+    std::visit(
+        [&](const auto& law) {
+            sweep_over<std::decay_t<decltype(law)>, observe>(law, sites, height, row_begin, row_end,
+                                                             sums);
+        },
+        wall);
+}
+
 template <class Law, class T>
-WallSums settle_row(const Law& given, const WallRow<T>& row, const WallRule& rule, int sites) {
-    const Law law = given;
+WallSums settle_over(const Law& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
+    const typename Law::template In<Real> law(wall);
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
     const Real compliance(1.0 / rule.spring), load(rule.load), norm(rule.norm);
     Real furthest(0.0), turn(0.0), height(0.0);
@@ -79,17 +91,15 @@ WallSums settle_row(const Law& given, const WallRow<T>& row, const WallRule& rul
     return {-lowest(Real(0.0) - furthest), total(turn), total(height)};
 }
 
-template <class Law>
-constexpr InterfaceKernels::WallKernels<Law> kernels_over() {
-    return {{wall_sweep<Law, false>, wall_sweep<Law, true>},
-            settle_row<Law, double>,
-            settle_row<Law, float>};
+template <class T>
+WallSums settle_row(const WallLaw& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
+    return std::visit([&](const auto& law) { return settle_over(law, row, rule, sites); }, wall);
 }
 
 } // namespace
 
-extern const InterfaceKernels::AllWalls walls;
-const InterfaceKernels::AllWalls walls = {kernels_over<LennardJonesWall>(),
-                                          kernels_over<ExponentialWall>()};
+extern const InterfaceKernels::WallKernels wall_kernels;
+const InterfaceKernels::WallKernels wall_kernels = {
+    {wall_sweep<false>, wall_sweep<true>}, settle_row<double>, settle_row<float>};
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -12,6 +12,7 @@
 
 #include "kernels/annotations.hpp"
 #include "kernels/exact_sum.hpp"
+#include "kernels/number.hpp"
 #include "kernels/variant.hpp"
 
 #include <cmath>
@@ -22,6 +23,7 @@ namespace asperity::ASPERITY_VARIANT {
 template <class T>
 struct Lane {
     static constexpr int width = 1;
+    using Value = T;
     using Mask = bool;
 
     T r;
@@ -89,7 +91,25 @@ ASPERITY_INLINE Lane<T> fms_where_less(Lane<T> x, Lane<T> y, Lane<T> a, Lane<T> 
     return x.r < y.r ? fms(a, b, c) : Lane<T>(T(0));
 }
 
-ASPERITY_INLINE Lane<double> sqrt(Lane<double> a) { return std::sqrt(a.r); }
+template <class T>
+ASPERITY_INLINE Lane<T> sqrt(Lane<T> a) {
+    return std::sqrt(a.r);
+}
+ASPERITY_INLINE Lane<double> power_of_two(Lane<double> n) { return asperity::power_of_two(n.r); }
+ASPERITY_INLINE Lane<float> power_of_two(Lane<float> n) {
+    const float biased = n.r + (0x1.8p23f + 127.0f);
+    std::uint32_t bits;
+    std::memcpy(&bits, &biased, sizeof bits);
+    bits <<= 23;
+    float power;
+    std::memcpy(&power, &bits, sizeof power);
+    return power;
+}
+template <class T>
+ASPERITY_INLINE void gather_four(const T* table, Lane<T> n, Lane<T> (&row)[4]) {
+    for (int k = 0; k < 4; ++k)
+        row[k] = table[4 * static_cast<std::ptrdiff_t>(n.r) + k];
+}
 ASPERITY_INLINE Lane<double> inverse_sqrt(Lane<double> a) { return 1.0 / std::sqrt(a.r); }
 
 ASPERITY_INLINE Lane<double> first_lanes(Lane<double> a, int) { return a; }

@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The pair potential of the interface (docs/model.md):
+// The Lennard-Jones potential (12-6). With t = r_m^2 / r^2 and r_m = 2^(1/6) r0:
 //
-//     V(r) = 4 epsilon [(r0/r)^12 - (r0/r)^6] - V(r_c)   for r < r_c,   0 beyond.
+//     V0 = 4 epsilon [(r0/r)^12 - (r0/r)^6] = epsilon t^3 (t^3 - 2)
+//     -V0'/r = (12 epsilon / r_m^2) (t^7 - t^4)
+//     (V0'/r)'/r = (24 epsilon / r_m^4) (7 t^8 - 4 t^5)
 //
-// The force is the plain derivative, so energy is continuous at the cutoff and the force has the
-// small step V'(r_c). Near r = 0 the squared distance is held at r2_floor: a start with overlapping
-// atoms gives a huge finite force instead of infinity, and the guard of the time step catches it.
+// One division serves two pairs (1/a = b / (ab)). Divisions run in parallel with multiplications
+// if these are independent; so the sweeps begin the next pairs before they finish these. Without
+// the energy a pair takes one and a half multiplications for t and four for the force.
 #pragma once
 
-#include "kernels/annotations.hpp"
+#include "kernels/number.hpp"
 
 #include <cmath>
 
@@ -19,35 +21,64 @@ namespace asperity {
 struct LennardJones {
     double epsilon = 0.1;  ///< depth, eV
     double r0 = 3.28;      ///< zero crossing, Å
-    double cutoff = 13.12; ///< r_c, Å
+    double cutoff = 13.12; ///< Å
 
-    ASPERITY_HOST_DEVICE double r2_cut() const { return cutoff * cutoff; }
-    /// (0.3 r0)^2: repulsion there is 10^7 epsilon, far beyond any physical state.
-    ASPERITY_HOST_DEVICE double r2_floor() const { return 0.09 * r0 * r0; }
-    /// V(r_c) of the unshifted potential, eV.
-    ASPERITY_HOST_DEVICE double shift() const {
-        const double s2 = r0 * r0 / (cutoff * cutoff);
-        const double s6 = s2 * s2 * s2;
-        return 4.0 * epsilon * s6 * (s6 - 1.0);
+    static constexpr const char* name = "lennard-jones";
+    static constexpr bool has_tail = true;
+    /// Calls visit(name, unit, value, meaning) for every parameter but the cutoff.
+    template <class Self, class Visit>
+    static void parameters(Self& self, Visit visit) {
+        visit("epsilon", "eV", self.epsilon, "depth of the Lennard-Jones well");
+        visit("r0", "Å", self.r0, "distance of zero Lennard-Jones energy");
     }
-    /// Distance of the inflection V'' = 0, (26/7)^(1/6) r0: closer than this counts as contact.
-    double contact_distance() const { return std::pow(26.0 / 7.0, 1.0 / 6.0) * r0; }
 
-    /// Energy of a pair at squared distance r2, eV.
-    ASPERITY_HOST_DEVICE double energy(double r2) const {
-        if (r2 >= r2_cut()) return 0.0;
-        const double s2 = r0 * r0 / (r2 > r2_floor() ? r2 : r2_floor());
-        const double s6 = s2 * s2 * s2;
-        return 4.0 * epsilon * s6 * (s6 - 1.0) - shift();
+    double zero() const { return r0; }
+    double minimum() const { return std::pow(2.0, 1.0 / 6.0) * r0; }
+    double inflection() const { return std::pow(26.0 / 7.0, 1.0 / 6.0) * r0; }
+    ASPERITY_INLINE double depth() const { return epsilon; }
+    /// Repulsion there is 10^7 epsilon.
+    ASPERITY_INLINE double closest() const { return 0.3 * r0; }
+    /// From the ratio of the lengths, which is usually a power of two.
+    double shift() const {
+        const double s2 = r0 * r0 / (cutoff * cutoff), s6 = s2 * s2 * s2;
+        return 4.0 * s6 * (s6 - 1.0);
     }
-    /// -V'(r)/r: times the distance vector it is the force, eV/Å^2.
-    ASPERITY_HOST_DEVICE double force_over_distance(double r2) const {
-        if (r2 >= r2_cut()) return 0.0;
-        const double inverse = 1.0 / (r2 > r2_floor() ? r2 : r2_floor());
-        const double s2 = r0 * r0 * inverse;
-        const double s6 = s2 * s2 * s2;
-        return 24.0 * epsilon * s6 * (2.0 * s6 - 1.0) * inverse;
-    }
+
+    /// For values of type V, lengths counted in `unit`, Å.
+    template <class V>
+    struct Terms {
+        V rm2;
+        double force_scale, energy_scale;
+
+        Terms(const LennardJones& p, double unit)
+            : rm2(same<V>(std::cbrt(2.0) * p.r0 * p.r0 / (unit * unit))),
+              force_scale(12.0 * p.epsilon / (std::cbrt(2.0) * p.r0 * p.r0)),
+              energy_scale(p.epsilon) {}
+
+        ASPERITY_INLINE V begin(V r2) const { return rm2 / r2; }
+        ASPERITY_INLINE void begin(V a, V b, V& ta, V& tb) const {
+            const V both = rm2 / (a * b);
+            ta = b * both;
+            tb = a * both;
+        }
+        template <class Difference>
+        ASPERITY_INLINE V force(V t, V, Difference difference) const {
+            const V t2 = t * t, t3 = t2 * t, t4 = t2 * t2;
+            return difference(t4, t3, t4);
+        }
+        ASPERITY_INLINE V energy(V t, V) const {
+            const V t3 = t * t * t;
+            return fms(t3, t3, t3 + t3);
+        }
+        ASPERITY_INLINE V bend(V t, V) const {
+            const V t2 = t * t, t5 = t2 * t2 * t;
+            return (same<V>(2.0) / rm2) * t5 * (same<V>(7.0) * (t2 * t) - same<V>(4.0));
+        }
+        ASPERITY_INLINE V moment(V t, V) const {
+            const V t2 = t * t;
+            return rm2 * t2 * (same<V>(0.1) * (t2 * t) - same<V>(0.5));
+        }
+    };
 };
 
 } // namespace asperity

@@ -1,14 +1,51 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// One site's sum over the substrate in the reference order, for host and device: the reference
-// sweep, and the sites that no table covers.
+// One site's sum over the substrate in the reference order: the reference sweep, and the sites that
+// no table covers.
 #pragma once
 
-#include "kernels/interface_sweep.hpp"
+#include "kernels/interface_sites.hpp"
+#include "kernels/pair_potential.hpp"
+#include "kernels/substrates.hpp"
 #include "kernels/variant.hpp"
 
 #include <cmath>
+
+namespace asperity {
+
+/// The potentials of the block's atoms with those of the substrate, by the type of the latter.
+struct PairTable {
+    const PairPotential* of = nullptr; ///< [type]
+    int types = 0;
+    double cutoff = 0.0;  ///< the largest, Å
+    double closest = 0.0; ///< the largest distance at which a pair is held, Å
+
+    PairTable(const PairPotential* table, int count) : of(table), types(count) {
+        for (int t = 0; t < count; ++t) {
+            cutoff = max(cutoff_of(table[t]), cutoff);
+            closest = max(closest_of(table[t]), closest);
+        }
+    }
+    PairTable(const PairPotential& of_all) : PairTable(&of_all, 1) {}
+};
+
+/// What one site feels: the sums of the reference loop.
+struct PairSum {
+    double force[3] = {0.0, 0.0, 0.0}; ///< eV/Å
+    double energy = 0.0;               ///< eV
+    double nearest_r2 = no_pair;       ///< Å^2
+    bool in_contact = false;           ///< closer than contact_distance to some atom
+};
+
+/// The reference: the sum over every substrate atom (periodic images included) within the cutoff of
+/// a site at (x, y, z), by rows of atoms. Not-a-number where the position is none.
+PairSum pair_sum(const SubstrateMap& map, const PairPotential& potential, double x, double y,
+                 double z);
+/// The same over atoms anywhere, one after the other, each by the potential of its type.
+PairSum pair_sum(const SubstrateAtoms& atoms, const PairTable& pairs, double x, double y, double z);
+
+} // namespace asperity
 
 namespace asperity::ASPERITY_VARIANT {
 
@@ -17,21 +54,22 @@ ASPERITY_HOST_DEVICE inline int fold(long i, int n) {
     return static_cast<int>(r < 0 ? r + n : r);
 }
 
-ASPERITY_HOST_DEVICE inline void add_pair(const LennardJones& potential, double dx, double dy,
-                                          double dz, PairSum& sum) {
+template <class P>
+ASPERITY_INLINE void add_pair(const Pair<P>& pair, double dx, double dy, double dz, PairSum& sum) {
     const double r2 = dx * dx + dy * dy + dz * dz;
-    if (r2 >= potential.r2_cut()) return;
-    const double f = potential.force_over_distance(r2);
+    if (r2 >= pair.cutoff * pair.cutoff) return;
+    const double f = pair.force_over_distance(r2);
     sum.force[0] += f * dx;
     sum.force[1] += f * dy;
     sum.force[2] += f * dz;
-    sum.energy += potential.energy(r2);
+    sum.energy += pair.energy(r2);
     if (r2 < sum.nearest_r2) sum.nearest_r2 = r2;
 }
 
-/// pair_sum() of interface_sweep.hpp.
-ASPERITY_HOST_DEVICE inline PairSum
-sum_of_pairs(const SubstrateMap& map, const LennardJones& potential, double x, double y, double z) {
+/// pair_sum() over a map, for host and device.
+template <class P>
+ASPERITY_HOST_DEVICE inline PairSum sum_of_pairs(const SubstrateMap& map, const Pair<P>& pair,
+                                                 double x, double y, double z) {
     PairSum sum;
     // Farther out than this (in atoms) no index is formed; a site there has long left the model.
     constexpr double farthest_index = 1e9;
@@ -43,7 +81,7 @@ sum_of_pairs(const SubstrateMap& map, const LennardJones& potential, double x, d
         sum.force[0] = sum.force[1] = sum.force[2] = sum.energy = nan;
         return sum;
     }
-    const double reach = potential.cutoff;
+    const double reach = pair.cutoff;
     const long j_first = static_cast<long>(std::floor((y - reach) / b));
     const long j_last = static_cast<long>(std::ceil((y + reach) / b));
     const long i_first = static_cast<long>(std::floor((x - reach) / b));
@@ -54,7 +92,7 @@ sum_of_pairs(const SubstrateMap& map, const LennardJones& potential, double x, d
             map.height + static_cast<std::ptrdiff_t>(fold(j, map.sites)) * map.sites;
         for (long i = i_first; i <= i_last; ++i) {
             const double dx = x - static_cast<double>(i) * b;
-            add_pair(potential, dx, dy, z - row[fold(i, map.sites)], sum);
+            add_pair(pair, dx, dy, z - row[fold(i, map.sites)], sum);
         }
     }
     return sum;

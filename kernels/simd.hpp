@@ -14,6 +14,7 @@
 #pragma once
 
 #include "kernels/annotations.hpp"
+#include "kernels/number.hpp"
 #include "kernels/variant.hpp"
 
 #include <cmath>
@@ -55,6 +56,7 @@ struct RegisterOf<float> {
 template <class T>
 struct Pack {
     static constexpr int width = register_bytes / static_cast<int>(sizeof(T));
+    using Value = T;
     using Register = typename RegisterOf<T>::type;
     using Mask = typename RegisterOf<T>::mask;
     /// As it lies in memory. g++ 12 takes a register of AVX2 that is filled by memcpy through the
@@ -113,7 +115,6 @@ template <class T>
 ASPERITY_INLINE Pack<T> select(typename Pack<T>::Mask mask, Pack<T> a, Pack<T> b) {
     return mask ? a.r : b.r;
 }
-ASPERITY_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
 
 template <class T>
 ASPERITY_INLINE Pack<T> min(Pack<T> a, Pack<T> b) {
@@ -244,15 +245,26 @@ ASPERITY_INLINE Pack<T> interleave_high(Pack<T> a, Pack<T> b) {
 }
 
 /// Square root, rounded once.
-ASPERITY_INLINE Pack<double> sqrt(Pack<double> a) {
+template <class T>
+ASPERITY_INLINE Pack<T> sqrt(Pack<T> a) {
+    using Register = typename Pack<T>::Register;
 #if defined(__AVX512F__)
-    return (DoubleRegister)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.r);
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>((Register)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.r));
+    else
+        return Pack<T>((Register)_mm512_maskz_sqrt_ps(0xffff, (__m512)a.r));
 #elif defined(__AVX2__)
-    return (DoubleRegister)_mm256_sqrt_pd((__m256d)a.r);
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>((Register)_mm256_sqrt_pd((__m256d)a.r));
+    else
+        return Pack<T>((Register)_mm256_sqrt_ps((__m256)a.r));
 #elif defined(__x86_64__)
-    return (DoubleRegister)_mm_sqrt_pd((__m128d)a.r);
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>((Register)_mm_sqrt_pd((__m128d)a.r));
+    else
+        return Pack<T>((Register)_mm_sqrt_ps((__m128)a.r));
 #else
-    for (int i = 0; i < Pack<double>::width; ++i)
+    for (int i = 0; i < Pack<T>::width; ++i)
         a.r[i] = std::sqrt(a.r[i]);
     return a;
 #endif
@@ -328,6 +340,25 @@ ASPERITY_INLINE Pack<double> inverse_sqrt(Pack<double> a) {
 #else
     return P(1.0) / sqrt(a);
 #endif
+}
+/// 2^n in each lane, as power_of_two() of a number.
+ASPERITY_INLINE Pack<double> power_of_two(Pack<double> n) {
+    return Pack<double>(
+        (DoubleRegister)((DoubleMask)(n + Pack<double>(0x1.8p52 + 1023.0)).r << 52));
+}
+ASPERITY_INLINE Pack<float> power_of_two(Pack<float> n) {
+    return Pack<float>((FloatRegister)((FloatMask)(n + Pack<float>(0x1.8p23f + 127.0f)).r << 23));
+}
+/// Rows n of a table of four numbers each, one for each lane.
+template <class T>
+ASPERITY_INLINE void gather_four(const T* table, Pack<T> n, Pack<T> (&row)[4]) {
+    constexpr int width = Pack<T>::width;
+    alignas(64) T lane[4][width];
+    for (int i = 0; i < width; ++i)
+        for (int k = 0; k < 4; ++k)
+            lane[k][i] = table[4 * static_cast<std::ptrdiff_t>(n[i]) + k];
+    for (int k = 0; k < 4; ++k)
+        row[k] = Pack<T>::load(lane[k]);
 }
 /// All lanes combined, by halving.
 template <int half, class Combine>

@@ -136,9 +136,9 @@ nlohmann::json measure(double seconds, std::vector<std::string> settings) {
     }
     const bool mixed = setup.simulation.interface.mixed;
     const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
-    const double pairs =
-        sites * pairs_of_site(setup.simulation.block.spacing,
-                              setup.simulation.interface.potential.cutoff, setup.flat.separation);
+    const double pairs = sites * pairs_of_site(setup.simulation.block.spacing,
+                                               cutoff_of(setup.simulation.interface.potential),
+                                               setup.flat.separation);
     const auto row = [&](const char* name, double took, double moved, double operations,
                          double rate) {
         const double by_memory = moved / limits.bytes, by_arithmetic = operations / rate;

@@ -10,7 +10,7 @@
 //   arithmetic     what a force's operations take where none waits for another, and slow: its
 //                  divisions alone; both measured in the same run (limits.hpp)
 //   GFLOP/s        of a pair's force (the energies of an observed sweep are not counted)
-#include "engine/block/interface.hpp"
+#include "engine/interface/interface.hpp"
 #include "kernels/variant.hpp"
 #include "limits.hpp"
 
@@ -83,7 +83,8 @@ double time_sweeps(benchmark::State& state, const Surface& substrate,
     const std::clock_t begin = std::clock();
     for (auto _ : state)
         benchmark::DoNotOptimize(
-            interface.sweep(seen.plane(0), f.plane(0), height, observe).force_z.bin[0]);
+            interface.sweep(seen.plane(0), f.plane(0), height, {.observe = observe})
+                .force_z.bin[0]);
     const double sweep = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC /
                          static_cast<double>(state.iterations());
     state.counters["s/site"] = sweep / (n * n);
@@ -97,7 +98,7 @@ void contact(benchmark::State& state, int sites, bool atoms_anywhere, Timed kern
     const bool mixed = state.range(0), observe = state.range(1);
     InterfaceOptions options;
     options.mixed = mixed;
-    const double pairs = pairs_in_reach(n * a / sites, options.potential.cutoff, height);
+    const double pairs = pairs_in_reach(n * a / sites, cutoff_of(options.potential), height);
     const Surface map = nearly_flat(sites);
     const double pair =
         time_sweeps(state, atoms_anywhere ? as_atoms(map) : map, options, height, observe) / pairs;

@@ -47,7 +47,7 @@ public:
 
     void step() {
         const InterfaceSums sums =
-            interface_.sweep(std::as_const(u_).plane(0), force_.plane(0), height_, false);
+            interface_.sweep(std::as_const(u_).plane(0), force_.plane(0), height_, {});
         ExactSum lowest, pulled;
         const ElasticKernels& kernels = elastic_kernels();
         const ElasticLevel level = {cells_,          u_.view(),     v_.view(),

@@ -15,33 +15,15 @@
 namespace asperity::theory {
 namespace {
 
-/// V, V'/r and (V'/r)'/r at r².
-struct PairDerivatives {
-    double energy, first, second;
-};
-
-PairDerivatives derivatives(const PairPotential& pair, double r2) {
-    const double cut2 = pair.cutoff * pair.cutoff;
-    if (!pair.tail && r2 >= cut2) return {0, 0, 0};
-    const auto sixth = [&](double square) {
-        const double s = pair.r0 * pair.r0 / square;
-        return s * s * s;
-    };
-    const double s = sixth(r2), c = pair.tail ? 0.0 : sixth(cut2);
-    return {4 * pair.epsilon * (s * (s - 1) - c * (c - 1)),
-            -24 * pair.epsilon * s * (2 * s - 1) / r2,
-            4 * pair.epsilon * s * (168 * s - 48) / (r2 * r2)};
-}
-
-void check(const PairPotential& pair, double a, double b) {
-    if (!(pair.epsilon > 0 && pair.r0 > 0 && a > 0 && b > 0))
-        throw InvalidInput(message("interface: epsilon ", pair.epsilon, ", r0 ", pair.r0,
+void check(const PairInteraction& pair, double a, double b) {
+    if (!(pair.zero > 0 && a > 0 && b > 0))
+        throw InvalidInput(message("interface: a potential that is zero at ", pair.zero,
                                    " and lattice spacings ", a, ", ", b,
                                    " must all be positive; check them"));
-    if (!(pair.cutoff > pair.r0 * std::pow(2.0, 1.0 / 6)))
+    if (!(pair.cutoff > pair.minimum))
         throw InvalidInput(message("interface: cutoff ", pair.cutoff,
                                    " leaves no attraction, it must lie beyond the pair minimum ",
-                                   pair.r0 * std::pow(2.0, 1.0 / 6), "; enlarge it"));
+                                   pair.minimum, "; enlarge it"));
 }
 
 constexpr double tail_rings = 8; // times the cutoff; what is beyond is 1e-4 of the tail
@@ -63,7 +45,7 @@ void add_rings(double from, double to, double per_area, std::vector<double>& rad
 
 } // namespace
 
-FlatInterface FlatInterface::hollow_sites(const PairPotential& pair, double a) {
+FlatInterface FlatInterface::hollow_sites(const PairInteraction& pair, double a) {
     check(pair, a, a);
     FlatInterface flat;
     flat.pair_ = pair;
@@ -82,14 +64,14 @@ FlatInterface FlatInterface::hollow_sites(const PairPotential& pair, double a) {
     return flat;
 }
 
-FlatInterface FlatInterface::all_registries(const PairPotential& pair, double a, double b) {
+FlatInterface FlatInterface::all_registries(const PairInteraction& pair, double a, double b) {
     check(pair, a, b);
     FlatInterface flat;
     flat.pair_ = pair;
     flat.spacing_ = b;
     const double per_area = 1 / (a * a * b * b);
-    // Finer near R = 0, where V varies within a fraction of r0.
-    const double ends[] = {0, pair.r0, 2 * pair.r0, pair.cutoff};
+    // Finer near R = 0, where V varies within a fraction of its length.
+    const double ends[] = {0, pair.zero, 2 * pair.zero, pair.cutoff};
     for (int k = 0; k < 3; ++k)
         if (ends[k + 1] > ends[k])
             add_rings(ends[k], std::min(ends[k + 1], pair.cutoff), per_area, flat.radii_,
@@ -101,9 +83,9 @@ FlatInterface FlatInterface::all_registries(const PairPotential& pair, double a,
 void FlatInterface::complete(double per_area, double sideways2) {
     if (pair_.tail)
         add_rings(pair_.cutoff, tail_rings * pair_.cutoff, per_area, radii_, densities_);
-    const double contact = std::pow(26.0 / 7, 1.0 / 6) * pair_.r0;
-    contact_ = std::sqrt(std::max(0.0, contact * contact - sideways2));
-    closest_ = 0.75 * pair_.r0;
+    shift_ = pair_.tail ? 0 : pair_.at(pair_.cutoff * pair_.cutoff).energy;
+    contact_ = std::sqrt(std::max(0.0, pair_.inflection * pair_.inflection - sideways2));
+    closest_ = 0.75 * pair_.zero;
     reach_ = (pair_.tail ? 2 : 1) * pair_.cutoff;
     find_minimum();
 }
@@ -124,11 +106,18 @@ FlatInterface FlatInterface::wall(std::function<double(double)> energy, double c
     return flat;
 }
 
+PairTerms FlatInterface::pair(double r2) const {
+    if (!pair_.tail && r2 >= pair_.cutoff * pair_.cutoff) return {};
+    PairTerms there = pair_.at(r2);
+    there.energy -= shift_;
+    return there;
+}
+
 FlatInterface::Terms FlatInterface::terms(int ring, double u) const {
     if (wall_) return {wall_(u), 0, 0, 0};
     const double R = radii_[static_cast<std::size_t>(ring)];
     const double density = densities_[static_cast<std::size_t>(ring)];
-    const PairDerivatives d = derivatives(pair_, R * R + u * u);
+    const PairTerms d = pair(R * R + u * u);
     return {density * d.energy, density * (d.first + d.second * u * u), density * d.second * R * u,
             density * 0.5 * (2 * d.first + d.second * R * R)};
 }

@@ -20,12 +20,18 @@
 
 namespace asperity::theory {
 
-/// V(r) = 4ε[(r0/r)¹² - (r0/r)⁶] - V(r_c) for r < r_c, zero beyond; with `tail` neither cut nor
-/// shifted.
-struct PairPotential {
-    double epsilon = 0; ///< depth [energy]
-    double r0 = 0;      ///< zero crossing [length]
-    double cutoff = 0;  ///< r_c [length]
+/// A pair at a distance: V0, V0'/r and (V0'/r)'/r.
+struct PairTerms {
+    double energy = 0, first = 0, second = 0;
+};
+
+/// V(r) = V0(r) - V0(r_c) for r < r_c, zero beyond; with `tail` neither cut nor shifted.
+struct PairInteraction {
+    std::function<PairTerms(double)> at; ///< of r² [length²]
+    double zero = 0;                     ///< V0 = 0 [length]
+    double minimum = 0;                  ///< V0' = 0
+    double inflection = 0;               ///< V0'' = 0: nearer is contact
+    double cutoff = 0;                   ///< r_c
     bool tail = false;
 };
 
@@ -40,9 +46,9 @@ public:
     };
 
     /// Sites over the hollows of a square lattice of spacing a.
-    static FlatInterface hollow_sites(const PairPotential& pair, double a);
+    static FlatInterface hollow_sites(const PairInteraction& pair, double a);
     /// Block of spacing a over a substrate of spacing b, averaged over all registries.
-    static FlatInterface all_registries(const PairPotential& pair, double a, double b);
+    static FlatInterface all_registries(const PairInteraction& pair, double a, double b);
     /// A law of the gap: energy per area, zero beyond `reach`, repulsive at `closest`. A site
     /// is in contact below `contact`.
     static FlatInterface wall(std::function<double(double)> energy, double closest, double reach,
@@ -79,7 +85,10 @@ private:
     void find_minimum();
 
     std::vector<double> radii_, densities_;
-    PairPotential pair_;
+    PairTerms pair(double r2) const;
+
+    PairInteraction pair_;
+    double shift_ = 0; ///< V0(r_c)
     std::function<double(double)> wall_;
     double closest_ = 0, reach_ = 0, contact_ = 0, spacing_ = 0;
     double depth_ = 0, separation_ = 0, inflection_ = 0, tension_ = 0;

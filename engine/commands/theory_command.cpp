@@ -90,8 +90,9 @@ const char* in_words(theory::Status status) {
     return "";
 }
 
-void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumbers& n,
+void print_theory(const Case& c, const TheoryCase& what, const TheoryNumbers& n,
                   const Beyond& beyond) {
+    const Scene& scene = c.scene;
     const auto& spectrum = what.contact.spectrum;
     fmt::print("{}: Persson's theory, Eqs. (1) to (5), rms {:.4g} Å, rms slope {:.4g}, load {:.6g} "
                "MPa\n\n",
@@ -134,12 +135,12 @@ void print_theory(const Scene& scene, const TheoryCase& what, const TheoryNumber
     if (n.jkr_pull_off_force) {
         const double w = what.contact.work_of_adhesion;
         const double E = scene.block.young * units::gigapascal;
+        const double length = zero_of(c.simulation.interface.potential);
         fmt::print("  JKR pull-off   {:.2f} eV/Å with γ_eff, R = {:.6g} Å; Tabor number of the "
                    "smooth sphere {:.3f} with E, {:.3f} with E*\n",
                    *n.jkr_pull_off_force, *what.radius,
-                   theory::tabor_number(*what.radius, w, E, scene.interface.r0),
-                   theory::tabor_number(*what.radius, w, what.contact.contact_modulus,
-                                        scene.interface.r0));
+                   theory::tabor_number(*what.radius, w, E, length),
+                   theory::tabor_number(*what.radius, w, what.contact.contact_modulus, length));
     }
     fmt::print("  status         {}\n", in_words(n.state.status));
     if (n.state.status != theory::Status::adhesive)
@@ -195,7 +196,7 @@ int theory_command(const Case& c, const std::string& out, bool json) {
     write_profile(place.directory() / "theory.h5", what, numbers);
     io::write_result(place.directory(), result);
 
-    print_theory(scene, what, numbers, beyond);
+    print_theory(c, what, numbers, beyond);
     for (const std::string& note : place.notes())
         fmt::print("  note: {}\n", note);
     fmt::print("  written: {0}/result.json, {0}/theory.h5 (the profile over magnification)\n",

@@ -128,8 +128,9 @@ std::size_t DeviceBlock::bytes_for(const BlockOptions& block, const ProcessGrid&
     bytes += 4 * rounded(longest_strip(grid, shapes) * sizeof(double));
     const Interface::TableSizes sizes =
         Interface::tables_for(interface, grid.tile(0), block.spacing, substrate_sites);
-    for (std::size_t size : {interface.mixed ? sizes.fixed : sizes.heights, sizes.mean_height,
-                             sizes.reach, sizes.reach, sizes.columns, sizes.map})
+    for (std::size_t size :
+         {interface.mixed ? sizes.fixed : sizes.heights, sizes.mean_height, sizes.reach,
+          sizes.reach, sizes.columns, sizes.map, sizes.cubics, sizes.cubics_in_single})
         bytes += rounded(size);
     return bytes;
 }
@@ -248,35 +249,39 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
 
 void DeviceBlock::take_tables(const Interface& interface) {
     const Interface::Tables tables = interface.tables();
+    step_.over_rows = tables.rows != nullptr;
+    step_.mixed = interface.options().mixed;
     SubstrateHeights heights;
-    heights.datum = tables.lattice.heights.datum;
-    step_.over_rows = interface.method() == InterfaceMethod::rows;
-    if (step_.over_rows) heights.datum = tables.rows.heights.datum;
-    step_.mixed = tables.fixed != nullptr;
     if (step_.mixed)
-        heights.fixed = copy_of(*tables.fixed)[0];
+        heights.fixed = copy_of(tables.heights->in_mixed())[0];
     else
-        heights.height = copy_of(*tables.heights)[0];
+        heights.height = copy_of(tables.heights->in_double())[0];
     const double* highest = copy_of(tables.highest);
     const double* lowest = copy_of(tables.lowest);
     const double* map = copy_of(tables.map);
     const auto fill = [&](auto& ground, const auto& host) {
         ground = host;
+        heights.datum = host.heights.datum;
         ground.heights = heights;
         ground.reach.highest = highest;
         ground.reach.lowest = lowest;
         ground.map.height = map;
     };
     if (step_.over_rows) {
-        fill(step_.rows, tables.rows);
+        fill(step_.rows, *tables.rows);
     } else {
-        fill(step_.lattice, tables.lattice);
+        fill(step_.lattice, *tables.lattice);
         step_.lattice.columns = copy_of(tables.columns);
     }
-    step_.potential = interface.options().potential;
+    potential_ = interface.options().potential;
+    if (auto* table = std::get_if<Tabulated>(&potential_)) {
+        const auto numbers = 4 * static_cast<std::size_t>(table->intervals);
+        table->cubics = copy_of(std::span(table->cubics, numbers));
+        table->in_single = copy_of(std::span(table->in_single, numbers));
+    }
     if (tables.mean_height) {
         step_.mean_height = copy_of(*tables.mean_height)[0];
-        step_.tail = tables.tail;
+        step_.tail_density = tables.density;
         step_.with_tail = true;
     }
 }
@@ -325,7 +330,7 @@ void DeviceBlock::forces(const At& at) {
     mark(begun);
     check(device_.follow(step_), "the launch of hanging planes");
     mark(followed);
-    check(device_.forces(step_), "the launch of forces");
+    check(device_.forces(step_, potential_), "the launch of forces");
     mark(pushed);
     launched_ = at;
 }

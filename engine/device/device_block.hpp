@@ -15,7 +15,7 @@
 #pragma once
 
 #include "engine/block/block.hpp"
-#include "engine/block/interface.hpp"
+#include "engine/interface/interface.hpp"
 #include "engine/phases.hpp"
 #include "kernels/device/device.hpp"
 
@@ -115,6 +115,7 @@ private:
     std::size_t bytes_ = 0, used_ = 0;
     std::vector<LevelMemory> levels_;
     DeviceStep step_;
+    PairPotential potential_; ///< a table's numbers in device memory
     LevelKicks* kicks_ = nullptr;
     PassSums* all_sums_ = nullptr; ///< [2][2]: of even and of odd steps, forces and advance
     DeviceHalo halo_x_, halo_y_;

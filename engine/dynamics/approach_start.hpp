@@ -13,7 +13,7 @@
 #pragma once
 
 #include "engine/block/block.hpp"
-#include "engine/block/interface.hpp"
+#include "engine/interface/interface.hpp"
 
 namespace asperity {
 

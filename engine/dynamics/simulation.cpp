@@ -109,7 +109,7 @@ void Simulation::absorb_at_seams() { block_.absorb(step_ / absorbs_every_, radia
 
 void Simulation::sweep_interface(bool observe) {
     interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
-                                       reference_height_, observe);
+                                       reference_height_, {.observe = observe});
 }
 
 void Simulation::add_noise() {

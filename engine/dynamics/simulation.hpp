@@ -12,10 +12,10 @@
 #pragma once
 
 #include "engine/block/block.hpp"
-#include "engine/block/interface.hpp"
 #include "engine/device/device_block.hpp"
 #include "engine/dynamics/drive.hpp"
 #include "engine/dynamics/thermostat.hpp"
+#include "engine/interface/interface.hpp"
 #include "engine/phases.hpp"
 
 #include <memory>

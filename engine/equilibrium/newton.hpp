@@ -6,8 +6,8 @@
 // 3 x 3 matrices (interface_stiffness.hpp).
 #pragma once
 
-#include "engine/block/interface_stiffness.hpp"
 #include "engine/block/spectral_block.hpp"
+#include "engine/interface/interface_stiffness.hpp"
 
 namespace asperity {
 

@@ -101,8 +101,8 @@ private:
     void sweep(bool observe) {
         const auto t = phases_.time(Phase::interface);
         const bool rough = spreading_ || rough_;
-        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, observe,
-                                 rough && !observe);
+        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_,
+                                 {.observe = observe, .mixed = rough && !observe});
     }
     void measure() {
         const auto t = phases_.time(Phase::sums);

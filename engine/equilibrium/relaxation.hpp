@@ -34,8 +34,8 @@
 #pragma once
 
 #include "engine/block/constraint.hpp"
-#include "engine/block/interface.hpp"
 #include "engine/block/spectral_block.hpp"
+#include "engine/interface/interface.hpp"
 #include "engine/phases.hpp"
 
 #include <functional>

@@ -65,7 +65,8 @@ double WallDescent::conclude() {
     block_.settle();
     {
         const auto t = phases_.time(Phase::interface);
-        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, true);
+        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_,
+                                 {.observe = true});
     }
     const auto t = phases_.time(Phase::sums);
     block_.gradient(waves_);
@@ -118,10 +119,10 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
         double furthest = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : furthest)
         for (int y = 0; y < u.ny; ++y) {
-            const WallRow<T> row{interface_.wall_height().line(y), u.line(y),
+            const WallRow<T> row{interface_.wall()->height().line(y), u.line(y),
                                  std::as_const(step_).plane(0).line(y), elastic[0].plane(0).line(y),
                                  next_.plane(0).line(y)};
-            const WallSums s = interface_.settle_row(row, rule, u.nx);
+            const WallSums s = interface_.wall()->settle_row(row, rule, u.nx);
             furthest = std::max(furthest, s.furthest);
             sums.row(y)[0] = s.turn;
             sums.row(y)[1] = s.height;

@@ -22,7 +22,7 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
     constexpr double stride = 0.1;
     for (double height = best_height;; height -= stride) {
         const InterfaceSums sums =
-            interface.sweep(block.lowest_layer(), block.interface_force(), height, false, true);
+            interface.sweep(block.lowest_layer(), block.interface_force(), height, {.mixed = true});
         const double force = global_sum(block.communicator(), sums.force_z);
         if (force < strongest) strongest = force, best_height = height;
         if (force > 0.0 || height < lowest_atom) return best_height;

@@ -4,10 +4,10 @@
 // The parts of the path one after the other: "zero-load" is one relaxation with
 // the top plane free, approach and pull-off are points of a quasi-static path,
 // until the path says that it is there.
-#include "engine/block/flat_reference.hpp"
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/equilibrium/state_search.hpp"
 #include "engine/equilibrium/zero_load.hpp"
+#include "engine/interface/flat_reference.hpp"
 #include "engine/run/guard.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"

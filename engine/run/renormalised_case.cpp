@@ -41,7 +41,7 @@ theory::FlatInterface wall_interface(const Case& c, const Law& law) {
     if constexpr (std::is_same_v<Law, ExponentialWall>)
         throw theory::InvalidInput("the renormalised theory follows the curvature of a smooth law, "
                                    "and the exponential wall has a kink where it is touched; take "
-                                   "interface.law = \"lennard-jones\" or atoms");
+                                   "interface.law = \"smeared\" or atoms");
     const double area = c.simulation.block.spacing * c.simulation.block.spacing;
     const double separation = c.flat.separation;
     // As far inwards as the repulsion is about twice the largest tension.
@@ -53,12 +53,27 @@ theory::FlatInterface wall_interface(const Case& c, const Law& law) {
 
 } // namespace
 
+theory::PairInteraction pair_interaction(const PairPotential& potential, bool tail) {
+    return std::visit(
+        [tail](const auto& p) {
+            return theory::PairInteraction{[pair = Pair(p)](double r2) {
+                                               const PairDerivatives d = pair.derivatives(r2);
+                                               return theory::PairTerms{d.energy, d.slope, d.bend};
+                                           },
+                                           p.zero(),
+                                           p.minimum(),
+                                           p.inflection(),
+                                           p.cutoff,
+                                           tail};
+        },
+        potential);
+}
+
 theory::FlatInterface flat_interface(const Case& c) {
     const InterfaceOptions& options = c.simulation.interface;
     if (options.wall)
         return std::visit([&](const auto& law) { return wall_interface(c, law); }, *options.wall);
-    const LennardJones& p = options.potential;
-    const theory::PairPotential pair{p.epsilon, p.r0, p.cutoff, options.tail};
+    const theory::PairInteraction pair = pair_interaction(options.potential, options.tail);
     const double spacing = c.simulation.block.spacing;
     if (c.substrate() == c.scene.surface.sites)
         return theory::FlatInterface::hollow_sites(pair, spacing);

@@ -14,6 +14,9 @@
 
 namespace asperity {
 
+/// A pair potential in the terms of theory/.
+theory::PairInteraction pair_interaction(const PairPotential& potential, bool tail);
+
 /// The flat interface of the scene.
 theory::FlatInterface flat_interface(const Case& c);
 

@@ -17,6 +17,48 @@ using io::at_least;
 using io::between;
 using io::positive;
 
+namespace {
+
+template <class Visit>
+void each_potential(EachPotential& all, Visit visit) {
+    std::apply([&](auto&... p) { (visit(p), ...); }, all);
+}
+
+/// epsilon and r0; of the others with their name before: morse_D.
+template <class P>
+std::string key_of(const char* parameter) {
+    if (std::is_same_v<P, LennardJones>) return parameter;
+    return fmt::format("{}_{}", P::name, parameter);
+}
+
+template <class P>
+void bind_potential(io::Schema& schema, P& potential) {
+    P::parameters(potential,
+                  [&](const char* name, const char* unit, double& value, const char* meaning) {
+                      schema.number(key_of<P>(name), value, unit, positive(), meaning);
+                  });
+}
+
+} // namespace
+
+std::string Scene::Interface::potential_name() const {
+    std::vector<std::string> names;
+    std::apply([&](const auto&... p) { (names.emplace_back(p.name), ...); }, potentials);
+    return names[static_cast<std::size_t>(potential)];
+}
+
+std::vector<std::pair<std::string, std::string>> keys_of_potentials() {
+    std::vector<std::pair<std::string, std::string>> keys;
+    EachPotential all;
+    each_potential(all, [&]<class P>(P& p) {
+        P::parameters(p, [&](const char* name, const char*, double, const char*) {
+            keys.emplace_back("interface." + key_of<P>(name), P::name);
+        });
+    });
+    keys.emplace_back("interface.table", Tabulated::name);
+    return keys;
+}
+
 io::Schema bind(Scene& scene) {
     io::Schema schema;
 
@@ -105,28 +147,41 @@ io::Schema bind(Scene& scene) {
 
     auto& interface = scene.interface;
     schema.section("interface", "What acts between substrate and lowest layer.");
-    schema.choice<InterfaceKind>(
-        "kind", interface.kind, {{"atoms", InterfaceKind::atoms}, {"wall", InterfaceKind::wall}},
-        "Lennard-Jones pairs, or a wall: a law of the gap below each site, without lateral forces "
-        "(paths without time)");
-    schema.number("epsilon", interface.epsilon, "eV", positive(), "depth of the well");
-    schema.number("r0", interface.r0, "Å", positive(), "distance of zero energy");
+    schema.choice<InterfaceKind>("kind", interface.kind,
+                                 {{"atoms", InterfaceKind::atoms}, {"wall", InterfaceKind::wall}},
+                                 "pairs of atoms, or a wall: a law of the gap below each site, "
+                                 "without lateral forces (paths "
+                                 "without time)");
+    std::vector<std::pair<std::string, int>> names;
+    each_potential(interface.potentials,
+                   [&](auto& p) { names.emplace_back(p.name, static_cast<int>(names.size())); });
+    schema.choice<int>("potential", interface.potential, names,
+                       "of the pairs, or of the atoms of a wall that are smeared over it");
+    each_potential(interface.potentials, [&](auto& p) { bind_potential(schema, p); });
+    schema.text("table", interface.table,
+                "of potential = \"table\": a text file of two columns, distances in Å and energies "
+                "in eV; looked for beside the scene, then in the working directory");
     schema.number("cutoff", interface.cutoff, "Å", positive(),
                   "no interaction beyond; half the box at most");
     schema.list(
         "pairs", interface.pairs, {},
-        "of a substrate of atoms from a file, by type: [\"Au 0.1 3.28\", \"C 0.02 3.1 10\"] "
-        "with epsilon, r0 and, if it is not that above, the cutoff; units may follow. []: "
-        "epsilon, r0 and cutoff above, for atoms of one type");
+        "of a substrate of atoms from a file, by type: [\"Au 0.1 3.28\", \"C morse 0.02 1.5 3.9 "
+        "10\"] with the potential's name and the cutoff, if they are not those above, and its "
+        "parameters in the order above; units may follow. []: the potential above, for atoms of "
+        "one "
+        "type");
     schema.boolean("tail", interface.tail, "continuum correction beyond the cutoff");
     schema.boolean("frictionless", interface.frictionless,
                    "paths without time: no lateral tractions, normal displacements only");
     schema.choice<WallLawKind>(
         "law", interface.law,
-        {{"exponential", WallLawKind::exponential}, {"lennard-jones", WallLawKind::lennard_jones}},
+        {{"exponential", WallLawKind::exponential}, {"smeared", WallLawKind::smeared}},
         "of a wall: an attraction exp(-gap/range) over a linear repulsion, or the substrate's "
-        "atoms "
-        "smeared over their layer (epsilon, r0, cutoff, tail)");
+        "atoms smeared over their layer (potential, cutoff, tail)");
+    schema.removed({"interface.law", "lennard-jones",
+                    "the smeared atoms have whatever potential interface.potential names",
+                    "write law = \"smeared\"; interface.potential is \"lennard-jones\" where the "
+                    "scene does not say"});
     schema.number(
         "adhesion", interface.adhesion, "meV/Å^2", at_least(0.0),
         "work of adhesion of flat surfaces, Δγ, of the exponential law; 0: no attraction");

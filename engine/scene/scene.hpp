@@ -12,11 +12,13 @@
 
 #include "engine/scene/surface.hpp"
 #include "io/scene_reader.hpp"
+#include "kernels/pair_potential.hpp"
 #include "theory/area_factor.hpp"
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,7 +33,7 @@ enum class BlockModel { lattice, multiscale };
 enum class Strain { linear, finite };
 enum class Seams { reflect, absorb };
 enum class InterfaceKind { atoms, wall };
-enum class WallLawKind { lennard_jones, exponential };
+enum class WallLawKind { smeared, exponential };
 enum class DriveMode { dynamic, quasistatic };
 enum class Hold { top, mean_height };
 enum class States { first, all };
@@ -39,6 +41,10 @@ enum class PathPart { approach, pull_off, zero_load };
 using theory::AreaFactor;
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
+/// One of each kind of PairPotential.
+template <class... P>
+std::tuple<P...> one_of_each(const std::variant<P...>&);
+using EachPotential = decltype(one_of_each(PairPotential()));
 /// numerics.device where it is no number.
 inline constexpr int no_device = -3, emulated_device_asked = -2, any_device = -1;
 
@@ -83,10 +89,11 @@ struct Scene {
 
     struct Interface {
         InterfaceKind kind = InterfaceKind::atoms;
-        double epsilon = 0.100;         ///< eV
-        double r0 = 3.28;               ///< Å
-        double cutoff = 13.12;          ///< Å
-        std::vector<std::string> pairs; ///< of atoms from a file, by type
+        int potential = 0;               ///< which of PairPotential
+        EachPotential potentials;        ///< with their keys; cutoffs come from the one below
+        std::string table = "table.txt"; ///< of potential = "table", as the scene gives it
+        double cutoff = 13.12;           ///< Å
+        std::vector<std::string> pairs;  ///< of atoms from a file, by type
         bool tail = false;
         bool frictionless = false;                  ///< normal displacements only; after reading:
                                                     ///< true over a wall
@@ -94,6 +101,8 @@ struct Scene {
         double adhesion = 100.0;                    ///< meV/Å^2, exponential
         double range = 1.0;                         ///< Å, exponential
         std::optional<double> stiffness;            ///< GPa/Å, exponential; empty: by the block
+
+        std::string potential_name() const;
     } interface;
 
     struct Drive {
@@ -150,6 +159,9 @@ struct Scene {
     /// The scene itself says so: only then is a map scaled.
     bool gives_rms() const { return positions.is_set("surface.rms"); }
 };
+
+/// The keys of the parameters of potentials, each with the potential's name.
+std::vector<std::pair<std::string, std::string>> keys_of_potentials();
 
 /// Every key, bound to the fields of this scene (which must outlive the schema).
 io::Schema bind(Scene& scene);

@@ -5,21 +5,22 @@
 // theories take a case; none of them looks at a key to find out what is wrong with it or what
 // follows from it.
 //
-// resolve() is the only way from a scene to a case. It parses lists (resolve.cpp, typed_pairs.cpp),
-// looks for contradictions between keys (checks.cpp), switches effects on (effects.cpp) and derives
-// options and limits, before anything is allocated.
+// resolve() is the only way from a scene to a case. It parses lists (resolve.cpp,
+// pair_potentials.cpp), looks for contradictions between keys (checks.cpp), switches effects on
+// (effects.cpp) and derives options and limits, before anything is allocated.
 //
 //     const Case c = read_case("scene.toml", {"surface.rms=2"}, ranks);
 //     c.require_runnable();
 #pragma once
 
-#include "engine/block/flat_reference.hpp"
 #include "engine/dynamics/simulation.hpp"
+#include "engine/interface/flat_reference.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/surface.hpp"
 #include "engine/setup/effects.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,8 +42,10 @@ struct Case {
     bool in_time = true; ///< the path is followed in time; else equilibria only
     std::string file;    ///< of the map or the atoms, where it was found; empty: the scene has none
     MapTimes maps;
-    std::vector<std::string> types; ///< of atoms: rows of simulation.interface.by_type
-    Effects effects;                ///< that the scene calls for; what follows is built from it
+    std::vector<std::string> types;            ///< of atoms: rows of simulation.interface.by_type
+    std::vector<std::string> table_files;      ///< of simulation.interface.tables
+    std::optional<std::uint32_t> table_digest; ///< of the numbers in them
+    Effects effects; ///< that the scene calls for; what follows is built from it
     SimulationOptions simulation;
     std::vector<LevelShape> levels;
     FlatReference flat; ///< flat on flat, same cutoff and lattices

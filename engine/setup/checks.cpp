@@ -5,7 +5,7 @@
 // worth a note.
 #include "engine/setup/resolving.hpp"
 
-#include "engine/scene/sweep_limits.hpp"
+#include "engine/interface/sweep_limits.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
 
@@ -70,7 +70,8 @@ void check_keys(const Case& c, io::Problems& problems) {
     const auto& [surface, interface, drive] = std::tie(scene.surface, scene.interface, scene.drive);
 
     const bool wall = interface.kind == InterfaceKind::wall;
-    const bool pairs = !wall || interface.law == WallLawKind::lennard_jones;
+    const bool pairs = !wall || interface.law == WallLawKind::smeared;
+    const PairPotential& potential = c.simulation.interface.potential;
     const double half = scene.edge() / 2.0;
     if (interface.cutoff > half && !wall)
         // Where the cutoff is the default, the box is what the scene chose.
@@ -97,14 +98,14 @@ void check_keys(const Case& c, io::Problems& problems) {
                             surface.spacing, between_atoms, most),
                 fmt::format("take {:.6g} Å (4 r0) and interface.tail = true, or a smaller "
                             "surface.lattice_ratio",
-                            4.0 * interface.r0));
+                            4.0 * zero_of(potential)));
     }
-    const double minimum = std::pow(2.0, 1.0 / 6.0) * interface.r0;
+    const double minimum = minimum_of(potential);
     if (interface.cutoff <= minimum && pairs)
-        problems.add(
-            "interface.cutoff", fmt::format("= {:.6g} Å leaves no attraction", interface.cutoff),
-            fmt::format("the minimum of the potential is at 2^(1/6) r0 = {:.6g} Å", minimum),
-            fmt::format("the usual cutoff is 4 r0 = {:.6g} Å", 4.0 * interface.r0));
+        problems.add("interface.cutoff",
+                     fmt::format("= {:.6g} Å leaves no attraction", interface.cutoff),
+                     fmt::format("the minimum of the potential is at {:.6g} Å", minimum),
+                     fmt::format("the usual cutoff is 4 r0 = {:.6g} Å", 4.0 * zero_of(potential)));
 
     if (surface.kind == SurfaceKind::self_affine && surface.rolloff > surface.cutoff)
         problems.add("surface.rolloff",
@@ -129,8 +130,7 @@ void check_keys(const Case& c, io::Problems& problems) {
         check_atoms(scene, problems);
     else if (!interface.pairs.empty())
         problems.add("interface.pairs", "= [...] without a substrate of atoms from a file",
-                     "the atoms of other substrates are of one type, with interface.epsilon, r0 "
-                     "and cutoff",
+                     "the atoms of other substrates are of one type, with interface.potential",
                      "leave it out, or take surface.kind = \"atoms\"");
 
     if (wall && c.in_time)
@@ -329,9 +329,13 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     if (!wall) idle("interface.law", "interface.kind is not \"wall\"");
     for (const char* key : {"interface.adhesion", "interface.range", "interface.stiffness"})
         if (!exponential) idle(key, "there is no wall with the exponential law");
-    for (const char* key :
-         {"interface.epsilon", "interface.r0", "interface.cutoff", "interface.tail"})
+    for (const char* key : {"interface.potential", "interface.cutoff", "interface.tail"})
         if (exponential) idle(key, "the wall has the exponential law");
+    for (const auto& [key, potential] : keys_of_potentials())
+        if (exponential)
+            idle(key, "the wall has the exponential law");
+        else if (potential != scene.interface.potential_name() && scene.interface.pairs.empty())
+            idle(key, "interface.potential is not \"" + potential + "\"");
     if (wall) idle("numerics.precision", "a wall is worked out in double precision");
     if (!surface.reads_file())
         idle("surface.file", "surface.kind is neither \"file\" nor \"atoms\"");

@@ -21,23 +21,28 @@ namespace asperity {
 
 namespace {
 
-/// The file of kind = "file" or "atoms": beside the scene, then in the working directory (the other
-/// way round if it was named on the command line).
+/// Beside the scene, then in the working directory (the other way round if it was named on the
+/// command line).
+std::array<std::filesystem::path, 2> places_of(const Scene& scene, const std::string& file,
+                                               const std::string& key) {
+    namespace fs = std::filesystem;
+    std::array<fs::path, 2> places = {fs::path(scene.file).parent_path() / file, fs::path(file)};
+    if (scene.positions.where(key).starts_with("--set")) std::swap(places[0], places[1]);
+    return places;
+}
+
+/// The file of kind = "file" or "atoms".
 std::string file_of(const Scene& scene, io::Problems& problems) {
     if (!scene.surface.reads_file()) return {};
-    namespace fs = std::filesystem;
     const bool atoms = scene.surface.kind == SurfaceKind::atoms;
     std::string file = scene.surface.file, dataset;
     if (const std::size_t colon = file.find(":/"); colon != std::string::npos && !atoms) {
         dataset = file.substr(colon);
         file.resize(colon);
     }
-    std::vector<fs::path> places = {fs::path(scene.file).parent_path() / file, fs::path(file)};
-    if (scene.positions.where("surface.file").starts_with("--set")) std::swap(places[0], places[1]);
-    std::error_code error;
-    for (const fs::path& place : places)
-        if (fs::is_regular_file(place, error))
-            return fs::absolute(place).lexically_normal().string() + dataset;
+    if (const std::string found = find_beside_scene(scene, file, "surface.file"); !found.empty())
+        return found + dataset;
+    const auto places = places_of(scene, file, "surface.file");
     std::string looked = places[0].string();
     if (places[1] != places[0]) looked += " and " + places[1].string();
     const bool named = scene.positions.is_set("surface.file");
@@ -98,19 +103,22 @@ BlockOptions block_of(const Scene& scene, bool in_time) {
     return block;
 }
 
-/// Its pairs, beside those by type, or its wall.
+/// What is not its potentials.
 void fill_interface(Case& c) {
     const Scene& scene = c.scene;
     const Scene::Interface& i = scene.interface;
     const double a = scene.surface.spacing, site = a * a;
     InterfaceOptions& options = c.simulation.interface;
-    options.potential = {i.epsilon, i.r0, i.cutoff};
     options.tail = i.tail;
     options.mixed = scene.numerics.precision == Precision::mixed;
     options.single_too = !c.in_time && !options.mixed;
     if (i.kind == InterfaceKind::atoms) return;
-    if (i.law == WallLawKind::lennard_jones) {
-        options.wall = LennardJonesWall(options.potential, 1.0 / site, i.tail);
+    if (i.law == WallLawKind::smeared) {
+        std::visit(
+            [&]<class P>(const P& p) {
+                if constexpr (P::has_tail) options.wall = SmearedWall<P>(p, 1.0 / site, i.tail);
+            },
+            options.potential);
         return;
     }
     const double adhesion = i.adhesion / units::milli_per_unit;
@@ -132,15 +140,15 @@ void fill_flat_reference(Case& c, io::Problems& problems) {
         c.notes.push_back(fmt::format(
             "delta_gamma is that of one flat layer of the block's lattice{}, a unit of measure: "
             "the substrate has atoms of its own, and no theory applies to it",
-            interface.by_type.empty() ? "" : " with interface.epsilon, r0 and cutoff"));
+            interface.by_type.empty() ? "" : " with interface.potential"));
     try {
         c.flat = flat_reference(interface, block.spacing, block.sites, c.substrate());
     } catch (const std::invalid_argument& e) {
-        problems.add("interface.epsilon", std::string(": ") + e.what());
+        problems.add("interface.potential", std::string(": ") + e.what());
     }
     c.site_stiffness = c.flat.stiffness * block.spacing * block.spacing;
     c.largest_tension = c.flat.largest_tension;
-    for (const LennardJones& pair : interface.by_type) {
+    for (const PairPotential& pair : interface.by_type) {
         InterfaceOptions layer = interface;
         layer.potential = pair;
         try {
@@ -300,6 +308,14 @@ void derive(Case& c, io::Problems& problems) {
 
 } // namespace
 
+std::string find_beside_scene(const Scene& scene, const std::string& file, const std::string& key) {
+    std::error_code error;
+    for (const auto& place : places_of(scene, file, key))
+        if (std::filesystem::is_regular_file(place, error))
+            return std::filesystem::absolute(place).lexically_normal().string();
+    return {};
+}
+
 ProcessGrid Case::grid(int rank) const {
     if (!in_time) return ProcessGrid::slabs(ranks, rank, scene.surface.sites);
     return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(levels.size()));
@@ -319,7 +335,7 @@ Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
     io::Problems found = scene.problems();
     c.file = file_of(scene, found);
     c.maps = maps_of(scene, found);
-    if (scene.surface.kind == SurfaceKind::atoms) parse_pairs(c, found);
+    find_potentials(c, found);
     check_keys(c, found);
     c.effects = effects_of(c);
     if (problems.empty() && found.empty()) derive(c, found);

@@ -8,8 +8,11 @@
 
 namespace asperity {
 
-/// interface.pairs: fills in the types and simulation.interface.by_type.
-void parse_pairs(Case& c, io::Problems& problems);
+/// interface.potential and interface.pairs: fills in the types and the potentials of
+/// simulation.interface.
+void find_potentials(Case& c, io::Problems& problems);
+/// The file that a key names, beside the scene or in the working directory; empty: there is none.
+std::string find_beside_scene(const Scene& scene, const std::string& file, const std::string& key);
 /// Contradictions between keys.
 void check_keys(const Case& c, io::Problems& problems);
 /// What keeps the scene from a device.

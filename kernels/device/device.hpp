@@ -21,8 +21,8 @@
 #pragma once
 
 #include "kernels/elastic_level.hpp"
-#include "kernels/interface_sweep.hpp"
 #include "kernels/level_transfer.hpp"
+#include "kernels/pair_sum.hpp"
 #include "kernels/thermal_noise.hpp"
 
 #include <cstddef>
@@ -90,10 +90,9 @@ struct DeviceStep {
     LatticeSubstrate lattice;
     RowSubstrate rows; ///< in place of the lattice
     bool over_rows = false;
-    LennardJones potential;
     bool mixed = false;
     bool with_tail = false;
-    TailCorrection tail;
+    double tail_density = 0.0; ///< atoms per Å^2
     PlaneView<const double> mean_height;
 
     PassSums* sums = nullptr; ///< in device memory: of forces, of advance
@@ -140,7 +139,8 @@ struct DeviceFunctions {
     const char* (*open_to_mpi)(bool open);
 
     const char* (*follow)(const DeviceStep& step);
-    const char* (*forces)(const DeviceStep& step);
+    /// A table's numbers lie in device memory.
+    const char* (*forces)(const DeviceStep& step, const PairPotential& potential);
     const char* (*restrict_to_shared)(const DeviceStep& step, int coarse, Patch nodes);
     const char* (*advance)(const DeviceStep& step);
     const char* (*pack)(const DeviceStep& step, const DeviceHalo& halo);

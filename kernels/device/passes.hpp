@@ -148,15 +148,15 @@ struct FiniteFaces {
 };
 
 /// The pairs of a site, in precision T: over a substrate of the block's lattice, over rows.
-template <class T>
+template <class T, class P>
 struct PairsOverLattice {
     using Precision = T;
     LatticeSubstrate ground;
-    PairTerms<Scalar, T> pair;
+    PairTerms<Scalar, T, P> pair;
     Offsets<T> offsets;
 
-    explicit PairsOverLattice(const DeviceStep& s)
-        : ground(s.lattice), pair(s.potential), offsets(s.sites.spacing, s.lattice.half_offsets) {}
+    PairsOverLattice(const DeviceStep& s, const P& potential)
+        : ground(s.lattice), pair(potential), offsets(s.sites.spacing, s.lattice.half_offsets) {}
 
     template <bool observe>
     ASPERITY_INLINE SiteTotal sum(const InterfaceSites&, int x, int y,
@@ -180,31 +180,46 @@ struct PairsOverLattice {
     }
 };
 
-template <class T>
+template <class T, class P>
 struct PairsOverRows {
     using Precision = T;
     RowSubstrate ground;
-    AtomRows<Scalar, T> rows;
-    PairTerms<Scalar, T> pair;
+    AtomRows<Scalar, T, P> rows;
+    PairTerms<Scalar, T, P> pair;
 
-    explicit PairsOverRows(const DeviceStep& s)
-        : ground(s.rows), rows(s.rows, s.potential), pair(rows.pair) {}
+    PairsOverRows(const DeviceStep& s, const P& potential)
+        : ground(s.rows), rows(s.rows, potential), pair(rows.pair) {}
 
     template <bool observe>
     ASPERITY_INLINE SiteTotal sum(const InterfaceSites& sites, int x, int y,
                                   const SiteBlock<Number, 1>& site, const Reach& reach) const {
-        return rows.template sum<observe, true, AsideOfOne<T>>(
+        return rows.template sum<observe, true, AsideOfOne<T, P>>(
             (sites.x0 + x + 0.5) * sites.spacing + site.ux[0],
             (sites.y0 + y + 0.5) * sites.spacing + site.uy[0], site.z[0],
-            ChordsOfOne<T>(rows, reach.from_site));
+            ChordsOfOne<T, P>(rows, reach.from_site));
     }
 };
 
+/// The tail that a potential brings, or none.
+template <class P>
+struct NoTail {
+    NoTail(const P&, double) {}
+    ASPERITY_INLINE double energy(double) const { return 0.0; }
+    ASPERITY_INLINE double force(double) const { return 0.0; }
+};
+template <class P>
+using TailOf = std::conditional_t<P::has_tail, Tail<P>, NoTail<P>>;
+
 /// Sites of the interface and, at small strain, upper faces.
-template <class Pairs, bool observe>
+template <class Pairs, class P, bool observe>
 struct Forces {
     DeviceStep s;
     Pairs pairs;
+    Pair<P> one;
+    TailOf<P> tail;
+
+    Forces(const DeviceStep& step, const P& potential)
+        : s(step), pairs(step, potential), one(potential), tail(potential, step.tail_density) {}
 
     ASPERITY_HOST_DEVICE void operator()(long long i, PassSums& sums) const {
         const int nx = s.sites.displacement.x.nx;
@@ -220,16 +235,16 @@ private:
         using T = typename Pairs::Precision;
         const auto& ground = pairs.ground;
         const double datum = ground.heights.datum;
-        const SiteBlock<Number, 1> site(s.sites, x, y, 1, datum, deepest<T>(s.potential.cutoff),
-                                        ceiling<T>, ground.reach.offset_margin);
-        const Reach reach(ground.reach, x, y, datum, site, pairs.pair.cutoff, pairs.pair.floor);
+        const SiteBlock<Number, 1> site(s.sites, x, y, 1, datum, deepest<T>(one.cutoff), ceiling<T>,
+                                        ground.reach.offset_margin);
+        const Reach reach(ground.reach, x, y, datum, site, pairs.pair.cutoff, pairs.pair.closest);
         const auto& u = s.sites.displacement;
         SiteTotal total{{0.0, 0.0, 0.0}, 0.0, no_pair};
         if (site.beyond) {
-            const PairSum p = sum_of_pairs(ground.map, s.potential,
-                                           (s.sites.x0 + x + 0.5) * s.sites.spacing + u.x(x, y),
-                                           (s.sites.y0 + y + 0.5) * s.sites.spacing + u.y(x, y),
-                                           s.sites.reference_height + u.z(x, y));
+            const PairSum p =
+                sum_of_pairs(ground.map, one, (s.sites.x0 + x + 0.5) * s.sites.spacing + u.x(x, y),
+                             (s.sites.y0 + y + 0.5) * s.sites.spacing + u.y(x, y),
+                             s.sites.reference_height + u.z(x, y));
             total = {{p.force[0], p.force[1], p.force[2]}, p.energy, p.nearest_r2};
         } else if (reach.from_rest > 0.0) {
             total = pairs.template sum<observe>(s.sites, x, y, site, reach);
@@ -239,10 +254,10 @@ private:
         if constexpr (observe) sums.sum[ForceSum::interface_energy].add(total.energy);
         if (s.with_tail) {
             const double gap = s.sites.reference_height + u.z(x, y) - s.mean_height(x, y);
-            const double tail = s.tail.force(gap);
-            if constexpr (observe) sums.sum[ForceSum::interface_energy].add(s.tail.energy(gap));
-            force.z += tail;
-            sums.sum[ForceSum::interface_z].add(tail);
+            const double beyond = tail.force(gap);
+            if constexpr (observe) sums.sum[ForceSum::interface_energy].add(tail.energy(gap));
+            force.z += beyond;
+            sums.sum[ForceSum::interface_z].add(beyond);
         }
         s.sites.force.x(x, y) = force.x;
         s.sites.force.y(x, y) = force.y;
@@ -417,22 +432,27 @@ inline const char* follow(const DeviceStep& s) {
     return launch<false>(Follow{s}, s.hanging.first[s.hanging.levels], nullptr);
 }
 
-template <class Pairs>
-const char* forces_of(const DeviceStep& s) {
-    const Pairs pairs(s);
+template <class Pairs, class P>
+const char* forces_of(const DeviceStep& s, const P& potential) {
     const long long faces = s.faces.first[s.faces.levels];
     if (s.finite)
         if (const char* error = launch<true>(FiniteFaces{s}, faces, s.sums)) return error;
     const long long nodes =
         static_cast<long long>(s.sites.displacement.x.nx) * s.sites.displacement.x.ny +
         (s.finite ? 0 : faces);
-    return s.observe ? launch<true>(Forces<Pairs, true>{s, pairs}, nodes, s.sums)
-                     : launch<true>(Forces<Pairs, false>{s, pairs}, nodes, s.sums);
+    return s.observe ? launch<true>(Forces<Pairs, P, true>(s, potential), nodes, s.sums)
+                     : launch<true>(Forces<Pairs, P, false>(s, potential), nodes, s.sums);
 }
-inline const char* forces(const DeviceStep& s) {
-    if (s.over_rows)
-        return s.mixed ? forces_of<PairsOverRows<float>>(s) : forces_of<PairsOverRows<double>>(s);
-    return s.mixed ? forces_of<PairsOverLattice<float>>(s) : forces_of<PairsOverLattice<double>>(s);
+inline const char* forces(const DeviceStep& s, const PairPotential& potential) {
+    return std::visit(
+        [&]<class P>(const P& p) {
+            if (s.over_rows)
+                return s.mixed ? forces_of<PairsOverRows<float, P>>(s, p)
+                               : forces_of<PairsOverRows<double, P>>(s, p);
+            return s.mixed ? forces_of<PairsOverLattice<float, P>>(s, p)
+                           : forces_of<PairsOverLattice<double, P>>(s, p);
+        },
+        potential);
 }
 
 inline const char* restrict_to_shared(const DeviceStep& s, int coarse, Patch nodes) {

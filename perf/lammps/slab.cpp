@@ -205,7 +205,7 @@ void write_lammps(Slab& slab, const std::string& directory, const VectorField<do
         data("{} {} {} {}\n", ++bond, type, from, to);
     });
 
-    const LennardJones& lj = o.interface.potential;
+    const auto& lj = std::get<LennardJones>(o.interface.potential);
     TextFile settings(directory + "/slab.settings");
     settings("variable cutoff equal {:.17g}\nvariable epsilon equal {:.17g}\n", lj.cutoff,
              lj.epsilon);
@@ -217,7 +217,7 @@ void write_lammps(Slab& slab, const std::string& directory, const VectorField<do
 void evaluate(Simulation& s, std::vector<VectorField<double>>& force) {
     Block& block = s.block_to_write();
     block.interpolate();
-    s.interface().sweep(block.lowest_layer(), block.interface_force(), s.reference_height(), false);
+    s.interface().sweep(block.lowest_layer(), block.interface_force(), s.reference_height(), {});
     block.forces(force);
 }
 

@@ -188,7 +188,9 @@ TEST(AtomsScene, HasPairsByType) {
         return case_over(two, {"interface.cutoff=12", "interface.pairs=" + pairs});
     };
     const Case c = over_two("['Au 0.1 3.28 13', 'Zn 1 3.3', 'C 20 meV 0.3 nm']");
-    const std::vector<LennardJones> table = c.simulation.interface.by_type;
+    std::vector<LennardJones> table;
+    for (const PairPotential& p : c.simulation.interface.by_type)
+        table.push_back(std::get<LennardJones>(p));
     ASSERT_EQ(table.size(), 3u);
     EXPECT_EQ(table[0].cutoff, 13.0);
     EXPECT_EQ(table[2].epsilon, 0.02);

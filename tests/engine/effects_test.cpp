@@ -300,7 +300,7 @@ TEST(Effects, FarSitesAreLeftOutOfTheSweep) {
     const Interface interface(surface_of(c), tile, c.scene.surface.spacing, c.simulation.interface);
     VectorField<double> layer(tile, 1), force(tile, 1);
     const auto in_reach = [&](double height) {
-        return interface.sweep(layer.plane(0), force.plane(0), height, false).in_reach;
+        return interface.sweep(layer.plane(0), force.plane(0), height, {}).in_reach;
     };
     EXPECT_EQ(in_reach(interface.start_height() + 0.1), 0);
     EXPECT_EQ(in_reach(3.0), 32 * 32);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Flat on flat: the numbers of docs/model.md.
-#include "engine/block/flat_reference.hpp"
+#include "engine/interface/flat_reference.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -21,7 +21,7 @@ constexpr double r0 = 3.28;
 
 InterfaceOptions with_cutoff(double cutoff, bool tail = false) {
     InterfaceOptions o;
-    o.potential.cutoff = cutoff;
+    std::get<LennardJones>(o.potential).cutoff = cutoff;
     o.tail = tail;
     return o;
 }
@@ -66,7 +66,7 @@ double swept_energy(int n, int atoms, double ux, double uy, double z, bool tail 
             u.y.plane(0)(x, y) = uy;
         }
     const VectorField<double>& seen = u;
-    return 1e3 * interface.sweep(seen.plane(0), f.plane(0), z, true).energy.value() /
+    return 1e3 * interface.sweep(seen.plane(0), f.plane(0), z, {.observe = true}).energy.value() /
            (n * a * n * a);
 }
 

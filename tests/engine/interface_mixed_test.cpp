@@ -69,8 +69,8 @@ Compared compare(const Surface& substrate, int n, double z, double sideways, dou
             u.z.plane(0)(x, y) = up * unit(random);
         }
     const auto seen = std::as_const(u).plane(0);
-    const InterfaceSums sums = mixed.sweep(seen, f.plane(0), z, true);
-    const InterfaceSums judged = judge.sweep(seen, g.plane(0), z, true);
+    const InterfaceSums sums = mixed.sweep(seen, f.plane(0), z, {.observe = true});
+    const InterfaceSums judged = judge.sweep(seen, g.plane(0), z, {.observe = true});
     const InterfaceMaps maps = judge.maps(seen, z);
     Compared c;
     double energies = 1e-3;
@@ -81,8 +81,11 @@ Compared compare(const Surface& substrate, int n, double z, double sideways, dou
             const double r2 = maps.distance[i] * maps.distance[i];
             double pair = 0.0;
             if (std::isfinite(r2))
-                pair = std::abs(options.potential.force_over_distance(r2)) * maps.distance[i] +
-                       (r2 < 36.0 ? 0.07 : 1e-3);
+                pair =
+                    std::abs(
+                        Pair(std::get<LennardJones>(options.potential)).force_over_distance(r2)) *
+                        maps.distance[i] +
+                    (r2 < 36.0 ? 0.07 : 1e-3);
             for (auto [mine, theirs] : {std::pair{f.x.plane(0)(x, y), g.x.plane(0)(x, y)},
                                         {f.y.plane(0)(x, y), g.y.plane(0)(x, y)},
                                         {f.z.plane(0)(x, y), g.z.plane(0)(x, y)}}) {
@@ -91,7 +94,8 @@ Compared compare(const Surface& substrate, int n, double z, double sideways, dou
                 else
                     c.force = std::max(c.force, std::abs(mine - theirs) / pair);
             }
-            energies += options.potential.epsilon * (std::isfinite(r2) ? 1.0 : 0.0);
+            energies +=
+                std::get<LennardJones>(options.potential).epsilon * (std::isfinite(r2) ? 1.0 : 0.0);
         }
     c.energy = std::abs(sums.energy.value() - judged.energy.value()) /
                std::max(energies, std::abs(judged.energy.value()));

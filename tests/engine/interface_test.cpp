@@ -3,8 +3,9 @@
 //
 // The fast sweeps against the reference, forces against energies, and the same bits whatever the
 // decomposition. States are rough and displaced at random, some far beyond what a run allows.
-#include "engine/block/interface.hpp"
-#include "engine/block/interface_stiffness.hpp"
+#include "engine/interface/interface.hpp"
+#include "engine/interface/interface_stiffness.hpp"
+#include "support/cases.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -80,7 +81,7 @@ Outcome sweep(const Surface& substrate, const State& state, const InterfaceOptio
             const Interface interface(substrate, tile, a, options);
             const VectorField<double> u = state.on(tile);
             VectorField<double> f(tile, 1);
-            out.sums.merge(interface.sweep(u.plane(0), f.plane(0), z, observe));
+            out.sums.merge(interface.sweep(u.plane(0), f.plane(0), z, {.observe = observe}));
             for (int y = 0; y < tile.ny; ++y)
                 for (int x = 0; x < tile.nx; ++x) {
                     const auto i = static_cast<std::size_t>((y0 + y) * n + x0 + x);
@@ -125,9 +126,9 @@ bool same_bits(const Outcome& p, const Outcome& q) {
            p.sums.closest_r2 == q.sums.closest_r2;
 }
 
-InterfaceOptions with(InterfaceMethod method, double cutoff = 4.0 * r0) {
+InterfaceOptions with(InterfaceMethod method, const PairPotential& potential = LennardJones{}) {
     InterfaceOptions o;
-    o.potential.cutoff = cutoff;
+    o.potential = potential;
     o.method = method;
     return o;
 }
@@ -139,27 +140,50 @@ TEST(InterfaceSweep, AgreesWithTheReference) {
             // Sideways up to beyond the tables' margin of two spacings; gaps from overlap to out of
             // reach.
             for (double sideways : {0.1, 1.5, 7.0})
-                for (double z : {1.0, 6.0, 14.0}) {
-                    ++seed;
-                    const State state(n, sideways, 1.5, seed);
-                    const std::string what =
-                        "n=" + std::to_string(n) + " cutoff=" + std::to_string(cutoff) +
-                        " u=" + std::to_string(sideways) + " z=" + std::to_string(z);
-                    const Surface same = rough(n, n * a, 2.0, seed);
-                    const Outcome judge =
-                        sweep(same, state, with(InterfaceMethod::reference, cutoff), z, true);
-                    expect_close(
-                        judge, sweep(same, state, with(InterfaceMethod::lattice, cutoff), z, true),
-                        "lattice " + what);
-                    expect_close(judge,
-                                 sweep(same, state, with(InterfaceMethod::rows, cutoff), z, true),
-                                 "rows " + what);
-                    const Surface other = rough(substrate_sites(n, 1.618), n * a, 2.0, seed);
-                    expect_close(
-                        sweep(other, state, with(InterfaceMethod::reference, cutoff), z, true),
-                        sweep(other, state, with(InterfaceMethod::automatic, cutoff), z, true),
-                        "incommensurate " + what);
+                for (double z : {1.0, 6.0, 14.0})
+                    for (const PairPotential& potential : test::potentials(cutoff)) {
+                        ++seed;
+                        const State state(n, sideways, 1.5, seed);
+                        const std::string what =
+                            "n=" + std::to_string(n) + " cutoff=" + std::to_string(cutoff) +
+                            " u=" + std::to_string(sideways) + " z=" + std::to_string(z) +
+                            " potential=" + std::to_string(potential.index());
+                        const auto swept = [&](const Surface& surface, InterfaceMethod method) {
+                            return sweep(surface, state, with(method, potential), z, true);
+                        };
+                        const Surface same = rough(n, n * a, 2.0, seed);
+                        const Outcome judge = swept(same, InterfaceMethod::reference);
+                        expect_close(judge, swept(same, InterfaceMethod::lattice),
+                                     "lattice " + what);
+                        expect_close(judge, swept(same, InterfaceMethod::rows), "rows " + what);
+                        const Surface other = rough(substrate_sites(n, 1.618), n * a, 2.0, seed);
+                        expect_close(swept(other, InterfaceMethod::reference),
+                                     swept(other, InterfaceMethod::automatic),
+                                     "incommensurate " + what);
+                    }
+}
+
+TEST(InterfaceSweep, MixedAgreesWithDoubleForEveryPotential) {
+    const int n = 24;
+    const State state(n, 0.5, 1.0, 3);
+    for (const PairPotential& potential : test::potentials())
+        for (int m : {24, 38}) {
+            const Surface surface = rough(m, n * a, 1.5, 8);
+            InterfaceOptions options = with(InterfaceMethod::automatic, potential);
+            const Outcome exact = sweep(surface, state, options, 4.5, true);
+            options.mixed = true;
+            const Outcome mixed = sweep(surface, state, options, 4.5, true);
+            double most = 0.0, largest = 0.0;
+            for (int k = 0; k < 3; ++k)
+                for (std::size_t i = 0; i < exact.force[k].size(); ++i) {
+                    most = std::max(most, std::abs(exact.force[k][i] - mixed.force[k][i]));
+                    largest = std::max(largest, std::abs(exact.force[k][i]));
                 }
+            EXPECT_LT(most, 1e-5 * largest) << potential.index() << " " << m;
+            EXPECT_GT(most, 0.0);
+            EXPECT_NEAR(exact.sums.energy.value(), mixed.sums.energy.value(),
+                        1e-6 * std::abs(exact.sums.energy.value()) + 1e-4);
+        }
 }
 
 TEST(InterfaceSweep, ForceOnlyGivesTheBitsOfTheObservedSweep) {
@@ -186,24 +210,27 @@ TEST(InterfaceSweep, ForceIsMinusTheGradient) {
         for (bool tail : {false, true})
             for (auto method :
                  {InterfaceMethod::automatic, InterfaceMethod::reference, InterfaceMethod::rows}) {
-                const Surface s = rough(m, n * a, 0.5, 5);
-                State state(n, 0.6, 0.6, 6);
-                InterfaceOptions o = with(method);
-                o.tail = tail;
-                const Outcome out = sweep(s, state, o, 3.6, true);
-                const double h = 1e-5;
-                for (auto [x, y] : {std::pair{0, 0}, {9, 4}, {5, 9}, {3, 3}})
-                    for (int k = 0; k < 3; ++k) {
-                        const double kept = state.at(k, x, y);
-                        state.at(k, x, y) = kept + h;
-                        const double up = sweep(s, state, o, 3.6, true).sums.energy.value();
-                        state.at(k, x, y) = kept - h;
-                        const double down = sweep(s, state, o, 3.6, true).sums.energy.value();
-                        state.at(k, x, y) = kept;
-                        const double f = out.force[k][static_cast<std::size_t>(y * n + x)];
-                        EXPECT_NEAR(f, -(up - down) / (2.0 * h), 2e-7 * (1.0 + std::abs(f)))
-                            << m << ' ' << tail << ' ' << x << ' ' << y << ' ' << k;
-                    }
+                for (const PairPotential& potential : test::potentials()) {
+                    if (tail && std::holds_alternative<Tabulated>(potential)) continue;
+                    const Surface s = rough(m, n * a, 0.5, 5);
+                    State state(n, 0.6, 0.6, 6);
+                    InterfaceOptions o = with(method, potential);
+                    o.tail = tail;
+                    const Outcome out = sweep(s, state, o, 3.6, true);
+                    const double h = 1e-5;
+                    for (auto [x, y] : {std::pair{0, 0}, {9, 4}, {5, 9}, {3, 3}})
+                        for (int k = 0; k < 3; ++k) {
+                            const double kept = state.at(k, x, y);
+                            state.at(k, x, y) = kept + h;
+                            const double up = sweep(s, state, o, 3.6, true).sums.energy.value();
+                            state.at(k, x, y) = kept - h;
+                            const double down = sweep(s, state, o, 3.6, true).sums.energy.value();
+                            state.at(k, x, y) = kept;
+                            const double f = out.force[k][static_cast<std::size_t>(y * n + x)];
+                            EXPECT_NEAR(f, -(up - down) / (2.0 * h), 2e-7 * (1.0 + std::abs(f)))
+                                << m << ' ' << tail << ' ' << x << ' ' << y << ' ' << k;
+                        }
+                }
             }
 }
 
@@ -211,53 +238,57 @@ TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
     // Sites do not feel each other: the force changes by -H v at each of them.
     const int n = 9;
     const Tile tile{0, 0, n, n, n};
-    const Interface interface(rough(n, n * a, 0.5, 11), tile, a, with(InterfaceMethod::automatic));
-    const State state(n, 0.4, 0.3, 12), way(n, 1.0, 1.0, 13);
-    const double z = 3.6, h = 5e-4;
-    const auto force_at = [&](double step) {
-        State moved = state;
-        for (int k = 0; k < 3; ++k)
-            for (std::size_t i = 0; i < moved.u[k].size(); ++i)
-                moved.u[k][i] += step * way.u[k][i];
-        VectorField<double> f(tile, 1);
-        const VectorField<double> u = moved.on(tile);
-        interface.sweep(u.plane(0), f.plane(0), z, false);
-        return f;
-    };
-    const VectorField<double> u = state.on(tile), f = force_at(0.0);
-    const VectorField<double> above = force_at(h), below = force_at(-h);
-    InterfaceStiffness all(tile, 3), normal(tile, 1);
-    all.measure(interface, u.plane(0), f.plane(0), z);
-    normal.measure(interface, u.plane(0), f.plane(0), z);
-    SiteField<float> v, up;
-    for (int k = 0; k < 3; ++k) {
-        v.emplace_back(tile, 1, 0);
+    for (const PairPotential& potential : test::potentials()) {
+        const Interface interface(rough(n, n * a, 0.5, 11), tile, a,
+                                  with(InterfaceMethod::automatic, potential));
+        const State state(n, 0.4, 0.3, 12), way(n, 1.0, 1.0, 13);
+        const double z = 3.6, h = 5e-4;
+        const auto force_at = [&](double step) {
+            State moved = state;
+            for (int k = 0; k < 3; ++k)
+                for (std::size_t i = 0; i < moved.u[k].size(); ++i)
+                    moved.u[k][i] += step * way.u[k][i];
+            VectorField<double> f(tile, 1);
+            const VectorField<double> u = moved.on(tile);
+            interface.sweep(u.plane(0), f.plane(0), z, {});
+            return f;
+        };
+        const VectorField<double> u = state.on(tile), f = force_at(0.0);
+        const VectorField<double> above = force_at(h), below = force_at(-h);
+        InterfaceStiffness all(tile, 3), normal(tile, 1);
+        all.measure(interface, u.plane(0), f.plane(0), z);
+        normal.measure(interface, u.plane(0), f.plane(0), z);
+        SiteField<float> v, up;
+        for (int k = 0; k < 3; ++k) {
+            v.emplace_back(tile, 1, 0);
+            for (int y = 0; y < n; ++y)
+                for (int x = 0; x < n; ++x)
+                    v.back().plane(0)(x, y) =
+                        static_cast<float>(way.u[k][static_cast<std::size_t>(y * n + x)]);
+        }
+        up.emplace_back(tile, 1, 0);
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x)
-                v.back().plane(0)(x, y) =
-                    static_cast<float>(way.u[k][static_cast<std::size_t>(y * n + x)]);
+                up[0].plane(0)(x, y) = 1.0f;
+        all.apply(v);
+        normal.apply(up);
+        const auto expect_slope = [&](float product, const Field<double>& high,
+                                      const Field<double>& low, int x, int y) {
+            const double slope = -(high.plane(0)(x, y) - low.plane(0)(x, y)) / (2.0 * h);
+            EXPECT_NEAR(product, slope, 0.05 * (1.0 + std::abs(slope))); // one-sided differences
+        };
+        double mean = 0.0;
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                expect_slope(v[0].plane(0)(x, y), above.x, below.x, x, y);
+                expect_slope(v[1].plane(0)(x, y), above.y, below.y, x, y);
+                expect_slope(v[2].plane(0)(x, y), above.z, below.z, x, y);
+                mean += std::max(0.0f, up[0].plane(0)(x, y)) / (n * n);
+            }
+        EXPECT_NEAR(all.mean(interface, u.plane(0), f.plane(0), z, Communicator()), mean,
+                    1e-6 * mean);
+        EXPECT_GT(mean, 0.1);
     }
-    up.emplace_back(tile, 1, 0);
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
-            up[0].plane(0)(x, y) = 1.0f;
-    all.apply(v);
-    normal.apply(up);
-    const auto expect_slope = [&](float product, const Field<double>& high,
-                                  const Field<double>& low, int x, int y) {
-        const double slope = -(high.plane(0)(x, y) - low.plane(0)(x, y)) / (2.0 * h);
-        EXPECT_NEAR(product, slope, 0.05 * (1.0 + std::abs(slope))); // one-sided differences
-    };
-    double mean = 0.0;
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            expect_slope(v[0].plane(0)(x, y), above.x, below.x, x, y);
-            expect_slope(v[1].plane(0)(x, y), above.y, below.y, x, y);
-            expect_slope(v[2].plane(0)(x, y), above.z, below.z, x, y);
-            mean += std::max(0.0f, up[0].plane(0)(x, y)) / (n * n);
-        }
-    EXPECT_NEAR(all.mean(interface, u.plane(0), f.plane(0), z, Communicator()), mean, 1e-6 * mean);
-    EXPECT_GT(mean, 0.1);
 }
 
 TEST(InterfaceSweep, TotalForceIsMinusTheGradientOfARigidShift) {
@@ -368,7 +399,7 @@ TEST(InterfaceSweep, ReportsSitesThatAreNoNumbers) {
 
 TEST(InterfaceSweep, WithoutDepthThereIsNoForce) {
     InterfaceOptions o;
-    o.potential.epsilon = 0.0;
+    std::get<LennardJones>(o.potential).epsilon = 0.0;
     const State state(8, 0.1, 0.1, 1);
     for (int m : {8, 13}) {
         const Outcome out = sweep(rough(m, 8 * a, 0.5, 1), state, o, 3.0, true);
@@ -388,7 +419,7 @@ TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
     const InterfaceMaps maps = interface.maps(u.plane(0), 3.2);
     const double nearest = std::sqrt(3.2 * 3.2 + 2.0 * 1.3 * 1.3);
     VectorField<double> f(tile, 1);
-    const InterfaceSums sums = interface.sweep(u.plane(0), f.plane(0), 3.2, true);
+    const InterfaceSums sums = interface.sweep(u.plane(0), f.plane(0), 3.2, {.observe = true});
     EXPECT_EQ(sums.in_contact, n * n);
     for (std::size_t i = 0; i < maps.gap.size(); ++i) {
         EXPECT_EQ(maps.contact[i], 1);
@@ -407,11 +438,11 @@ TEST(InterfaceOptionsCheck, SaysWhatIsWrong) {
     const Surface s = rough(8, 8 * a, 0.0, 1);
     const Tile tile{0, 0, 8, 8, 8};
     InterfaceOptions o;
-    o.potential.cutoff = 300.0;
+    std::get<LennardJones>(o.potential).cutoff = 300.0;
     EXPECT_THROW(Interface(s, tile, a, o), std::invalid_argument);
-    o.potential.cutoff = -1.0;
+    std::get<LennardJones>(o.potential).cutoff = -1.0;
     EXPECT_THROW(Interface(s, tile, a, o), std::invalid_argument);
-    o.potential.cutoff = 35.0; // some 150 rows of atoms a tenth of a apart
+    std::get<LennardJones>(o.potential).cutoff = 35.0; // some 150 rows of atoms a tenth of a apart
     EXPECT_THROW(Interface(rough(320, 32 * a, 0.0, 1), {0, 0, 32, 32, 32}, a, o),
                  std::invalid_argument);
     EXPECT_THROW(Interface(rough(13, 8 * a, 0.0, 1), tile, a, with(InterfaceMethod::lattice)),
@@ -447,7 +478,7 @@ TEST(InterfaceMaps, TheGapIsBilinearBetweenTheAtomsBelow) {
 TEST(InterfaceTail, RepulsiveSitesAreCountedWithTheTail) {
     // The tail attracts: with it fewer sites are repelled, and the count is that of the forces.
     InterfaceOptions options;
-    options.potential.cutoff = 6.0;
+    std::get<LennardJones>(options.potential).cutoff = 6.0;
     const Surface surface = rough(16, 16 * a, 0.5, 3);
     const State state(16, 0.3, 0.4, 4);
     const auto repulsive = [](const Outcome& o) {

@@ -131,7 +131,8 @@ TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
         height_of_strongest_attraction(block, interface, surface.statistics.lowest);
     const auto energy = [&](bool in_single) {
         return interface
-            .sweep(block.lowest_layer(), block.interface_force(), height, true, in_single)
+            .sweep(block.lowest_layer(), block.interface_force(), height,
+                   {.observe = true, .mixed = in_single})
             .energy.value();
     };
     Phases phases;

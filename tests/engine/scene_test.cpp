@@ -143,7 +143,7 @@ trajectory = 1000
     EXPECT_EQ(s.surface.radius, 4410.0);
     EXPECT_EQ(s.block.thickness, 64); // follows N
     EXPECT_EQ(s.block.young, 77.2);
-    EXPECT_EQ(s.interface.epsilon, 0.1);
+    EXPECT_EQ(std::get<LennardJones>(s.interface.potentials).epsilon, 0.1);
     EXPECT_EQ(s.drive.velocity, 5.0);
     EXPECT_EQ(s.drive.timestep, 20.0);
     EXPECT_EQ(s.drive.load, 0.001);

@@ -3,8 +3,8 @@
 //
 // The sweep over cells of substrate atoms: judged by the reference, by energy differences, by
 // itself on other tiles, and by the sweeps over the lattice and over rows of the same atoms.
-#include "engine/block/interface.hpp"
-#include "engine/block/substrate_cells.hpp"
+#include "engine/interface/interface.hpp"
+#include "engine/interface/substrate_cells.hpp"
 
 #include "decomposition/field.hpp"
 
@@ -27,9 +27,10 @@ double scatter(double n) {
     return s - std::floor(s);
 }
 
-const LennardJones potential{};
-/// Of several types: weaker and narrower, of no atom, stronger and wider.
-const LennardJones by_type[] = {potential, {0.03, 2.6, 9.0}, {5.0, 3.0, 13.0}, {0.2, 3.8, 12.5}};
+const PairPotential potential = LennardJones{};
+/// Of several types: weaker and narrower, of no atom, stronger and wider and of another form.
+const PairPotential by_type[] = {potential, LennardJones{0.03, 2.6, 9.0},
+                                 LennardJones{5.0, 3.0, 13.0}, Morse{0.2, 1.2, 4.2, 12.5}};
 
 /// Three rough layers without any lattice, and a step of 4 Å at half the box; of one type or of
 /// several.
@@ -48,7 +49,7 @@ struct Solid {
     SubstrateCells cells(const Tile& tile, bool mixed, bool skip = true) const {
         std::vector<double> cutoffs;
         for (int t = 0; t < pairs.types; ++t)
-            cutoffs.push_back(pairs.of[t].cutoff);
+            cutoffs.push_back(cutoff_of(pairs.of[t]));
         return {atoms, tile, CellOptions{a, cutoffs, 2.0 * a, !mixed, mixed, skip}};
     }
 };
@@ -91,7 +92,7 @@ Swept by_cells(const SubstrateCells& cells, const PairTable& pairs, const Tile& 
                const VectorField<double>& u, double height, bool mixed) {
     const auto& kernels = interface_kernels().cells;
     return swept(tile, u, height, [&](const InterfaceSites& at, InterfaceSums& sums) {
-        (mixed ? kernels.in_mixed : kernels.plain)[1](at, cells.view(), pairs, 0, tile.ny, sums);
+        kernels({.observe = true, .mixed = mixed})(at, cells.view(), pairs, 0, tile.ny, sums);
     });
 }
 
@@ -216,7 +217,7 @@ Swept over(const Surface& substrate, const InterfaceOptions& options, double hei
     const Interface interface(substrate, whole, a, options);
     const auto u = displaced(whole, size);
     return swept(whole, u, height, [&](const InterfaceSites& at, InterfaceSums& sums) {
-        sums = interface.sweep(at.displacement, at.force, height, true);
+        sums = interface.sweep(at.displacement, at.force, height, {.observe = true});
     });
 }
 
@@ -330,9 +331,9 @@ TEST(SubstrateCells, ASiteIsInContactByTheTypeOfTheAtom) {
     two.height.assign(sites * sites, 0.0);
     two.atoms = {{0.5 * a, 12.5 * a}, {0.5 * a, 12.5 * a}, {0.0, 0.0}, {0, 1}};
     InterfaceOptions options;
-    options.by_type = {{0.1, 3.28, 13.12}, {0.1, 2.6, 9.0}};
+    options.by_type = {LennardJones{0.1, 3.28, 13.12}, LennardJones{0.1, 2.6, 9.0}};
     const double height =
-        0.5 * (options.by_type[0].contact_distance() + options.by_type[1].contact_distance());
+        0.5 * (contact_distance(options.by_type[0]) + contact_distance(options.by_type[1]));
     for (auto method : {InterfaceMethod::cells, InterfaceMethod::reference}) {
         options.method = method;
         const Interface interface(two, whole, a, options);

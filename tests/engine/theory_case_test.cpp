@@ -144,7 +144,7 @@ TEST(TheoryOfAScene, RenormalisedIsLeftOutWhereTheSceneSaysSo) {
 TEST(TheoryOfAScene, RenormalisedSaysHowWellItIsKnown) {
     const auto renormalised = [](double epsilon, double rms) {
         Scene s = small(rms);
-        s.interface.epsilon = epsilon;
+        std::get<LennardJones>(s.interface.potentials).epsilon = epsilon;
         io::Result result;
         record_theory(theory_case(resolve(s)), solve_theory(theory_case(resolve(s))), result);
         const io::Json json = result.json();
@@ -190,14 +190,14 @@ TEST(TheoryOfAScene, ExpectedErrorCoversSimulatedStates) {
         s.surface.seed = row.seed;
         s.block.young = row.young;
         s.block.poisson = row.poisson;
-        s.interface.epsilon = row.epsilon;
-        s.interface.r0 = row.r0;
+        std::get<LennardJones>(s.interface.potentials).epsilon = row.epsilon;
+        std::get<LennardJones>(s.interface.potentials).r0 = row.r0;
         s.interface.cutoff = 4 * row.r0;
         if (row.wall) {
             s.interface.kind = InterfaceKind::wall;
             s.interface.frictionless = true;
             s.drive.path = {PathPart::zero_load};
-            s.interface.law = WallLawKind::lennard_jones;
+            s.interface.law = WallLawKind::smeared;
         }
         s.theory.spectrum = TheorySpectrum::realised;
         const TheoryCase what = theory_case(resolve(s));

@@ -5,7 +5,7 @@
 #include "kernels/device/device.hpp"
 #include "kernels/elastic_level.hpp"
 #include "kernels/exact_sum.hpp"
-#include "kernels/interface_sweep.hpp"
+#include "kernels/interface_kernels.hpp"
 #include "kernels/level_transfer.hpp"
 #include "kernels/views.hpp"
 
@@ -18,12 +18,13 @@ using namespace asperity;
 template <class T>
 class GoesToADevice : public testing::Test {};
 
-using Types = testing::Types<PlaneView<double>, VolumeView<const float>, VectorPlane<const double>,
-                             VectorVolume<double>, CellElasticity, LevelCell, ElasticLevel, Band,
-                             Stencil, Patch, Kick, LevelKicks, KickSums, ExactSum, LennardJones,
-                             InterfaceSites, InterfaceSums, SubstrateMap, ReachBounds,
-                             LatticeSubstrate, RowSubstrate, TailCorrection, LevelSeam, DeviceLevel,
-                             ThermalNoise, DeviceStep, DeviceHalo, NodeRanges, PassSums>;
+using Types =
+    testing::Types<PlaneView<double>, VolumeView<const float>, VectorPlane<const double>,
+                   VectorVolume<double>, CellElasticity, LevelCell, ElasticLevel, Band, Stencil,
+                   Patch, Kick, LevelKicks, KickSums, ExactSum, LennardJones, InterfaceSites,
+                   InterfaceSums, SubstrateMap, ReachBounds, LatticeSubstrate, RowSubstrate,
+                   Tail<LennardJones>, Morse, Tabulated, Pair<Morse>, Pair<Tabulated>, LevelSeam,
+                   DeviceLevel, ThermalNoise, DeviceStep, DeviceHalo, NodeRanges, PassSums>;
 TYPED_TEST_SUITE(GoesToADevice, Types);
 
 TYPED_TEST(GoesToADevice, ByteByByte) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The reference loop against numbers worked by hand: one atom, one site.
-#include "kernels/interface_sweep.hpp"
+#include "kernels/interface_kernels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,9 +58,9 @@ TEST(InterfacePair, SeesPeriodicImages) {
     // 0).
     const SubstrateMap box{&ground, 1, 20.0};
     const PairSum p = pair_sum(box, gold, 19.0, 1.0, 3.0);
-    EXPECT_NEAR(p.energy, gold.energy(11.0), 1e-15);
-    EXPECT_NEAR(p.force[0], -gold.force_over_distance(11.0), 1e-14);
-    EXPECT_NEAR(p.force[1], gold.force_over_distance(11.0), 1e-14);
+    EXPECT_NEAR(p.energy, Pair(gold).energy(11.0), 1e-15);
+    EXPECT_NEAR(p.force[0], -Pair(gold).force_over_distance(11.0), 1e-14);
+    EXPECT_NEAR(p.force[1], Pair(gold).force_over_distance(11.0), 1e-14);
     // Folding the site back changes nothing.
     const PairSum folded = pair_sum(box, gold, 19.0 - 60.0, 1.0 + 40.0, 3.0);
     EXPECT_NEAR(folded.force[2], p.force[2], 1e-13);
@@ -83,7 +83,7 @@ TEST(InterfacePair, HandsNotANumberOn) {
 
 TEST(InterfaceTail, IsTheForceOfThePlaneBeyondTheCutoff) {
     // Sum rings of the plane by the midpoint rule and compare.
-    const TailCorrection tail{gold, 1.0 / 6.76};
+    const Tail tail(gold, 1.0 / 6.76);
     for (double gap : {-2.0, 1.0, 3.11, 8.0, 12.0, 14.0, 25.0}) {
         double force = 0.0;
         const double from2 = std::max(0.0, 13.12 * 13.12 - gap * gap);
@@ -94,14 +94,14 @@ TEST(InterfaceTail, IsTheForceOfThePlaneBeyondTheCutoff) {
             const double r2 = steps / (w_far * (k + 0.5));
             const double s6 = std::pow(3.28 * 3.28 / r2, 3.0);
             const double f = 2.4 * s6 * (2.0 * s6 - 1.0) / r2 * gap;
-            force += f * std::numbers::pi * tail.density * r2 * r2 * w_far / steps;
+            force += f * std::numbers::pi / 6.76 * r2 * r2 * w_far / steps;
         }
         EXPECT_NEAR(tail.force(gap), force, 1e-7 * std::abs(force)) << gap;
     }
 }
 
 TEST(InterfaceTail, ForceIsMinusTheGradient) {
-    const TailCorrection tail{gold, 0.15};
+    const Tail tail(gold, 0.15);
     for (double gap : {-3.0, 0.5, 3.0, 13.0, 13.3, 30.0}) {
         const double h = 1e-4;
         const double slope = (tail.energy(gap + h) - tail.energy(gap - h)) / (2.0 * h);
@@ -113,12 +113,13 @@ TEST(InterfaceTail, ForceIsMinusTheGradient) {
 
 TEST(InterfaceKernelTable, IsFilled) {
     const InterfaceKernels& kernels = interface_kernels();
-    for (bool observe : {false, true}) {
-        EXPECT_NE(kernels.lattice.plain[observe], nullptr);
-        EXPECT_NE(kernels.lattice.in_mixed[observe], nullptr);
-        EXPECT_NE(kernels.rows.plain[observe], nullptr);
-        EXPECT_NE(kernels.rows.in_mixed[observe], nullptr);
-    }
+    for (bool observe : {false, true})
+        for (bool mixed : {false, true}) {
+            const SweepOptions how{.observe = observe, .mixed = mixed};
+            EXPECT_NE(kernels.lattice(how), nullptr);
+            EXPECT_NE(kernels.rows(how), nullptr);
+            EXPECT_NE(kernels.cells(how), nullptr);
+        }
 }
 
 } // namespace

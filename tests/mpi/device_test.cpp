@@ -43,7 +43,8 @@ struct Variant {
     double temperature = 0.0;
     bool finite = false; ///< strain
     double poisson = 0.42;
-    double ratio = 1.0; ///< of the lattice constants
+    double ratio = 1.0;        ///< of the lattice constants
+    std::size_t potential = 0; ///< of test::potentials()
 };
 // Shallow and deep: as in same_bits_test, cut on one level and on all but the last.
 constexpr Variant cases[] = {{"shallow", 32, 3, false, true, false, true},
@@ -58,11 +59,16 @@ constexpr Variant cases[] = {{"shallow", 32, 3, false, true, false, true},
                              {"shallow", 32, 3, false, true, false, true, 0.0, true},
                              {"lattice", 6, 0, true, false, false, false, 0.0, true, 0.25},
                              {"shallow", 32, 3, false, true, true, true, 0.0, false, 0.42, 1.6},
-                             {"deep", 62, 2, true, true, false, true, 0.0, false, 0.42, 0.7}};
+                             {"deep", 62, 2, true, true, false, true, 0.0, false, 0.42, 0.7},
+                             {"lattice", 6, 0, false, true, true, false, 0.0, false, 0.42, 1.0, 1},
+                             {"lattice", 6, 0, true, true, false, true, 0.0, false, 0.42, 1.6, 1},
+                             {"lattice", 6, 0, false, true, false, true, 0.0, false, 0.42, 1.6, 2},
+                             {"lattice", 6, 0, true, true, false, false, 0.0, false, 0.42, 1.0, 2}};
 void PrintTo(const Variant& c, std::ostream* out) {
     *out << c.stack << (c.mixed ? ", mixed" : ", double") << (c.damped ? ", damped" : "")
          << (c.tail ? ", tail" : "") << (c.temperature > 0.0 ? ", warm" : "")
-         << (c.finite ? ", finite strain" : "") << (c.ratio != 1.0 ? ", rows" : "");
+         << (c.finite ? ", finite strain" : "") << (c.ratio != 1.0 ? ", rows" : "")
+         << std::array{"", ", Morse", ", table"}[c.potential];
 }
 
 SimulationOptions options_of(const Variant& c, bool on_device) {
@@ -71,6 +77,7 @@ SimulationOptions options_of(const Variant& c, bool on_device) {
     options.block.finite_strain = c.finite;
     options.block.poisson = c.poisson;
     options.interface = test::paper_interface();
+    options.interface.potential = test::potentials()[c.potential];
     options.interface.mixed = c.mixed;
     options.interface.tail = c.tail;
     options.drive.velocity = 1e-3; // 100 m/s: into contact soon
@@ -349,7 +356,7 @@ TEST(Device, NeverTouchesTheFieldsOfTheHost) {
                     close(f->storage());
         const Interface::Tables tables = s.interface().tables();
         const int fields = closed;
-        close(tables.heights->storage());
+        close(tables.heights->in_double().storage());
         close(tables.mean_height->storage());
         close(tables.map);
         if (fields < 6 || closed != fields + 3) _exit(1);

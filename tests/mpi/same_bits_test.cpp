@@ -62,7 +62,7 @@ Surface surface_of(const Stack& stack, const char* name) {
 
 InterfaceOptions interface_of(const Stack& stack) {
     InterfaceOptions options = test::paper_interface();
-    if (stack.types) options.by_type = {options.potential, {0.05, 3.0, 10.0}};
+    if (stack.types) options.by_type = {options.potential, Morse{0.05, 1.7, 3.4, 10.0}};
     return options;
 }
 

@@ -163,7 +163,7 @@ TEST(SpectralBlock, RelaxesLikeOneRank) {
 TEST(SpectralBlock, RelaxesOverAWallLikeOneRank) {
     const BlockOptions options = test::paper_block(16, 8, 0);
     const Surface surface = test::reference_surface("c2_N16_T8_rms1.5");
-    const WallLaw walls[] = {LennardJonesWall({0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false),
+    const WallLaw walls[] = {SmearedWall(LennardJones{0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false),
                              ExponentialWall(0.7, 1.3, 1000.0), ExponentialWall(0.0, 1.0, 1000.0)};
     for (const WallLaw& wall : walls)
         for (const Constraint& constraint :

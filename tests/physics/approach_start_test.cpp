@@ -48,8 +48,8 @@ TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
         // The deepest energy of the rigid block, in finer steps.
         double deepest = 0.0;
         for (double height = start.height;; height -= 0.01) {
-            const InterfaceSums sums =
-                c.interface.sweep(c.block.lowest_layer(), c.block.interface_force(), height, true);
+            const InterfaceSums sums = c.interface.sweep(
+                c.block.lowest_layer(), c.block.interface_force(), height, {.observe = true});
             if (sums.force_z.value() > 0.0) break;
             deepest = std::min(deepest, sums.energy.value());
         }
@@ -72,7 +72,7 @@ TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
 TEST(ApproachStart, IsOutOfReachWhereNothingAttracts) {
     Solids c(rough + "[interface]\nepsilon = 1e-9\n");
     InterfaceOptions none = c.setup.simulation.interface;
-    none.potential.epsilon = 0.0;
+    std::get<LennardJones>(none.potential).epsilon = 0.0;
     const Interface nothing(c.surface, c.grid.tile(0), c.setup.scene.surface.spacing, none);
     const ApproachStart start = approach_start(c.block, nothing);
     EXPECT_EQ(start.height, nothing.start_height());

@@ -329,7 +329,7 @@ struct Approach {
 
 Approach approach_slowly(const SimulationOptions& options, const Surface& surface) {
     Simulation s(options, surface, Communicator(), test::serial_grid(options.block));
-    s.start(surface.statistics.highest + options.interface.potential.cutoff);
+    s.start(surface.statistics.highest + cutoff_of(options.interface.potential));
     for (;;) {
         const StepRecord& now = s.step(true);
         if (s.drive().observe(now.time, now.force, false)) break;

@@ -191,7 +191,7 @@ TEST(MeanHeight, GradientLeavesItOut) {
                 along_z(x, y) -= mean;
         const auto energy = [&] {
             return block.elastic_energy() +
-                   interface.sweep(block.lowest_layer(), block.interface_force(), 3.9, true)
+                   interface.sweep(block.lowest_layer(), block.interface_force(), 3.9, {.observe = true})
                        .energy.value();
         };
         energy();

@@ -194,7 +194,7 @@ TEST(Quasistatic, RoughWorkIsEnergyPlusLoss) {
 /// The smeared layer, and an attraction over a repulsion of hundreds of times the block's
 /// stiffness.
 TEST(Quasistatic, RoughWorkOverAWallIsEnergyPlusLoss) {
-    const WallLaw walls[] = {LennardJonesWall({0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false),
+    const WallLaw walls[] = {SmearedWall(LennardJones{0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false),
                              ExponentialWall(0.7, 1.3, 1000.0)};
     for (const WallLaw& wall : walls)
         for (const Constraint::Of along : {Constraint::Of::top, Constraint::Of::mean_height}) {

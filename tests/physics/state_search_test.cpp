@@ -5,8 +5,8 @@
 // it alone touches there is one of full contact, and a barrier between them. Each state is stable
 // in every direction (smallest eigenvalue of its Hessian), their energies differ by the work of the
 // force between them, and neither the step nor the block's model nor a resume changes them.
-#include "engine/block/flat_reference.hpp"
 #include "engine/equilibrium/state_search.hpp"
+#include "engine/interface/flat_reference.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "engine/scene/surface.hpp"
 #include "engine/units.hpp"
@@ -49,7 +49,7 @@ Solids two_states() { return Solids(test::paper_block(32, 32, 0), hill(32, 12.0,
 /// The same hill as a wall of smeared atoms.
 Solids two_states_over_a_wall() {
     return Solids(test::paper_block(32, 32, 0), hill(32, 12.0, 6.0),
-                  LennardJonesWall({0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false));
+                  SmearedWall(LennardJones{0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false));
 }
 
 /// Normal displacements only: with lateral ones, sites between atoms of the substrate are states of
@@ -206,7 +206,7 @@ private:
                 for (int x = 0; x < component.nx; ++x)
                     component(x, y) = u[i++];
         block_.settle();
-        interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, false);
+        interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, {});
         auto waves = block_.new_waves<double>();
         block_.gradient(waves);
         auto sites = block_.new_field<double>();
@@ -505,7 +505,7 @@ TEST(StateSearch, UnderALoadTheEnergyOfThePointsIsTheIntegralOfTheForceAboveIt) 
             const double force =
                 c.interface
                     .sweep(c.block.lowest_layer(), c.block.interface_force(),
-                           c.interface.start_height(), false)
+                           c.interface.start_height(), {})
                     .force_z.value() -
                 load;
             risen += 0.5 * (force + above) * (height - now);

@@ -229,7 +229,7 @@ TEST(Gradient, BlockAndInterfaceHaveOneEnergy) {
                     for (bool lift : {false, true}) {
                         ElasticOperator k(block.options());
                         InterfaceOptions options = interface_with(method, tail);
-                        options.potential.cutoff = 2.5 * options.potential.r0;
+                        test::lennard_jones(options).cutoff = 2.5 * test::lennard_jones(options).r0;
                         const Interface interface(surface, k.block().grid().tile(0), 2.6, options);
                         Vector u = test::random_vector(k.size(), 21);
                         for (double& x : u)
@@ -251,7 +251,7 @@ TEST(Gradient, BlockAndInterfaceHaveOneEnergy) {
                             return k.energy() +
                                    interface
                                        .sweep(k.block().lowest_layer(), k.block().interface_force(),
-                                              height, true)
+                                              height, {.observe = true})
                                        .energy.value();
                         };
                         const double slope = (energy(h) - energy(-h)) / (2.0 * h);
@@ -282,7 +282,7 @@ TEST(Gradient, TheSpectralBlockAndInterfaceHaveOneEnergy) {
                     auto g = block.new_waves<double>();
                     const auto energy = [&] {
                         return block.elastic_energy() +
-                           interface.sweep(block.lowest_layer(), block.interface_force(), 3.6, true)
+                           interface.sweep(block.lowest_layer(), block.interface_force(), 3.6, {.observe = true})
                                .energy.value();
                     };
                     const double step = h / 16.0; // the direction has a length of about 28

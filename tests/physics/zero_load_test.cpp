@@ -4,7 +4,7 @@
 // The relaxed state under zero load against numbers from elsewhere: flat on flat for each cutoff
 // (docs/model.md), and rough maps relaxed by an independent program
 // (tests/physics/data/README.md).
-#include "engine/block/flat_reference.hpp"
+#include "engine/interface/flat_reference.hpp"
 #include "support/cases.hpp"
 #include "support/levels_at_rest.hpp"
 

@@ -25,9 +25,24 @@ BlockOptions paper_block(int sites, int thickness, int layers_per_level) {
     return options;
 }
 
+std::array<PairPotential, 3> potentials(double cutoff) {
+    // Softer than Lennard-Jones close by, and of a longer reach: no other potential of the program.
+    static const PotentialTable table = [] {
+        std::vector<double> r, v;
+        for (double at = 1.5; at < 16.0; at += 0.05) {
+            r.push_back(at);
+            v.push_back(0.4 * (std::pow(3.2 / at, 9) - std::pow(3.2 / at, 5)));
+        }
+        return PotentialTable(r, v);
+    }();
+    Morse morse;
+    morse.cutoff = cutoff;
+    return {LennardJones{0.1, 3.28, cutoff}, morse, table.potential(cutoff)};
+}
+
 InterfaceOptions paper_interface(double cutoff_in_r0) {
     InterfaceOptions options;
-    options.potential.cutoff = cutoff_in_r0 * options.potential.r0;
+    lennard_jones(options).cutoff = cutoff_in_r0 * lennard_jones(options).r0;
     return options;
 }
 

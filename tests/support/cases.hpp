@@ -8,6 +8,7 @@
 #include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/zero_load.hpp"
 
+#include <array>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -18,6 +19,15 @@ namespace asperity::test {
 BlockOptions paper_block(int sites, int thickness, int layers_per_level);
 /// The paper's interface with this cutoff in units of r0.
 InterfaceOptions paper_interface(double cutoff_in_r0 = 4.0);
+
+/// The potential of these options, where it is Lennard-Jones'.
+inline LennardJones& lennard_jones(InterfaceOptions& options) {
+    return std::get<LennardJones>(options.potential);
+}
+
+/// Lennard-Jones, Morse and a table, the paper's length and depth, with this cutoff, Å; the table
+/// belongs to the process.
+std::array<PairPotential, 3> potentials(double cutoff = 13.12);
 
 Surface flat_surface(int sites);
 /// A map of tests/physics/data, at its own size, its heights times a factor.

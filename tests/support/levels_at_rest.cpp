@@ -52,8 +52,8 @@ RelaxedState LevelsAtRest::relax(const Interface& interface, double reference_he
     const double sites = std::pow(block.options().sites, 2);
     const auto feel = [&] {
         block.interpolate();
-        sums =
-            interface.sweep(block.lowest_layer(), block.interface_force(), reference_height, true);
+        sums = interface.sweep(block.lowest_layer(), block.interface_force(), reference_height,
+                               {.observe = true});
         block.forces(forces);
         std::size_t i = 0;
         for (const Block::Level& level : block.levels())

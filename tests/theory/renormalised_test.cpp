@@ -19,7 +19,14 @@ namespace asperity::theory {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-const PairPotential lennard_jones{0.1, 3.28, 13.12};
+PairInteraction lennard_jones(double epsilon = 0.1, double r0 = 3.28, double cutoff = 13.12) {
+    const auto at = [=](double r2) {
+        const double s = std::pow(r0 * r0 / r2, 3);
+        return PairTerms{4 * epsilon * s * (s - 1), -24 * epsilon * s * (2 * s - 1) / r2,
+                         4 * epsilon * s * (168 * s - 48) / (r2 * r2)};
+    };
+    return {at, r0, std::pow(2.0, 1.0 / 6) * r0, std::pow(26.0 / 7, 1.0 / 6) * r0, cutoff};
+}
 
 /// The paper's surface, clipped at Nyquist.
 Spectrum surface(double rms) {
@@ -31,7 +38,7 @@ Spectrum surface(double rms) {
 }
 
 RoughInterface rough(double rms, double pressure = 0, bool friction = true) {
-    return {surface(rms), FlatInterface::hollow_sites(lennard_jones, 2.6),
+    return {surface(rms), FlatInterface::hollow_sites(lennard_jones(), 2.6),
             StiffnessTable::half_space(paper::contact_modulus, 0.42), friction, pressure};
 }
 
@@ -261,7 +268,7 @@ TEST(Renormalised, SlidingUndoesTilt) {
 TEST(Renormalised, ManySmallAtomsAreAWall) {
     // A lattice much finer than the range of the potential: rings become a plane.
     const double a = 0.65;
-    const PairPotential dense{0.1 * std::pow(a / 2.6, 4), 3.28, 13.12};
+    const PairInteraction dense = lennard_jones(0.1 * std::pow(a / 2.6, 4));
     const FlatInterface atoms = FlatInterface::hollow_sites(dense, a),
                         plane = FlatInterface::all_registries(dense, a, a);
     for (const double u : {2.6, 3.0, 3.5, 5.0, 9.0})
@@ -402,7 +409,7 @@ TEST(ExpectedError, GrowsWithTheSlopeAndIsZeroWithoutRoughness) {
 TEST(ExpectedError, HasNoUnits) {
     const double length = 3, energy = 7;
     RoughInterface here = rough(3), there = here;
-    const PairPotential pair{0.1 * energy, 3.28 * length, 13.12 * length};
+    const PairInteraction pair = lennard_jones(0.1 * energy, 3.28 * length, 13.12 * length);
     there.flat = FlatInterface::hollow_sites(pair, 2.6 * length);
     there.spectrum = Spectrum::self_affine({.q_L = paper::q_L / length,
                                             .q0 = 3 * paper::q_L / length,
@@ -432,7 +439,7 @@ TEST(Renormalised, HardInputs) {
                                                               .h_rms = rms});
                     try {
                         const RenormalisedState s = solve(
-                            {C, FlatInterface::hollow_sites({0.1, r0, 4 * r0}, 2.6),
+                            {C, FlatInterface::hollow_sites(lennard_jones(0.1, r0, 4 * r0), 2.6),
                              StiffnessTable::half_space(modulus * paper::contact_modulus, 0.42),
                              true, 0});
                         EXPECT_TRUE(std::isfinite(s.gamma_ratio) &&
@@ -461,7 +468,7 @@ TEST(Renormalised, NoNumberWithoutAUsefulBound) {
     const auto reason = [&](double epsilon, bool friction, const RenormalisedOptions& options) {
         try {
             const RenormalisedState s =
-                solve({steep, FlatInterface::hollow_sites({epsilon, 3.28, 13.12}, 2.6),
+                solve({steep, FlatInterface::hollow_sites(lennard_jones(epsilon, 3.28, 13.12), 2.6),
                        StiffnessTable::half_space(paper::contact_modulus, 0.42), friction, 0},
                       options);
             EXPECT_LE(s.gamma_ratio, 1.01);
@@ -489,9 +496,9 @@ TEST(Renormalised, ErrorsSayWhatIsWrong) {
             EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
         }
     };
-    refuses([] { (void)FlatInterface::hollow_sites({-0.1, 3.28, 13}, 2.6); }, "epsilon");
-    refuses([] { (void)FlatInterface::hollow_sites({0.1, 3.28, 3}, 2.6); }, "cutoff");
-    refuses([] { (void)FlatInterface::hollow_sites({0.1, 1.0, 4}, 5); }, "no minimum");
+    refuses([] { (void)FlatInterface::hollow_sites(lennard_jones(0.1, -3.28, 13), 2.6); }, "zero");
+    refuses([] { (void)FlatInterface::hollow_sites(lennard_jones(0.1, 3.28, 3), 2.6); }, "cutoff");
+    refuses([] { (void)FlatInterface::hollow_sites(lennard_jones(0.1, 1.0, 4), 5); }, "no minimum");
     refuses([] { (void)FlatInterface::wall(morse, 3, 2, 3); }, "reaches");
     refuses([] { (void)FlatInterface::wall([](double) { return 1.0; }, 1, 9, 3); }, "no minimum");
     refuses([] { (void)StiffnessTable({}); }, "empty");

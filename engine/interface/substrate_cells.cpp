@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/block/substrate_cells.hpp"
+#include "engine/interface/substrate_cells.hpp"
 
 #include <fmt/format.h>
 

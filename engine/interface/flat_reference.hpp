@@ -5,7 +5,7 @@
 // energies are divided by it.
 #pragma once
 
-#include "engine/block/interface.hpp"
+#include "engine/interface/interface.hpp"
 
 namespace asperity {
 

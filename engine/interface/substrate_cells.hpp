@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Substrate atoms anywhere, in the cells that the sweep over cells reads
-// (kernels/interface_sweep.hpp).
+// (kernels/substrates.hpp).
 //
 // Atoms of each type have cells of their own, so that the pairs of a cell have one potential. They
 // are halved along the longest edge of their bounds, at a multiple of cell_atoms, until
@@ -13,7 +13,7 @@
 
 #include "decomposition/tile.hpp"
 #include "engine/scene/surface.hpp"
-#include "kernels/interface_sweep.hpp"
+#include "kernels/substrates.hpp"
 
 #include <cstddef>
 #include <cstdint>

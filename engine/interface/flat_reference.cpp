@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/block/flat_reference.hpp"
+#include "engine/interface/flat_reference.hpp"
 
 #include "engine/units.hpp"
 
@@ -55,11 +55,16 @@ PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites
             mean.energy += p.energy / (count * count);
             mean.nearest_r2 = std::min(mean.nearest_r2, p.nearest_r2);
         }
-    if (options.tail) {
-        const TailCorrection tail{options.potential, 1.0 / (b * b)};
-        mean.force[2] += tail.force(gap);
-        mean.energy += tail.energy(gap);
-    }
+    if (options.tail)
+        std::visit(
+            [&](const auto& p) {
+                if constexpr (p.has_tail) {
+                    const Tail tail(p, 1.0 / (b * b));
+                    mean.force[2] += tail.force(gap);
+                    mean.energy += tail.energy(gap);
+                }
+            },
+            options.potential);
     return mean;
 }
 
@@ -71,15 +76,15 @@ FlatReference flat_reference(const InterfaceOptions& options, double spacing, in
     if (options.wall)
         if (const auto* law = std::get_if<ExponentialWall>(&*options.wall))
             return flat_reference(*law, spacing * spacing);
-    const double r0 = options.potential.r0;
+    const double r0 = zero_of(options.potential); // its length
     // The minimum: where the force turns from pushing to pulling, by bisection.
     double low = 0.4 * r0, high = 1.2 * r0;
     if (!(force(low) > 0.0 && force(high) < 0.0))
         throw std::invalid_argument(fmt::format(
             "interface: flat on flat has no minimum of energy between {:.3f} and {:.3f} Å for "
-            "r0 = {} Å, cutoff = {} Å, spacing = {} Å; choose r0 not far from the spacing and a "
-            "cutoff of at least 1.5 r0",
-            low, high, r0, options.potential.cutoff, spacing));
+            "a potential that is zero at {} Å, cutoff = {} Å, spacing = {} Å; choose a potential "
+            "whose length is not far from the spacing and a cutoff of at least 1.5 times that",
+            low, high, r0, cutoff_of(options.potential), spacing));
     while (high - low > 1e-12 * r0) {
         const double middle = 0.5 * (low + high);
         (force(middle) > 0.0 ? low : high) = middle;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What the tables of the interface's sweeps hold (kernels/interface_sweep.hpp), in lengths.
+// What the tables of the interface's sweeps hold (kernels/substrates.hpp), in lengths.
 #pragma once
 
-#include "kernels/interface_sweep.hpp"
+#include "kernels/substrates.hpp"
 
 #include <algorithm>
 

@@ -12,7 +12,7 @@
 
 #include "decomposition/field.hpp"
 #include "decomposition/surface_transform.hpp"
-#include "engine/block/interface.hpp"
+#include "engine/interface/interface.hpp"
 
 namespace asperity {
 

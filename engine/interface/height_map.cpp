@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/interface/height_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <type_traits>
+
+namespace asperity {
+
+HeightMap::HeightMap(const Surface& substrate, int sites, double spacing)
+    : height_(substrate.height), sites_(substrate.sites),
+      spacing_(substrate.sites == sites ? spacing : sites * spacing / substrate.sites) {
+    const auto edge = static_cast<std::size_t>(sites_);
+    if (height_.size() != edge * edge)
+        throw std::invalid_argument(
+            fmt::format("interface: a substrate of {} x {} atoms has {} heights", sites_, sites_,
+                        height_.size()));
+    highest_ = *std::max_element(height_.begin(), height_.end());
+}
+
+double HeightMap::between(double x, double y) const {
+    const double px = x / spacing_, py = y / spacing_;
+    const int i = static_cast<int>(std::floor(px)), j = static_cast<int>(std::floor(py));
+    const double fx = px - std::floor(px), fy = py - std::floor(py);
+    return (1.0 - fy) * ((1.0 - fx) * at(i, j) + fx * at(i + 1, j)) +
+           fy * ((1.0 - fx) * at(i, j + 1) + fx * at(i + 1, j + 1));
+}
+
+namespace {
+constexpr double nothing_there = -1e30;
+}
+
+/// An atom counts in all rings between the nearest and the farthest point of the block's row.
+ReachTable::ReachTable(const HeightMap& map, const Tile& tile, double spacing, double widest,
+                       double margin, bool skip)
+    : highest_(size(tile), nothing_there), lowest_(size(tile), -nothing_there) {
+    bounds_.offset_margin = margin;
+    bounds_.ring_width = widest / interface_rings;
+    bounds_.blocks = blocks_in_row(tile);
+    const SubstrateMap whole = map.view();
+    const double b = whole.spacing;
+    // Slightly wider, so that rounding leaves no atom out.
+    const double reach = widest + 1e-3;
+    const auto ring = [&](double lateral) {
+        return std::clamp(static_cast<int>(lateral / bounds_.ring_width), 0, interface_rings - 1);
+    };
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < tile.ny; ++y)
+        for (int block = 0; block < bounds_.blocks; ++block) {
+            const std::size_t first =
+                (static_cast<std::size_t>(y) * static_cast<std::size_t>(bounds_.blocks) +
+                 static_cast<std::size_t>(block)) *
+                interface_rings;
+            double *highest = &highest_[first], *lowest = &lowest_[first];
+            const int last = std::min(tile.nx, (block + 1) * interface_block) - 1;
+            const double left = (tile.x0 + block * interface_block + 0.5) * spacing;
+            const double right = (tile.x0 + last + 0.5) * spacing;
+            const double site_y = (tile.y0 + y + 0.5) * spacing;
+            const int j_last = static_cast<int>(std::ceil((site_y + reach) / b));
+            for (int j = static_cast<int>(std::floor((site_y - reach) / b)); j <= j_last; ++j) {
+                const double* row =
+                    whole.height +
+                    static_cast<std::ptrdiff_t>(periodic(j, whole.sites)) * whole.sites;
+                const double dy = site_y - j * b;
+                if (std::abs(dy) > reach) continue;
+                const double half = std::sqrt(reach * reach - dy * dy);
+                const int i_last = static_cast<int>(std::floor((right + half) / b));
+                for (int i = static_cast<int>(std::ceil((left - half) / b)); i <= i_last; ++i) {
+                    const double x = i * b, h = row[periodic(i, whole.sites)];
+                    const double nearest = std::max({left - x, x - right, 0.0});
+                    const double farthest = std::min(std::max(x - left, right - x), half);
+                    // An atom on the border of two rings counts in both.
+                    const int from = ring(std::sqrt(nearest * nearest + dy * dy) - 1e-9);
+                    const int to = ring(std::sqrt(farthest * farthest + dy * dy) + 1e-9);
+                    for (int r = from; r <= to; ++r) {
+                        highest[r] = std::max(highest[r], h);
+                        lowest[r] = std::min(lowest[r], h);
+                    }
+                }
+            }
+        }
+    if (!skip) {
+        highest_.assign(size(tile), -nothing_there);
+        lowest_.assign(size(tile), nothing_there);
+    }
+}
+
+ReachBounds ReachTable::view() const {
+    ReachBounds bounds = bounds_;
+    bounds.highest = highest_.data();
+    bounds.lowest = lowest_.data();
+    return bounds;
+}
+
+TileHeights::TileHeights(const HeightMap& map, const Tile& atoms, int halo, bool in_double,
+                         bool in_mixed)
+    : datum_(map.highest()) {
+    const auto fill = [&](auto& field, auto as) {
+        field = std::remove_reference_t<decltype(field)>(atoms, 1, halo);
+        auto height = field.plane(0);
+#pragma omp parallel for schedule(static)
+        for (int y = -halo; y < atoms.ny + halo; ++y)
+            for (int x = -halo; x < atoms.nx + halo; ++x)
+                height(x, y) = as(map.at(atoms.x0 + x, atoms.y0 + y) - datum_);
+    };
+    if (in_mixed)
+        fill(in_mixed_, [](double h) {
+            return static_cast<std::int32_t>(
+                std::nearbyint(std::max(h, -fixed_depth) / fixed_quantum));
+        });
+    if (in_double) fill(in_double_, [](double h) { return h; });
+}
+
+SubstrateHeights TileHeights::view() const {
+    SubstrateHeights heights;
+    heights.datum = datum_;
+    if (!in_mixed_.empty()) heights.fixed = in_mixed_.plane(0);
+    if (!in_double_.empty()) heights.height = in_double_.plane(0);
+    return heights;
+}
+
+} // namespace asperity

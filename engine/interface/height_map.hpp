@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The substrate's heights on a square lattice, whole on every rank: what the substrates made of one
+// layer share.
+#pragma once
+
+#include "decomposition/field.hpp"
+#include "decomposition/tile.hpp"
+#include "engine/scene/surface.hpp"
+#include "kernels/substrates.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace asperity {
+
+/// Sites along x whose reach is bounded together, in a row of a tile.
+inline int blocks_in_row(const Tile& tile) {
+    return (tile.nx + interface_block - 1) / interface_block;
+}
+
+class HeightMap {
+public:
+    /// sites: of the block, across the box; spacing: theirs, Å.
+    HeightMap(const Surface& substrate, int sites, double spacing);
+
+    /// Atom (i, j) stands at (i b, j b, at(i, j)).
+    double at(int i, int j) const {
+        return height_[static_cast<std::size_t>(periodic(j, sites_)) *
+                           static_cast<std::size_t>(sites_) +
+                       static_cast<std::size_t>(periodic(i, sites_))];
+    }
+    int sites() const { return sites_; }        ///< atoms across the box
+    double spacing() const { return spacing_; } ///< b, Å
+    double highest() const { return highest_; } ///< Å
+    SubstrateMap view() const { return {height_.data(), sites_, spacing_}; }
+    const std::vector<double>& heights() const { return height_; }
+
+    /// Bilinear between the four atoms around (x, y), Å.
+    double between(double x, double y) const;
+    /// Calls visit(sideways distance, height) for every atom within `reach` sideways of (x, y).
+    template <class Visit>
+    void around(double x, double y, double reach, Visit visit) const {
+        const auto first = [&](double at) {
+            return static_cast<int>(std::floor((at - reach) / spacing_));
+        };
+        const auto last = [&](double at) {
+            return static_cast<int>(std::ceil((at + reach) / spacing_));
+        };
+        for (int j = first(y); j <= last(y); ++j)
+            for (int i = first(x); i <= last(x); ++i) {
+                const double dx = x - i * spacing_, dy = y - j * spacing_;
+                const double lateral = std::sqrt(dx * dx + dy * dy);
+                if (lateral <= reach) visit(lateral, at(i, j));
+            }
+    }
+
+private:
+    std::vector<double> height_;
+    int sites_;
+    double spacing_, highest_;
+};
+
+/// How high and low the substrate gets around each block of sites, ring by ring (ReachBounds).
+class ReachTable {
+public:
+    /// widest: lateral distance of the outermost ring, Å. skip: false: as if atoms were everywhere.
+    ReachTable(const HeightMap& map, const Tile& tile, double spacing, double widest, double margin,
+               bool skip);
+
+    ReachBounds view() const;
+    const std::vector<double>& highest() const { return highest_; }
+    const std::vector<double>& lowest() const { return lowest_; }
+    static std::size_t size(const Tile& tile) { ///< of each of the two
+        return static_cast<std::size_t>(blocks_in_row(tile)) * static_cast<std::size_t>(tile.ny) *
+               interface_rings;
+    }
+
+private:
+    ReachBounds bounds_;
+    std::vector<double> highest_, lowest_;
+};
+
+/// The heights of a tile of atoms and a halo, over the highest atom, as the sweeps read them.
+class TileHeights {
+public:
+    TileHeights(const HeightMap& map, const Tile& atoms, int halo, bool in_double, bool in_mixed);
+
+    SubstrateHeights view() const;
+    const Field<double>& in_double() const { return in_double_; }
+    const Field<std::int32_t>& in_mixed() const { return in_mixed_; }
+    std::size_t bytes() const {
+        return (in_double_.empty() ? 0 : in_double_.bytes()) +
+               (in_mixed_.empty() ? 0 : in_mixed_.bytes());
+    }
+
+private:
+    Field<double> in_double_;
+    Field<std::int32_t> in_mixed_;
+    double datum_;
+};
+
+} // namespace asperity

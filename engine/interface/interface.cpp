@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/interface/interface.hpp"
+
+#include "engine/interface/sweep_limits.hpp"
+#include "engine/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+
+namespace asperity {
+
+namespace {
+
+/// Throws std::invalid_argument for potentials that no sweep can take.
+void check(const InterfaceOptions& options, bool anywhere, double spacing, double between_atoms) {
+    if (!options.by_type.empty() && !anywhere)
+        throw std::invalid_argument(
+            "interface: pairs by type need a substrate of atoms anywhere, which have types");
+    const PairTable pairs = options.pairs();
+    for (int type = 0; type < pairs.types; ++type)
+        std::visit(
+            [](const auto& p) {
+                if (!(p.cutoff > 0.0) || !(p.zero() > 0.0) || !(p.depth() >= 0.0))
+                    throw std::invalid_argument(fmt::format(
+                        "interface: a {} potential of depth {} eV, zero at {} Å and with a cutoff "
+                        "of {} Å; all must be positive numbers",
+                        p.name, p.depth(), p.zero(), p.cutoff));
+            },
+            pairs.of[type]);
+    const double most = largest_cutoff(spacing, between_atoms);
+    if (!anywhere && pairs.cutoff > most)
+        throw std::invalid_argument(fmt::format(
+            "interface: a cutoff of {:.6g} Å is more than the {:.6g} Å that the tables hold for "
+            "sites {:.6g} Å and atoms {:.6g} Å apart; choose a smaller one (4 r0 = {:.6g} Å keeps "
+            "98 % of the work of adhesion) and set interface.tail = true",
+            pairs.cutoff, most, spacing, between_atoms, 4.0 * zero_of(options.potential)));
+}
+
+/// Which sweep is taken where the options leave it open.
+InterfaceMethod method_for(const InterfaceOptions& options, const Surface& surface, int sites) {
+    if (options.wall) return InterfaceMethod::wall;
+    if (options.method != InterfaceMethod::automatic) return options.method;
+    if (surface.atoms.size() > 0) return InterfaceMethod::cells;
+    return surface.sites == sites ? InterfaceMethod::lattice : InterfaceMethod::rows;
+}
+
+} // namespace
+
+Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
+                     const InterfaceOptions& options)
+    : options_(options), tile_(tile), spacing_(spacing), map_(substrate, tile.sites, spacing),
+      method_(method_for(options, substrate, tile.sites)), substrate_(substrate_of(substrate)) {
+    if (options.tail && !wall()) find_mean_heights();
+}
+
+Interface::Substrate Interface::substrate_of(const Surface& surface) const {
+    const auto refuse = [](const char* why) {
+        throw std::invalid_argument(std::string("interface: ") + why);
+    };
+    const bool anywhere = surface.atoms.size() > 0;
+    if (method_ != InterfaceMethod::wall) check(options_, anywhere, spacing_, map_.spacing());
+    switch (method_) {
+    case InterfaceMethod::wall:
+        if (!options_.wall) refuse("a wall needs its law");
+        return OverWall(map_, tile_, *options_.wall);
+    case InterfaceMethod::cells:
+        if (!anywhere) refuse("the sweep over cells needs atoms anywhere, and there are none");
+        return OverAtoms(surface.atoms, tile_, spacing_, options_);
+    case InterfaceMethod::rows:
+        if (anywhere) refuse("atoms anywhere have no rows; use the sweep over cells");
+        return OverRows(map_, tile_, spacing_, options_);
+    case InterfaceMethod::lattice:
+        if (anywhere || map_.sites() != tile_.sites)
+            refuse("the lattice sweep needs one layer with as many atoms as sites across the box; "
+                   "use the sweep over rows or cells");
+        return OverLattice(map_, tile_, spacing_, options_);
+    default: // the reference loop
+        if (anywhere) return OverAtoms(surface.atoms, tile_, spacing_, options_);
+        return {};
+    }
+}
+
+void Interface::find_mean_heights() {
+    mean_height_ = Field<double>(tile_, 1);
+    auto mean = mean_height_.plane(0);
+    const double cutoff = cutoff_of(options_.potential);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x) {
+            double sum = 0.0;
+            int atoms = 0;
+            map_.around((tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_, cutoff,
+                        [&](double, double h) {
+                            sum += h;
+                            ++atoms;
+                        });
+            mean(x, y) = atoms ? sum / atoms : 0.0;
+        }
+}
+
+InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
+                               const VectorPlane<double>& force, double reference_height,
+                               SweepOptions how) const {
+    how.mixed = options_.mixed || (how.mixed && options_.single_too);
+    return sweep_sites({displacement, force, spacing_, reference_height, tile_.x0, tile_.y0, {}},
+                       how);
+}
+
+InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, SweepOptions how) const {
+    const double density = 1.0 / (map_.spacing() * map_.spacing());
+    const auto row = [&](int y, InterfaceSums& sums) {
+        std::visit(
+            [&](const auto& substrate) {
+                using Kind = std::decay_t<decltype(substrate)>;
+                if constexpr (std::is_same_v<Kind, std::monostate>)
+                    reference_sweep(sites, map_.view(), options_.potential, y, y + 1, sums);
+                else if constexpr (std::is_same_v<Kind, OverAtoms>)
+                    method_ == InterfaceMethod::reference
+                        ? substrate.reference_row(sites, y, sums)
+                        : substrate.sweep_row(sites, y, how, sums);
+                else
+                    substrate.sweep_row(sites, y, how, sums);
+            },
+            substrate_);
+        if (!mean_height_.empty())
+            tail_sweep(sites, options_.potential, density, mean_height_.plane(0), y, y + 1,
+                       how.observe, sums);
+    };
+    InterfaceSums total;
+#pragma omp parallel
+    {
+        InterfaceSums mine;
+#pragma omp for schedule(static) nowait
+        for (int y = 0; y < tile_.ny; ++y)
+            row(y, mine);
+#pragma omp critical(asperity_interface_sums)
+        total.merge(mine);
+    }
+    return total;
+}
+
+InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
+                              double reference_height) const {
+    VectorField<double> force(tile_, 1);
+    Field<double> nearest(tile_, 1);
+    InterfaceMaps maps;
+    maps.nx = tile_.nx;
+    maps.ny = tile_.ny;
+    const std::size_t count =
+        static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
+    maps.contact.resize(count);
+    const InterfaceSites sites{
+        displacement,     force.plane(0),
+        spacing_,         reference_height,
+        tile_.x0,         tile_.y0,
+        nearest.plane(0), {maps.contact.data(), tile_.nx, tile_.nx, tile_.ny}};
+    sweep_sites(sites, {.observe = true, .mixed = options_.mixed});
+    maps.distance.reserve(count);
+    maps.gap.reserve(count);
+    maps.pressure.reserve(count);
+    const double to_gpa = 1.0 / (units::gigapascal * spacing_ * spacing_);
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x) {
+            const double r2 = sites.nearest_r2(x, y);
+            maps.distance.push_back(r2 < no_pair ? std::sqrt(r2)
+                                                 : std::numeric_limits<double>::infinity());
+            maps.pressure.push_back(sites.force.z(x, y) * to_gpa);
+            const double below =
+                wall() ? wall()->height()(x, y)
+                       : map_.between((tile_.x0 + x + 0.5) * spacing_ + displacement.x(x, y),
+                                      (tile_.y0 + y + 0.5) * spacing_ + displacement.y(x, y));
+            maps.gap.push_back(reference_height + displacement.z(x, y) - below);
+        }
+    return maps;
+}
+
+double reach_of(const InterfaceOptions& options) {
+    if (options.wall) {
+        const double reach = std::visit([](const auto& law) { return law.reach(); }, *options.wall);
+        if (std::isfinite(reach)) return reach;
+    }
+    return (options.tail ? 4.0 : 1.0) * options.pairs().cutoff;
+}
+
+double Interface::start_height() const { return map_.highest() + reach_of(options_); }
+
+std::vector<double> Interface::heights_below() const {
+    const double cutoff = options_.pairs().cutoff;
+    std::vector<double> heights(static_cast<std::size_t>(tile_.nx) *
+                                static_cast<std::size_t>(tile_.ny));
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x) {
+            double highest = -1e30;
+            if (wall())
+                highest = wall()->height()(x, y);
+            else // the height at which the nearest atom is at the cutoff, less the cutoff
+                map_.around((tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_,
+                            cutoff, [&](double lateral, double h) {
+                                const double above = std::sqrt(cutoff * cutoff - lateral * lateral);
+                                highest = std::max(highest, h + above - cutoff);
+                            });
+            heights[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile_.nx) +
+                    static_cast<std::size_t>(x)] = highest;
+        }
+    return heights;
+}
+
+double Interface::attraction_grows_down_to() const {
+    if (!wall()) return start_height();
+    return map_.highest() +
+           std::visit([](const auto& law) { return law.contact_gap(); }, *options_.wall);
+}
+
+Interface::Tables Interface::tables() const {
+    Tables tables;
+    const auto fill = [&](const auto& substrate) {
+        tables.heights = &substrate.heights();
+        tables.highest = substrate.reach().highest();
+        tables.lowest = substrate.reach().lowest();
+    };
+    if (const auto* over = std::get_if<OverLattice>(&substrate_)) {
+        tables.lattice = &over->view();
+        tables.columns = over->columns();
+        fill(*over);
+    } else if (const auto* over_rows = std::get_if<OverRows>(&substrate_)) {
+        tables.rows = &over_rows->view();
+        fill(*over_rows);
+    }
+    tables.map = map_.heights();
+    if (!mean_height_.empty()) tables.mean_height = &mean_height_;
+    tables.density = 1.0 / (map_.spacing() * map_.spacing());
+    return tables;
+}
+
+Interface::TableSizes Interface::tables_for(const InterfaceOptions& options, const Tile& tile,
+                                            double spacing, int substrate_sites) {
+    const double cutoff = cutoff_of(options.potential);
+    const OverLattice::Offsets offsets(cutoff, spacing);
+    const auto atoms = static_cast<std::size_t>(substrate_sites);
+    const bool same = substrate_sites == tile.sites;
+    const Tile under = same ? tile : OverRows::atoms_under(tile, spacing, substrate_sites, cutoff);
+    const int halo = same ? offsets.half + 1 : OverRows::halo;
+    const auto* table = std::get_if<Tabulated>(&options.potential);
+    const std::size_t cubics = table ? 4 * static_cast<std::size_t>(table->intervals) : 0;
+    return {options.reads_in_double() ? Field<double>::bytes_for(under, 1, halo) : 0,
+            options.reads_in_mixed() ? Field<std::int32_t>::bytes_for(under, 1, halo) : 0,
+            options.tail ? Field<double>::bytes_for(tile, 1) : 0,
+            ReachTable::size(tile) * sizeof(double),
+            same ? offsets.table() * sizeof(std::int32_t) : 0,
+            atoms * atoms * sizeof(double),
+            cubics * sizeof(double),
+            cubics * sizeof(float)};
+}
+
+std::size_t Interface::bytes() const {
+    std::size_t all = map_.heights().size() * sizeof(double) + tail_bytes();
+    std::visit(
+        [&](const auto& substrate) {
+            using Kind = std::decay_t<decltype(substrate)>;
+            if constexpr (std::is_same_v<Kind, OverAtoms> || std::is_same_v<Kind, OverWall>) {
+                all += substrate.bytes();
+            } else if constexpr (!std::is_same_v<Kind, std::monostate>) {
+                all += substrate.heights().bytes() +
+                       2 * substrate.reach().highest().size() * sizeof(double);
+                if constexpr (std::is_same_v<Kind, OverLattice>)
+                    all += substrate.columns().size() * sizeof(std::int32_t);
+            }
+        },
+        substrate_);
+    return all;
+}
+
+ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks) {
+    std::array<std::int64_t, 2> counts = {sums.in_contact, sums.repulsive};
+    ranks.sum(counts);
+    const double r2 = -ranks.max(-sums.closest_r2);
+    return {counts[0], counts[1], r2 < no_pair ? std::sqrt(r2) : HUGE_VAL};
+}
+
+} // namespace asperity

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The interface: one tile of the block's lowest layer over the rigid substrate (docs/model.md),
+// whose atoms it meets, or a wall in their place.
+//
+// Built once per run. Every rank knows the whole height map, so nothing is communicated here: the
+// sweep is local to the tile, and its sums are exact (ExactSum), to be merged over ranks in any
+// order.
+//
+// The kinds of substrate are small classes: OverLattice, OverRows, OverAtoms, OverWall. Each keeps
+// what its sweep reads around the tile, and hands rows of sites to its kernel. substrate_of() says
+// which one is taken. Tables allow for sideways displacements up to two spacings; sites that go
+// beyond are summed by the reference loop, so no pair is ever missed and no table is rebuilt.
+#pragma once
+
+#include "decomposition/communicator.hpp"
+#include "decomposition/field.hpp"
+#include "decomposition/tile.hpp"
+#include "engine/interface/height_map.hpp"
+#include "engine/interface/interface_options.hpp"
+#include "engine/interface/over_atoms.hpp"
+#include "engine/interface/over_lattice.hpp"
+#include "engine/interface/over_rows.hpp"
+#include "engine/interface/over_wall.hpp"
+#include "engine/scene/surface.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace asperity {
+
+/// Contacts over all tiles.
+struct ContactCount {
+    long long in_contact = 0, repulsive = 0; ///< sites
+    double closest = 0.0;                    ///< smallest pair distance, Å; infinite out of reach
+};
+/// From the sums of this rank's tile. Collective.
+ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks);
+
+/// Maps over the tile's sites, [y * nx + x].
+struct InterfaceMaps {
+    int nx = 0, ny = 0;
+    std::vector<std::uint8_t> contact; ///< 1 where the nearest atom is within contact distance
+    std::vector<double> distance; ///< to the nearest atom, Å; infinite where none is in reach; over
+                                  ///< a wall the gap, 0 where it is negative
+    std::vector<double> gap; ///< height above the substrate below (a wall, or bilinear between its
+                             ///< atoms), Å
+    std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
+};
+
+class Interface {
+public:
+    /// spacing: a, the block's lattice constant, Å. The surface is copied as far as it is needed.
+    Interface(const Surface& substrate, const Tile& tile, double spacing,
+              const InterfaceOptions& options);
+
+    /// Forces of the substrate on the tile's sites (overwritten) and their sums over the tile.
+    /// how.mixed: where the options have it (forces good to some 1e-6 eV/Å).
+    InterfaceSums sweep(const VectorPlane<const double>& displacement,
+                        const VectorPlane<double>& force, double reference_height,
+                        SweepOptions how = {}) const;
+
+    /// Null where there is none.
+    const OverWall* wall() const { return std::get_if<OverWall>(&substrate_); }
+
+    /// Per-site maps of the state; makes a sweep of its own.
+    InterfaceMaps maps(const VectorPlane<const double>& displacement,
+                       double reference_height) const;
+
+    /// The reference height from which nothing is in reach of undisplaced sites: highest atom +
+    /// reach_of().
+    double start_height() const;
+    /// Heights that distances of the tile's undisplaced sites count from, Å, [y * nx + x]: of a
+    /// wall; over atoms such that a site that is z - height above it, within the cutoff, has no
+    /// atom closer than that. Not over atoms anywhere.
+    std::vector<double> heights_below() const;
+    /// Down to this reference height the attraction of undisplaced sites only grows; the start
+    /// height, where no better bound is known.
+    double attraction_grows_down_to() const;
+
+    /// What the sweep over a lattice or rows reads, for a device that keeps a copy. Views are of
+    /// this object; one of lattice and rows is null.
+    struct Tables {
+        const LatticeSubstrate* lattice = nullptr;
+        const RowSubstrate* rows = nullptr;
+        const TileHeights* heights = nullptr;
+        std::span<const std::int32_t> columns;
+        std::span<const double> highest, lowest, map;
+        const Field<double>* mean_height = nullptr; ///< with the tail
+        double density = 0.0;                       ///< of the substrate's atoms, 1/Å^2
+    };
+    Tables tables() const;
+    /// Their sizes in bytes over a substrate of N x N atoms, without making them.
+    struct TableSizes {
+        std::size_t heights, fixed, mean_height;
+        std::size_t reach; ///< of highest, and of lowest
+        std::size_t columns, map;
+        std::size_t cubics, cubics_in_single; ///< of a tabulated potential
+    };
+    static TableSizes tables_for(const InterfaceOptions& options, const Tile& tile, double spacing,
+                                 int substrate_sites);
+
+    const Tile& tile() const { return tile_; }
+    InterfaceMethod method() const { return method_; }
+    /// Atoms across the box, of a substrate that is a map.
+    int substrate_sites() const { return map_.sites(); }
+    const InterfaceOptions& options() const { return options_; }
+    std::size_t bytes() const;
+    std::size_t tail_bytes() const { return mean_height_.empty() ? 0 : mean_height_.bytes(); }
+
+private:
+    /// None: the reference loop over the map.
+    using Substrate = std::variant<std::monostate, OverLattice, OverRows, OverAtoms, OverWall>;
+    Substrate substrate_of(const Surface& surface) const;
+    InterfaceSums sweep_sites(const InterfaceSites& sites, SweepOptions how) const;
+    void find_mean_heights();
+
+    InterfaceOptions options_;
+    Tile tile_;
+    double spacing_;
+    HeightMap map_; ///< of atoms anywhere, of the topmost ones
+    InterfaceMethod method_;
+    Substrate substrate_;
+    Field<double> mean_height_; ///< tail: of the atoms within the cutoff sideways
+
+public:
+    // The views point into the object's own arrays.
+    Interface(const Interface&) = delete;
+    Interface& operator=(const Interface&) = delete;
+    Interface(Interface&&) = default; ///< vectors keep their storage when moved
+    Interface& operator=(Interface&&) = default;
+};
+
+} // namespace asperity

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A substrate of atoms anywhere, each with the potential of its type.
+#pragma once
+
+#include "engine/interface/interface_options.hpp"
+#include "engine/interface/substrate_cells.hpp"
+
+#include <vector>
+
+namespace asperity {
+
+class OverAtoms {
+public:
+    /// Throws std::invalid_argument for a tail, and for a cutoff above largest_cell_cutoff.
+    OverAtoms(const AtomPositions& atoms, const Tile& tile, double spacing,
+              const InterfaceOptions& options);
+
+    void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
+    /// The reference loop over all atoms.
+    void reference_row(const InterfaceSites& sites, int y, InterfaceSums& sums) const;
+
+    std::size_t bytes() const { return cells_.bytes(); }
+
+private:
+    PairTable pairs() const { return {pairs_.data(), static_cast<int>(pairs_.size())}; }
+
+    std::vector<PairPotential> pairs_; ///< by type
+    SubstrateCells cells_;
+};
+
+} // namespace asperity

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A substrate of any spacing: rows of atoms.
+#pragma once
+
+#include "engine/interface/height_map.hpp"
+#include "engine/interface/interface_options.hpp"
+
+namespace asperity {
+
+class OverRows {
+public:
+    OverRows(const HeightMap& map, const Tile& tile, double spacing,
+             const InterfaceOptions& options);
+
+    void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
+
+    /// Of this object's arrays.
+    const RowSubstrate& view() const { return view_; }
+    const TileHeights& heights() const { return heights_; }
+    const ReachTable& reach() const { return reach_; }
+
+    /// The atoms, so many across the box, that lie within the cutoff and the margin of a tile's
+    /// sites, and their halo: room for a register, and a row farther.
+    static Tile atoms_under(const Tile& tile, double spacing, int atoms, double cutoff);
+    static constexpr int halo = interface_block;
+
+private:
+    PairPotential potential_;
+    ReachTable reach_;
+    TileHeights heights_;
+    RowSubstrate view_;
+};
+
+} // namespace asperity

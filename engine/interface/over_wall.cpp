@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/interface/over_wall.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace asperity {
+
+OverWall::OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law) : law_(law) {
+    if (map.sites() != tile.sites)
+        throw std::invalid_argument(fmt::format(
+            "interface: a wall needs a height below each site, and {} x {} sites have {} x {}; "
+            "take surface.lattice_ratio = 1",
+            tile.sites, tile.sites, map.sites(), map.sites()));
+    height_ = Field<double>(tile, 1, 0);
+    const PlaneView<double> below = height_.plane(0);
+    for (int y = 0; y < tile.ny; ++y)
+        for (int x = 0; x < tile.nx; ++x)
+            below(x, y) = map.at(tile.x0 + x, tile.y0 + y);
+}
+
+void OverWall::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,
+                         InterfaceSums& sums) const {
+    interface_kernels().wall.sweep[how.observe](sites, height(), law_, y, y + 1, sums);
+}
+
+} // namespace asperity

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A wall in place of atoms (kernels/wall_law.hpp). It acts along z alone. The height below site
+// (x, y) is value (x, y) of the surface, which has the block's lattice.
+#pragma once
+
+#include "decomposition/field.hpp"
+#include "engine/interface/height_map.hpp"
+#include "engine/interface/interface_options.hpp"
+
+namespace asperity {
+
+class OverWall {
+public:
+    OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law);
+
+    void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
+
+    /// Brings a row of sites to rest, each under its own force.
+    WallSums settle_row(const WallRow<double>& row, const WallRule& rule, int sites) const {
+        return interface_kernels().wall.settle_double(law_, row, rule, sites);
+    }
+    WallSums settle_row(const WallRow<float>& row, const WallRule& rule, int sites) const {
+        return interface_kernels().wall.settle_single(law_, row, rule, sites);
+    }
+
+    /// Its height below each site of the tile, Å.
+    PlaneView<const double> height() const { return height_.plane(0); }
+    std::size_t bytes() const { return height_.bytes(); }
+
+private:
+    Field<double> height_;
+    WallLaw law_;
+};
+
+} // namespace asperity

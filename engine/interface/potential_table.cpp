@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/interface/potential_table.hpp"
+
+#include "kernels/pair_potential.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace asperity {
+
+namespace {
+
+constexpr int intervals = 4096;
+
+/// Slope at x[at] of the cubic through the points first to first + 3.
+double end_slope(std::span<const double> x, std::span<const double> y, std::size_t first,
+                 std::size_t at) {
+    double slope = 0.0;
+    for (std::size_t i = first; i < first + 4; ++i) {
+        double weight = 0.0; // of y[i]: the derivative of Lagrange's polynomial
+        for (std::size_t j = first; j < first + 4; ++j) {
+            if (j == i) continue;
+            double product = 1.0 / (x[i] - x[j]);
+            for (std::size_t k = first; k < first + 4; ++k)
+                if (k != i && k != j) product *= (x[at] - x[k]) / (x[i] - x[k]);
+            weight += product;
+        }
+        slope += weight * y[i];
+    }
+    return slope;
+}
+
+/// The slopes of a cubic spline at its points (continuous second derivative), by elimination.
+std::vector<double> spline_slopes(std::span<const double> x, std::span<const double> y) {
+    const std::size_t n = x.size();
+    std::vector<double> slope(n), above(n, 0.0);
+    slope[0] = end_slope(x, y, 0, 0);
+    const double last = end_slope(x, y, n - 4, n - 1);
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+        const double left = x[i] - x[i - 1], right = x[i + 1] - x[i];
+        const double mean =
+            3.0 * (right * (y[i] - y[i - 1]) / left + left * (y[i + 1] - y[i]) / right);
+        const double pivot = 2.0 * (left + right) - right * above[i - 1];
+        above[i] = left / pivot;
+        slope[i] = (mean - right * slope[i - 1]) / pivot;
+    }
+    slope[n - 1] = last;
+    for (std::size_t i = n - 1; i-- > 1;)
+        slope[i] -= above[i] * slope[i + 1];
+    return slope;
+}
+
+/// The cubic with these values and slopes at the ends of an interval, from its beginning on.
+struct Hermite {
+    double c[4];
+    Hermite(double length, double y0, double s0, double y1, double s1)
+        : c{y0, length * s0, 3.0 * (y1 - y0) - length * (2.0 * s0 + s1),
+            2.0 * (y0 - y1) + length * (s0 + s1)} {}
+    double value(double t) const { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
+    double slope(double t) const { return c[1] + t * (2.0 * c[2] + 3.0 * t * c[3]); }
+};
+
+/// Where f turns from positive to negative.
+template <class F>
+double crossing(double low, double high, const F& f) {
+    while (true) {
+        const double middle = 0.5 * (low + high);
+        if (middle == low || middle == high) return middle;
+        (f(middle) > 0.0 ? low : high) = middle;
+    }
+}
+
+} // namespace
+
+PotentialTable::PotentialTable(std::span<const double> distance, std::span<const double> energy) {
+    const std::size_t n = distance.size();
+    if (n < 8 || energy.size() != n)
+        throw std::invalid_argument(
+            fmt::format("a table of a potential needs 8 pairs of numbers at least, and {} stand "
+                        "there",
+                        std::min(n, energy.size())));
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!std::isfinite(distance[i]) || !std::isfinite(energy[i]))
+            throw std::invalid_argument(fmt::format("row {} has what is no number", i + 1));
+        if (!(distance[i] > (i ? distance[i - 1] : 0.0)))
+            throw std::invalid_argument(
+                fmt::format("row {} has the distance {:.6g} Å after {:.6g} Å; distances must be "
+                            "above zero and ascend",
+                            i + 1, distance[i], i ? distance[i - 1] : 0.0));
+    }
+    const auto least =
+        static_cast<std::size_t>(std::min_element(energy.begin(), energy.end()) - energy.begin());
+    const double depth = energy[n - 1] - energy[least];
+    if (least == 0 || least == n - 1 || !(energy[least] < 0.0) || !(depth > 0.0))
+        throw std::invalid_argument(
+            "the table has no well: its lowest energy must be negative and between the ends");
+    if (!(energy[0] > -10.0 * energy[least]))
+        throw std::invalid_argument(fmt::format(
+            "the table begins at {:.6g} Å with {:.6g} eV, less than ten times the depth of its "
+            "well, {:.6g} eV: atoms pressed together would leave it; begin it nearer",
+            distance[0], energy[0], -energy[least]));
+
+    const std::vector<double> slope = spline_slopes(distance, energy);
+    last_ = distance[n - 1];
+    whole_.first = distance[0];
+    whole_.step = (last_ - distance[0]) / intervals;
+    whole_.intervals = intervals;
+    std::size_t piece = 0;
+    const auto at = [&](int k) { // value and slope of the spline at the beginning of interval k
+        const double r = k == intervals ? last_ : whole_.first + k * whole_.step;
+        while (piece + 2 < n && r > distance[piece + 1])
+            ++piece;
+        const double length = distance[piece + 1] - distance[piece];
+        const Hermite cubic(length, energy[piece], slope[piece], energy[piece + 1],
+                            slope[piece + 1]);
+        const double t = (r - distance[piece]) / length;
+        return std::pair(cubic.value(t), cubic.slope(t) / length);
+    };
+    auto here = at(0);
+    for (int k = 0; k < intervals; ++k) {
+        const auto there = at(k + 1);
+        const Hermite cubic(whole_.step, here.first, here.second, there.first, there.second);
+        cubics_.insert(cubics_.end(), cubic.c, cubic.c + 4);
+        here = there;
+    }
+    in_single_.assign(cubics_.begin(), cubics_.end());
+    whole_.cubics = cubics_.data();
+    whole_.in_single = in_single_.data();
+    whole_.cutoff = last_;
+
+    const Pair<Tabulated> pair(whole_);
+    Tabulated::Shape& shape = whole_.shape;
+    const auto force = [&](double r) { return -pair.derivatives(r * r).slope; };
+    shape.minimum = crossing(distance[least - 1], distance[least + 1], force);
+    shape.depth = -pair.unshifted(shape.minimum * shape.minimum);
+    shape.zero =
+        crossing(distance[0], shape.minimum, [&](double r) { return pair.unshifted(r * r); });
+    // The first place beyond the minimum where the pull is largest, on the grid and then between
+    // its points.
+    double steepest = shape.minimum;
+    while (steepest + whole_.step < last_ && force(steepest + whole_.step) < force(steepest))
+        steepest += whole_.step;
+    shape.inflection = crossing(std::max(shape.minimum, steepest - whole_.step),
+                                steepest + whole_.step, [&](double r) {
+                                    const PairDerivatives d = pair.derivatives(r * r);
+                                    return d.slope + r * r * d.bend;
+                                });
+}
+
+Tabulated PotentialTable::potential(double cutoff) const {
+    if (!(cutoff > whole_.shape.minimum && cutoff <= last_))
+        throw std::invalid_argument(
+            fmt::format("a cutoff of {:.6g} Å: the table's well is at {:.6g} Å and its last "
+                        "distance {:.6g} Å, and the cutoff must be between",
+                        cutoff, whole_.shape.minimum, last_));
+    Tabulated cut = whole_;
+    cut.cutoff = cutoff;
+    cut.shape.shift = Pair<Tabulated>(whole_).unshifted(cutoff * cutoff);
+    return cut;
+}
+
+} // namespace asperity

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Forces between the block's lowest layer and the rigid substrate: pairs (pair_potential.hpp), or a
+// wall with a law of the gap below each site (wall_law.hpp), which has a sweep of its own.
+//
+// Pairs are with a map of heights over a square lattice, or with atoms anywhere. Four sweeps:
+//   reference  every site against every substrate atom in reach by an explicit loop over pairs,
+//              scalar: what the other three are tested against;
+//   lattice    both sides are the same lattice, so the neighbours of a site are known offsets: SIMD
+//              over sites, sums in registers over the offsets in a fixed order;
+//   rows       a substrate with a spacing of its own (incommensurate): site by site, SIMD over the
+//              atoms along x, row after row;
+//   cells      atoms anywhere, sixteen to a cell: site by site, SIMD over the atoms of the cells
+//              near it.
+//
+// The last three exist twice: in double, and mixed: a site's pairs, and in the lattice sweep their
+// sums, in single precision. Mixed heights are 32-bit integers, multiples of 2^-22 Å: the
+// difference of two is exact, wherever in the box and however high it is formed, and only then
+// becomes a float.
+//
+// Sites out of reach are skipped. For each block of sixteen sites along x the owner tabulates
+// how high the substrate gets in rings of lateral distance around it. From the lowest site of the
+// block follows a gap, from the gap the lateral distance beyond which no pair can interact, and
+// only offsets (atoms) nearer than that are visited. What is left out would have added exact zeros.
+// In the same way, from how low the substrate gets, follow the offsets that need no comparison with
+// the cutoff. The sweep over cells compares each site with the bounds of the cells near its block.
+//
+// Reproducibility: a site's force is summed in an order that the site alone decides (offset number,
+// atoms counted from the one below it, number of the cell), never the tile, block or lane it is in;
+// so its bits are the same for any decomposition and number of threads. Sums over sites are exact
+// sums.
+//
+// Sites displaced sideways by more than offset_margin (a run about to be stopped by its guard) are
+// summed one by one with the reference loop, so no pair is ever missed.
+#pragma once
+
+#include "kernels/pair_sum.hpp"
+#include "kernels/wall_law.hpp"
+
+namespace asperity {
+
+/// What a sweep is asked for.
+struct SweepOptions {
+    bool observe = false; ///< energies, contacts and nearest distances too
+    bool mixed = false;   ///< pairs in single precision
+};
+
+/// The reference sweep: pair_sum for each site of rows [row_begin, row_end).
+void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
+                     const PairPotential& potential, int row_begin, int row_end,
+                     InterfaceSums& sums);
+void reference_sweep(const InterfaceSites& sites, const SubstrateAtoms& atoms,
+                     const PairTable& pairs, int row_begin, int row_end, InterfaceSums& sums);
+
+/// Adds the tail (pair_potential.hpp) of a substrate of `density` atoms per Å^2 to forces and sums
+/// that a sweep has left; mean_height is the local mean plane below each site. If observed,
+/// energies are added and the repulsive sites are counted anew. Not for potentials without a tail.
+void tail_sweep(const InterfaceSites& sites, const PairPotential& potential, double density,
+                PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
+                InterfaceSums& sums);
+
+/// A row of sites over a wall, each of which comes to rest under its own force while the elastic
+/// ones stay as they are (engine/equilibrium/wall_descent.hpp).
+template <class T>
+struct WallRow {
+    const double* below; ///< the wall's height, Å
+    const double* u;     ///< where the sites are, Å
+    const float* step;   ///< how far they went last, Å
+    const T* elastic;    ///< S z, eV/Å, times 1 / norm
+    double* next;        ///< out: where they come to rest, Å
+};
+struct WallRule {
+    double reference_height; ///< Å
+    double spring;           ///< eV/Å^2: of each site to z - (elastic force) / spring
+    double momentum;         ///< z = u + momentum step
+    double norm;
+    double load; ///< on each site, pressing down, eV/Å
+};
+struct WallSums {
+    double furthest = 0.0; ///< |next - z| and the force left on a site over the spring, Å
+    double turn = 0.0;     ///< sum of (z - next) (next - u), Å^2
+    double height = 0.0;   ///< sum of next, Å
+};
+
+/// The sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile
+/// and overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
+struct InterfaceKernels {
+    template <class Substrate, class Potential>
+    using Sweep = void (*)(const InterfaceSites&, const Substrate&, const Potential&, int row_begin,
+                           int row_end, InterfaceSums&);
+    template <class Substrate, class Potential = PairPotential>
+    struct Sweeps {
+        Sweep<Substrate, Potential> of[2][2]; ///< [mixed][observe]
+        auto operator()(SweepOptions how) const { return of[how.mixed][how.observe]; }
+    };
+    Sweeps<LatticeSubstrate> lattice;
+    Sweeps<RowSubstrate> rows;
+    Sweeps<CellSubstrate, PairTable> cells;
+
+    /// Over a wall, in double; [observe]. nearest_r2: the square of the gap, 0 where it is
+    /// negative.
+    struct WallKernels {
+        Sweep<PlaneView<const double>, WallLaw> sweep[2];
+        WallSums (*settle_double)(const WallLaw&, const WallRow<double>&, const WallRule&, int);
+        WallSums (*settle_single)(const WallLaw&, const WallRow<float>&, const WallRule&, int);
+    };
+    WallKernels wall;
+};
+
+/// The kernels for the running processor (processor_level()).
+const InterfaceKernels& interface_kernels();
+
+} // namespace asperity
