@@ -13,7 +13,7 @@ namespace asperity {
 enum class Phase {
     interpolate, ///< hanging planes follow the coarse planes
     absorb,      ///< seams take what the next level cannot carry, every so many steps
-    interface,   ///< Lennard-Jones sweep
+    interface,   ///< forces of the substrate
     advance,     ///< elastic forces, kick and drift, level by level
     thermostat,  ///< noise of a scene with a temperature
     exchange,    ///< halos

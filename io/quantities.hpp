@@ -73,7 +73,7 @@ inline constexpr Quantity result_quantities[] = {
     {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "uncertainty of lost.pull_off"},
     {"contact_fraction", "1", per::sites,
      "sites closer to an atom than the inflection of the pair potential, at zero load; over a wall "
-     "those that touch it, or nearer than its largest tension (lennard-jones)"},
+     "those that touch it, or nearer than its largest tension (smeared)"},
     {"pushed_fraction", "1", per::sites, "sites whose net normal force is repulsive, at zero load"},
     {"approach_force", "eV/Å", per::block, "largest attraction during the approach"},
     {"pull_off_force", "eV/Å", per::block, "largest attraction during the pull-off"},
@@ -194,6 +194,9 @@ inline constexpr Quantity result_quantities[] = {
     {"surface.file_digest", "", "",
      "digest of what was read from surface.file: heights and width of a map, positions and types "
      "of atoms. A sweep takes a result again only if the file still holds the same"},
+    {"interface.table_digest", "", "",
+     "digest of the numbers in the tables of potentials that the scene names. A sweep takes a result "
+     "again only if they are the same"},
     {"run.wall_seconds", "s", "", "wall time of this process"},
     {"run.processor_seconds", "s", per::rank,
      "processor time of all threads, from the first start"},

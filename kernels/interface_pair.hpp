@@ -41,8 +41,9 @@ struct PairTerms {
     /// be left out (false_type) where all of r2 are known to be within it.
     template <bool masked>
     ASPERITY_INLINE V force(V begun, V r2, std::bool_constant<masked>) const {
+        // The maximum is for those that ask for r^2: of Lennard-Jones nothing is left of it.
         return potential.force(
-            begun, r2, [&](V a, V b, V c) __attribute__((always_inline)) {
+            begun, max(r2, r2_floor), [&](V a, V b, V c) __attribute__((always_inline)) {
                 if constexpr (masked)
                     return fms_where_less(r2, r2_cut, a, b, c);
                 else
@@ -51,7 +52,7 @@ struct PairTerms {
     }
     /// V in units of energy_scale.
     ASPERITY_INLINE V energy(V begun, V r2) const {
-        return select(r2 < r2_cut, potential.energy(begun, r2) - shift, V(T(0)));
+        return select(r2 < r2_cut, potential.energy(begun, max(r2, r2_floor)) - shift, V(T(0)));
     }
     /// Of two squared distances, and of one. close: they may be nearer than any pair can be.
     template <bool close>

@@ -93,10 +93,12 @@ double time_sweeps(benchmark::State& state, const Surface& substrate,
 }
 
 /// In contact over a nearly flat substrate of so many sites.
-void contact(benchmark::State& state, int sites, bool atoms_anywhere, Timed kernel) {
+void contact(benchmark::State& state, int sites, bool atoms_anywhere, Timed kernel,
+             const PairPotential& potential = LennardJones{}) {
     constexpr double height = 3.11;
     const bool mixed = state.range(0), observe = state.range(1);
     InterfaceOptions options;
+    options.potential = potential;
     options.mixed = mixed;
     const double pairs = pairs_in_reach(n * a / sites, cutoff_of(options.potential), height);
     const Surface map = nearly_flat(sites);
@@ -119,6 +121,21 @@ void cells(benchmark::State& state) {
     contact(state, substrate_sites(n, 1.618), true, Timed::cells);
 }
 
+// Other potentials over the block's lattice; their limits are not those of Lennard-Jones.
+void morse(benchmark::State& state) { contact(state, n, false, Timed::lattice, Morse{}); }
+void table(benchmark::State& state) {
+    static const PotentialTable numbers = [] {
+        const Pair<LennardJones> pair{LennardJones{}};
+        std::vector<double> r, v;
+        for (double at = 1.8; at < 14.0; at += 0.01) {
+            r.push_back(at);
+            v.push_back(pair.unshifted(at * at));
+        }
+        return PotentialTable(r, v);
+    }();
+    contact(state, n, false, Timed::lattice, numbers.potential(LennardJones{}.cutoff));
+}
+
 void out_of_reach(benchmark::State& state) { time_sweeps(state, nearly_flat(n), {}, 14.0, false); }
 
 /// Rough on an undisplaced block, the highest atom 4 Å deep in it: a small part is in reach.
@@ -136,6 +153,8 @@ void partial_contact(benchmark::State& state) {
 
 const std::vector<std::vector<std::int64_t>> both{{0, 1}, {0, 1}};
 BENCHMARK(lattice)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
+BENCHMARK(morse)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
+BENCHMARK(table)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
 BENCHMARK(rows)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
 BENCHMARK(cells)->ArgNames({"mixed", "observed"})->ArgsProduct(both);
 BENCHMARK(out_of_reach);

@@ -189,7 +189,8 @@ void print_map_file(const Case& c) {
     fmt::print("\n");
 }
 
-void write_surface(const Scene& scene, const Surface& surface, const std::string& out) {
+void write_surface(const Case& c, const Surface& surface, const std::string& out) {
+    const Scene& scene = c.scene;
     const io::ResultDirectory place({out, scene.name + "-surface"});
 
     const SurfaceStatistics& statistics = surface.statistics;
@@ -216,7 +217,7 @@ void write_surface(const Scene& scene, const Surface& surface, const std::string
                                 {"/spectrum/autocorrelation", "Å^2", lines.acf},
                                 {"/spectrum/scale_dependent_slope", "1", lines.slope}}});
 
-    io::write_result(place.directory(), surface_result(scene, surface));
+    io::write_result(place.directory(), surface_result(c, surface));
 
     io::Table table({"the surface made", "", ""});
     table.align_left(2);
@@ -251,7 +252,7 @@ void write_surface(const Scene& scene, const Surface& surface, const std::string
 int surface_command(const Case& c, const std::string& out, const Communicator& world) {
     if (c.scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
     const Surface surface = surface_of(c, world);
-    world.on_root([&] { write_surface(c.scene, surface, out); });
+    world.on_root([&] { write_surface(c, surface, out); });
     return io::exit_code::done;
 }
 

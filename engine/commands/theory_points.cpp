@@ -127,8 +127,12 @@ int theory_points_command(const TheoryPoints& what) {
             const Case c = read_case_text(text, what.scene, overrides);
             if (what.runnable) examine(c);
             point = what.runnable ? simulated_point(c, surfaces) : point_json(c, surfaces);
-            if (what.runnable && c.scene.surface.reads_file()) // what it holds now
-                point["surface"] = surface_result(c.scene, surfaces.of(c)).json()["surface"];
+            if (what.runnable && (c.scene.surface.reads_file() || c.table_digest)) {
+                // What files hold now.
+                const Json now = surface_result(c, surfaces.of(c)).json();
+                for (const char* part : {"surface", "interface"})
+                    if (now.contains(part)) point[part] = now[part];
+            }
         } catch (const io::SceneError& error) {
             point = problems_json(error.problems());
         }

@@ -134,7 +134,7 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
 
     const Pair<Tabulated> pair(whole_);
     Tabulated::Shape& shape = whole_.shape;
-    const auto force = [&](double r) { return -pair.derivatives(r * r).slope; };
+    const auto force = [&](double r) { return -r * pair.derivatives(r * r).slope; };
     shape.minimum = crossing(distance[least - 1], distance[least + 1], force);
     shape.depth = -pair.unshifted(shape.minimum * shape.minimum);
     shape.zero =

@@ -157,14 +157,16 @@ io::Result scene_result(const Scene& scene) {
     return result;
 }
 
-io::Result surface_result(const Scene& scene, const Surface& surface) {
-    io::Result result = scene_result(scene);
+io::Result surface_result(const Case& c, const Surface& surface) {
+    io::Result result = scene_result(c.scene);
     add_surface(surface, result);
+    if (c.table_digest)
+        result.set("interface.table_digest", fmt::format("crc32:{:08x}", *c.table_digest));
     return result;
 }
 
 io::Result run_result(const Case& c, const Surface& surface, const Findings& findings) {
-    io::Result result = surface_result(c.scene, surface);
+    io::Result result = surface_result(c, surface);
     result.set("delta_gamma", c.flat.work_of_adhesion);
     add_path(findings, c.scene.surface.radius, result);
     if (findings.zero_load) add_zero_load(*findings.zero_load, result);

@@ -16,7 +16,7 @@ namespace asperity {
 /// A result with the scene's name, keys and their units.
 io::Result scene_result(const Scene& scene);
 /// The same with the statistics of the surface.
-io::Result surface_result(const Scene& scene, const Surface& surface);
+io::Result surface_result(const Case& c, const Surface& surface);
 /// What runs in time and without it have in common: the scene, its surface, its effects, the
 /// findings, theory, ranks and threads.
 io::Result run_result(const Case& c, const Surface& surface, const Findings& findings);

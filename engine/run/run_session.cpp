@@ -51,6 +51,7 @@ std::string physics_of(const Case& c, const Surface& surface) {
     if (scene.surface.radius) part["output"]["series"] = scene.output.series; // averaged over time
     part["output"]["velocities"] = scene.output.trajectory && scene.output.velocities;
     if (surface.file_digest) part["surface"]["content_of_file"] = *surface.file_digest;
+    if (c.table_digest) part["interface"]["content_of_tables"] = *c.table_digest;
     return io::json_text(part);
 }
 

@@ -5,6 +5,7 @@
 #include "io/json.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string_view>
 
@@ -42,9 +43,11 @@ void bind_potential(io::Schema& schema, P& potential) {
 } // namespace
 
 std::string Scene::Interface::potential_name() const {
-    std::vector<std::string> names;
-    std::apply([&](const auto&... p) { (names.emplace_back(p.name), ...); }, potentials);
-    return names[static_cast<std::size_t>(potential)];
+    return std::apply(
+        [&](const auto&... p) {
+            return std::string(std::array{p.name...}[static_cast<std::size_t>(potential)]);
+        },
+        potentials);
 }
 
 std::vector<std::pair<std::string, std::string>> keys_of_potentials() {

@@ -13,6 +13,7 @@
 #include "kernels/substrates.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,10 @@ template <class Use>
 bool with_potential(const EachPotential& all, const std::string& name, Use use) {
     return std::apply([&](const auto&... p) { return ((p.name == name && (use(p), true)) || ...); },
                       all);
+}
+
+std::vector<std::string> names_of(const EachPotential& all) {
+    return std::apply([](const auto&... p) { return std::vector<std::string>{p.name...}; }, all);
 }
 
 /// What is wrong with a table, in the words of its reader.
@@ -68,16 +73,18 @@ constexpr const char* table_format =
 void find_potential(Case& c, io::Problems& problems) {
     const Scene::Interface& keys = c.scene.interface;
     const bool wall = keys.kind == InterfaceKind::wall;
-    with_potential(keys.potentials, keys.potential_name(), [&]<class P>(P potential) {
+    const auto use = [&]<class P>(P potential) {
+        const auto refuse = [&](const std::string& with, const char* why, const char* fix) {
+            problems.add("interface.potential", fmt::format("= \"{}\" {}", potential.name, with),
+                         why, fix);
+        };
+        if (!P::has_tail && wall)
+            refuse("with a wall", "a wall of smeared atoms needs the integral of the potential",
+                   "take interface.kind = \"atoms\", or another potential");
+        if (!P::has_tail && keys.tail)
+            refuse("with interface.tail = true", "it ends where its numbers do",
+                   "take tail = false");
         if constexpr (std::is_same_v<P, Tabulated>) {
-            if (wall)
-                problems.add("interface.potential", "= \"table\" with a wall",
-                             "a wall of smeared atoms needs the integral of the potential, and a "
-                             "table has none",
-                             "take interface.kind = \"atoms\", or another potential");
-            if (keys.tail)
-                problems.add("interface.tail", "= true with interface.potential = \"table\"",
-                             "a table ends with its last distance", "take tail = false");
             try {
                 const PotentialTable& table = table_of(c, keys.table);
                 potential = table.potential(std::min(keys.cutoff, table.last()));
@@ -96,13 +103,12 @@ void find_potential(Case& c, io::Problems& problems) {
         } else {
             potential.cutoff = keys.cutoff;
             if (!(potential.zero() > 0.0))
-                problems.add("interface.potential",
-                             fmt::format("= \"{}\" is attractive down to r = 0", potential.name),
-                             "nothing would keep atoms apart",
-                             "take a steeper one: for Morse, a r0 above ln 2");
+                refuse("is attractive down to r = 0", "nothing would keep atoms apart",
+                       "take a steeper one: for Morse, a r0 above ln 2");
         }
         c.simulation.interface.potential = potential;
-    });
+    };
+    with_potential(keys.potentials, keys.potential_name(), use);
 }
 
 /// An entry of interface.pairs: words before the first number, and numbers with their units.
@@ -196,8 +202,9 @@ void find_pairs(Case& c, io::Problems& problems) {
             pair = p;
         });
         if (!known)
-            refuse(fmt::format("with a potential '{}'", name),
-                   "there are lennard-jones, morse and table");
+            refuse(
+                fmt::format("with a potential '{}'", name),
+                fmt::format("there are {}", fmt::join(names_of(scene.interface.potentials), ", ")));
         if (!pair) continue;
         if (std::find(c.types.begin(), c.types.end(), type) != c.types.end()) {
             fix = "leave one of them out";

@@ -30,6 +30,7 @@ from .terminal import Progress, duration
 WAITING, DONE, FAILED = "waiting", "done", "failed"
 PHYSICS, STOPPED = 3, 75
 RESULT = "result.json"
+FILE_DIGESTS = {"surface.file_digest": "scene.surface.file", "interface.table_digest": "scene.interface.table"}
 _libc = ctypes.CDLL(None, use_errno=True)
 _PR_SET_PDEATHSIG = 1
 
@@ -44,14 +45,14 @@ class Job:
     overrides: list[str]
     scene: dict[str, Any]
     """what these make of the file"""
-    file_digest: str = ""
-    """of surface.file as it is now; "": the scene reads none"""
+    digests: dict[str, str] = field(default_factory=dict)
+    """of the files that the scene reads, as they are now; "": it reads none of this kind"""
 
     @classmethod
     def of(cls, name: str, directory: Path, file: str, overrides: list[str], answer: dict[str, Any]) -> Job:
         """answer: of program.theory_points(runnable=True)."""
         return cls(name, directory, file, overrides, answer["scene"],
-                   Values(answer).text("surface.file_digest"))
+                   {key: Values(answer).text(key) for key in FILE_DIGESTS})
 
 
 @dataclass
@@ -96,10 +97,12 @@ def look_at(job: Job) -> Outcome:
     if result.find("scene") != job.scene:
         raise SceneError(str(job.directory), "holds the result of another scene",
                          "results that are there are used again, and this one does not belong here", remedy)
-    if (digest := result.text("surface.file_digest")) != job.file_digest:
-        raise SceneError(str(job.directory), f"holds the result of another content of {result.text('scene.surface.file')}",
-                         f"the file's digest is {job.file_digest} now, and was {digest} then" if digest else
-                         "it does not tell the file's digest, as results of earlier versions do not", remedy)
+    for key, file in FILE_DIGESTS.items():
+        digest, now = result.text(key), job.digests.get(key, "")
+        if digest != now:
+            raise SceneError(str(job.directory), f"holds the result of another content of {result.text(file)}",
+                             f"the file's digest is {now} now, and was {digest} then" if digest else
+                             "it does not tell the file's digest, as results of earlier versions do not", remedy)
     outcome = Outcome(result=result)
     code = result.number("failure.exit_code")
     if code is not None:

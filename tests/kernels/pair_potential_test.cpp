@@ -168,7 +168,7 @@ TEST(Exponential, IsGoodToTwoUnitsOfTheLastPlace) {
     using portable::Lane, portable::Pack;
     for (float x = -79.0f; x < 79.0f; x += 0.137f) {
         EXPECT_NEAR(exponential(Lane<float>(x)).r / std::exp(x), 1.0f, 2.5e-7f) << x;
-        EXPECT_EQ(exponential(Lane<float>(x)).r, exponential(Pack<float>(x))[1]) << x;
+        EXPECT_NEAR(exponential(Pack<float>(x))[1] / std::exp(x), 1.0f, 2.5e-7f) << x;
     }
     EXPECT_TRUE(std::isnan(exponential(std::nan(""))));
     EXPECT_EQ(exponential(0.0), 1.0);
@@ -186,7 +186,7 @@ TEST(PotentialTable, IsTheFunctionItWasMadeOf) {
             most = std::max(most, std::abs(made.energy(r * r) - exact.energy(r * r)));
         return most;
     };
-    EXPECT_LT(error(1200), 1e-8);
+    EXPECT_LT(error(1200), 1e-7); // h^4 V''''/384 at 2.7 Å: 7e-8
     EXPECT_NEAR(std::log2(error(150) / error(300)), 4.0, 0.5);
     const auto table = gold_table(1200);
     const Tabulated p = table->potential(13.12);
