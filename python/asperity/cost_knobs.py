@@ -107,6 +107,10 @@ def _chosen(knobs: list[Knob], names: list[str]) -> list[Knob]:
     return [knob for knob in knobs if not names or knob.name in names]
 
 
+_LENGTHS = {"lennard-jones": "interface.r0", "morse": "interface.morse_r0"}
+"""of potentials that have a tail: the key of their length"""
+
+
 def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | None = None,
               same_experiment: bool = False) -> CostCase:
     """keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the knobs, none: all.
@@ -124,16 +128,19 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     dynamic = scene.text("drive.mode") == "dynamic" and "zero-load" not in path
     legs = "approach" in path or "pull-off" in path
     at_rest = ["drive.mode=quasistatic"]
-    r0, tolerance, step = own("interface.r0"), own("drive.tolerance"), own("drive.step")
-    widest = min(8 * r0, 0.5 * own("surface.sites") * own("surface.spacing"))
+    tolerance, step = own("drive.tolerance"), own("drive.step")
+    length = own(_LENGTHS.get(scene.text("interface.potential"), ""))
+    widest = min(8 * length, 0.5 * own("surface.sites") * own("surface.spacing"))
 
-    reference = ["interface.tail=true", f"interface.cutoff={widest:.6g}", "numerics.precision=double",
-                 f"drive.tolerance={0.1 * tolerance:.6g}"]
+    reference = ["numerics.precision=double", f"drive.tolerance={0.1 * tolerance:.6g}"]
+    if length:
+        reference += ["interface.tail=true", f"interface.cutoff={widest:.6g}"]
     path_text = ""
     if legs:
         reference += [*at_rest, f"drive.step={0.5 * step:.6g}"]
         path_text = f"no inertia (velocity to 0), steps of {0.5 * step:.6g} Å, "
-    text = (f"without time, {path_text}cutoff {widest:.6g} Å and tail, double precision, "
+    reach = f"cutoff {widest:.6g} Å and tail, " if length else ""
+    text = (f"without time, {path_text}{reach}double precision, "
             f"tolerance {0.1 * tolerance:.6g} eV/Å")
 
     def scaled(key: str, unit: str, *factors: float) -> list[KnobValue]:
@@ -142,12 +149,16 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     def with_tail(value: KnobValue, tail: bool) -> KnobValue:
         return KnobValue(value.label + " + tail" * tail, [*value.setting, f"interface.tail={str(tail).lower()}"], value.x)
 
-    cutoffs = [_value("interface.cutoff", f * r0, "Å") for f in (2.0, 2.5, 3.0, 4.0, 6.0) if f * r0 < widest]
-    twin = with_tail(_value("interface.cutoff", widest, "Å"), True)
-    knobs = [Knob("cutoff", [with_tail(v, False) for v in cutoffs], twin, "-4: adhesion of what is beyond", "interaction",
-                  -4.0, True),
-             Knob("tail", [with_tail(v, True) for v in cutoffs if v.x <= 4.0 * r0], twin, "steeper than -4", "interaction",
-                  None, True)]
+    knobs = []
+    if length:
+        cutoffs = [_value("interface.cutoff", f * length, "Å") for f in (2.0, 2.5, 3.0, 4.0, 6.0) if f * length < widest]
+        twin = with_tail(_value("interface.cutoff", widest, "Å"), True)
+        fades = scene.text("interface.potential") == "lennard-jones"
+        knobs = [Knob("cutoff", [with_tail(v, False) for v in cutoffs], twin,
+                      "-4: adhesion of what is beyond" if fades else "exponential", "interaction", -4.0 if fades else None, True),
+                 Knob("tail", [with_tail(v, True) for v in cutoffs if v.x <= 4.0 * length], twin,
+                      "steeper than -4" if fades else "exponential", "interaction",
+                      None, True)]
     if dynamic:
         values = [_value("block.layers_per_level", m, "a level") for m in (2, 3, 4, 6, 8)]
         for value in values:
