@@ -25,8 +25,6 @@ def __getattr__(name: str):
     # numpy and h5py are imported with the first name that needs them, so that --help needs neither.
     import importlib
 
-    homes = {"Result": "result", "load": "result", "run": "runs", "sweep": "sweeps", "Sweep": "sweeps",
-             "load_sweep": "sweeps"}
-    if name in homes:
-        return getattr(importlib.import_module("." + homes[name], __name__), name)
+    if name in ("Result", "Sweep", "load", "load_sweep", "run", "sweep"):
+        return getattr(importlib.import_module(".forms", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -105,15 +105,15 @@ def _scenes(given: argparse.Namespace) -> list[str]:
 
 def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "report":
-        from .report import report_command
+        from .commands import report_command
 
         return report_command(given.directory)
     if given.command == "export":
         from .export import export_command
 
         return export_command(given.directory, given.format)
+    from .commands import cost_command, sweep_command
     from .pool import PoolOptions
-    from .sweeps import sweep_command
     from .terminal import PROGRESS_MODES, parse_duration
 
     if given.progress not in PROGRESS_MODES:
@@ -121,8 +121,6 @@ def _carry_out(given: argparse.Namespace) -> int:
                          "choices: " + ", ".join(PROGRESS_MODES))
     scenes = _scenes(given)
     if given.command == "cost":
-        from .cost import cost_command
-
         if len(scenes) > 1:
             raise SceneError("command line", "more than one scene is given", f"{scenes[0]} and {scenes[1]}",
                              "for example: asperity cost scenes/cost/small.toml")

@@ -8,13 +8,12 @@ These files are the report's own: a second report writes them anew.
 from __future__ import annotations
 
 from functools import partial
-from pathlib import Path
 
 from . import program, scene, words
 from .page import Page, Row, file_name, minus
 from .plots import run as plots
 from .plots.files import KINDS
-from .result import Result, State, Values, expect, load_words
+from .result import Result, State, Values, load_words
 from .units import shown
 
 MOST_STATES = 6
@@ -179,17 +178,3 @@ def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
         f"Every key with the value that was used. Saved as a file, it runs again{measured}.")
     page.said = page.write()
     return page
-
-
-def report_command(directory: str) -> int:
-    """Returns the exit code. Raises InputOutputError for a directory without a result."""
-    from .report_sweep import holds_sweep, write_sweep_page
-
-    place = Path(directory)
-    if holds_sweep(place):
-        page = write_sweep_page(place)
-    else:
-        expect(place, "result.json", "sweep.json")
-        page = write_run_page(Result(place))
-    print(page.said)
-    return 0

@@ -24,6 +24,7 @@ from .plots.style import COLOURS, CONTACT, DASHES, GREY, curve, finish
 from .pool import DONE, FAILED
 from .report import end, write_run_page
 from .result import Result, Values
+from .scene import toml_of
 from .sweeps import Sweep, load_sweeps
 from .tables import Table, text_of
 from .words import KeyNumber
@@ -208,8 +209,6 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
             _table(page, sweep, some, len(sweeps) > 1)
     for sweep in sweeps[1:]:
         page.section("scene-" + file_name(sweep.name), f"The scene {sweep.name}")
-        from .scene import toml_of
-
         page.add("preformatted", toml_of(sweep.scene).strip())
     end(page, Values({"run": sweeps[0].run}),
         f"The scene {sweeps[0].name}" if len(sweeps) > 1 else "The scene that the points vary", sweeps[0].scene,

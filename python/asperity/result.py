@@ -440,18 +440,6 @@ class Result(Values):
         radius = f", R = {self.radius:.4g} Å" if self.radius else ""
         return f"{name}: {what}, {sites:.0f} × {sites:.0f}{radius}"
 
-    @property
-    def plot(self):
-        from .plots.run import RunPlots
-
-        return RunPlots(self)
-
-    def report(self) -> Path:
-        """Writes report.html into the directory; its path."""
-        from .report import write_run_page
-
-        return write_run_page(self).path
-
     def __repr__(self) -> str:
         found = ", ".join(f"{k}={v:.4g}" for k in ("binding_energy", "contact_fraction", "delta_gamma")
                           if (v := self.number(k)) is not None)

@@ -26,7 +26,7 @@ import numpy as np
 from . import files, program, terminal
 from .errors import Error, InputOutputError, SceneError
 from .grid import Axis, axes_of, is_seed, points_of, shown
-from .pool import DONE, FAILED, STOPPED, Job, Outcome, Pool, PoolOptions, look_at_all
+from .pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all
 from .result import Result, Values, read_json
 from .scene import SceneLike, scene_file
 from .tables import Columns, Table, columns_of, text_of
@@ -69,18 +69,6 @@ class Sweep:
         """The Result of each point; None of one without."""
         places = [self.directory / str(p.get("directory", "")) for p in self.points]
         return [Result(place) if self.simulated and (place / "result.json").exists() else None for place in places]
-
-    def plot(self, name: str = "gamma", ax=None):
-        """A plot: gamma, area, separation, radius, pull-off or hysteresis over the swept key."""
-        from .plots.sweep import draw
-
-        return draw([self], name, ax)
-
-    def report(self) -> Path:
-        """Writes report.html into the directory; its path."""
-        from .report_sweep import write_sweep_page
-
-        return write_sweep_page(self.directory).path
 
     def json(self, table: Table) -> dict[str, Any]:
         """sweep.json: everything the report and the plots of a sweep are made from."""
@@ -298,7 +286,7 @@ def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[s
     return place
 
 
-class _Carried:
+class Carried:
     """The sweeps of some scenes, carried out. complete: every point was run."""
 
     def __init__(self, scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
@@ -350,36 +338,6 @@ class _Carried:
             sweep.write()
 
 
-def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
-    """`asperity sweep`: its exit code, 75 if stopped before the end, else that of the first failure."""
-    from .plots.sweep import write_plots
-
-    done = _Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True))
-    plots, note = write_plots(done.place, done.sweeps)
-    for sweep in done.sweeps:
-        print()
-        sweep.print_table()
-        for said in sweep.notes:
-            print(f"note: {said}")
-        if len(sweep.run.get("programs", {})) > 1:
-            print("note: points are by several programs: "
-                  + ", ".join(f"{git} ({count})" for git, count in sweep.run["programs"].items()))
-    if note:
-        print(f"note: {note}")
-    failed = [(job, outcome) for job, outcome in zip(done.jobs, done.outcomes) if outcome.status == FAILED]
-    for job, outcome in failed:
-        print(f"failed: {job.name} (exit {outcome.exit_code}): {outcome.reason}")
-    if theory_only:
-        print(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
-    else:
-        print(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
-    print(f"tables: {TABLES}; plots:" + "".join(f" {p.name}" for p in plots))
-    if not done.complete:
-        print("Stopped early: the same command goes on from here.")
-        return STOPPED
-    return next((outcome.exit_code for _, outcome in failed), 0)
-
-
 def _values(given: Any) -> str:
     """As behind --set: of several values, in whatever holds them, each; of one, it."""
     given = given.tolist() if hasattr(given, "tolist") else given  # numpy's
@@ -400,5 +358,5 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
     """
     given = [f"{key}={_values(value)}" for key, value in (values or {}).items()]
     with scene_file(scene) as file:
-        return _Carried([file], given, None if out is None else str(out), theory_only,
+        return Carried([file], given, None if out is None else str(out), theory_only,
                         PoolOptions(jobs=jobs, progress="off"), lambda text: None).sweeps[0]

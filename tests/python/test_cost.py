@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import cost, program
+from asperity import cost, program, report_cost
 from asperity.cost_knobs import Base, CostCase, Knob, KnobValue, cost_case, joined
 from asperity.result import Values
 from conftest import command
@@ -157,7 +157,7 @@ def test_only_what_was_measured_is_chosen():
     made = made_up(VALUES)
     search, *outcome = outcome_of(made, 0.02, {"0, 0": NAN, "0, 1": 0.021, "2, 1": 0.04})
     assert outcome == [None, ["0, 0", "0, 1", "2, 1"]] and search.smallest == pytest.approx(0.021)
-    assert "No settings keep 2 %" in cost.answer_of(made, search) and "2.1 %" in cost.answer_of(made, search)
+    assert "No settings keep 2 %" in report_cost.answer_of(made, search) and "2.1 %" in report_cost.answer_of(made, search)
 
 
 def test_searches_share_their_runs():
@@ -270,9 +270,9 @@ def test_tables_judge_what_was_run():
     assert made.rows[2].error["state"] == pytest.approx(0.0176) and made.rows[5].front["state"]
     assert made.cheapest["state"] == [2, 3, None]  # 5 %, 1 %, nothing keeps 0.1 %
     assert made.orders[0][1][0] == pytest.approx(2.0, abs=0.02)
-    found = cost.json_of(made)
+    found = report_cost.json_of(made)
     assert len(found["settings"]) == 6 and found["cheapest"]["state"][1]["set"] == "--set drive.timestep=3"
-    assert len(cost.csv_of(made).splitlines()) == 7
+    assert len(report_cost.csv_of(made).splitlines()) == 7
 
 
 def rows(directory):

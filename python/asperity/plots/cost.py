@@ -4,14 +4,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from matplotlib.axes import Axes
 
+from ..cost import Cost
 from .style import BLUE, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, finish
-
-if TYPE_CHECKING:
-    from ..cost import Cost
 
 GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"),
           ("layers, block model", ("layers", "model"), RED, "s"), ("time step", ("timestep",), GREEN, "^"),

@@ -12,23 +12,21 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from .. import files as writing
 from .. import program
-from ..grid import is_seed, shown
+from ..grid import shown
 from ..result import load_words
+from ..sweeps import Sweep
 from ..tables import Table
 from ..units import NANONEWTON
 from ..units import shown as shown_unit
 from . import files
 from .style import BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, finish
-
-if TYPE_CHECKING:
-    from ..sweeps import Sweep
 
 TITLES = {"gamma": "Binding energy", "area": "Contact area", "separation": "Mean separation",
           "radius": "Contact radius", "pull-off": "Pull-off force", "hysteresis": "Energy lost in the cycle",

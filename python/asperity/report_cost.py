@@ -1,0 +1,143 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""What `asperity cost` leaves behind: cost.csv, cost.json, its figures, and the tables on the terminal."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+from . import files, terminal
+from .cost import ASKED, NAN, QUANTITIES, TARGETS, Cost, Search, errors_of
+from .plots import cost as plots
+from .plots import files as figures
+from .pool import FAILED
+
+
+def csv_of(cost: Cost) -> str:
+    heads = ["knob", "value", "setting", "processor_seconds", "wall_seconds", "ratio", *QUANTITIES,
+             *(f"error_{q}" for q in ASKED), *(f"own_{q}" for q in QUANTITIES), *(f"front_{q}" for q in ASKED)]
+    scene = cost.rows[1].seconds or NAN
+    return files.csv_text([heads, *(
+        [row.knob, row.label, " ".join(row.setting), row.seconds, row.wall, row.seconds / scene, *row.numbers,
+         *row.error.values(), *row.own_error, *row.front.values()] for row in cost.rows)])
+
+
+def json_of(cost: Cost) -> dict[str, Any]:
+    def known(value: float | None) -> float | None:
+        return None if value is None or not math.isfinite(value) else float(value)
+
+    def by_quantity(values) -> dict[str, float | None]:
+        return {name: known(v) for name, v in zip(QUANTITIES, values)}
+
+    settings = [{"knob": row.knob, "value": row.label, "set": row.setting, "processor_seconds": known(row.seconds),
+                 "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers),
+                 "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
+                 "pareto": dict(row.front),
+                 **({} if math.isnan(row.added) else {"added_error": row.added}),
+                 **({"failed": row.outcome.reason} if row.outcome.status == FAILED else {})} for row in cost.rows]
+    orders = [{"knob": knob.name, "expected": knob.expected,
+               **({} if knob.order is None else {"expected_order": knob.order}), "measured": by_quantity(measured)}
+              for knob, measured in cost.orders]
+    cheapest = {question: [{"target": target, "set": cost.rows[i].text, "error": cost.rows[i].error[question],
+                            "processor_seconds": cost.rows[i].seconds}
+                           for target, i in zip(TARGETS, places) if i is not None]
+                for question, places in cost.cheapest.items()}
+    result = {"scene": cost.scene, "reference": cost.case.reference_text, "settings": settings, "orders": orders}
+    if cost.asked is None:
+        return {**result, "cheapest": {question: found for question, found in cheapest.items() if found}}
+    question = cost.asked.base.question
+    answer: dict[str, Any] = {"target": cost.asked.target, "question": question}
+    if row := cost.asked.chosen:
+        answer |= {"set": row.setting, "error": row.error[question], "added_error": row.added,
+                   "time_over_scene": known(row.seconds / cost.rows[1].seconds),
+                   "time_over_reference": known(row.seconds / cost.rows[0].seconds)}
+    else:
+        answer["smallest_error"] = known(cost.asked.smallest)
+    return {**result, "chosen": answer}
+
+
+def write(cost: Cost, directory: Path) -> list[str]:
+    """Names of the files written."""
+    files.directory(directory)
+    written = ["cost.csv", "cost.json"]
+    files.write(directory / "cost.csv", csv_of(cost))
+    for question in ASKED:
+        if cost.answered(question):
+            fig = figures.make(lambda ax: plots.error_against_time(cost, question, ax))
+            if fig is not None:
+                figures.save(fig, directory / f"cost-{question}")
+                written.append(f"cost-{question}.svg")
+    files.write(directory / "cost.json", json.dumps(json_of(cost), indent=2, ensure_ascii=False) + "\n")
+    return written
+
+
+def percent(error: float) -> str:
+    """A relative error in percent with two digits: "0.83", "-0.0012"; "-": none."""
+    if math.isnan(error):
+        return "-"
+    if error == 0:
+        return "0"
+    digits = min(6, max(0, 1 - math.floor(math.log10(abs(100 * error)))))
+    return f"{100 * error:.{digits}f}"
+
+
+def text_of(cost: Cost) -> str:
+    """The tables on the terminal."""
+    parts = ["\nErrors in %, against the reference: γ and works over flat on flat. * marks what nothing beats in both "
+             "time\nand error: first star the state at zero load (γ, contact), second the whole path. The last of a knob "
+             "is the one its own error is taken against.\n"]
+    rows: list[list[str]] = []
+    last = ""
+    for row in cost.rows:
+        if row.knob != last and last:
+            rows.append([])
+        cells = ["" if row.knob == last else row.knob, row.label]
+        last = row.knob
+        if row.outcome.status == FAILED:
+            rows.append([*cells, "failed"])
+            continue
+        ratio = row.seconds / cost.rows[1].seconds if cost.rows[1].seconds else NAN
+        rows.append([*cells, *map(percent, errors_of(row.numbers, cost.rows[0].numbers)),
+                     "-" if math.isnan(row.seconds) else f"{row.seconds:.2f} s",
+                     f"{ratio:.2f}" if math.isfinite(ratio) else "-",
+                     "".join("*" if f else " " for f in row.front.values())])
+    parts.append(terminal.table(["knob", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""], rows,
+                                left=(0, 1)))
+    if cost.orders:
+        parts.append("\nOrder of each knob's own error (all else as in the scene): the power of the knob that fits it.\n")
+        parts.append(terminal.table(["knob", "γ", "contact", "in", "out", "force", "expected"],
+                                    [[knob.name, *("-" if p is None else f"{p:.1f}" for p in measured), knob.expected]
+                                     for knob, measured in cost.orders], left=(0, 6)))
+    for question, what in zip(ASKED, ("the state at zero load (γ, contact)",
+                                          "the whole path (works, pull-off force too)")):
+        if cost.asked or not cost.answered(question):
+            continue
+        parts.append(f"\nCheapest for {what}:")
+        for target, i in zip(TARGETS, cost.cheapest[question]):
+            row = None if i is None else cost.rows[i]
+            parts.append(f"  {100 * target:>4g} %  " + ("none of those that were run" if row is None else
+                         f"{row.seconds:.2f} s, error {percent(row.error[question])} %: {row.text}"))
+    if not cost.answered("path"):
+        parts.append("\nThe path was not followed: works and force are not measured.")
+    parts += [f"note: {note}" for note in cost.case.notes]
+    parts += [f"failed: {r.knob} {r.label}: {r.outcome.reason}" for r in cost.rows if r.outcome.status == FAILED]
+    return "\n".join(parts)
+
+
+def answer_of(cost: Cost, asked: Search) -> str:
+    """What was found for the target; the last line is what to put behind a command."""
+    target, varied = f"{100 * asked.target:.6g} %", "varied: " + ", ".join(knob.name for knob in cost.case.knobs)
+    row = asked.chosen
+    if row is None:
+        best = "none could be measured" if math.isnan(asked.smallest) else (
+            f"the smallest error {'of those tried' if asked.tried else 'that they add up to'} is "
+            f"{percent(asked.smallest)} %")
+        return (f"No settings keep {target}: {best} ({varied}).\n"
+                "Ask for more, or start from a scene with finer settings.")
+    scene, reference = cost.rows[1].seconds, cost.rows[0].seconds
+    return (f"The cheapest settings within {target} ({varied}): error {percent(row.error[asked.base.question])} % of the "
+            f"reference,\n{row.seconds:.2f} s: {row.seconds / scene:.2f} of the scene's time, {row.seconds / reference:.2f} of "
+            f"the reference's.\n{row.text}")
