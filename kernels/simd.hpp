@@ -22,6 +22,8 @@
 #include <utility>
 #if defined(__x86_64__)
 #include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
 #endif
 
 namespace asperity::ASPERITY_VARIANT {
@@ -241,6 +243,8 @@ ASPERITY_INLINE Pack<double> sqrt(Pack<double> a) {
     return (DoubleRegister)_mm256_sqrt_pd((__m256d)a.r);
 #elif defined(__x86_64__)
     return (DoubleRegister)_mm_sqrt_pd((__m128d)a.r);
+#elif defined(__aarch64__)
+    return (DoubleRegister)vsqrtq_f64((float64x2_t)a.r);
 #else
     for (int i = 0; i < Pack<double>::width; ++i)
         a.r[i] = std::sqrt(a.r[i]);
@@ -265,6 +269,13 @@ ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {
     else
         return Pack<T>(
             (typename Pack<T>::Register)_mm256_fmadd_ps((__m256)a.r, (__m256)b.r, (__m256)c.r));
+#elif defined(__aarch64__)
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>((typename Pack<T>::Register)vfmaq_f64((float64x2_t)c.r, (float64x2_t)a.r,
+                                                             (float64x2_t)b.r));
+    else
+        return Pack<T>((typename Pack<T>::Register)vfmaq_f32((float32x4_t)c.r, (float32x4_t)a.r,
+                                                             (float32x4_t)b.r));
 #else
     return a.r * b.r + c.r;
 #endif
@@ -286,6 +297,8 @@ ASPERITY_INLINE Pack<T> fms(Pack<T> a, Pack<T> b, Pack<T> c) {
     else
         return Pack<T>(
             (typename Pack<T>::Register)_mm256_fmsub_ps((__m256)a.r, (__m256)b.r, (__m256)c.r));
+#elif defined(__aarch64__)
+    return fma(a, b, -c);
 #else
     return a.r * b.r - c.r;
 #endif
@@ -347,7 +360,7 @@ struct Simd {
 /// Fused multiplication and addition of one lane, for scalar twins of a kernel: same bits as the
 /// pack's lane.
 ASPERITY_INLINE double fma(double a, double b, double c) {
-#if defined(__FMA__)
+#if defined(__FMA__) || defined(__aarch64__)
     return __builtin_fma(a, b, c);
 #else
     return a * b + c;
