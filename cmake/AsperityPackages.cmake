@@ -41,8 +41,9 @@ function(asperity_say_what_is_missing)
     asperity_packages_of(fedora 3)
     asperity_packages_of(conda 4)
     asperity_packages_of(homebrew 5)
-    # The script `asperity` reads the line of Debian's packages.
-    message(FATAL_ERROR "Asperity lacks: ${names}\n"
+    # The script `asperity` reads these lines. (CMake breaks lines that are not indented.)
+    message(FATAL_ERROR "Not all that Asperity is built with was found.\n"
+        "  missing:        ${names}\n"
         "  Debian, Ubuntu: apt-get install --no-install-recommends${debian}\n"
         "  Fedora:         dnf install${fedora}\n"
         "  conda-forge:    conda install -c conda-forge${conda}\n"

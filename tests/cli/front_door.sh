@@ -51,8 +51,8 @@ stand_in cmake 'cd - >/dev/null; echo "cmake $* in $OLDPWD" >>calls; lacks=; pac
         [[ "$*" != *TESTS=ON* ]] || { lacks="${lacks:+$lacks, }GoogleTest" packages+=" libgtest-dev"; } }
     cd - >/dev/null; mkdir -p build/release/engine
     printf "%s\n" "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" "$@" | sed "s/^-D\(.*\)=/\1:STRING=/" >build/release/CMakeCache.txt
-    [ -z "$lacks" ] || { printf "%s\n" "CMake Error at x.cmake:1 (message):" "  Asperity lacks: $lacks" "" \
-        "    Debian, Ubuntu: apt-get install --no-install-recommends$packages" "    Fedora:         dnf install of-fedora" \
+    [ -z "$lacks" ] || { printf "%s\n" "CMake Error at x.cmake:1 (message):" "  Not all was found." "" \
+        "    missing:        $lacks" "    Debian, Ubuntu: apt-get install --no-install-recommends$packages" "    Fedora:         dnf install of-fedora" \
         "    or load modules (docs/install.md)" "Call Stack"; exit 1; }
     touch build/release/build.ninja
     printf "#!/bin/sh\necho built\n" >build/release/engine/asperity; chmod +x build/release/engine/asperity'
