@@ -12,25 +12,6 @@
 #   Sources of the layer <name> that make and read text: -O1 compiles them in about half the time, and
 #   no result waits for them.
 
-set(CMAKE_CXX_STANDARD 20)
-set(CMAKE_CXX_STANDARD_REQUIRED ON)
-set(CMAKE_CXX_EXTENSIONS OFF)
-if(NOT CMAKE_BUILD_TYPE)
-    set(CMAKE_BUILD_TYPE Release)
-endif()
-# -O3 for the kernels' loops; assertions stay a matter of the debug preset.
-set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
-
-add_library(asperity_flags INTERFACE)
-# No contraction behind our back: where a fused multiply-add is meant, the kernel says so. The same
-# node then gets the same bits whichever loop, rank or thread computes it.
-target_compile_options(asperity_flags INTERFACE -ffp-contract=off -fopenmp-simd)
-add_library(asperity_warnings INTERFACE)
-target_compile_options(asperity_warnings INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarms of g++ 12 on string concatenation (GCC bug 105651)
-    $<$<BOOL:${ASPERITY_WERROR}>:-Werror>)
-
 # For builds whose compile time matters more than their speed: sanitizers, fuzzing.
 option(ASPERITY_ONE_VARIANT "Compile the kernels once, for any processor" OFF)
 set(ASPERITY_KERNEL_OPTIONS "" CACHE STRING "Compiler options of the kernels alone, behind all others")

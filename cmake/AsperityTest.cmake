@@ -44,12 +44,11 @@ function(asperity_suite name file)
     if(ARG_RANKS)
         foreach(ranks IN LISTS ARG_RANKS)
             add_test(NAME ${name}_ranks${ranks}
-                     COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root --bind-to none
-                             -n ${ranks} ${command})
+                     COMMAND ${ASPERITY_MPIRUN} -n ${ranks} ${command})
             set_tests_properties(${name}_ranks${ranks} PROPERTIES LABELS "${ARG_LABELS};mpi"
                 TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${ranks} ENVIRONMENT "${environment}")
         endforeach()
-        set(command ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root --bind-to none -n 1 ${command})
+        set(command ${ASPERITY_MPIRUN} -n 1 ${command})
     else()
         add_test(NAME ${name} COMMAND ${command})
         set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}

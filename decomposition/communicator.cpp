@@ -29,12 +29,28 @@ namespace {
 
 int count(std::size_t n) { return static_cast<int>(n); }
 
+/// What a launcher says of this process; 0 ranks: nothing.
+struct Launched {
+    int ranks = 0, rank = 0;
+};
+Launched launched() {
+    constexpr std::pair<const char*, const char*> names[] = {
+        {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+        {"PMI_SIZE", "PMI_RANK"},
+        {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
+    for (const auto& [size, rank] : names)
+        if (const char* ranks = std::getenv(size)) {
+            const char* own = std::getenv(rank);
+            return {std::atoi(ranks), own ? std::atoi(own) : 0};
+        }
+    return {};
+}
+
 } // namespace
 
 bool launched_in_parallel() {
-    for (const char* size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
-        if (const char* ranks = std::getenv(size)) return std::atoi(ranks) > 1;
-    return std::getenv("PMIX_RANK") != nullptr;
+    const int ranks = launched().ranks;
+    return ranks > 0 ? ranks > 1 : std::getenv("PMIX_RANK") != nullptr;
 }
 
 Communicator::Communicator(std::shared_ptr<const Mpi> mpi) : mpi_(std::move(mpi)) {
@@ -188,7 +204,10 @@ ParallelSession::ParallelSession(int& argc, char**& argv) {
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     started_ = true;
     world_ = Communicator(std::make_shared<const Communicator::Mpi>(MPI_COMM_WORLD));
+    if (world_.size() == 1 && launched().ranks > 1) unconnected_ = launched().ranks;
 }
+
+bool ParallelSession::first_started() { return launched().rank == 0; }
 
 ParallelSession::~ParallelSession() {
     if (started_) MPI_Finalize();
@@ -198,8 +217,12 @@ std::string ParallelSession::library() {
     char text[MPI_MAX_LIBRARY_VERSION_STRING];
     int length = 0;
     MPI_Get_library_version(text, &length);
+    // "Open MPI v4.1.4, package: ...", "MPICH Version:      4.0.2\nMPICH Release date: ..."
     std::string version(text, static_cast<std::size_t>(length));
-    return version.substr(0, version.find_first_of(",\n"));
+    version = version.substr(0, version.find_first_of(",\n"));
+    if (const std::size_t at = version.find(" Version:"); at != std::string::npos)
+        version.replace(at, version.find_first_not_of(' ', at + 9) - at, " ");
+    return version;
 }
 
 } // namespace asperity

@@ -100,7 +100,8 @@ private:
 /// same rule.
 bool launched_in_parallel();
 
-/// Starts MPI if the process is launched_in_parallel(), and ends it. One in main().
+/// Starts MPI if the process is launched_in_parallel(), and ends it. One in main(), which looks at
+/// unconnected().
 class ParallelSession {
 public:
     ParallelSession(int& argc, char**& argv);
@@ -109,11 +110,17 @@ public:
     ParallelSession& operator=(const ParallelSession&) = delete;
 
     const Communicator& world() const { return world_; }
+    /// The number of processes that the launcher says it has started, where MPI has connected none
+    /// of them (it is the launcher of another MPI, or srun without the PMI of this one); else 0.
+    int unconnected() const { return unconnected_; }
+    /// Whether the launcher counts this process as the first.
+    static bool first_started();
     /// Name and version of the MPI library, or "none (one process)".
     static std::string library();
 
 private:
     bool started_ = false;
+    int unconnected_ = 0;
     Communicator world_;
 };
 

@@ -168,5 +168,8 @@ int main(int argc, char** argv) {
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
     choose_threads(world);
-    return ended_in_order(world, [&] { return carry_out(commands, argc, argv, world); });
+    return ended_in_order(world, [&] {
+        refuse_unconnected(session);
+        return carry_out(commands, argc, argv, world);
+    });
 }

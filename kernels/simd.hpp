@@ -23,6 +23,8 @@
 #include <utility>
 #if defined(__x86_64__)
 #include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
 #endif
 
 namespace asperity::ASPERITY_VARIANT {
@@ -147,6 +149,18 @@ ASPERITY_INLINE unsigned bits_where_less(Pack<T> a, Pack<T> b) {
 #endif
 }
 
+/// The elements lane_of(0), lane_of(1), ... of the pack a and the one behind it, b. lane_of holds
+/// nothing.
+template <class T, class LaneOf, int... i>
+ASPERITY_INLINE Pack<T> shuffle(Pack<T> a, Pack<T> b, LaneOf lane_of,
+                                std::integer_sequence<int, i...>) {
+    return __builtin_shufflevector(a.r, b.r, lane_of(i)...);
+}
+template <class T, class LaneOf>
+ASPERITY_INLINE Pack<T> shuffle(Pack<T> a, Pack<T> b, LaneOf lane_of) {
+    return shuffle(a, b, lane_of, std::make_integer_sequence<int, Pack<T>::width>());
+}
+
 /// The pack one element further on, given the pack a and the one behind it, b: a1 a2 ... b0.
 template <class T>
 ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
@@ -154,10 +168,7 @@ ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
     if constexpr (sizeof(T) == 8) // needs no register for the numbers of lanes
         return (DoubleRegister)_mm512_maskz_alignr_epi64(0xff, (__m512i)b.r, (__m512i)a.r, 1);
 #endif
-    typename Pack<T>::Mask lanes;
-    for (int i = 0; i < Pack<T>::width; ++i)
-        lanes[i] = i + 1;
-    return __builtin_shuffle(a.r, b.r, lanes);
+    return shuffle(a, b, [](int i) { return i + 1; });
 }
 /// The pack one element back, given the pack a before b: a_last b0 b1 ...
 template <class T>
@@ -166,10 +177,7 @@ ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
     if constexpr (sizeof(T) == 8)
         return (DoubleRegister)_mm512_maskz_alignr_epi64(0xff, (__m512i)b.r, (__m512i)a.r, 7);
 #endif
-    typename Pack<T>::Mask lanes;
-    for (int i = 0; i < Pack<T>::width; ++i)
-        lanes[i] = Pack<T>::width - 1 + i;
-    return __builtin_shuffle(a.r, b.r, lanes);
+    return shuffle(a, b, [](int i) { return Pack<T>::width - 1 + i; });
 }
 
 /// As many integers as a register has floats: fixed-point numbers, whose differences are exact.
@@ -204,44 +212,28 @@ ASPERITY_INLINE Pack<double> widen_high(Pack<float> a) {
 }
 
 /// Lane i is that of lane i ^ half.
-template <int half, int... lane>
-ASPERITY_INLINE Pack<double> exchange(Pack<double> a, std::integer_sequence<int, lane...>) {
-    return __builtin_shufflevector(a.r, a.r, (lane ^ half)...);
-}
 template <int half>
 ASPERITY_INLINE Pack<double> exchange(Pack<double> a) {
-    return exchange<half>(a, std::make_integer_sequence<int, Pack<double>::width>());
+    return shuffle(a, a, [](int i) { return i ^ half; });
 }
 
 /// Of two packs one after the other: the elements at even places, those at odd ones.
 template <class T>
 ASPERITY_INLINE Pack<T> evens(Pack<T> a, Pack<T> b) {
-    typename Pack<T>::Mask lanes;
-    for (int i = 0; i < Pack<T>::width; ++i)
-        lanes[i] = 2 * i;
-    return __builtin_shuffle(a.r, b.r, lanes);
+    return shuffle(a, b, [](int i) { return 2 * i; });
 }
 template <class T>
 ASPERITY_INLINE Pack<T> odds(Pack<T> a, Pack<T> b) {
-    typename Pack<T>::Mask lanes;
-    for (int i = 0; i < Pack<T>::width; ++i)
-        lanes[i] = 2 * i + 1;
-    return __builtin_shuffle(a.r, b.r, lanes);
+    return shuffle(a, b, [](int i) { return 2 * i + 1; });
 }
 /// The inverse: a0 b0 a1 b1 ..., its first pack and its second.
 template <class T>
 ASPERITY_INLINE Pack<T> interleave_low(Pack<T> a, Pack<T> b) {
-    typename Pack<T>::Mask lanes;
-    for (int i = 0; i < Pack<T>::width; ++i)
-        lanes[i] = i / 2 + (i & 1) * Pack<T>::width;
-    return __builtin_shuffle(a.r, b.r, lanes);
+    return shuffle(a, b, [](int i) { return i / 2 + (i & 1) * Pack<T>::width; });
 }
 template <class T>
 ASPERITY_INLINE Pack<T> interleave_high(Pack<T> a, Pack<T> b) {
-    typename Pack<T>::Mask lanes;
-    for (int i = 0; i < Pack<T>::width; ++i)
-        lanes[i] = (Pack<T>::width + i) / 2 + (i & 1) * Pack<T>::width;
-    return __builtin_shuffle(a.r, b.r, lanes);
+    return shuffle(a, b, [](int i) { return (Pack<T>::width + i) / 2 + (i & 1) * Pack<T>::width; });
 }
 
 /// Square root, rounded once.
@@ -263,6 +255,11 @@ ASPERITY_INLINE Pack<T> sqrt(Pack<T> a) {
         return Pack<T>((Register)_mm_sqrt_pd((__m128d)a.r));
     else
         return Pack<T>((Register)_mm_sqrt_ps((__m128)a.r));
+#elif defined(__aarch64__)
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>((Register)vsqrtq_f64((float64x2_t)a.r));
+    else
+        return Pack<T>((Register)vsqrtq_f32((float32x4_t)a.r));
 #else
     for (int i = 0; i < Pack<T>::width; ++i)
         a.r[i] = std::sqrt(a.r[i]);
@@ -287,6 +284,13 @@ ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {
     else
         return Pack<T>(
             (typename Pack<T>::Register)_mm256_fmadd_ps((__m256)a.r, (__m256)b.r, (__m256)c.r));
+#elif defined(__aarch64__)
+    if constexpr (sizeof(T) == 8)
+        return Pack<T>((typename Pack<T>::Register)vfmaq_f64((float64x2_t)c.r, (float64x2_t)a.r,
+                                                             (float64x2_t)b.r));
+    else
+        return Pack<T>((typename Pack<T>::Register)vfmaq_f32((float32x4_t)c.r, (float32x4_t)a.r,
+                                                             (float32x4_t)b.r));
 #else
     return a.r * b.r + c.r;
 #endif
@@ -308,6 +312,8 @@ ASPERITY_INLINE Pack<T> fms(Pack<T> a, Pack<T> b, Pack<T> c) {
     else
         return Pack<T>(
             (typename Pack<T>::Register)_mm256_fmsub_ps((__m256)a.r, (__m256)b.r, (__m256)c.r));
+#elif defined(__aarch64__)
+    return fma(a, b, -c);
 #else
     return a.r * b.r - c.r;
 #endif
@@ -388,7 +394,7 @@ struct Simd {
 /// Fused multiplication and addition of one lane, for scalar twins of a kernel: same bits as the
 /// pack's lane.
 ASPERITY_INLINE double fma(double a, double b, double c) {
-#if defined(__FMA__)
+#if defined(__FMA__) || defined(__aarch64__)
     return __builtin_fma(a, b, c);
 #else
     return a * b + c;

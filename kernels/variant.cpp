@@ -25,6 +25,8 @@ ProcessorLevel detect() {
         for (ProcessorLevel level : {ProcessorLevel::v2, ProcessorLevel::v3, ProcessorLevel::v4})
             if (std::strcmp(asked, name(level)) == 0 && level < best) best = level;
     return best;
+#elif defined(__aarch64__)
+    return ProcessorLevel::aarch64;
 #else
     return ProcessorLevel::portable;
 #endif
@@ -45,6 +47,8 @@ const char* name(ProcessorLevel level) {
         return "v3";
     case ProcessorLevel::v4:
         return "v4";
+    case ProcessorLevel::aarch64:
+        return "aarch64";
     case ProcessorLevel::portable:
         break;
     }

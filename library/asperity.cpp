@@ -3,6 +3,7 @@
 #include "library/asperity.hpp"
 
 #include "decomposition/communicator.hpp"
+#include "engine/commands/ending.hpp"
 #include "engine/commit.hpp"
 #include "engine/run/run.hpp"
 #include "engine/setup/case.hpp"
@@ -273,7 +274,9 @@ Result run(const Scene& scene, const std::string& directory, const Options& opti
 
 class Parallel::Inside {
 public:
-    Inside(int& argc, char**& argv) : session(argc, argv) {}
+    Inside(int& argc, char**& argv) : session(argc, argv) {
+        translated([&] { asperity::refuse_unconnected(session); });
+    }
     asperity::ParallelSession session;
 };
 

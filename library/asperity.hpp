@@ -146,6 +146,7 @@ LIBASPERITY_API Result run(const Scene& scene, const std::string& directory,
 
 /// In a program that mpirun starts: MPI and runs on all its ranks, from the construction of the one
 /// object to its end. Does nothing in a program started alone. Without it a run takes one process.
+/// Throws Error where a launcher has started several processes that MPI does not connect.
 class LIBASPERITY_API Parallel {
 public:
     Parallel(int& argc, char**& argv);

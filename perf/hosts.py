@@ -17,6 +17,16 @@ class CannotMakeHosts(Exception):
     """Says what the machine lacks."""
 
 
+def mpirun():
+    """The launcher, without options: that of the MPI that the tests were built with, or the one in PATH."""
+    return os.environ.get("ASPERITY_MPIRUN", "mpirun").split()[:1]
+
+
+def is_open_mpi(launcher):
+    said = subprocess.run([*launcher, "--version"], capture_output=True, text=True).stdout
+    return "Open MPI" in said or "OpenRTE" in said
+
+
 def address(host):
     return f"10.77.0.{host + 1}"
 
@@ -31,9 +41,12 @@ class Hosts:
         self.children = []
 
     def __enter__(self):
-        for program in ("ip", "unshare", "nsenter", "setpriv", "taskset", "mpirun"):
+        self.launcher = mpirun()
+        for program in ("ip", "unshare", "nsenter", "setpriv", "taskset", *self.launcher):
             if not shutil.which(program):
                 raise CannotMakeHosts(f"{program} is not installed")
+        if not is_open_mpi(self.launcher):
+            raise CannotMakeHosts(f"{self.launcher[0]} is not that of Open MPI, whose daemon is started on the hosts")
         if os.geteuid() != 0:
             raise CannotMakeHosts("only root may make network namespaces")
         try:
@@ -98,7 +111,7 @@ class Hosts:
         mca = {"plm_rsh_agent": self.agent, "btl": "self,tcp", "pml": "ob1", "btl_tcp_if_include": self.device,
                "oob_tcp_if_include": self.device, "plm_rsh_no_tree_spawn": "1",
                "mpi_yield_when_idle": str(int(self.count > len(os.sched_getaffinity(0))))}
-        words = [*self.enter[0], "mpirun", "-n", str(self.count), "--hostfile", self.hostfile,
+        words = [*self.enter[0], *self.launcher, "-n", str(self.count), "--hostfile", self.hostfile,
                  "--map-by", "node", "--bind-to", "none"]
         for name, value in mca.items():
             words += ["--mca", name, value]

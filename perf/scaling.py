@@ -34,10 +34,12 @@ NETWORK = {"latency": 2e-6, "bandwidth": 5e9, "eager": 65536.0}
 def _run(command, threads, ranks=1):
     environment = {**os.environ, "OMP_NUM_THREADS": str(threads)}
     if ranks > 1:
-        enough = len(os.sched_getaffinity(0)) >= ranks * threads
-        binding = ["--bind-to", "core", "--map-by", f"slot:PE={threads}"] if enough else \
-            ["--oversubscribe", "--bind-to", "none"]
-        command = ["mpirun", "-n", str(ranks)] + binding + command
+        launcher = hosts.mpirun()
+        if hosts.is_open_mpi(launcher):
+            enough = len(os.sched_getaffinity(0)) >= ranks * threads
+            launcher += ["--bind-to", "core", "--map-by", f"slot:PE={threads}"] if enough else \
+                ["--oversubscribe", "--bind-to", "none"]
+        command = [*launcher, "-n", str(ranks), *command]
         environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
     if run.returncode != 0:
@@ -129,7 +131,7 @@ STUDIES = {"tiny": ((32,), (32, 64), (32, 46, 32), 0.05, 1),
 def study(folder, which):
     """Strong and weak scaling on two cores, the messages, the model and its check. Ends the program if the
     records of a step differ between ranks or threads."""
-    if not shutil.which("mpirun"):
+    if not shutil.which(hosts.mpirun()[0]):
         sys.exit("bench: the scaling study needs mpirun\n    fix: apt-get install openmpi-bin")
     strong, single, weak, seconds, repeats = STUDIES[which]
     layouts = ((1, 1), (1, 2), (2, 1))

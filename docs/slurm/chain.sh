@@ -16,13 +16,15 @@
 export OMP_NUM_THREADS=$SLURM_CPUS_PER_TASK
 scene=$1 out=$2
 shift 2
+trap 'kill -USR1 "$run"' USR1 # mpirun passes it on to the ranks
 mpirun -n "$SLURM_NTASKS" asperity run "$scene" --out "$out" --resume auto "$@" &
 run=$!
-trap 'kill -USR1 "$run"' USR1 # mpirun passes it on to the ranks
 code=0
 while kill -0 "$run" 2>/dev/null; do # a signal ends wait, not the run
     wait "$run"
     code=$?
 done
+# MPICH's mpirun ends with 0 after a signal. A run that is over has no checkpoint.
+[ "$code" -eq 0 ] && [ -e "$out/checkpoint.h5" ] && code=75
 [ "$code" -eq 75 ] || exit "$code"
 scontrol requeue "$SLURM_JOB_ID"

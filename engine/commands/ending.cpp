@@ -79,6 +79,20 @@ int end_alike(const std::string& what, int code, const Communicator& world) {
 
 } // namespace
 
+void refuse_unconnected(const ParallelSession& session) {
+    if (session.unconnected() == 0) return;
+    if (!ParallelSession::first_started()) std::this_thread::sleep_for(std::chrono::seconds(2));
+    throw io::SceneError(
+        {"asperity",
+         fmt::format("{} processes were started, and MPI connects none of them",
+                     session.unconnected()),
+         fmt::format("this program is linked with {}; the launcher is that of another MPI, or srun "
+                     "without the PMI that this MPI speaks",
+                     ParallelSession::library()),
+         "start it with the mpirun of its own MPI, or by srun --mpi=pmi2 or pmix (srun "
+         "--mpi=list)"});
+}
+
 int ended_in_order(const Communicator& world, const std::function<int()>& work) {
     try {
         return work();

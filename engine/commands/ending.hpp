@@ -13,9 +13,15 @@
 namespace asperity {
 
 class Communicator;
+class ParallelSession;
 
 /// Does the work and returns the exit code, the same on every rank: its own, or that of the error
 /// it threw, which is printed.
 int ended_in_order(const Communicator& world, const std::function<int()>& work);
+
+/// Throws io::SceneError where a launcher has started several processes and MPI has connected none:
+/// each would take itself for the whole run. The first of them throws first, to be the one that is
+/// heard: launchers end the others with it.
+void refuse_unconnected(const ParallelSession& session);
 
 } // namespace asperity

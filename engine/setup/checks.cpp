@@ -239,7 +239,7 @@ std::vector<io::Problem> device_problems(const Case& c) {
     if (c.scene.block.seams == Seams::absorb && c.simulation.block.multiscale)
         refuse("block.seams = \"absorb\"", "seams absorb on the processor only",
                "take numerics.device = \"none\", or block.seams = \"reflect\"");
-    if (processor_level() < ProcessorLevel::v3)
+    if (!fuses(processor_level()))
         refuse(fmt::format("kernels of level {}", name(processor_level())),
                "a device fuses multiplications with additions, and these kernels do not: the same "
                "scene would have other bits",

@@ -77,6 +77,13 @@ def sets(overrides: Iterable[str]) -> list[str]:
 
 
 @functools.lru_cache(maxsize=None)
+def mpi() -> str:
+    """The MPI that the program was built with: "Open MPI v4.1.4"."""
+    found = re.search(r"^ *MPI +(.*\S)", call(["info"]), re.MULTILINE)
+    return found[1] if found else ""
+
+
+@functools.lru_cache(maxsize=None)
 def schema() -> dict[str, dict[str, Any]]:
     """Every key of a scene: kind, unit, default, doc, choices."""
     return json.loads(call(["defaults", "--json"]))

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -26,11 +27,16 @@ def default_directory(name: str) -> Path:
 
 
 def launcher(ranks: int) -> list[str]:
-    """The words before the program for so many ranks."""
+    """The words before the program for so many ranks: those of $ASPERITY_MPIRUN ("srun --mpi=pmix"), or the mpirun of
+    the MPI that the program was built with, where several are installed."""
     if ranks == 1:
         return []
-    root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
-    return ["mpirun", "--oversubscribe", *root, "-n", str(ranks)]
+    if words := os.environ.get("ASPERITY_MPIRUN", "").split():
+        return [*words, "-n", str(ranks)]
+    open_mpi = "Open MPI" in program.mpi()
+    names = ("mpirun.openmpi", "mpirun") if open_mpi else ("mpirun.mpich", "mpiexec.hydra", "mpirun")
+    options = ["--oversubscribe"] + (["--allow-run-as-root"] if os.geteuid() == 0 else []) if open_mpi else []
+    return [next(filter(shutil.which, names), "mpirun"), *options, "-n", str(ranks)]
 
 
 def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None,

@@ -8,7 +8,7 @@
 . "$(dirname "$0")/common.sh"
 
 python=${ASPERITY_PYTHON:-/usr/bin/python3}
-if ! command -v mpirun >/dev/null || ! "$python" -c 'import matplotlib'; then
+if [ ${#mpirun[@]} -eq 0 ] || ! "$python" -c 'import matplotlib'; then
     echo "mpirun or matplotlib is not installed: the benchmarks are not run"
     exit 77
 fi

@@ -12,6 +12,10 @@ trap 'rm -rf -- "$work"' EXIT
 cd -- "$work" || exit 1
 failures=0
 
+# The words that start ranks, before -n RANKS, as CMake found them; none: there is no launcher.
+read -ra mpirun <<<"${ASPERITY_MPIRUN:-mpirun --oversubscribe --allow-run-as-root --bind-to none}"
+command -v "${mpirun[0]}" >/dev/null || mpirun=()
+
 fail() {
     echo "FAILED: $*" >&2
     failures=$((failures + 1))

@@ -7,7 +7,6 @@
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 small="--set surface.sites=32 block.thickness=32 theory.renormalised=false --progress off"
 "$asperity" surface "$source/scenes/first-contact.toml" --out map >/dev/null || fail "no surface"
 ln -s "$source/scenes" scenes
@@ -32,7 +31,7 @@ while IFS= read -r line; do
     esac
     command=${command//.\/asperity/\"$asperity\"}
     command=${command//docs\/scene.md/scene.md}
-    command=${command//mpirun /mpirun --oversubscribe }
+    command=${command//mpirun /${mpirun[*]} }
     out=$(eval "timeout 400 $command" 2>&1 </dev/null)
     code=$?
     [ $code -eq "$wanted" ] || fail "exit code $code, not $wanted: $command

@@ -7,8 +7,9 @@
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
-mkdir -p "a house/build/release/engine" elsewhere
+mkdir -p "a house/build/release/engine" "a house/cmake" elsewhere
 cp "$source/asperity" "a house/asperity"
+cp "$source/cmake/packages.txt" "a house/cmake/"
 cp "$asperity" "a house/build/release/engine/asperity"
 asperity="$work/a house/asperity"
 export ASPERITY_SKIP_BUILD=1
@@ -22,10 +23,8 @@ asperity=./link expect 0 info
 printf '[surface]\nsites = 64\n' >"my scene.toml"
 expect 0 check "my scene.toml" --set "surface.rms=0.3 nm"
 
-mpirun=$(command -v mpirun)
-if [ -n "$mpirun" ]; then
-    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    out=$("$mpirun" --oversubscribe -n 2 "$asperity" info 2>&1)
+if [ ${#mpirun[@]} -gt 0 ]; then
+    out=$("${mpirun[@]}" -n 2 "$asperity" info 2>&1)
     says "ranks      2"
     [ "$(grep -c compiler <<<"$out")" = 1 ] || fail "not one rank speaks: $out"
 fi
@@ -43,39 +42,99 @@ says "--resume"
 # What follows builds: by stand-ins that write down what they are called with.
 mkdir bin
 stand_in() { printf '#!/bin/bash\n%s\n' "$2" >"bin/$1" && chmod +x "bin/$1"; }
-stand_in dpkg-query '[ ! -e installed ] || for name; do printf "installed:%s " "$name"; done'
 stand_in apt-get 'echo "apt-get $*" >>calls; touch installed'
 stand_in sudo 'exit 1'
 stand_in id 'echo "${WHO:-1000}"'
-stand_in cmake 'echo "cmake in $PWD" >>"$OLDPWD/calls"; mkdir -p build/release/engine
-    echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" >build/release/CMakeCache.txt; touch build/release/build.ninja
+# Like cmake, where GoogleTest is missing (and, with the file fftw-is-missing, FFTW) until apt-get was called.
+stand_in cmake 'cd - >/dev/null; echo "cmake $* in $OLDPWD" >>calls; lacks=; packages=
+    [ -e installed ] || { [ ! -e fftw-is-missing ] || { lacks=FFTW packages=" libfftw3-dev"; }
+        [[ "$*" != *TESTS=ON* ]] || { lacks="${lacks:+$lacks, }GoogleTest" packages+=" libgtest-dev"; } }
+    cd - >/dev/null; mkdir -p build/release/engine
+    printf "%s\n" "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" "$@" | sed "s/^-D\(.*\)=/\1:STRING=/" >build/release/CMakeCache.txt
+    [ -z "$lacks" ] || { printf "%s\n" "CMake Error at x.cmake:1 (message):" "  Not all was found." "" \
+        "    missing:        $lacks" "    Debian, Ubuntu: apt-get install --no-install-recommends$packages" "    Fedora:         dnf install of-fedora" \
+        "    or load modules (docs/install.md)" "Call Stack"; exit 1; }
+    touch build/release/build.ninja
     printf "#!/bin/sh\necho built\n" >build/release/engine/asperity; chmod +x build/release/engine/asperity'
 stand_in ninja 'true'
 stand_in ctest 'echo tested'
+stand_in python 'true' # has every module
 unset ASPERITY_SKIP_BUILD
+export ASPERITY_PYTHON=$PWD/bin/python
+given_path=$PATH
 export PATH="$PWD/bin:$PATH"
 rm -r "../a house/build"
 expect 0 --help
 [ ! -e "../a house/build" ] || fail "--help builds"
 
-# Missing packages are named, with the line to type, for those who may not install them, and by commands that
+# What CMake does not find is named, with the lines to type, for those who may not install it, and by commands that
 # were not asked to.
+touch fftw-is-missing
 expect 2 run
-says "fix: sudo apt-get install -y --no-install-recommends build-essential cmake"
+says "missing: FFTW"
+says "only root may install"
+says "fix: Debian, Ubuntu: apt-get install --no-install-recommends libfftw3-dev"
+says "dnf install of-fedora"
 export WHO=0
 for name in check plan info; do
     expect 2 $name
     says "\`$name\` installs nothing without being asked"
 done
-[ ! -e calls ] || fail "a command that was not asked to installs: $(cat calls)"
-for name in run:build-essential test:python3-pytest; do # the stand-in has all that is missing after one call
+! grep apt-get calls || fail "a command that was not asked to installs"
+for name in run:libfftw3-dev "test:libfftw3-dev libgtest-dev"; do # the stand-in has all that is missing after one call
     rm -rf calls installed "../a house/build"
     expect 0 "${name%:*}"
-    grep -q "apt-get install -y --no-install-recommends .*${name#*:}" calls || fail "${name%:*} installs nothing"
+    grep -q "apt-get install -y --no-install-recommends ${name#*:}$" calls || fail "${name%:*} installs: $(cat calls)"
 done
 rm -rf calls installed "../a house/build"
 ASPERITY_INSTALL=1 expect 0 check
 grep -q "apt-get install" calls || fail "ASPERITY_INSTALL=1 installs nothing"
+
+# A run asks for nothing that only tests use, before tests were asked for and after they could not be built.
+export WHO=1000
+rm -rf fftw-is-missing calls installed "../a house/build"
+for name in run test run; do
+    expect "$([ $name = test ] && echo 2 || echo 0)" $name
+done
+expect 2 test
+says "missing: GoogleTest"
+! grep -q TESTS=ON "../a house/build/release/CMakeCache.txt" || fail "tests that cannot be built are kept as asked for"
+export WHO=0
+expect 0 test
+says "tested"
+[ "$(grep -c ^cmake calls)" -eq 5 ] || fail "configured otherwise than for the run, the tests twice, and their installation: $(cat calls)"
+
+# Without CMake, Ninja and a compiler, all that a build needs is named at once; so it is where there is no apt-get.
+mkdir bare
+for name in awk bash cat chmod cp date flock grep head id mkdir mv readlink rm sed tail touch; do ln -s "$(PATH=$given_path command -v $name)" bare/; done
+rm -rf calls "../a house/build"
+PATH=$PWD/bare expect 2 run
+says "missing: CMake, Ninja, a C++ compiler"
+says "apt-get install --no-install-recommends cmake ninja-build build-essential pkg-config libopenmpi-dev openmpi-bin"
+says "dnf install cmake ninja-build gcc-c++"
+says "conda install -c conda-forge cmake"
+case $out in *gtest* | *benchmark* | *matplotlib*) fail "a run asks for what only tests use: $out" ;; esac
+PATH=$PWD/bare expect 2 test
+says "libgtest-dev libbenchmark-dev"
+ln -s "$PWD/bin/cmake" "$PWD/bin/ninja" bare/
+PATH=$PWD/bare CXX=no-such-compiler expect 2 run
+says "missing: a C++ compiler (no-such-compiler)"
+ln -s "$PWD/bin/cmake" bare/c++
+touch fftw-is-missing
+rm -f installed
+PATH=$PWD/bare expect 2 run # no apt-get
+says "missing: FFTW"
+says "dnf install of-fedora"
+rm fftw-is-missing
+PATH=$PWD/bare expect 0 run
+
+# Modules of Python that a command imports.
+stand_in python 'echo h5py jinja2'
+expect 2 report
+says "missing in $PWD/bin/python: h5py jinja2"
+says "fix: $PWD/bin/python -m pip install h5py jinja2"
+stand_in python 'true'
+rm -rf calls "../a house/build"
 
 # Every start builds what is out of date, in a batch job of several tasks too (SLURM gives its script rank 0 and the
 # number of tasks), and after a failed build the next start tries again and says why.
@@ -131,7 +190,7 @@ for limit in 5 20 63; do
     [ $? -eq 4 ] || fail "ulimit -n $limit: $out"
     says "too few files may be open"
 done
-[ ! -e calls ] || [ "$(grep -c '^cmake in' calls)" -eq 1 ] || fail "a limit configures again: $(cat calls)"
+[ ! -e calls ] || [ "$(grep -c '^cmake' calls)" -eq 1 ] || fail "a limit configures again: $(cat calls)"
 [ ! -e /build ] || fail "a limit makes /build"
 
 # The build of a copied tree is made anew: it holds the paths of the old place.
@@ -143,5 +202,5 @@ rm "../another house/build/release/engine/asperity"
 asperity="$work/another house/asperity" expect 0 check
 says "belongs to $work/a house"
 says "built"
-grep -q "cmake in $work/another house" calls || fail "a copied tree is not configured"
+grep -q "^cmake .* in $work/another house" calls || fail "a copied tree is not configured"
 finish

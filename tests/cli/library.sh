@@ -38,10 +38,10 @@ eval "g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror '$source/tests/library/con
     fail "the consumer does not compile"
 out=$(./consumer scene.toml alone reference 2>&1) || fail "the consumer"
 [ -z "$out" ] || fail "the consumer, or the library, printed: $out"
-out=$(OMP_NUM_THREADS=1 mpirun --oversubscribe --allow-run-as-root --bind-to none -n 2 ./consumer scene.toml ranks reference 2>&1) ||
+out=$(OMP_NUM_THREADS=1 "${mpirun[@]}" -n 2 ./consumer scene.toml ranks reference 2>&1) ||
     fail "the consumer on two ranks: $out"
 # An error that one rank alone meets ends all of them, and is told.
-out=$(OMP_NUM_THREADS=1 timeout 60 mpirun --oversubscribe --allow-run-as-root --bind-to none -n 2 ./consumer scene.toml uneven reference one-fails 2>&1)
+out=$(OMP_NUM_THREADS=1 timeout 60 "${mpirun[@]}" -n 2 ./consumer scene.toml uneven reference one-fails 2>&1)
 code=$?
 [ $code -ne 0 ] && [ $code -ne 124 ] || fail "an error of one rank: exit code $code"
 says "is given no directory"

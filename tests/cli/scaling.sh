@@ -7,7 +7,7 @@
 # A short scaling study on two cores. It fails if it cannot run, or if ranks or threads change a number; how fast
 # anything is decides nothing. Its tables are left in BUILD/scaling.txt, which .ci/run prints.
 set -u -o pipefail
-if ! command -v mpirun >/dev/null; then
+if ! command -v "${ASPERITY_MPIRUN%% *}" >/dev/null; then
     echo "mpirun is not installed: no scaling study"
     exit 77
 fi

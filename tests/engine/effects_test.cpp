@@ -90,7 +90,7 @@ TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
 }
 
 TEST(Effects, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
-    if (processor_level() < ProcessorLevel::v3) return; // refused for another reason
+    if (!fuses(processor_level())) return; // refused for another reason
     if (cuda_device_count() >= 8) return;               // more have no number
     const std::string beyond = "numerics.device=" + std::to_string(cuda_device_count());
     try {
@@ -130,7 +130,7 @@ TEST(Effects, EachHasAKeyThatSwitchesIt) {
     for (const auto& [effect, key] : switched_on) {
         std::vector<std::string> with = plain;
         with.push_back(key);
-        if (effect == Effect::device && processor_level() < ProcessorLevel::v3) {
+        if (effect == Effect::device && !fuses(processor_level())) {
             // Refused, for these kernels do not fuse multiplications with additions.
             EXPECT_THROW(case_with(with), io::SceneError);
             continue;

@@ -143,10 +143,9 @@ TEST(MixedPrecision, BindsLikeDouble) {
     for (auto [map, sites, thickness] :
          {std::tuple{"n8_b_rms1.0", 8, 6}, {"c2_N16_T8_rms1.5", 16, 8}}) {
         InterfaceOptions interface = test::paper_interface();
-        const auto relaxed = [&] {
-            return test::relax_levels(test::paper_block(sites, thickness, 0), interface,
-                                      test::reference_surface(map), 1e-5);
-        };
+        const BlockOptions block = test::paper_block(sites, thickness, 0);
+        const Surface surface = test::reference_surface(map);
+        const auto relaxed = [&] { return test::relax_levels(block, interface, surface, 1e-5); };
         const test::Relaxed exact = relaxed();
         interface.mixed = true;
         const test::Relaxed mixed = relaxed();

@@ -307,7 +307,7 @@ TEST(MapFromAFile, LosesItsJumpsAndNothingElse) {
             even.push_back(wave);
             tilted.push_back(wave + 0.3 * x + 0.002 * y * y);
         }
-    const auto jump = [n](const std::vector<double>& h) { // between the first and the last column
+    const auto jump = [&](const std::vector<double>& h) { // between the first and the last column
         double sum = 0.0;
         for (int y = 0; y < n; ++y)
             sum += h[static_cast<std::size_t>(y * n)] - h[static_cast<std::size_t>(y * n + n - 1)];

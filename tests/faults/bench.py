@@ -52,6 +52,8 @@ KINDS = {
     "thermostat": ["drive.temperature=300"],
     "quasistatic": ["drive.mode=quasistatic", "output.trajectory=none", "drive.step=0.4"],
 }
+# The words that start ranks, as CMake found them.
+MPIRUN = os.environ.get("ASPERITY_MPIRUN", "mpirun --oversubscribe --bind-to none").split()
 ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1",
                "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 EXIT_INPUT_OUTPUT, EXIT_SCENE, EXIT_STOPPED = 4, 2, 75
@@ -80,7 +82,7 @@ class Bench:
         for assignment in KINDS[kind]:
             command += ["--set", assignment]
         if ranks > 1:
-            command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", str(ranks)] + command
+            command = MPIRUN + ["-n", str(ranks)] + command
         return command
 
     def run(self, out, kind="dynamic", extra=(), ranks=1, fault=None, **options):
@@ -435,15 +437,17 @@ class Bench:
     def ranks_of(self, child):
         """The processes of a run that mpirun has started, when it has begun to record."""
         while child.poll() is None:
-            with open(f"/proc/{child.pid}/task/{child.pid}/children") as file:
-                found = [int(word) for word in file.read().split()]
+            found = [child.pid]
+            while len(found) == 1:  # MPICH's mpirun has a process between
+                with open(f"/proc/{found[0]}/task/{found[0]}/children") as file:
+                    found = [int(word) for word in file.read().split()]
             if len(found) == 2 and os.path.exists(os.path.join(child.out, "run.journal")):
                 return found
             time.sleep(0.001)
         return []
 
     def test_ranks(self):
-        if not shutil.which("mpirun"):
+        if not shutil.which(MPIRUN[0]):
             return "skipped: there is no mpirun"
         good = total = 0
         for i in range(20 if self.long else 2):

@@ -165,7 +165,7 @@ Trace on_processor(const Variant& c) {
     return {all[0], all[1], std::bit_cast<long long>(all[2]), std::bit_cast<double>(all[3])};
 }
 
-bool fuses() { return processor_level() >= ProcessorLevel::v3; }
+bool fuses() { return asperity::fuses(processor_level()); }
 
 /// Settings of the emulated device for as long as it lives.
 class Emulated {

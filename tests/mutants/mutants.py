@@ -242,7 +242,8 @@ class Copy:
                 to.chmod((ROOT / name).stat().st_mode)
         # Kernels once: each mutant compiles a third of them.
         subprocess.run(["cmake", "-G", "Ninja", "-S", self.source, "-B", self.build, "-DCMAKE_BUILD_TYPE=Release",
-                        "-DASPERITY_PERF=OFF", "-DASPERITY_CUDA=OFF", "-DASPERITY_ONE_VARIANT=ON",
+                        "-DASPERITY_TESTS=ON", "-DASPERITY_PERF=OFF", "-DASPERITY_WERROR=ON", "-DASPERITY_CUDA=OFF",
+                        "-DASPERITY_ONE_VARIANT=ON",
                         "-DASPERITY_KERNEL_OPTIONS=-march=x86-64-v3"], check=True, stdout=subprocess.DEVNULL)
         self.tests = {}
 

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import asperity
+import asperity.runs
 from asperity import words
 from asperity.report import write_run_page
 from asperity.report_sweep import holds_sweep, write_sweep_page
@@ -292,14 +293,12 @@ def test_what_is_no_result_is_a_message(tmp_path):
 
 
 def test_under_mpirun_one_rank_speaks(state_run):
-    mpirun = shutil.which("mpirun")
     import os
     import subprocess
-    env = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
     def report(ranks):
-        return subprocess.run([mpirun, "--oversubscribe", "-n", ranks, os.environ["ASPERITY_PROGRAM"], "report",
-                               state_run.directory], capture_output=True, text=True, env=env, timeout=120)
+        return subprocess.run([*asperity.runs.launcher(2)[:-1], ranks, os.environ["ASPERITY_PROGRAM"], "report",
+                               state_run.directory], capture_output=True, text=True, timeout=120)
     two = report("2")
     assert two.returncode == 2 and two.stderr.count("not one of several ranks") == 1
     assert report("1").returncode == 0

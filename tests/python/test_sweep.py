@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 
 import asperity
+import asperity.runs
 from asperity import files, grid, pool
 from asperity.plots import sweep as plots
 from asperity.plots.style import drawn
@@ -649,10 +650,8 @@ def test_a_point_that_fails_is_told_and_the_others_go_on(place):
 
 
 def test_a_launcher_gives_ranks(place):
-    mpirun = shutil.which("mpirun")
-    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     command("sweep", "path.toml", "--set", "drive.velocity=30,40", "drive.max_steps=20", "--progress", "off", "--out",
-            "ranks", "--launch", f"{mpirun} --oversubscribe -n 2", env=root)
+            "ranks", "--launch", " ".join(asperity.runs.launcher(2)))
     assert asperity.load("ranks/velocity=30").run.ranks == 2
     said = command("sweep", "path.toml", "--set", "drive.velocity=30,40", "--progress", "off", "--out", "none",
                    "--launch", "no-such-launcher", expect=127)

@@ -59,6 +59,11 @@ const Communicator& world() { return *the_world; }
 int main(int argc, char** argv) {
     using namespace asperity;
     const ParallelSession session(argc, argv);
+    if (session.unconnected() > 0) {
+        std::fprintf(stderr, "%d processes were started, and MPI connects none of them\n",
+                     session.unconnected());
+        return 2;
+    }
     test::the_world = &session.world();
     testing::InitGoogleTest(&argc, argv);
     if (argc > 1) {
