@@ -20,13 +20,23 @@ template <class A, class B>
 double dot(const A* a, const B* b, int sites) {
     const auto term = [&](int i) { return wide(a[i]) * wide(b[i]); };
     const int length = 2 * (sites / 2 + 1);
-    double all = 0.0;
-#pragma omp simd reduction(+ : all)
-    for (int i = 0; i < length; ++i)
-        all += wide(a[i]) * wide(b[i]);
+    // Partial sums, so many and added in this order whatever the width of registers and the
+    // compiler: left to the compiler, the order would be its own.
+    constexpr int lanes = 16;
+    double part[lanes] = {};
+    int i = 0;
+    for (; i + lanes <= length; i += lanes)
+#pragma omp simd
+        for (int k = 0; k < lanes; ++k)
+            part[k] += wide(a[i + k]) * wide(b[i + k]);
+    for (int k = 0; i + k < length; ++k)
+        part[k] += wide(a[i + k]) * wide(b[i + k]);
+    for (int half = lanes / 2; half > 0; half /= 2)
+        for (int k = 0; k < half; ++k)
+            part[k] += part[k + half];
     double once = term(0) + term(1); // columns that have no mirror image
     if (sites % 2 == 0) once += term(length - 2) + term(length - 1);
-    return 2.0 * all - once;
+    return 2.0 * part[0] - once;
 }
 
 template <class From, class To>
