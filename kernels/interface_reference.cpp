@@ -133,8 +133,8 @@ void tail_sweep(const InterfaceSites& sites, const PairPotential& potential, dou
                 PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
                 InterfaceSums& sums) {
     std::visit(
-        [&](const auto& p) {
-            if constexpr (p.has_tail)
+        [&]<class P>(const P& p) {
+            if constexpr (P::has_tail)
                 add_tail(Tail(p, density), sites, mean_height, row_begin, row_end, observe, sums);
         },
         potential);

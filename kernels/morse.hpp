@@ -53,10 +53,10 @@ struct Morse {
 
         /// 1/r
         ASPERITY_INLINE V begin(V r2) const { return same<V>(1.0) / sqrt(r2); }
-        ASPERITY_INLINE void begin(V a, V b, V& oa, V& ob) const {
-            const V ra = sqrt(a), rb = sqrt(b), both = same<V>(1.0) / (ra * rb);
-            oa = rb * both;
-            ob = ra * both;
+        ASPERITY_INLINE void begin(V r2, V s2, V& of_r, V& of_s) const {
+            const V r = sqrt(r2), s = sqrt(s2), both = same<V>(1.0) / (r * s);
+            of_r = s * both;
+            of_s = r * both;
         }
         template <class Difference>
         ASPERITY_INLINE V force(V o, V r2, Difference difference) const {

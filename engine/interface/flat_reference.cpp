@@ -57,8 +57,8 @@ PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites
         }
     if (options.tail)
         std::visit(
-            [&](const auto& p) {
-                if constexpr (p.has_tail) {
+            [&]<class P>(const P& p) {
+                if constexpr (P::has_tail) {
                     const Tail tail(p, 1.0 / (b * b));
                     mean.force[2] += tail.force(gap);
                     mean.energy += tail.energy(gap);

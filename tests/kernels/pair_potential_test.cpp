@@ -108,8 +108,8 @@ TEST(PairPotential, IsHeldOnTop) {
 
 /// int V0 r dr from r on, by Simpson's rule in 1/r.
 TEST(PairPotential, MomentIsTheIntegral) {
-    for_each([](const auto& p) {
-        if constexpr (p.has_tail) {
+    for_each([]<class P>(const P& p) {
+        if constexpr (P::has_tail) {
             const Pair pair(p);
             for (double r : {0.9 * p.zero(), p.minimum(), 6.0, 13.0}) {
                 const int n = 20000;
