@@ -57,9 +57,11 @@ TEST(PotentialOfAScene, TableOfLennardJonesIsLennardJones) {
         scratch / "made");
     for (const char* name : {"delta_gamma", "binding_energy", "contact_fraction"})
         EXPECT_NEAR(made[name].get<double>() / exact[name].get<double>(), 1.0, 1e-6) << name;
+    // A path with instabilities is known to what it states.
     for (const char* part : {"approach", "pull_off"})
-        EXPECT_NEAR(number(made, "work_of_drive", part) / number(exact, "work_of_drive", part), 1.0,
-                    1e-6);
+        EXPECT_NEAR(number(made, "work_of_drive", part), number(exact, "work_of_drive", part),
+                    number(exact["work_of_drive"], "uncertainty", part) +
+                        number(made["work_of_drive"], "uncertainty", part));
     for (const char* theory : {"gamma_eff", "contact_fraction"})
         EXPECT_NEAR(number(made["theory"], "renormalised", theory) /
                         number(exact["theory"], "renormalised", theory),
