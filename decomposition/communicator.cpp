@@ -221,7 +221,7 @@ std::string ParallelSession::library() {
     std::string version(text, static_cast<std::size_t>(length));
     version = version.substr(0, version.find_first_of(",\n"));
     if (const std::size_t at = version.find(" Version:"); at != std::string::npos)
-        version.replace(at, version.find_first_not_of(' ', at + 9) - at, " ");
+        version.replace(at, version.find_first_not_of(" \t", at + 9) - at, " ");
     return version;
 }
 

@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
     const Communicator& world = session.world();
     choose_threads(world);
     return ended_in_order(world, [&] {
-        refuse_unconnected(session);
+        if (session.unconnected() > 0) return refuse_unconnected(session);
         return carry_out(commands, argc, argv, world);
     });
 }

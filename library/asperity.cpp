@@ -275,7 +275,9 @@ Result run(const Scene& scene, const std::string& directory, const Options& opti
 class Parallel::Inside {
 public:
     Inside(int& argc, char**& argv) : session(argc, argv) {
-        translated([&] { asperity::refuse_unconnected(session); });
+        if (session.unconnected() == 0) return;
+        const int code = translated([&] { return asperity::refuse_unconnected(session); });
+        throw Error(code, "the first process says why");
     }
     asperity::ParallelSession session;
 };

@@ -19,11 +19,9 @@ shift 2
 trap 'kill -USR1 "$run"' USR1 # mpirun passes it on to the ranks
 mpirun -n "$SLURM_NTASKS" asperity run "$scene" --out "$out" --resume auto "$@" &
 run=$!
-code=0
-while kill -0 "$run" 2>/dev/null; do # a signal ends wait, not the run
-    wait "$run"
-    code=$?
-done
+while kill -0 "$run" 2>/dev/null; do wait "$run"; done # a signal ends wait, not the run
+wait "$run"
+code=$?
 # MPICH's mpirun ends with 0 after a signal. A run that is over has no checkpoint.
 [ "$code" -eq 0 ] && [ -e "$out/checkpoint.h5" ] && code=75
 [ "$code" -eq 75 ] || exit "$code"

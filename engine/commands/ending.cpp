@@ -79,9 +79,11 @@ int end_alike(const std::string& what, int code, const Communicator& world) {
 
 } // namespace
 
-void refuse_unconnected(const ParallelSession& session) {
-    if (session.unconnected() == 0) return;
-    if (!ParallelSession::first_started()) std::this_thread::sleep_for(std::chrono::seconds(2));
+int refuse_unconnected(const ParallelSession& session) {
+    if (!ParallelSession::first_started()) {
+        std::this_thread::sleep_for(std::chrono::seconds(2)); // launchers end it with the first
+        return io::exit_code::scene;
+    }
     throw io::SceneError(
         {"asperity",
          fmt::format("{} processes were started, and MPI connects none of them",

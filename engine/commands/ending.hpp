@@ -19,9 +19,9 @@ class ParallelSession;
 /// it threw, which is printed.
 int ended_in_order(const Communicator& world, const std::function<int()>& work);
 
-/// Throws io::SceneError where a launcher has started several processes and MPI has connected none:
-/// each would take itself for the whole run. The first of them throws first, to be the one that is
-/// heard: launchers end the others with it.
-void refuse_unconnected(const ParallelSession& session);
+/// Where a launcher has started several processes and MPI connects none (session.unconnected()):
+/// each would take itself for the whole run. In the first of them throws io::SceneError, elsewhere
+/// waits for the launcher to end it, and returns the same code.
+int refuse_unconnected(const ParallelSession& session);
 
 } // namespace asperity

@@ -56,6 +56,14 @@ if [ ${#mpirun[@]} -gt 0 ]; then
     out=$("${mpirun[@]}" -n 2 "$asperity" check - <scene.toml 2>&1) && fail "check - of two ranks"
     says "only rank 0 would have it"
 fi
+# A launcher that says it has started two processes, where MPI finds one: the first of them says so, and no run begins.
+for step in 0 1; do
+    out=$(SLURM_STEP_NUM_TASKS=2 SLURM_PROCID=$step "$asperity" run scene.toml --out unconnected 2>&1)
+    [ $? -eq 2 ] || fail "a step of SLURM that MPI does not connect: $out"
+    [ $step -eq 1 ] || says "2 processes were started, and MPI connects none of them"
+    [ $step -eq 0 ] || [ -z "$out" ] || fail "the second process speaks: $out"
+    [ ! -e unconnected ] || fail "a run begins that MPI does not connect"
+done
 cd .. && rm -r new
 
 expect 2
