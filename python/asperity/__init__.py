@@ -10,6 +10,8 @@
     result.plot.separation()                            # draws into a matplotlib axes
     sweep = asperity.sweep("scene.toml", {"surface.rms": [0.5, 1, 2]}, jobs=2)
     sweep.table["binding_energy"]                       # numpy array, a value a point
+    sim = asperity.Simulation("scene.toml")             # the engine in a loop of your own (docs/python-engine.md)
+    sim.step(500); sim.force; sim.u.z                   # eV/Å; a view of the displacements, Å
 
 The program does the physics, reads scenes and checks them; this package starts it, reads what it wrote,
 and draws. Errors of the program are the exceptions SceneError, PhysicsError, InputOutputError, Stopped.
@@ -26,7 +28,7 @@ def __getattr__(name: str):
     import importlib
 
     homes = {"Result": "result", "load": "result", "run": "runs", "sweep": "sweeps", "Sweep": "sweeps",
-             "load_sweep": "sweeps"}
+             "load_sweep": "sweeps", "Simulation": "engine"}
     if name in homes:
         return getattr(importlib.import_module("." + homes[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
