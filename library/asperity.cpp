@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "library/asperity.hpp"
+#include "library/inside.hpp"
 
 #include "decomposition/communicator.hpp"
 #include "engine/commands/ending.hpp"
 #include "engine/commit.hpp"
 #include "engine/run/run.hpp"
-#include "engine/setup/case.hpp"
 #include "io/build_info.hpp"
-#include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"
 
@@ -16,6 +14,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <span>
@@ -25,11 +24,6 @@
 namespace libasperity {
 
 namespace io = asperity::io;
-
-class Scene::Inside {
-public:
-    asperity::Case resolved;
-};
 
 class Result::Inside {
 public:
@@ -68,16 +62,6 @@ namespace {
 const asperity::Communicator* parallel_world = nullptr;
 
 int world_size() { return parallel_world ? parallel_world->size() : 1; }
-
-/// Errors of the engine as those of the header.
-template <class Work>
-auto translated(const Work& work) {
-    try {
-        return work();
-    } catch (const io::Error& error) {
-        throw Error(error.code(), error.what());
-    }
-}
 
 /// How long an error waits for the other ranks, s.
 constexpr double patience = 10.0;
@@ -151,8 +135,10 @@ std::string version() { return io::build_info().version; }
 
 Scene Scene::read(const std::string& file, const std::vector<std::string>& overrides) {
     return translated([&] {
-        return Scene(
-            std::make_shared<Inside>(Inside{asperity::read_case(file, overrides, world_size())}));
+        asperity::Case resolved = asperity::read_case(file, overrides, world_size());
+        return Scene(std::make_shared<Inside>(
+            Inside{std::move(resolved),
+                   {contents(file), std::filesystem::absolute(file).string(), overrides}}));
     });
 }
 
@@ -160,7 +146,8 @@ Scene Scene::parse(const std::string& text, const std::vector<std::string>& over
                    const std::string& name) {
     return translated([&] {
         return Scene(std::make_shared<Inside>(
-            Inside{asperity::read_case_text(text, name, overrides, world_size())}));
+            Inside{asperity::read_case_text(text, name, overrides, world_size()),
+                   {text, name, overrides}}));
     });
 }
 

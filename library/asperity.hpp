@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// libasperity: runs of Asperity from C++.
+// libasperity: runs of Asperity from C++, and its engine in a loop of your own.
 //
 // clang-format off
 //     #include <asperity.hpp>
@@ -31,6 +31,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -143,6 +144,148 @@ private:
 /// scene or of the physics is thrown on all of them; any other ends them all, as the program does.
 LIBASPERITY_API Result run(const Scene& scene, const std::string& directory,
                            const Options& options = {});
+
+// ---- In your own loop: an engine that is stepped, looked at and led by the program.
+//
+//     libasperity::Simulation sim(libasperity::Scene::read("scene.toml"));
+//     while (!sim.done() && sim.force() <= 0.0) sim.step(100);
+//     sim.set_top_velocity(-2.0);
+//
+// One process, on all its threads; objects may live side by side, and calls that work (step, relax,
+// save) wait for each other. An object is a handle: copies of it are the same engine.
+
+/// Values on the lattice where the engine has them, row by row; keeps the engine alive. Those of a
+/// simulation are current until its next step, and again when step() has returned or an observer is
+/// called.
+struct View {
+    double* data = nullptr;
+    std::size_t ny = 0, nx = 0;
+    std::ptrdiff_t row = 0; ///< distance between rows, in doubles
+    std::shared_ptr<const void> owner;
+    double& operator()(std::size_t y, std::size_t x) const {
+        return data[static_cast<std::ptrdiff_t>(y) * row + static_cast<std::ptrdiff_t>(x)];
+    }
+};
+struct VectorView {
+    View x, y, z;
+};
+
+/// eV, since the start; residual: what the energy balance is off by, over the largest of its terms.
+struct Energies {
+    double elastic = 0.0, interface = 0.0, kinetic = 0.0;
+    double work = 0.0;     ///< done on the block: by the top plane, the medium that damps, noise,
+                           ///< and an external field
+    double damped = 0.0;   ///< lost to the medium that damps
+    double radiated = 0.0; ///< taken by absorbing seams
+    double residual = 0.0;
+};
+
+/// Of the two ways of a path, meV/Å^2; empty until that way has ended.
+struct BothWays {
+    std::optional<double> approach, pull_off;
+};
+
+/// Of each site: height above the substrate below it, Å; whether its nearest atom is in contact (1
+/// or 0); normal force per a^2, GPa (positive pushes apart).
+struct SiteMaps {
+    Map gap, contact, pressure;
+};
+
+/// A state of force balance under no load.
+struct RestState {
+    double binding_energy = 0.0; ///< meV/Å^2
+    double elastic_energy = 0.0; ///< meV/Å^2
+    double contact_fraction = 0.0, pushed_fraction = 0.0;
+    double mean_height = 0.0; ///< Å
+    double residual = 0.0;    ///< largest force left on a site, eV/Å
+    long long iterations = 0;
+    SiteMaps maps;
+};
+
+/// A scene's path in time, a step at a time.
+///
+/// A step takes forces at its start and then moves the sites. Its numbers (time, force, energies)
+/// are those of that start, as in the rows of a run's series; u has moved on by one step when it
+/// returns. The path starts and turns as `asperity run` has it, to the same bits.
+class LIBASPERITY_API Simulation {
+public:
+    /// Throws Error 2 for a scene without time, and for what a run would refuse.
+    explicit Simulation(const Scene& scene);
+    /// From a file of save(): the same bits as if it had never stopped.
+    static Simulation resume(const std::string& file);
+
+    /// Called about twenty times a second between steps or iterations. What it throws ends the call
+    /// there; the state is whole.
+    using Look = std::function<void()>;
+    /// n steps, or fewer: none are made past the end of the scene's path (done()). Returns how many
+    /// were. The last one is observed, as are those of output.series and of observers. Throws Error
+    /// 3 where the physics fails a guard: then this simulation has ended.
+    long long step(long long n = 1, const Look& look = {});
+    /// f is called after each step whose number divides by n, which is observed. Observers look and
+    /// write as the program does between two steps, but do not step.
+    void every(long long n, std::function<void()> f);
+    /// The path has come to its end. Never while the top is led by hand.
+    bool done() const;
+
+    // Of the last step; zero before the first one.
+    long long steps() const;    ///< that were made
+    double time() const;        ///< ps
+    double force() const;       ///< of the substrate on the lowest layer, eV/Å; positive pushes
+    double top_force() const;   ///< elastic, on the top plane, eV/Å
+    double mean_height() const; ///< of the lowest layer above the substrate's zero, Å
+    // Of the last observed step.
+    Energies energy() const;
+    double contact_fraction() const; ///< sites whose nearest atom is in contact, over all
+    double pushed_fraction() const;  ///< sites that are pushed away
+
+    // Of the ways of the scene's path, as in result.json.
+    std::string leg() const; ///< "approach", "pull-off" or "done"
+    BothWays work_of_adhesion() const;
+    BothWays work_of_drive() const;
+    std::optional<double> lost_in_cycle() const; ///< meV/Å^2
+
+    // The top plane. It is led by the scene's drive until a velocity is given.
+    double top_position() const; ///< displacement since the start, Å
+    /// At once: the plane stands there in the next step. Far jumps send a wave through the block.
+    void set_top_position(double z);
+    double top_velocity() const; ///< in the next step, m/s; positive moves away
+    void set_top_velocity(double v);
+    void release_top(); ///< back to the scene's drive, where that was
+
+    // Of the lowest layer, not copied. What is written to u or v is felt by the next step, and the
+    // energy balance then starts anew; values that are no numbers are refused there (Error 2).
+    VectorView u(); ///< displacements, Å
+    VectorView v(); ///< velocities half a step before u, Å/fs
+    /// Forces of the last step, of the substrate and from outside, eV/Å; to be read. Not on a
+    /// device.
+    VectorView f();
+    View substrate_height() const; ///< Å; to be read
+    double substrate_edge() const; ///< of the box, Å
+    double spacing() const;        ///< of the sites, Å
+    SiteMaps maps() const;         ///< of the sites as they are now
+
+    /// Forces on the sites of the lowest layer beside the substrate's, eV/Å, from the next step on;
+    /// they are copied. Throws Error 2 for another shape, for values that are no numbers, and on a
+    /// device.
+    void set_external(const Map& x, const Map& y, const Map& z);
+    /// The field that acts, to be changed in place; empty views where none does.
+    VectorView external();
+    void clear_external();
+    double external_work() const; ///< done by it so far, eV
+
+    /// The state at zero load that the sites come to from where they are. A copy is relaxed: the
+    /// simulation stays as it is. Throws Error 3 if none is found, 2 with an external field.
+    RestState relax(const Look& look = {});
+
+    /// Everything but the observers, in one file (HDF5).
+    void save(const std::string& file);
+
+    class Inside;
+
+private:
+    explicit Simulation(std::shared_ptr<Inside> inside) : inside_(std::move(inside)) {}
+    std::shared_ptr<Inside> inside_;
+};
 
 /// In a program that mpirun starts: MPI and runs on all its ranks, from the construction of the one
 /// object to its end. Does nothing in a program started alone. Without it a run takes one process.

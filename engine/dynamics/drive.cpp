@@ -30,6 +30,7 @@ Drive::Drive(const DriveOptions& options)
                                                  : Leg::done) {}
 
 double Drive::velocity(double t) const {
+    if (by_hand_) return *by_hand_;
     if (leg_ == Leg::approach) return -options_.velocity;
     // From -v (after an approach) or rest to +v along half a cosine.
     const double from = options_.approach ? -options_.velocity : 0.0, to = options_.velocity;
@@ -39,6 +40,7 @@ double Drive::velocity(double t) const {
 }
 
 bool Drive::observe(double t, double force, bool gone) {
+    if (by_hand_) return false;
     if (leg_ == Leg::approach) {
         // Through attraction (beyond the load, if that pulls) and back to the load; or, where
         // nothing attracts that much, pressed.

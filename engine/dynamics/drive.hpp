@@ -10,6 +10,7 @@
 // as a load.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace asperity {
@@ -36,13 +37,18 @@ public:
     explicit Drive(const DriveOptions& options);
 
     Leg leg() const { return leg_; }
-    bool done() const { return leg_ == Leg::done; }
+    bool done() const { return leg_ == Leg::done && !by_hand_; }
     /// Velocity of the top plane along z at time t, Å/fs.
     double velocity(double t) const;
 
     /// Told of the force on the lowest layer at time t (eV/Å, positive upwards). True at the
     /// step at which a leg ends. gone: out_of_reach() at this step.
     bool observe(double t, double force, bool gone);
+
+    /// By hand: from now on the top plane moves at this velocity, Å/fs, and no leg ends; none: the
+    /// drive goes on where it was. Not in checkpoints.
+    void take_over(std::optional<double> velocity) { by_hand_ = velocity; }
+    const std::optional<double>& by_hand() const { return by_hand_; }
 
     /// The state of the machine, for checkpoints.
     template <class Visitor>
@@ -57,6 +63,7 @@ private:
     Leg leg_;
     double turned_at_ = 0.0;
     bool attracted_ = false;
+    std::optional<double> by_hand_;
 };
 
 } // namespace asperity

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace asperity {
 
@@ -110,6 +111,41 @@ void Simulation::absorb_at_seams() { block_.absorb(step_ / absorbs_every_, radia
 void Simulation::sweep_interface(bool observe) {
     interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
                                        reference_height_, {.observe = observe});
+    if (external_) add_external();
+}
+
+/// On top of the substrate's forces, which the sums above are of.
+void Simulation::add_external() {
+    const VectorPlane<double> to = block_.interface_force();
+    const VectorPlane<const double> from = external_->plane(0);
+    for (int y = 0; y < to.x.ny; ++y)
+        for (int x = 0; x < to.x.nx; ++x) {
+            to.x(x, y) += from.x(x, y);
+            to.y(x, y) += from.y(x, y);
+            to.z(x, y) += from.z(x, y);
+        }
+    external_before_ = power_of_external();
+}
+
+ExactSum Simulation::power_of_external() const {
+    const VectorPlane<const double> f = external_->plane(0);
+    const VectorPlane<const double> v = std::as_const(block_).levels().front().v.plane(0);
+    ExactSum power;
+    for (int y = 0; y < f.x.ny; ++y) {
+        for (int x = 0; x < f.x.nx; ++x)
+            power.add(f.x(x, y) * v.x(x, y) + f.y(x, y) * v.y(x, y) + f.z(x, y) * v.z(x, y));
+        power.carry();
+    }
+    return power;
+}
+
+/// A trapezium from n-1 to n, like the works above: half with the forces at each end.
+void Simulation::book_external() {
+    const auto [before, after] =
+        global_sums(communicator(), std::array{external_before_, external_after_});
+    if (has_previous_) ledger_.external += 0.5 * options_.dt * (before + external_pending_);
+    external_pending_ = after;
+    external_before_ = external_after_ = {};
 }
 
 void Simulation::add_noise() {
@@ -126,6 +162,7 @@ void Simulation::advance_block(bool observe) {
     kick_sums_ = {};
     block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
                    kick_sums_);
+    if (external_) external_after_ = power_of_external();
     top_force_ = {};
     block_.add_top_force(top_force_);
     block_.set_top(block_.top() + options_.dt * velocity);
@@ -171,6 +208,8 @@ void Simulation::update_energy_balance() {
         ledger_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
         ledger_.heat += pending_.heat;
     }
+
+    if (external_ || external_pending_ != 0.0) book_external();
 
     // Taken at the start of the step, before its energies.
     ledger_.radiated += radiated;

@@ -63,9 +63,10 @@ struct Ledger {
     double damped = 0.0;    ///< dissipated against the medium
     double radiated = 0.0;  ///< taken by absorbing seams
     double heat = 0.0;      ///< given by the thermostat's noise
+    double external = 0.0;  ///< done by forces from outside
     double approach = 0.0;  ///< int F dz of the mean height over the approach
     double pull_off = 0.0;  ///< the same over the pull-off (negative: attraction is overcome)
-    double work() const { return top_work + drag_work + heat; }
+    double work() const { return top_work + drag_work + heat + external; }
     double lost() const { return damped + radiated; }
 };
 
@@ -97,6 +98,13 @@ public:
         host_is_newer_ = true;
         return block_;
     }
+    /// Forces on the sites of this rank's tile beside the substrate's, eV/Å, at each step from the
+    /// next one on; null: none. The field is read where it is. Its work is booked, but for that on
+    /// displacements by a thermostat's noise. Not with a device.
+    void push(const VectorField<double>* external) { external_ = external; }
+    /// After fields were written to from outside, which is no work: the energy balance starts anew
+    /// with the next observed step.
+    void restart_balance() { energy_at_start_.reset(); }
     /// Bytes of device memory.
     std::size_t device_bytes() const { return device_ ? device_->bytes() : 0; }
     Interface& interface() { return interface_; }
@@ -112,6 +120,12 @@ public:
     /// Everything but the fields, for checkpoints.
     template <class Visitor>
     void visit(Visitor& v);
+    /// The same of forces from outside.
+    template <class Visitor>
+    void visit_external(Visitor& v) {
+        v("work", ledger_.external);
+        v("pending", external_pending_);
+    }
 
 private:
     void step_on_device(bool observe);
@@ -123,6 +137,9 @@ private:
     bool absorbs() const { return absorbs_every_ > 0; }
     void absorb_at_seams();
     void sweep_interface(bool observe);
+    void add_external();
+    ExactSum power_of_external() const;
+    void book_external();
     void advance_block(bool observe);
     void add_noise();
     void collect(bool observe);
@@ -152,6 +169,10 @@ private:
     struct Pending {
         double dissipated = 0.0, drag = 0.0, heat = 0.0;
     } pending_; ///< of the step before, eV: integrated with the next
+
+    const VectorField<double>* external_ = nullptr; ///< forces from outside
+    ExactSum external_before_, external_after_;     ///< their power with v(n-1/2), v(n+1/2), eV/fs
+    double external_pending_ = 0.0;                 ///< the latter of the step before
 
     // Sums of the step under way, this rank's share.
     InterfaceSums interface_sums_;

@@ -3,10 +3,9 @@
 //
 // The parts of the path one after the other in time: steps until the drive has come to its end;
 // when the approach has ended, a copy of the block's lowest layer is relaxed under zero load.
-#include "decomposition/global_largest.hpp"
-#include "engine/dynamics/approach_start.hpp"
 #include "engine/equilibrium/zero_load.hpp"
 #include "engine/run/checkpoint.hpp"
+#include "engine/run/driven_path.hpp"
 #include "engine/run/guard.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
@@ -32,12 +31,13 @@ class DynamicRun {
 public:
     DynamicRun(const Case& c, const RunOptions& options, const Communicator& ranks)
         : run_(c, options, ranks), case_(c),
-          simulation_(c.simulation, run_.surface, ranks, run_.grid) {}
+          simulation_(c.simulation, run_.surface, ranks, run_.grid),
+          path_(c, simulation_, run_.findings) {}
 
     int carry_out() {
         const std::size_t bytes = simulation_.block().bytes() + simulation_.interface().bytes();
         const auto work = [&] {
-            if (!resume()) start();
+            if (!resume()) path_.start();
             integrate();
             name_fields_left();
             run_.maps.write_kept(simulation_.interface(), run_.recorder());
@@ -45,35 +45,14 @@ public:
         return run_.carry_out(bytes, work, [&](io::Result& result) { add_to(result); });
     }
 
-    /// Where the loop stands, for checkpoints.
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("ended", ended_);
-        v("concluding", concluding_);
-        v("start", start_);
-        v("kinetic_at_start", kinetic_at_start_);
-        v("turn", turn_);
-    }
-
 private:
-    /// A warm block starts where nothing is in reach: the way down is what warms it.
-    void start() {
-        start_.height = simulation_.interface().start_height();
-        if (scene_.drive.temperature == 0.0)
-            start_ = approach_start(simulation_.block_to_write(), simulation_.interface());
-        simulation_.start(start_.height);
-    }
-
     /// The loop over time: step, guard, record, tell the drive; a leg that has ended is concluded
     /// one step later.
     void integrate() {
         for (;;) {
-            if (concluding_) {
-                if (!conclude(*concluding_)) return;
-                concluding_.reset();
-            }
-            if (!ended_ && simulation_.drive().done()) return;
-            if (!ended_ && scene_.drive.max_steps > 0 &&
+            if (path_.to_conclude() && !conclude(*path_.to_conclude())) return;
+            if (path_.over()) return;
+            if (!path_.must_observe() && scene_.drive.max_steps > 0 &&
                 simulation_.steps() >= scene_.drive.max_steps) {
                 run_.stop_at_max_steps();
                 run_.save_if_on(state_writer());
@@ -84,16 +63,13 @@ private:
             // The step after a leg and the last of all are observed, so that the guard has seen the
             // energy balance before anything is concluded.
             const bool due = simulation_.steps() % scene_.output.series == 0;
-            const StepRecord& now = simulation_.step(due || ended_ || next_step_is_last());
-            if (now.step == 0) kinetic_at_start_ = now.kinetic_energy;
+            const StepRecord& now =
+                simulation_.step(due || path_.must_observe() || next_step_is_last());
             guard(now);
             if (frame) end_frame(*frame);
             if (now.observed) record_row();
             watch_step(now);
-            if (ended_)
-                concluding_ = std::exchange(ended_, std::nullopt);
-            else
-                ended_ = follow_drive(now);
+            path_.follow(now);
             write_delayed_fields(now.time);
             if (run_.progress.due()) run_.progress.update(progress_state(now));
         }
@@ -104,24 +80,6 @@ private:
     }
     bool frame_is_due() const {
         return scene_.output.trajectory && simulation_.steps() % *scene_.output.trajectory == 0;
-    }
-
-    /// Tells the drive what the step felt. The leg that ended with it, if one did.
-    std::optional<Leg> follow_drive(const StepRecord& now) {
-        const Leg leg = simulation_.leg();
-        double& attraction =
-            leg == Leg::approach ? run_.findings.attraction_in : run_.findings.attraction_out;
-        attraction = std::max(attraction, -now.force);
-        const double strongest =
-            std::max(run_.findings.attraction_in, run_.findings.attraction_out);
-        const bool gone = out_of_reach(now.top, now.force, strongest, start_.force);
-        if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
-        if (leg == Leg::approach) {
-            require_load_reached(simulation_.options().drive.load_force, attraction, 0.0,
-                                 case_.area());
-            run_.findings.contact_made = now.time;
-        }
-        return leg;
     }
 
     /// Maps that are due so long after the approach has ended.
@@ -148,11 +106,7 @@ private:
 
     /// What a leg has shown. False: stopped on the way to it.
     bool conclude(Leg leg) {
-        if (leg == Leg::pull_off) {
-            conclude_pull_off();
-            return true;
-        }
-        if (case_.on(Effect::relaxation)) {
+        if (leg == Leg::approach && case_.on(Effect::relaxation)) {
             // The block is not touched: a run that is stopped here starts the relaxation again.
             run_.save_if_on(state_writer());
             run_.progress.say("contact is made; relaxing a copy of its lowest layer under no load");
@@ -161,59 +115,9 @@ private:
                 return false;
             }
         }
-        conclude_approach();
+        path_.conclude(leg);
         if (!simulation_.drive().done()) run_.progress.say("pull-off begins");
         return true;
-    }
-
-    // The path is taken from rest to rest, out of reach: the drive also sets the block in motion
-    // before the first step and stops it after the last, and brings it in and out as a rigid body
-    // where what binds it then is the interface's energy.
-
-    void conclude_approach() {
-        LegEnergies& in = run_.findings.approach;
-        turn_ = account();
-        in.interface_work = per_area_ * (simulation_.ledger().approach - start_.energy);
-        in.drive_work = -per_area_ * (turn_.drive_work + start_.energy + kinetic_at_start_);
-        if (reaches_the_state())
-            in.lost =
-                per_area_ * (turn_.lost + turn_.energy) + run_.findings.zero_load->binding_energy;
-    }
-    void conclude_pull_off() {
-        Findings& found = run_.findings;
-        const double bound = simulation_.now().interface_energy;
-        const Account end = account();
-        found.pull_off.interface_work = -per_area_ * (simulation_.ledger().pull_off + bound);
-        found.pull_off.drive_work =
-            per_area_ * (end.drive_work - turn_.drive_work - bound - kinetic_at_start_);
-        if (scene_.drive.temperature > 0.0) return; // heat goes both ways
-        found.lost_in_cycle = per_area_ * (end.lost + end.energy - bound - kinetic_at_start_);
-        if (reaches_the_state()) found.pull_off.lost = *found.lost_in_cycle - *found.approach.lost;
-    }
-    /// The approach ends, but for vibrations, in the state at zero load.
-    bool reaches_the_state() const {
-        return run_.findings.zero_load && scene_.drive.temperature == 0.0 &&
-               scene_.drive.load == 0.0;
-    }
-
-    /// At an observed step, eV.
-    struct Account {
-        double drive_work = 0.0; ///< of the top plane and the damping medium, which move alike
-        double lost = 0.0;       ///< damped, or taken by absorbing seams
-        double energy = 0.0;     ///< kinetic, elastic and of the interface
-
-        template <class Visitor>
-        void visit(Visitor& v) {
-            v("drive_work", drive_work);
-            v("lost", lost);
-            v("energy", energy);
-        }
-    };
-    Account account() const {
-        const StepRecord& now = simulation_.now();
-        const Ledger& ledger = simulation_.ledger();
-        return {ledger.top_work + ledger.drag_work, ledger.lost(),
-                now.interface_energy + now.elastic_energy + now.kinetic_energy};
     }
 
     /// False: stopped before the state was found.
@@ -238,7 +142,7 @@ private:
         const auto wrong = violation(now, run_.lowest_height(), fmt::format("step {}", now.step));
         if (!wrong) return;
         failed_ = now; // what follows puts the simulation back
-        const std::string where = fastest_site();
+        const std::string where = fastest_site(simulation_);
         std::string kept = "no earlier state was kept";
         if (!snapshot_.empty()) {
             snapshot_.restore(simulation_);
@@ -252,27 +156,7 @@ private:
                 kept = "the last good state could not be written";
             }
         }
-        const double limit = case_.longest_timestep;
-        throw io::PhysicsError(
-            *wrong,
-            fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
-                        "contact, and less "
-                        "where atoms are pressed into the wall or hit it fast",
-                        where, scene_.drive.timestep, limit),
-            fmt::format("start again with a smaller drive.timestep (for example {:.2g} fs) or "
-                        "drive.velocity; {}",
-                        std::min(0.5 * scene_.drive.timestep, 0.2 * limit), kept));
-    }
-
-    /// The site of the lowest layer with the largest velocity, which may be infinite or no number.
-    std::string fastest_site() {
-        const auto& level = simulation_.block().levels().front();
-        const auto v = level.v.view()[0];
-        const LargestSite fastest = global_largest(run_.ranks, level.tile, [&](int x, int y) {
-            return std::sqrt(v.x(x, y) * v.x(x, y) + v.y(x, y) * v.y(x, y) + v.z(x, y) * v.z(x, y));
-        });
-        return fmt::format("site ({}, {}) moves at {:.3g} m/s", fastest.x, fastest.y,
-                           fastest.value / units::metre_per_second);
+        throw step_failed(*wrong, where, case_, kept);
     }
 
     void record_row() {
@@ -318,7 +202,7 @@ private:
         const StateNumbers numbers =
             read_checkpoint(*place, simulation_, run_.fingerprint(), run_.maps.arrays());
         RestoreNumbers restore(numbers);
-        restore("loop", *this);
+        restore("loop", path_);
         run_.restore(restore);
         run_.open_recorder();
         std::erase_if(delayed_fields_, [&](const auto& field) { // written before it stopped
@@ -332,7 +216,7 @@ private:
     RunSession::WriteState state_writer() {
         return [&](const io::FilePlace& place) {
             CollectNumbers collect;
-            collect("loop", *this);
+            collect("loop", path_);
             run_.collect(collect);
             write_checkpoint(place, simulation_, collect, run_.fingerprint(), run_.maps.arrays());
         };
@@ -360,13 +244,8 @@ private:
     const Case& case_;
     const Scene& scene_ = case_.scene;
     Simulation simulation_;
-    const double per_area_ = units::milli_per_unit / (case_.area());
-    ApproachStart start_;
-    double kinetic_at_start_ = 0.0;    ///< of the block moving with the drive, eV
-    Account turn_;                     ///< where the approach ended
+    DrivenPath path_;
     std::optional<StepRecord> failed_; ///< the step that a guard ended the run at
-    std::optional<Leg> ended_;         ///< the leg that the last step ended
-    std::optional<Leg> concluding_;    ///< the leg that ended the step before
     std::vector<std::pair<double, std::string>> delayed_fields_ = case_.maps.after_zero_load;
     Snapshot snapshot_;
     CollectNumbers snapshot_numbers_;

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/guard.hpp"
 
+#include "decomposition/global_largest.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace asperity {
@@ -24,6 +26,29 @@ std::optional<std::string> violation(const StepRecord& now, double lowest_height
                            "at {:.4g} Å",
                            place, now.mean_height);
     return std::nullopt;
+}
+
+std::string fastest_site(const Simulation& simulation) {
+    const auto& level = simulation.block().levels().front();
+    const auto v = level.v.view()[0];
+    const LargestSite fastest =
+        global_largest(simulation.communicator(), level.tile, [&](int x, int y) {
+            return std::sqrt(v.x(x, y) * v.x(x, y) + v.y(x, y) * v.y(x, y) + v.z(x, y) * v.z(x, y));
+        });
+    return fmt::format("site ({}, {}) moves at {:.3g} m/s", fastest.x, fastest.y,
+                       fastest.value / units::metre_per_second);
+}
+
+io::PhysicsError step_failed(const std::string& wrong, const std::string& where, const Case& c,
+                             const std::string& kept) {
+    const double set = c.scene.drive.timestep, limit = c.longest_timestep;
+    return {wrong,
+            fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
+                        "contact, and less where atoms are pressed into the wall or hit it fast",
+                        where, set, limit),
+            fmt::format("start again with a smaller drive.timestep (for example {:.2g} fs) or "
+                        "drive.velocity; {}",
+                        std::min(0.5 * set, 0.2 * limit), kept)};
 }
 
 void require_load_reached(double load, double attraction, double slack, double area) {

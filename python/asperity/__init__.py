@@ -10,6 +10,8 @@
     result.plot.separation()                            # draws into a matplotlib axes
     sweep = asperity.sweep("scene.toml", {"surface.rms": [0.5, 1, 2]}, jobs=2)
     sweep.table["binding_energy"]                       # numpy array, a value a point
+    sim = asperity.Simulation("scene.toml")             # the engine in a loop of your own (docs/python-engine.md)
+    sim.step(500); sim.force; sim.u.z                   # eV/Å; a view of the displacements, Å
 
 The program does the physics, reads scenes and checks them; this package starts it, reads what it wrote,
 and draws. Errors of the program are the exceptions SceneError, PhysicsError, InputOutputError, Stopped.
@@ -27,4 +29,6 @@ def __getattr__(name: str):
 
     if name in ("Result", "Sweep", "load", "load_sweep", "run", "sweep"):
         return getattr(importlib.import_module(".forms", __name__), name)
+    if name in ("Simulation", "Statics"):
+        return getattr(importlib.import_module(".engine", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -46,6 +46,57 @@ void same_result(const libasperity::Result& mine, const libasperity::Result& oth
     expect(mine.map("zero-load", "gap").values == other.map("zero-load", "gap").values, "gaps");
 }
 
+/// Stepped by hand, the path has the rows and works of the run.
+void same_steps(const libasperity::Scene& scene, const libasperity::Result& reference,
+                const std::string& file) {
+    using namespace libasperity;
+    Simulation sim(scene);
+    const std::vector<double> time = reference.series("time"), force = reference.series("force"),
+                              elastic = reference.series("elastic_energy");
+    std::size_t row = 0, rows = 0;
+    sim.every(10, [&] {
+        while (row < time.size() && time[row] < sim.time())
+            ++row; // the run also records the step after each way
+        expect(row < time.size() && time[row] == sim.time() && force[row] == sim.force() &&
+                   elastic[row] == sim.energy().elastic,
+               "the row at " + std::to_string(sim.time()) + " ps");
+        ++rows;
+    });
+    sim.step(300);
+    // A copy goes on to the same bits; a look ends a step; what is written is felt.
+    sim.save(file);
+    Simulation again = Simulation::resume(file);
+    while (!sim.done())
+        sim.step(1000);
+    while (!again.done())
+        again.step(1000);
+    expect(rows > 20, "rows");
+    expect(sim.work_of_drive().pull_off == reference.number("work_of_drive.pull_off"), "work");
+    expect(sim.steps() == again.steps() && sim.force() == again.force() &&
+               sim.work_of_drive().pull_off == again.work_of_drive().pull_off,
+           "resumed");
+    again.set_top_velocity(-1.0);
+    const VectorView u = again.u();
+    expect(u.x.nx == 32 && u.x.ny == 32, "shape of u");
+    u.z(3, 4) += 0.01;
+    const double before = u.z(3, 4);
+    again.step(1);
+    expect(u.z(3, 4) != before && std::abs(again.top_velocity() + 1.0) < 1e-12, "a view");
+    expect(code_of([&] { again.set_external({}, {}, {}); }, "[32, 32]") == 2, "shape of a field");
+    struct Enough {};
+    try {
+        again.step(1000000, [] { throw Enough(); });
+        expect(false, "a look ends a step");
+    } catch (const Enough&) {
+    }
+    again.step(1);
+    u.z(0, 0) = NAN;
+    expect(code_of([&] { again.step(1); }, "nan") == 2, "no number");
+    expect(code_of([&] { Simulation(Scene::parse("drive.path = [\"zero-load\"]\n")); },
+                   "no time") == 2,
+           "a scene without time");
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -65,6 +116,11 @@ int main(int argc, char** argv) {
     expect(code_of([] { Scene::parse("[surface]\nsites = -3\n"); }, "surface.sites") == 2,
            "a wrong scene is refused");
     expect(code_of([] { Scene::read("/nowhere.toml"); }, "/nowhere.toml") != 0, "no scene");
+
+    if (parallel.size() == 1)
+        same_steps(scene, reference, directory + ".h5");
+    else
+        expect(code_of([&] { Simulation sim(scene); }, "ranks") == 2, "steps are of one process");
 
     // To the end, with progress.
     int told = 0;

@@ -14,7 +14,7 @@ ORDER = """errors units terminal
     pool runs tables sweeps cost_knobs cost
     plots.__init__ plots.style plots.files plots.run plots.sweep plots.cost
     page words report report_cost report_sweep export
-    commands forms __init__ __main__""".split()
+    commands forms engine __init__ __main__""".split()
 PLACE = {name: place for place, name in enumerate(ORDER)}
 
 

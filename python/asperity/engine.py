@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The engine in a loop of your own: Simulation, a scene that is stepped, looked at and led by a script."""
+
+from __future__ import annotations
+
+import importlib.machinery
+import importlib.util
+import os
+import sys
+import weakref
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy
+
+from . import program
+from .errors import InputOutputError, SceneError
+from .scene import Overrides, SceneLike, assignments, scene_file
+
+NAME = "asperity._engine"
+
+
+def load() -> Any:
+    """The compiled module: of this package, or of the build that the program is of. Raises ImportError."""
+    if NAME in sys.modules:
+        return sys.modules[NAME]
+    folders = [Path(__file__).parent]
+    try:
+        folders.append(Path(program.path()).resolve().parents[1] / "library")
+    except (InputOutputError, IndexError):
+        pass
+    for folder in folders:
+        for ending in importlib.machinery.EXTENSION_SUFFIXES:
+            file = folder / ("_engine" + ending)
+            if not file.is_file():
+                continue
+            spec = importlib.util.spec_from_file_location(NAME, file)
+            module = importlib.util.module_from_spec(spec)
+            spec.loader.exec_module(module)
+            sys.modules[NAME] = module
+            return module
+    raise ImportError(
+        "asperity.Simulation needs the compiled module asperity._engine, which was not found\n"
+        f"    why: this build has none for Python {sys.version_info.major}.{sys.version_info.minor} "
+        f"(looked in {', '.join(map(str, folders))})\n"
+        "    fix: install pybind11-dev, python3-pybind11 and python3-dev, and build Asperity again", name=NAME)
+
+
+_engine = load()
+RestState, SiteMaps, Energies = _engine.RestState, _engine.SiteMaps, _engine.Energies
+
+
+class Components(NamedTuple):
+    """The three components of a field, each an array [y, x]. numpy.stack(field, -1) copies them to [y, x, 3]."""
+
+    x: numpy.ndarray
+    y: numpy.ndarray
+    z: numpy.ndarray
+
+
+class Top:
+    """The block's rigid top plane. The scene's drive leads it until a velocity is given."""
+
+    def __init__(self, simulation: Simulation):
+        self._simulation = simulation
+
+    @property
+    def position(self) -> float:
+        """Displacement since the start, Å. Written: the plane stands there in the next step, at once."""
+        return self._simulation._top_position
+
+    @position.setter
+    def position(self, z: float) -> None:
+        self._simulation._top_position = z
+
+    @property
+    def velocity(self) -> float:
+        """Velocity in the next step, m/s; positive moves away. Written: kept from then on, and the scene's path
+        ends nowhere; None: back to the scene's drive, where that was."""
+        return self._simulation._top_velocity
+
+    @velocity.setter
+    def velocity(self, v: float | None) -> None:
+        if v is None:
+            self._simulation._release_top()
+        else:
+            self._simulation._top_velocity = v
+
+
+class Substrate:
+    """The rigid substrate."""
+
+    def __init__(self, simulation: Simulation):
+        self._simulation = simulation
+
+    @property
+    def height(self) -> numpy.ndarray:
+        """Heights of its atoms, Å, a view [y, x] to be read."""
+        return self._simulation._substrate_height
+
+    @property
+    def edge(self) -> float:
+        """Edge of the periodic box, Å."""
+        return self._simulation._substrate_edge
+
+
+class Simulation(_engine.Simulation):
+    """A scene's path in time, a step at a time.
+
+        sim = asperity.Simulation("scene.toml", {"surface.rms": 2.0})
+        while not sim.done:
+            sim.step(100)
+            print(sim.time, sim.force, sim.contact)
+
+    scene      a TOML file, or a dictionary of its sections: {"surface": {"sites": 64}}
+    overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/scene.md
+
+    The path starts and turns as `asperity run` has it, to the same bits. A step takes forces at its start and
+    then moves the sites: time, force and energies are of that start, as in the rows of a run's series, and u has
+    moved on by one step. Energies and contacts are summed in observed steps: the last of each step(), each
+    output.series-th, and those of observers.
+
+    One process, on all its threads (OMP_NUM_THREADS). Raises SceneError for a scene that has no time, or that a
+    run would refuse.
+    """
+
+    def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
+        with scene_file(scene) as file:
+            super().__init__(file, assignments(overrides))
+        self._observers: list[Callable] = []
+
+    @classmethod
+    def resume(cls, file: str | os.PathLike) -> Simulation:
+        """The simulation that save() wrote, which goes on to the same bits. Observers are given anew."""
+        simulation = cls.__new__(cls)
+        _engine.Simulation.__init__(simulation, os.fspath(file))
+        simulation._observers = []
+        return simulation
+
+    @property
+    def top(self) -> Top:
+        """The top plane: .position (Å) and .velocity (m/s), to be read and written."""
+        return Top(self)
+
+    @property
+    def substrate(self) -> Substrate:
+        """The substrate: .height (Å, [y, x]) and .edge (Å)."""
+        return Substrate(self)
+
+    def every(self, n: int, observer: Callable[[Simulation], Any]) -> None:
+        """Calls observer(simulation) after each step whose number divides by n, the first one included.
+
+        It looks and writes as a script does between two steps, but does not step. What it raises ends step().
+        """
+        if not callable(observer):
+            raise SceneError("every", "is given no function", f"{observer!r} cannot be called",
+                             "give a function of the simulation")
+        # The engine must not keep alive what keeps the engine alive.
+        itself, number = weakref.ref(self), len(self._observers)
+        self._every(n, lambda: itself()._observers[number](itself()))
+        self._observers.append(observer)

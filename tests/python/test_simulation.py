@@ -1,0 +1,325 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""asperity.Simulation: the numbers of a run, views, the drive by hand, fields, files, and bad use."""
+
+import gc
+import os
+import signal
+import subprocess
+import sys
+import threading
+import weakref
+from pathlib import Path
+
+import numpy
+import pytest
+from conftest import ROOT, SMALL
+
+import asperity
+
+COLUMNS = {"time": lambda s: s.time, "force": lambda s: s.force, "top_force": lambda s: s.top_force,
+           "mean_height": lambda s: s.mean_height, "contact_fraction": lambda s: s.contact,
+           "pushed_fraction": lambda s: s.pushed, "interface_energy": lambda s: s.energy.interface,
+           "elastic_energy": lambda s: s.energy.elastic, "kinetic_energy": lambda s: s.energy.kinetic,
+           "work": lambda s: s.energy.work, "damped": lambda s: s.energy.damped,
+           "residual": lambda s: s.energy.residual}
+TINY = {"name": "tiny", "surface": {"sites": 16, "rms": 0.5},
+        "drive": {"velocity": 100.0, "timestep": 20.0}, "theory": {"renormalised": False}}
+
+
+def tiny(**overrides):
+    return asperity.Simulation(TINY, {key.replace("__", "."): value for key, value in overrides.items()})
+
+
+def in_contact(**overrides):
+    """Attracted, on the way in."""
+    sim = tiny(**overrides)
+    while sim.force > -1.0:
+        sim.step(20)
+    return sim
+
+
+def state(sim):
+    return numpy.stack([*sim.u, *sim.v])
+
+
+@pytest.mark.parametrize("device", ["none", "emulated"])
+def test_numbers_are_those_of_a_run(path_run, device):
+    sim = asperity.Simulation(SMALL, {"numerics.device": device})
+    rows = []
+    sim.every(100, lambda s: rows.append([get(s) for get in COLUMNS.values()]))
+    assert sim.step(10**9) == sim.steps == path_run.run.steps
+    assert sim.done and sim.leg == "done" and sim.step(5) == 0
+    rows = numpy.array(rows)
+    of_run = numpy.isin(path_run.series["time"], rows[:, 0])  # the run also records the step after each way
+    assert of_run.sum() == len(rows) > 8
+    for number, name in enumerate(COLUMNS):
+        assert (path_run.series[name][of_run] == rows[:, number]).all(), name
+    for way in ("approach", "pull_off"):
+        assert getattr(sim.work_of_adhesion, way) == getattr(path_run.work_of_adhesion, way)
+        assert getattr(sim.work_of_drive, way) == getattr(path_run.work_of_drive, way)
+    assert sim.lost_in_cycle == path_run.lost.cycle
+
+
+def test_relax_is_the_state_of_a_run_and_changes_nothing(path_run):
+    sim = asperity.Simulation(SMALL)
+    while sim.work_of_adhesion.approach is None:
+        sim.step()
+    before = state(sim)
+    found = sim.relax()
+    assert found.binding_energy == path_run.binding_energy
+    assert found.contact_fraction == path_run.contact_fraction
+    maps = path_run.fields["zero-load"]
+    assert (found.maps.gap == maps.gap).all() and (found.maps.pressure == maps.pressure).all()
+    assert found.maps.contact.mean() == found.contact_fraction
+    assert (state(sim) == before).all()
+    sim.step(10**9)
+    assert sim.work_of_adhesion.pull_off == path_run.work_of_adhesion.pull_off
+
+
+@pytest.mark.parametrize("device", ["none", "emulated"])
+def test_views_are_views(device):
+    sim = in_contact(numerics__device=device)
+    u = sim.u
+    assert u.z.shape == (16, 16) and not u.z.flags.owndata
+    before = u.z.copy()
+    sim.step(7)
+    assert (u.z != before).all() and (sim.u.z == u.z).all()
+    # A push on one site is felt: by it in the next step, by its neighbours in the one after.
+    other = in_contact(numerics__device=device)
+    other.step(7)
+    other.u.z[0, 3] += 0.01
+    assert other.u.z[0, 3] == u.z[0, 3] + 0.01
+    sim.step(), other.step()
+    moved = sim.v.z != other.v.z
+    assert moved[0, 3] and moved[15, 3]  # also across the periodic edge
+    sim.v.x[5, 5] = 1e-3
+    sim.step()
+    assert sim.v.x[5, 5] == pytest.approx(1e-3, abs=5e-4)
+    assert abs(sim.energy.residual) < 0.02
+
+
+def test_forces_and_heights():
+    sim = in_contact()
+    assert sim.f.z.sum() == pytest.approx(sim.force, rel=1e-9)
+    heights = sim.substrate.height
+    assert heights.shape == (16, 16) and heights.std() == pytest.approx(0.5, rel=1e-9)
+    for view in (heights, sim.f.z):
+        with pytest.raises(ValueError, match="read-only"):
+            view[0, 0] = 1.0
+    assert sim.substrate.edge == pytest.approx(16 * sim.spacing)
+    maps = sim.maps()
+    assert maps.pressure.sum() * 1e9 * sim.spacing**2 * 1e-20 == pytest.approx(
+        (sim.force) * 1.602176634e-9, rel=0.2)  # a step later
+
+
+def test_arrays_keep_the_simulation_alive():
+    sim = in_contact()
+    u, gone = sim.u.z, weakref.ref(sim)
+    sim.every(10, lambda s, held=sim.top: None)
+    values = u.copy()
+    del sim
+    gc.collect()
+    assert gone() is None and (u == values).all()
+
+
+def test_top_by_hand():
+    sim = in_contact()
+    scene_velocity = sim.top.velocity
+    assert scene_velocity == pytest.approx(-100.0)
+    sim.top.velocity = 0.0
+    place = sim.top.position
+    assert sim.step(50) == 50 and sim.top.position == place
+    sim.top.velocity = 20.0  # m/s: 0.2 Å/ps
+    sim.step(50)
+    assert sim.top.position - place == pytest.approx(0.2 * 50 * 0.02, rel=1e-9)
+    sim.top.position = place
+    assert sim.top.position == place
+    sim.step(20)
+    assert abs(sim.energy.residual) < 0.02
+    sim.top.velocity = None
+    assert sim.top.velocity == pytest.approx(scene_velocity)
+    sim.step(10**6)
+    assert sim.done
+
+
+def test_external_field_does_work():
+    # A uniform pull, sideways and up, on a block out of reach whose top stands still.
+    sim = tiny()
+    sim.top.velocity = 0.0
+    sim.step(1)
+    field = numpy.zeros((16, 16, 3))
+    field[..., 0], field[..., 2] = 0.02, 0.01
+    sim.external = field
+    start, force = sim.u.x.mean(), sim.force
+    for _ in range(40):
+        sim.step(10)
+        assert abs(sim.energy.residual) < 1e-3
+    assert sim.u.x.mean() > start and sim.external_work > 0.01
+    assert sim.force == pytest.approx(force, abs=abs(sim.force) + 1.0)  # the substrate's alone
+    sim.external.x[...] = 0.0  # in place
+    sim.external.z[...] = 0.0
+    sim.step(2)
+    work = sim.external_work
+    sim.step(50)
+    assert sim.external_work == work
+    sim.external = None
+    assert sim.external is None
+    # The same as three planes.
+    one, two = tiny(), tiny()
+    one.external, two.external = field, [field[..., c] for c in range(3)]
+    one.step(30), two.step(30)
+    assert (state(one) == state(two)).all()
+
+
+def test_save_and_resume(tmp_path):
+    sim = in_contact()
+    sim.external = numpy.full((3, 16, 16), 1e-3)
+    sim.top.velocity = -20.0
+    sim.step(33)
+    sim.save(tmp_path / "a.h5")
+    again = asperity.Simulation.resume(tmp_path / "a.h5")
+    assert again.force == sim.force and again.energy.kinetic == sim.energy.kinetic
+    assert again.contact == sim.contact and again.time == sim.time
+    assert (again.f.z == sim.f.z).all() and again.external_work == sim.external_work
+    for s in (sim, again):
+        s.step(40)
+        s.top.velocity = None
+        s.external = None
+        s.step(10**6)
+    assert sim.steps == again.steps and (state(sim) == state(again)).all()
+    assert sim.work_of_drive.pull_off == again.work_of_drive.pull_off
+    assert sim.energy.residual == again.energy.residual
+
+
+def test_observers():
+    sim, seen = tiny(), []
+    sim.every(10, lambda s: seen.append((s.steps - 1, s.energy.elastic)))
+    sim.step(25)
+    assert [n for n, _ in seen] == [0, 10, 20]
+
+    def wrong(s):
+        if s.steps > 60:
+            raise ZeroDivisionError("of mine")
+
+    sim.every(5, wrong)
+    with pytest.raises(ZeroDivisionError, match="of mine"):
+        sim.step(100)
+    assert sim.steps == 61
+    with pytest.raises(asperity.SceneError, match="observer"):
+        nested = tiny()
+        nested.every(1, lambda s: s.step())
+        nested.step()
+
+
+def test_ctrl_c_ends_between_steps():
+    sim = tiny()
+    sim.top.velocity = 0.0
+    timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))  # runs: step releases the GIL
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        sim.step(10**9)
+    timer.join()
+    assert 0 < sim.step(3) == 3
+
+
+def test_two_at_once():
+    one, two, alone = tiny(), tiny(), tiny()
+    threads = [threading.Thread(target=s.step, args=(200,)) for s in (one, two)]
+    for t in threads:
+        t.start()
+    for t in threads:
+        t.join()
+    alone.step(100), alone.step(100)
+    assert (state(one) == state(alone)).all() and (state(two) == state(alone)).all()
+
+
+def test_bad_use(tmp_path):
+    def refused(words, call):
+        with pytest.raises(asperity.SceneError) as error:
+            call()
+        text = str(error.value)
+        assert words in text and "fix:" in text, text
+
+    refused("has no time", lambda: tiny(drive__path='["zero-load"]'))
+    refused("has no time", lambda: tiny(drive__mode="quasistatic"))
+    refused("surface.sites", lambda: tiny(surface__sites=-3))
+    refused("surface.sitess", lambda: tiny(surface__sitess=3))
+    refused("timestep", lambda: tiny(drive__timestep=1000.0))
+    sim = in_contact()
+    good = state(sim)
+
+    def external(value):
+        sim.external = value
+
+    refused("(16, 16)", lambda: external(numpy.zeros((16, 16))))
+    refused("[8, 16]", lambda: external(numpy.zeros((8, 16, 3))))
+    refused("nan at [y, x] = [2, 5]", lambda: external(numpy.where(
+        numpy.arange(256).reshape(16, 16, 1) == 37, numpy.nan, numpy.zeros((16, 16, 3)))))
+    with pytest.raises(ValueError, match="broadcast"):
+        sim.u.z[...] = numpy.zeros((3, 3))
+    with pytest.raises(TypeError):
+        sim.step("many")
+    refused("-1", lambda: sim.step(-1))
+    refused("0 steps", lambda: sim.every(0, print))
+    refused("function", lambda: sim.every(3, None))
+
+    def velocity(value):
+        sim.top.velocity = value
+
+    refused("top.velocity", lambda: velocity(float("nan")))
+    refused("external field", lambda: (external(numpy.zeros((3, 16, 16))), sim.relax()))
+    external(None)
+    assert (state(sim) == good).all()
+    # No number among the positions: refused before the step, and mended.
+    sim.u.x[3, 4] = numpy.nan
+    refused("nan at [y, x] = [3, 4]", lambda: sim.step(1))
+    sim.u.x[3, 4] = good[0][3, 4]
+    sim.step(1)
+    # Through the substrate: the guard ends it, and nothing but a new one goes on.
+    sim.u.z[...] -= 200.0
+    with pytest.raises(asperity.PhysicsError, match="passed through|balance|diverged"):
+        sim.step(5)
+    for call in (lambda: sim.step(1), sim.relax, lambda: sim.save(tmp_path / "a.h5")):
+        refused("has ended", call)
+    assert sim.u.z.shape == (16, 16)
+    # Files that hold no simulation.
+    refuse_file = tmp_path / "nothing.h5"
+    refuse_file.write_bytes(b"no file of HDF5")
+    for file in (refuse_file, tmp_path / "missing.h5"):
+        with pytest.raises(asperity.InputOutputError):
+            asperity.Simulation.resume(file)
+    with pytest.raises(asperity.SceneError, match="numerics.device"):
+        tiny(numerics__device="emulated").f
+
+
+def test_without_the_module(tmp_path):
+    """The package works without it, and says what to build."""
+    (tmp_path / "asperity").symlink_to(ROOT / "python/asperity")
+    code = ("import asperity, asperity.result\n"
+            "try: asperity.Simulation\n"
+            "except ImportError as error: print(error)")
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path,
+                          env={**os.environ, "ASPERITY_PROGRAM": "/bin/true", "PYTHONPATH": str(tmp_path)})
+    assert "pybind11-dev" in done.stdout and not done.stderr, done.stdout + done.stderr
+
+
+def test_help_says_units():
+    text = "".join(doc for doc in (getattr(asperity.Simulation, name).__doc__ or "" for name in dir(asperity.Simulation)
+                                   if not name.startswith("_")))
+    for words in ("eV/Å", "ps", "Å/fs", "meV/Å²", "Ctrl-C"):
+        assert words in text
+    for name in dir(asperity.Simulation):
+        if not name.startswith("_"):
+            assert getattr(asperity.Simulation, name).__doc__, name
+
+
+@pytest.mark.parametrize("name", sorted(p.stem for p in (ROOT / "examples").glob("*.py")))
+def test_examples(name, tmp_path):
+    script = ROOT / "examples" / f"{name}.py"
+    lines = [line for line in script.read_text(encoding="utf-8").splitlines() if line.strip()]
+    assert len(lines) < 40
+    done = subprocess.run([sys.executable, str(script), "16"], capture_output=True, text=True, cwd=tmp_path,
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+    assert done.returncode == 0 and done.stdout.strip(), done.stdout + done.stderr
+    assert not list(Path(tmp_path).iterdir())
