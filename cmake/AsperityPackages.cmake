@@ -81,8 +81,14 @@ find_package(nlohmann_json QUIET)
 asperity_need(nlohmann_json_FOUND "nlohmann-json")
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h DOC "The folder that holds Random123/")
 asperity_need(RANDOM123_INCLUDE_DIR "Random123")
-find_package(Python3 QUIET COMPONENTS Interpreter)
-asperity_need(Python3_FOUND "Python 3")
+find_package(Python3 QUIET COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)
+asperity_need(Python3_Interpreter_FOUND "Python 3")
+# Of asperity.Simulation, which is built where they are. The tests, when they are asked for, need it.
+find_package(pybind11 QUIET)
+if(ASPERITY_TESTS STREQUAL "ON")
+    asperity_need(Python3_Development.Module_FOUND "headers of Python 3")
+    asperity_need(pybind11_FOUND "pybind11")
+endif()
 
 # asperity_optional(<option> <found> <name>)
 #   AUTO becomes ON or OFF by what was found; ON needs it.
