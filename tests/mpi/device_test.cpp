@@ -334,8 +334,7 @@ TEST(Device, TimesEveryStepByItsOwnClock) {
 
 TEST(Device, NeverTouchesTheFieldsOfTheHost) {
     if (!fuses() || world().size() > 1) return;
-    const auto end = [] {            // in a process of its own, for the pages stay closed
-        const Variant& c = cases[2]; // with all tables
+    const auto end = [](const Variant& c) { // in a process of its own, for the pages stay closed
         Simulation s = make(c, Communicator(), true);
         s.start(height);
         Trace trace;
@@ -357,13 +356,17 @@ TEST(Device, NeverTouchesTheFieldsOfTheHost) {
         const Interface::Tables tables = s.interface().tables();
         const int fields = closed;
         close(tables.heights->in_double().storage());
-        close(tables.mean_height->storage());
         close(tables.map);
+        if (tables.mean_height) close(tables.mean_height->storage());
+        if (const auto* p = std::get_if<Tabulated>(&s.interface().options().potential))
+            close(std::span(p->cubics, 4 * static_cast<std::size_t>(p->intervals)));
         if (fields < 6 || closed != fields + 3) _exit(1);
         advance(s, 20, trace);
         _exit(0);
     };
-    EXPECT_EXIT(end(), testing::ExitedWithCode(0), "");
+    // With a tail, and with a table for a potential.
+    for (const Variant& c : {cases[2], cases[15]})
+        EXPECT_EXIT(end(c), testing::ExitedWithCode(0), "") << testing::PrintToString(c);
 }
 
 TEST(Device, AHostThatReadsItsMemoryStops) {
