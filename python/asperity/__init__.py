@@ -28,7 +28,7 @@ def __getattr__(name: str):
     import importlib
 
     homes = {"Result": "result", "load": "result", "run": "runs", "sweep": "sweeps", "Sweep": "sweeps",
-             "load_sweep": "sweeps", "Simulation": "engine"}
+             "load_sweep": "sweeps", "Simulation": "engine", "Statics": "engine"}
     if name in homes:
         return getattr(importlib.import_module("." + homes[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
