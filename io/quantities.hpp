@@ -195,7 +195,8 @@ inline constexpr Quantity result_quantities[] = {
      "digest of what was read from surface.file: heights and width of a map, positions and types "
      "of atoms. A sweep takes a result again only if the file still holds the same"},
     {"interface.table_digest", "", "",
-     "digest of the numbers in the tables of potentials that the scene names. A sweep takes a result "
+     "digest of the numbers in the tables of potentials that the scene names. A sweep takes a "
+     "result "
      "again only if they are the same"},
     {"run.wall_seconds", "s", "", "wall time of this process"},
     {"run.processor_seconds", "s", per::rank,

@@ -287,6 +287,55 @@ private:
     std::shared_ptr<Inside> inside_;
 };
 
+/// A point of a path without time: force balance at what is held.
+struct Point {
+    double top = 0.0; ///< displacement of the top plane since the start, Å; 0 where the mean
+                      ///< height is held
+    double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
+    double force = 0.0;       ///< of the substrate on the lowest layer, eV/Å; positive pushes
+    double energy = 0.0;      ///< elastic and of the interface, eV
+    double elastic_energy = 0.0, interface_energy = 0.0; ///< eV
+    double work = 0.0;       ///< of what holds the block, since the start, eV
+    double dissipated = 0.0; ///< at instabilities, since the start, eV
+    long long instabilities = 0;
+    double contact_fraction = 0.0, pushed_fraction = 0.0;
+    long long number = 0; ///< of points since the start
+};
+
+/// A scene without time: its solids in force balance, where they are led. What is found depends on
+/// the way there, as on a path of `asperity run`; what is lost on it is counted.
+///
+///     libasperity::Statics statics(libasperity::Scene::read("scene.toml"));
+///     statics.set_mean_height(3.1);
+///     const libasperity::Point point = statics.relax();
+///
+/// It starts out of reach. The mean height is held, or the top plane; the first one that is set
+/// decides, or a load, which then holds what drive.hold says. Of a scene in time the same solids
+/// are taken, as if drive.mode were "quasistatic".
+class LIBASPERITY_API Statics {
+public:
+    explicit Statics(const Scene& scene);
+    /// Where the next relax() goes. Throw Error 2 where the other one is held.
+    void set_mean_height(double z); ///< Å above the substrate's zero
+    void set_top(double z);         ///< displacement since the start, Å
+    /// MPa; positive presses. Reached where the force comes to it, from below on the way in, from
+    /// above on the way out.
+    void set_load(double pressure);
+    /// "100 MPa"
+    void set_load(const std::string& pressure);
+    /// Goes there, point by point, and returns the point there (without a goal: where it is). look:
+    /// as of Simulation; after what it throws, the same call goes on. Throws Error 3 where no
+    /// equilibrium is found, or where the solids part before a pull is reached.
+    Point relax(const Simulation::Look& look = {});
+    Point now() const;     ///< of the last relax()
+    SiteMaps maps() const; ///< of the sites there
+
+    class Inside;
+
+private:
+    std::shared_ptr<Inside> inside_;
+};
+
 /// In a program that mpirun starts: MPI and runs on all its ranks, from the construction of the one
 /// object to its end. Does nothing in a program started alone. Without it a run takes one process.
 /// Throws Error where a launcher has started several processes that MPI does not connect.

@@ -8,7 +8,10 @@
 #include "io/error.hpp"
 #include "library/asperity.hpp"
 
+#include <chrono>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace libasperity {
@@ -34,5 +37,38 @@ auto translated(const Work& work) {
         throw Error(error.code(), error.what());
     }
 }
+
+/// FFTW's plans and HDF5 are of the process, and threads are shared: one call works at a time.
+std::recursive_mutex& at_work();
+
+template <class Work>
+auto at_work_on(const Work& work) {
+    const std::lock_guard<std::recursive_mutex> lock(at_work());
+    return translated(work);
+}
+
+[[noreturn]] void refuse(const char* where, std::string what, std::string why, std::string fix);
+/// A program that steps is one process.
+void refuse_ranks(const char* where, int ranks);
+
+/// Calls a Look, now and then.
+class Looking {
+public:
+    explicit Looking(const Simulation::Look& look) : look_(look) {}
+    void now_and_then() {
+        if (!look_ || Clock::now() < next_) return;
+        look_();
+        next_ = Clock::now() + pause;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::milliseconds pause{50};
+    const Simulation::Look& look_;
+    Clock::time_point next_ = Clock::now() + pause;
+};
+
+SiteMaps site_maps(const asperity::Interface& interface,
+                   const asperity::VectorPlane<const double>& layer, double height);
 
 } // namespace libasperity

@@ -88,7 +88,7 @@ void translate(std::exception_ptr thrown) {
 } // namespace
 
 PYBIND11_MODULE(_engine, m) {
-    m.doc() = "The engine of asperity.Simulation";
+    m.doc() = "The engine of asperity.Simulation and asperity.Statics";
     m.attr("version") = version();
     py::register_exception_translator(translate);
 
@@ -238,4 +238,55 @@ PYBIND11_MODULE(_engine, m) {
         .def_property("_top_position", &Simulation::top_position, &Simulation::set_top_position)
         .def_property("_top_velocity", &Simulation::top_velocity, &Simulation::set_top_velocity)
         .def("_release_top", &Simulation::release_top);
+
+    py::class_<Point>(m, "Point", "A point of a path without time: force balance at what is held.")
+        .def_readonly(
+            "top", &Point::top,
+            "displacement of the top plane since the start, Å; 0 where the mean height is held")
+        .def_readonly("mean_height", &Point::mean_height,
+                      "mean height of the lowest layer above the substrate's zero, Å")
+        .def_readonly(
+            "force", &Point::force,
+            "total normal force of the substrate on the lowest layer, eV/Å; positive pushes apart")
+        .def_readonly("energy", &Point::energy, "elastic energy and that of the interface, eV")
+        .def_readonly("elastic_energy", &Point::elastic_energy, "elastic energy, eV")
+        .def_readonly("interface_energy", &Point::interface_energy, "energy of the interface, eV")
+        .def_readonly("work", &Point::work, "work of what holds the block, since the start, eV")
+        .def_readonly("dissipated", &Point::dissipated,
+                      "energy dissipated at instabilities, since the start, eV")
+        .def_readonly("instabilities", &Point::instabilities, "how many points of the path had one")
+        .def_readonly("contact", &Point::contact_fraction,
+                      "share of the sites whose nearest atom is in contact")
+        .def_readonly("pushed", &Point::pushed_fraction, "share of the sites that are pushed away")
+        .def_readonly("number", &Point::number, "points of the path since the start");
+
+    py::class_<Statics>(m, "Statics")
+        .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
+            const py::gil_scoped_release release;
+            return Statics(Scene::read(file, overrides));
+        }))
+        .def(
+            "relax",
+            [](Statics& statics) {
+                const py::gil_scoped_release release;
+                return statics.relax(look_for_signals);
+            },
+            "Goes where mean_height, top or load was set, point by point; the Point there.\n\n"
+            "Without a new goal: the point where it is. Ctrl-C ends it at a point; the next "
+            "relax() goes on.\n"
+            "Raises PhysicsError where no equilibrium is found, or the solids part before a pull "
+            "is reached.")
+        .def("maps", &Statics::maps, "The SiteMaps of the sites there: gap, contact, pressure.")
+        .def_property_readonly("now", &Statics::now, "the Point of the last relax()")
+        .def_property(
+            "mean_height", [](const Statics& s) { return s.now().mean_height; },
+            &Statics::set_mean_height,
+            "mean height of the lowest layer above the substrate's zero, Å. Written: where the "
+            "next relax() leads it")
+        .def_property(
+            "top", [](const Statics& s) { return s.now().top; }, &Statics::set_top,
+            "displacement of the top plane since the start, Å. Written: where the next relax() "
+            "leads it")
+        .def("_load", py::overload_cast<double>(&Statics::set_load))
+        .def("_load", py::overload_cast<const std::string&>(&Statics::set_load));
 }

@@ -14,43 +14,31 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 namespace libasperity {
 
-namespace {
-
 namespace io = asperity::io;
 namespace units = asperity::units;
 
-/// FFTW's plans and HDF5 are of the process, and threads are shared: one call works at a time.
 std::recursive_mutex& at_work() {
     static std::recursive_mutex one;
     return one;
 }
 
-[[noreturn]] void refuse(const char* where, std::string what, std::string why, std::string fix) {
+void refuse(const char* where, std::string what, std::string why, std::string fix) {
     throw io::SceneError(io::Problem{where, std::move(what), std::move(why), std::move(fix)});
 }
 
-/// Calls a Look, now and then.
-class Looking {
-public:
-    explicit Looking(const Simulation::Look& look) : look_(look) {}
-    void now_and_then() {
-        if (!look_ || Clock::now() < next_) return;
-        look_();
-        next_ = Clock::now() + std::chrono::milliseconds(50);
-    }
+void refuse_ranks(const char* where, int ranks) {
+    if (ranks == 1) return;
+    refuse(where, fmt::format("on {} ranks", ranks),
+           "a program that steps is one process, on all its threads",
+           "start it without mpirun; runs take ranks (libasperity::run)");
+}
 
-private:
-    using Clock = std::chrono::steady_clock;
-    const Simulation::Look& look_;
-    Clock::time_point next_ = Clock::now() + std::chrono::milliseconds(50);
-};
+namespace {
 
 bool finite(const asperity::PlaneView<const double>& plane, int& bad_x, int& bad_y) {
     for (int y = 0; y < plane.ny; ++y)
@@ -98,6 +86,8 @@ Map map_of(const asperity::InterfaceMaps& maps, const char* unit, std::vector<do
             std::move(values)};
 }
 
+} // namespace
+
 SiteMaps site_maps(const asperity::Interface& interface,
                    const asperity::VectorPlane<const double>& layer, double height) {
     asperity::InterfaceMaps maps = interface.maps(layer, height);
@@ -107,6 +97,8 @@ SiteMaps site_maps(const asperity::Interface& interface,
     all.pressure = map_of(maps, "GPa", std::move(maps.pressure));
     return all;
 }
+
+namespace {
 
 /// What the numbers of a file belong to, as a checkpoint keeps it: the scene as it was given, and
 /// what was in its files.
@@ -372,12 +364,10 @@ private:
                    fmt::format("of the scene \"{}\", which has no time", case_.scene.name),
                    "drive.mode = \"quasistatic\", or drive.path = [\"zero-load\"], finds force "
                    "balance without steps",
-                   "run it (asperity run), or take drive.mode = \"dynamic\" and drive.path = "
+                   "take libasperity::Statics (asperity.Statics), or drive.mode = \"dynamic\" and "
+                   "drive.path = "
                    "[\"approach\", \"pull-off\"]");
-        if (case_.ranks != 1)
-            refuse("Simulation", fmt::format("on {} ranks", case_.ranks),
-                   "a program that steps is one process, on all its threads",
-                   "start it without mpirun; runs take ranks (libasperity::run)");
+        refuse_ranks("Simulation", case_.ranks);
         case_.require_runnable();
         asperity::require_memory(case_, asperity::Communicator());
         return asperity::surface_of(case_);
@@ -490,16 +480,6 @@ private:
     bool moved_ = false; ///< since they were brought up to date
     LayerCopy u_, v_;
 };
-
-namespace {
-
-template <class Work>
-auto at_work_on(const Work& work) {
-    const std::lock_guard<std::recursive_mutex> lock(at_work());
-    return translated(work);
-}
-
-} // namespace
 
 Simulation::Simulation(const Scene& scene)
     : inside_(at_work_on([&] { return std::make_shared<Inside>(scene); })) {

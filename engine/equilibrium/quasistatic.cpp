@@ -68,7 +68,7 @@ void QuasistaticPath::resume() {
     record_.observed = true;
 }
 
-QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
+QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg, const Goal& goal) {
     const double direction = leg == Leg::approach ? -1.0 : 1.0;
     if (direction != direction_) {
         // A new leg: its own sums, and no points of the leg before for the integral.
@@ -82,11 +82,20 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         predicts_ = reversible_;
         closing_in_ = false;
     }
-    const double aim = attracted_ ? options_.load : std::max(options_.load, 0.0);
+    const double load = goal.load.value_or(options_.load);
+    if (goal.load) // it may be beyond that load already
+        attracted_ = attracted_ || record_.force < load - slack(record_.in_contact);
+    const bool to_load = !goal.at && (leg == Leg::approach || goal.load);
+    const double aim =
+        leg == Leg::pull_off || attracted_ ? load : std::max(load, 0.0); // through attraction
     for (;;) {
         const Ahead ahead = ahead_;
         const bool all_the_way = close_in();
-        const double top = record_.top + direction * length_;
+        const double left = goal.at ? direction * (*goal.at - record_.top) : HUGE_VAL;
+        const double planned = length_;
+        const bool arrives = left <= length_;
+        if (arrives) length_ = left;
+        const double top = arrives ? *goal.at : record_.top + direction * length_;
         predicts_ = predicts_ && points_.predicts(top);
         const long long iterations = points_.iterations();
         const bool last_try = length_ <= smallest_step();
@@ -108,7 +117,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
                             "is asked for (a quarter of drive.tolerance)",
                             state.residual, state.iterations, 0.25 * options_.tolerance),
                 "a looser drive.tolerance");
-        if (state.converged && leg == Leg::approach && passes_load(state, aim) && !last_try) {
+        if (state.converged && to_load && passes_load(leg, state, aim) && !last_try) {
             const double part = (aim - record_.force) / (state.force - record_.force);
             length_ *= std::clamp(part, 0.02, 0.98);
             closing_in_ = true;
@@ -119,6 +128,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         if (last_try) step.accepted = state.converged;
         if (step.accepted && (!predicts_ || step.dissipated == 0.0)) {
             accept(state, top, step, leg);
+            if (arrives) length_ = std::max(length_, planned);
             break;
         }
         // What looks like an instability after a prediction is looked at again without.
@@ -128,14 +138,17 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg) {
         length_ *= 0.5;
         predicts_ = reversible_;
     }
+    if (goal.at) return record_.top == *goal.at ? Outcome::there : Outcome::point;
+    const double slack = this->slack(record_.in_contact);
     if (leg == Leg::approach) {
-        const double slack = this->slack(record_.in_contact);
-        attracted_ = attracted_ || record_.force < std::min(options_.load, 0.0) - slack;
-        const bool back = attracted_ && record_.force >= options_.load;
+        attracted_ = attracted_ || record_.force < std::min(load, 0.0) - slack;
+        const bool back = attracted_ && record_.force >= load;
         const bool there =
             back || (std::exchange(closing_in_, false) && record_.force >= aim - slack);
         return there ? Outcome::at_load : Outcome::point;
     }
+    if (to_load && std::exchange(closing_in_, false) && record_.force <= aim + slack)
+        return Outcome::at_load;
     const bool apart = options_.reference_height + record_.top >= interface_.start_height() &&
                        std::abs(record_.force) <= 1e-6 * strongest_;
     return apart ? Outcome::apart : Outcome::point;
@@ -151,10 +164,11 @@ double QuasistaticPath::slack(std::int64_t in_contact) const {
     return 0.25 * options_.tolerance * count;
 }
 
-/// On the approach, with the last point still on the other side of it. Also where the attraction
+/// With the last point still on the other side of it. Also where the attraction
 /// was too weak to be told from the slack.
-bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
+bool QuasistaticPath::passes_load(Leg leg, const RelaxedState& state, double aim) const {
     const double slack = this->slack(state.in_contact);
+    if (leg == Leg::pull_off) return record_.force >= aim - slack && state.force < aim - slack;
     return record_.force <= aim + slack && state.force > aim + slack;
 }
 

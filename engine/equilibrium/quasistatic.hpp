@@ -42,6 +42,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace asperity {
 
@@ -64,13 +65,20 @@ public:
     /// The block as it is.
     void start_here();
 
-    enum class Outcome { point, at_load, apart, interrupted };
+    enum class Outcome { point, at_load, apart, there, interrupted };
     /// The next point of a leg. at_load: the approach has come to its load (the path stands there
     /// exactly); apart: nothing is left of the force on the pull-off. Where a relaxation was
     /// interrupted, block and path are back at the last point, and the next call makes the whole
     /// point again. Collective. Throws io::PhysicsError where
     /// no equilibrium is found.
-    Outcome advance(Leg leg);
+    Outcome advance(Leg leg) { return advance(leg, {}); }
+    /// Another end than the leg's own: a place of what is held (Å, in the leg's direction), where
+    /// the path stands exactly and is `there`; or a load (eV/Å), at which it is at_load on both
+    /// ways.
+    struct Goal {
+        std::optional<double> at{}, load{};
+    };
+    Outcome advance(Leg leg, const Goal& goal);
 
     /// The last point. Without time: step counts points, damped is what was dissipated.
     const StepRecord& now() const { return record_; }
@@ -126,7 +134,7 @@ private:
     }
     StepCheck check(const RelaxedState& state, double top) const;
     double slack(std::int64_t in_contact) const;
-    bool passes_load(const RelaxedState& state, double aim) const;
+    bool passes_load(Leg leg, const RelaxedState& state, double aim) const;
     bool close_in();
     bool work_is_known(double top, double force) const;
     ForceWindow acceptable_force(double top) const;

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The engine in a loop of your own: Simulation, a scene that is stepped, looked at and led by a script."""
+"""The engine in a loop of your own: Simulation, a scene that is stepped, and Statics, one without time."""
 
 from __future__ import annotations
 
@@ -36,20 +36,22 @@ def load() -> Any:
             file = folder / ("_engine" + ending)
             if not file.is_file():
                 continue
+            if "OMP_WAIT_POLICY" not in os.environ:  # threads that wait sleep soon, as with the script `asperity`
+                os.environ.setdefault("GOMP_SPINCOUNT", "3000")
             spec = importlib.util.spec_from_file_location(NAME, file)
             module = importlib.util.module_from_spec(spec)
             spec.loader.exec_module(module)
             sys.modules[NAME] = module
             return module
     raise ImportError(
-        "asperity.Simulation needs the compiled module asperity._engine, which was not found\n"
+        "asperity.Simulation and asperity.Statics need the compiled module asperity._engine, which was not found\n"
         f"    why: this build has none for Python {sys.version_info.major}.{sys.version_info.minor} "
         f"(looked in {', '.join(map(str, folders))})\n"
         "    fix: install pybind11-dev, python3-pybind11 and python3-dev, and build Asperity again", name=NAME)
 
 
 _engine = load()
-RestState, SiteMaps, Energies = _engine.RestState, _engine.SiteMaps, _engine.Energies
+RestState, SiteMaps, Energies, Point = _engine.RestState, _engine.SiteMaps, _engine.Energies, _engine.Point
 
 
 class Components(NamedTuple):
@@ -161,3 +163,36 @@ class Simulation(_engine.Simulation):
         itself, number = weakref.ref(self), len(self._observers)
         self._every(n, lambda: itself()._observers[number](itself()))
         self._observers.append(observer)
+
+
+class Statics(_engine.Statics):
+    """A scene without time: its solids in force balance, where a script leads them.
+
+        statics = asperity.Statics("scene.toml")
+        for height in (6.0, 4.0, 3.0, 4.0, 6.0):
+            statics.mean_height = height
+            point = statics.relax()
+            print(point.mean_height, point.force, point.dissipated)
+
+    It starts out of reach. What is found depends on the way there, as on a path of `asperity run`, and what is
+    lost on it is counted. The mean height is held, or the top plane: the first one that is written decides (a
+    load holds what drive.hold of the scene says). Of a scene in time the same solids are taken, as if
+    drive.mode were "quasistatic". scene and overrides are as for Simulation.
+    """
+
+    def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
+        with scene_file(scene) as file:
+            super().__init__(file, assignments(overrides))
+
+    @property
+    def load(self) -> None:
+        """Load where the next relax() leads it, written as MPa or "100 MPa"; positive presses.
+
+        Reached where the force comes to it: from below on the way in, from above on the way out. Read
+        point.force.
+        """
+        raise AttributeError("a load is written, not read: the force of a point is point.force, eV/Å")
+
+    @load.setter
+    def load(self, pressure: float | str) -> None:
+        self._load(pressure)

@@ -235,8 +235,8 @@ TEST(InterfaceSweep, ForceIsMinusTheGradient) {
 }
 
 TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
-    // Sites do not feel each other: the force changes by -H v at each of them. Differences of forces
-    // need a cutoff where their steps are small.
+    // Sites do not feel each other: the force changes by -H v at each of them. Differences of
+    // forces need a cutoff where their steps are small.
     const int n = 9;
     const Tile tile{0, 0, n, n, n};
     for (const PairPotential& potential : test::potentials(15.5)) {

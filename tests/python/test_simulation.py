@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""asperity.Simulation: the numbers of a run, views, the drive by hand, fields, files, and bad use."""
+"""asperity.Simulation and Statics: the numbers of a run, views, the drive by hand, fields, files, and bad use."""
 
 import gc
 import os
@@ -293,6 +293,81 @@ def test_bad_use(tmp_path):
         tiny(numerics__device="emulated").f
 
 
+STATIC = {"name": "static", "surface": {"sites": 16, "rms": 1.0}, "block": {"thickness": 16},
+          "drive": {"mode": "quasistatic", "hold": "mean-height"}, "theory": {"renormalised": False}}
+
+
+@pytest.mark.parametrize("hold", ["top", "mean-height"])
+def test_statics_meets_the_path_of_a_run(results, hold):
+    """Led to points of a run's path on the way in, and out again, it has their forces, energies and losses."""
+    soft = {"drive.hold": hold, "block.thickness": 128}
+    run = asperity.run(STATIC, soft, out=results / f"statics-{hold}")
+    statics, name = asperity.Statics(STATIC, soft), {"top": "top", "mean-height": "mean_height"}[hold]
+    series, inwards = run.series, run.series["leg"] == 0
+    scale, depth = abs(series["force"]).max(), abs(series["interface_energy"]).max()
+    for way in (inwards, ~inwards):
+        for k in numpy.flatnonzero(way)[2::6]:
+            setattr(statics, name, series[name][k])
+            point = statics.relax()
+            assert getattr(point, name) == pytest.approx(series[name][k], abs=1e-12)
+            assert point.force == pytest.approx(series["force"][k], abs=2e-3 * scale)
+            energy = series["interface_energy"][k] + series["elastic_energy"][k]
+            assert point.energy == pytest.approx(energy, abs=2e-3 * depth)
+            assert point.dissipated == pytest.approx(series["dissipated"][k], abs=2e-3 * depth)
+    assert (point.dissipated > 0.05 * depth) == (hold == "top")  # the block snaps on its own spring
+    # It starts and ends out of reach: what was put in and not given back was lost.
+    setattr(statics, name, getattr(statics, name) + 30.0)
+    apart = statics.relax()
+    assert abs(apart.energy) < 1e-3 and apart.contact == 0.0
+    assert apart.work == pytest.approx(apart.dissipated, abs=2e-3 * depth)
+
+
+def test_statics_under_loads():
+    statics, area = asperity.Statics(STATIC), (16 * 2.6) ** 2
+    per_mpa = area / 160217.66208
+
+    def at(load):
+        statics.load = load
+        return statics.relax()
+
+    rest = at(0.0)
+    assert rest.contact > 0.0 and abs(rest.force) < 1e-2
+    pressed = at("1 GPa")
+    assert pressed.force == pytest.approx(1000 * per_mpa, abs=1e-2)
+    assert pressed.mean_height < rest.mean_height and pressed.contact >= rest.contact
+    less = at(300.0)
+    assert less.force == pytest.approx(300 * per_mpa, abs=1e-2) and less.mean_height > pressed.mean_height
+    pulled = at(-100.0)
+    assert pulled.force == pytest.approx(-100 * per_mpa, abs=1e-2)
+    assert statics.maps().pressure.mean() == pytest.approx(-0.1, abs=0.01)
+    with pytest.raises(asperity.PhysicsError, match="parted"):
+        at("-50 GPa")
+    assert statics.relax().contact == 0.0  # where it is
+    assert at(0.0).contact > 0.0  # and in again
+
+
+def test_statics_refuses():
+    statics = asperity.Statics(TINY)  # of a scene in time the solids alone
+    statics.top = -1.0
+    assert statics.relax().top == -1.0
+    for wrong in (lambda: setattr(statics, "mean_height", 3.0), lambda: setattr(statics, "top", float("inf")),
+                  lambda: setattr(statics, "load", "3 Å")):
+        with pytest.raises(asperity.SceneError, match="fix:"):
+            wrong()
+    timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+    held = asperity.Statics(STATIC, {"surface.sites": 64, "drive.tolerance": 1e-6})
+    held.mean_height = 1.0
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        held.relax()
+    timer.join()
+    part_way = held.now.number
+    held.mean_height = held.mean_height - 0.5 if part_way else 20.0
+    held.relax()
+    with pytest.raises(AttributeError, match="written"):
+        held.load
+
+
 def test_without_the_module(tmp_path):
     """The package works without it, and says what to build."""
     (tmp_path / "asperity").symlink_to(ROOT / "python/asperity")
@@ -305,13 +380,13 @@ def test_without_the_module(tmp_path):
 
 
 def test_help_says_units():
-    text = "".join(doc for doc in (getattr(asperity.Simulation, name).__doc__ or "" for name in dir(asperity.Simulation)
-                                   if not name.startswith("_")))
-    for words in ("eV/Å", "ps", "Å/fs", "meV/Å²", "Ctrl-C"):
+    names = [(kind, name) for kind in (asperity.Simulation, asperity.Statics) for name in dir(kind)
+             if not name.startswith("_")]
+    for kind, name in names:
+        assert getattr(kind, name).__doc__, name
+    text = "".join(getattr(kind, name).__doc__ for kind, name in names)
+    for words in ("eV/Å", "ps", "Å/fs", "meV/Å²", "MPa", "Ctrl-C"):
         assert words in text
-    for name in dir(asperity.Simulation):
-        if not name.startswith("_"):
-            assert getattr(asperity.Simulation, name).__doc__, name
 
 
 @pytest.mark.parametrize("name", sorted(p.stem for p in (ROOT / "examples").glob("*.py")))
