@@ -91,7 +91,7 @@ TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
 
 TEST(Effects, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
     if (!fuses(processor_level())) return; // refused for another reason
-    if (cuda_device_count() >= 8) return;               // more have no number
+    if (cuda_device_count() >= 8) return;  // more have no number
     const std::string beyond = "numerics.device=" + std::to_string(cuda_device_count());
     try {
         case_with({beyond}).require_runnable();
