@@ -504,7 +504,7 @@ void Simulation::every(long long n, std::function<void()> f) {
 bool Simulation::done() const { return inside_->path().over(); }
 
 long long Simulation::steps() const { return inside_->engine().steps(); }
-double Simulation::time() const { return inside_->now().time / units::picosecond; }
+double Simulation::time() const { return inside_->now().time * 1e-3; } // as the series has it
 double Simulation::force() const { return inside_->now().force; }
 double Simulation::top_force() const { return inside_->now().top_force; }
 double Simulation::mean_height() const { return inside_->now().mean_height; }
