@@ -13,6 +13,7 @@ cp "$source/cmake/packages.txt" "a house/cmake/"
 cp "$asperity" "a house/build/release/engine/asperity"
 asperity="$work/a house/asperity"
 export ASPERITY_SKIP_BUILD=1
+unset ASPERITY_PRESET # of the build under test
 
 cd elsewhere || exit 1
 expect 0 info
