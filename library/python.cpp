@@ -85,6 +85,22 @@ void translate(std::exception_ptr thrown) {
     }
 }
 
+/// "Point(contact=0.98, energy=-492.5, ...)", every number of it by its name.
+std::string shown(const py::object& of) {
+    const py::object type = py::type::of(of);
+    std::string text;
+    for (const py::handle& name : py::module_::import("builtins").attr("dir")(type)) {
+        const auto word = name.cast<std::string>();
+        if (word.starts_with("_")) continue;
+        const py::object value = of.attr(name);
+        const bool number = py::isinstance<py::float_>(value);
+        text += (text.empty() ? "" : ", ") + word + "=" +
+                (number ? py::str("{:.6g}").attr("format")(value) : py::repr(value))
+                    .cast<std::string>();
+    }
+    return type.attr("__name__").cast<std::string>() + "(" + text + ")";
+}
+
 } // namespace
 
 PYBIND11_MODULE(_engine, m) {
@@ -103,13 +119,15 @@ PYBIND11_MODULE(_engine, m) {
         .def_readonly("damped", &Energies::damped, "energy lost to the medium that damps, eV")
         .def_readonly("radiated", &Energies::radiated, "energy taken by absorbing seams, eV")
         .def_readonly("residual", &Energies::residual,
-                      "what the energy balance is off by, over the largest of its terms");
+                      "what the energy balance is off by, over the largest of its terms")
+        .def("__repr__", shown);
 
     py::class_<BothWays>(
         m, "BothWays",
         "A number of the approach and one of the pull-off, meV/Å²; None until that way has ended.")
         .def_readonly("approach", &BothWays::approach, "of the approach, meV/Å²")
-        .def_readonly("pull_off", &BothWays::pull_off, "of the pull-off, meV/Å²");
+        .def_readonly("pull_off", &BothWays::pull_off, "of the pull-off, meV/Å²")
+        .def("__repr__", shown);
 
     py::class_<SiteMaps>(m, "SiteMaps", "Maps of the sites, [y, x].")
         .def_property_readonly(
@@ -134,7 +152,8 @@ PYBIND11_MODULE(_engine, m) {
                       "of the lowest layer above the substrate's zero, Å")
         .def_readonly("residual", &RestState::residual, "largest force left on a site, eV/Å")
         .def_readonly("iterations", &RestState::iterations, "iterations of the relaxation")
-        .def_readonly("maps", &RestState::maps, "its SiteMaps: gap, contact, pressure");
+        .def_readonly("maps", &RestState::maps, "its SiteMaps: gap, contact, pressure")
+        .def("__repr__", shown);
 
     py::class_<Simulation>(m, "Simulation")
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
@@ -258,7 +277,8 @@ PYBIND11_MODULE(_engine, m) {
         .def_readonly("contact", &Point::contact_fraction,
                       "share of the sites whose nearest atom is in contact")
         .def_readonly("pushed", &Point::pushed_fraction, "share of the sites that are pushed away")
-        .def_readonly("number", &Point::number, "points of the path since the start");
+        .def_readonly("number", &Point::number, "points of the path since the start")
+        .def("__repr__", shown);
 
     py::class_<Statics>(m, "Statics")
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {

@@ -389,6 +389,13 @@ def test_help_says_units():
         assert words in text
 
 
+def test_numbers_are_shown_by_name():
+    sim = asperity.Simulation({"surface": {"sites": 16}, "block": {"thickness": 8}})
+    sim.step(5)
+    shown = repr(sim.energy)
+    assert shown.startswith("Energies(damped=") and f"elastic={sim.energy.elastic:.6g}" in shown
+
+
 @pytest.mark.parametrize("name", sorted(p.stem for p in (ROOT / "examples").glob("*.py")))
 def test_examples(name, tmp_path):
     script = ROOT / "examples" / f"{name}.py"
