@@ -11,7 +11,7 @@ import asperity
 sites = int(sys.argv[1]) if len(sys.argv) > 1 else 64
 sim = asperity.Simulation({"surface": {"sites": sites, "rms": 0.8}, "block": {"thickness": 16},
                            "drive": {"velocity": 20.0, "timestep": 20.0}})
-while sim.leg == "approach":  # the scene's own drive makes contact
+while sim.segment == "approach":  # the scene's own drive makes contact
     sim.step(20)
 
 rate = 2e-3 * sites**2  # eV/Å each ps

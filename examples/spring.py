@@ -13,7 +13,7 @@ import asperity
 sites = int(sys.argv[1]) if len(sys.argv) > 1 else 64
 sim = asperity.Simulation({"surface": {"sites": sites, "rms": 0.8},
                            "drive": {"velocity": 50.0, "timestep": 20.0}})
-while sim.leg == "approach":
+while sim.segment == "approach":
     sim.step(20)
 sim.top.velocity = 0.0
 

@@ -170,14 +170,14 @@ struct VectorView {
     View x, y, z;
 };
 
-/// eV, since the start; residual: what the energy balance is off by, over the largest of its terms.
+/// eV, since the start; balance_error: what the energy balance is off by, over the largest of its terms.
 struct Energies {
     double elastic = 0.0, interface = 0.0, kinetic = 0.0;
     double work = 0.0;     ///< done on the block: by the top plane, the medium that damps, noise,
                            ///< and an external field
     double damped = 0.0;   ///< lost to the medium that damps
     double radiated = 0.0; ///< taken by absorbing seams
-    double residual = 0.0;
+    double balance_error = 0.0;
 };
 
 /// Of the two ways of a path, meV/Å^2; empty until that way has ended.
@@ -195,7 +195,7 @@ struct SiteMaps {
 struct RestState {
     double binding_energy = 0.0; ///< meV/Å^2
     double elastic_energy = 0.0; ///< meV/Å^2
-    double contact_fraction = 0.0, pushed_fraction = 0.0;
+    double contact_fraction = 0.0, repulsive_fraction = 0.0;
     double mean_height = 0.0; ///< Å
     double residual = 0.0;    ///< largest force left on a site, eV/Å
     long long iterations = 0;
@@ -236,10 +236,10 @@ public:
     // Of the last observed step.
     Energies energy() const;
     double contact_fraction() const; ///< sites whose nearest atom is in contact, over all
-    double pushed_fraction() const;  ///< sites that are pushed away
+    double repulsive_fraction() const;  ///< sites that are pushed away
 
     // Of the ways of the scene's path, as in result.json.
-    std::string leg() const; ///< "approach", "pull-off" or "done"
+    std::string segment() const; ///< of drive.path, as the scene has it; "done" after the last
     BothWays work_of_adhesion() const;
     BothWays work_of_drive() const;
     std::optional<double> lost_in_cycle() const; ///< meV/Å^2
@@ -298,7 +298,7 @@ struct Point {
     double work = 0.0;       ///< of what holds the block, since the start, eV
     double dissipated = 0.0; ///< at instabilities, since the start, eV
     long long instabilities = 0;
-    double contact_fraction = 0.0, pushed_fraction = 0.0;
+    double contact_fraction = 0.0, repulsive_fraction = 0.0;
     long long number = 0; ///< of points since the start
 };
 

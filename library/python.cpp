@@ -118,7 +118,7 @@ PYBIND11_MODULE(_engine, m) {
                       "and an external field")
         .def_readonly("damped", &Energies::damped, "energy lost to the medium that damps, eV")
         .def_readonly("radiated", &Energies::radiated, "energy taken by absorbing seams, eV")
-        .def_readonly("residual", &Energies::residual,
+        .def_readonly("balance_error", &Energies::balance_error,
                       "what the energy balance is off by, over the largest of its terms")
         .def("__repr__", shown);
 
@@ -145,9 +145,9 @@ PYBIND11_MODULE(_engine, m) {
                       "the least work that separates the solids from here, meV/Å²")
         .def_readonly("elastic_energy", &RestState::elastic_energy, "elastic energy, meV/Å²")
         .def_readonly("contact_fraction", &RestState::contact_fraction,
-                      "share of the sites in contact")
-        .def_readonly("pushed_fraction", &RestState::pushed_fraction,
-                      "share of the sites that are pushed away")
+                      "fraction of the sites in contact")
+        .def_readonly("repulsive_fraction", &RestState::repulsive_fraction,
+                      "fraction of the sites that are pushed away")
         .def_readonly("mean_height", &RestState::mean_height,
                       "of the lowest layer above the substrate's zero, Å")
         .def_readonly("residual", &RestState::residual, "largest force left on a site, eV/Å")
@@ -212,13 +212,13 @@ PYBIND11_MODULE(_engine, m) {
                                "mean height of the lowest layer above the substrate's zero, Å")
         .def_property_readonly("energy", &Simulation::energy,
                                "Energies of the last observed step, eV: elastic, interface, "
-                               "kinetic, work, damped, radiated, residual")
+                               "kinetic, work, damped, radiated, balance_error")
         .def_property_readonly(
             "contact", &Simulation::contact_fraction,
-            "share of the sites whose nearest atom is in contact, at the last observed step")
-        .def_property_readonly("pushed", &Simulation::pushed_fraction,
-                               "share of the sites that are pushed away, at the last observed step")
-        .def_property_readonly("leg", &Simulation::leg,
+            "fraction of the sites whose nearest atom is in contact, at the last observed step")
+        .def_property_readonly("repulsive_fraction", &Simulation::repulsive_fraction,
+                               "fraction of the sites that are pushed away, at the last observed step")
+        .def_property_readonly("segment", &Simulation::segment,
                                "where the scene's path is: 'approach', 'pull-off' or 'done'")
         .def_property_readonly(
             "work_of_adhesion", &Simulation::work_of_adhesion,
@@ -275,8 +275,8 @@ PYBIND11_MODULE(_engine, m) {
                       "energy dissipated at instabilities, since the start, eV")
         .def_readonly("instabilities", &Point::instabilities, "how many points of the path had one")
         .def_readonly("contact", &Point::contact_fraction,
-                      "share of the sites whose nearest atom is in contact")
-        .def_readonly("pushed", &Point::pushed_fraction, "share of the sites that are pushed away")
+                      "fraction of the sites whose nearest atom is in contact")
+        .def_readonly("repulsive_fraction", &Point::repulsive_fraction, "fraction of the sites that are pushed away")
         .def_readonly("number", &Point::number, "points of the path since the start")
         .def("__repr__", shown);
 

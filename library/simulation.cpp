@@ -133,7 +133,7 @@ public:
     explicit Inside(const Scene& scene)
         : scene_(scene), surface_(checked_surface()), grid_(case_.grid(0)),
           simulation_(case_.simulation, surface_, asperity::Communicator(), grid_),
-          path_(case_, simulation_, findings_),
+          path_(case_, simulation_, results_),
           lowest_height_(surface_.statistics.lowest - reach_of(case_.simulation.interface)) {}
 
     void start() { path_.start(); }
@@ -192,7 +192,7 @@ public:
         state.binding_energy = z.binding_energy;
         state.elastic_energy = z.elastic;
         state.contact_fraction = z.contact_fraction;
-        state.pushed_fraction = z.repulsive_fraction;
+        state.repulsive_fraction = z.repulsive_fraction;
         state.mean_height = z.mean_height;
         state.residual = z.residual;
         state.iterations = z.iterations;
@@ -297,7 +297,7 @@ public:
     const asperity::StepRecord& now() const { return now_; }
     asperity::Simulation& engine() { return simulation_; }
     const asperity::Case& of_case() const { return case_; }
-    const asperity::Findings& findings() const { return findings_; }
+    const asperity::PathResults& results() const { return results_; }
     const asperity::Surface& surface() const { return surface_; }
     const asperity::DrivenPath& path() const { return path_; }
 
@@ -317,7 +317,7 @@ private:
         template <class Visitor>
         void visit(Visitor& v) {
             v("path", all.path_);
-            v("findings", all.findings_);
+            v("results", all.results_);
             bool by_hand = all.simulation_.drive().by_hand().has_value();
             double velocity = all.simulation_.drive().by_hand().value_or(0.0);
             v("top.by_hand", by_hand);
@@ -401,7 +401,7 @@ private:
                 throw asperity::step_failed(*wrong, asperity::fastest_site(simulation_), case_,
                                             "or resume the last state that was saved");
             path_.follow(now_);
-            if (const auto leg = path_.to_conclude()) path_.conclude(*leg);
+            if (const auto segment = path_.to_conclude()) path_.conclude(*segment);
         } catch (const std::exception& error) {
             failure_ = error.what();
             throw;
@@ -464,7 +464,7 @@ private:
     const asperity::Surface surface_;
     const asperity::ProcessGrid grid_;
     asperity::Simulation simulation_;
-    asperity::Findings findings_;
+    asperity::PathResults results_;
     asperity::DrivenPath path_;
     const double lowest_height_; ///< below it the block has passed through the substrate, Å
     asperity::StepRecord now_;
@@ -519,22 +519,25 @@ double Simulation::contact_fraction() const {
     const double sites = inside_->of_case().scene.surface.sites;
     return static_cast<double>(inside_->now().in_contact) / (sites * sites);
 }
-double Simulation::pushed_fraction() const {
+double Simulation::repulsive_fraction() const {
     const double sites = inside_->of_case().scene.surface.sites;
     return static_cast<double>(inside_->now().repulsive) / (sites * sites);
 }
 
-std::string Simulation::leg() const { return std::string(name(inside_->engine().leg())); }
+std::string Simulation::segment() const {
+    const asperity::Drive& drive = std::as_const(inside_->engine()).drive();
+    return inside_->path().over() ? "done" : drive.now().text;
+}
 BothWays Simulation::work_of_adhesion() const {
-    const asperity::Findings& found = inside_->findings();
+    const asperity::PathResults& found = inside_->results();
     return {found.approach.interface_work, found.pull_off.interface_work};
 }
 BothWays Simulation::work_of_drive() const {
-    const asperity::Findings& found = inside_->findings();
+    const asperity::PathResults& found = inside_->results();
     return {found.approach.drive_work, found.pull_off.drive_work};
 }
 std::optional<double> Simulation::lost_in_cycle() const {
-    return inside_->findings().lost_in_cycle;
+    return inside_->results().lost_in_cycle;
 }
 
 double Simulation::top_position() const { return std::as_const(inside_->engine()).block().top(); }

@@ -48,11 +48,12 @@ public:
     void go_to(Held held, double at) {
         if (!std::isfinite(at)) refuse_number(at);
         hold(held);
-        goal_ = {.at = held == Held::top ? at : at - interface_.start_height()};
+        const double height = held == Held::top ? at + interface_.start_height() : at;
+        goal_ = {asperity::Segment::height, height, 0, ""};
     }
     void go_to_load(double pressure) {
         if (!std::isfinite(pressure)) refuse_number(pressure);
-        goal_ = {.load = pressure * units::megapascal * case_.area()};
+        goal_ = {asperity::Segment::load, pressure * units::megapascal * case_.area(), 0, ""};
     }
 
     Point relax(const Simulation::Look& look) {
@@ -63,15 +64,15 @@ public:
         Looking looking(look);
         looking_ = &looking;
         using Outcome = asperity::QuasistaticPath::Outcome;
-        const auto leg = way_to_goal();
-        for (auto outcome = Outcome::point; leg && outcome == Outcome::point;) {
-            outcome = path_->advance(*leg, goal_);
-            if (outcome == Outcome::interrupted)
-                std::rethrow_exception(std::exchange(thrown_, nullptr));
-            guard();
-            if (outcome == Outcome::apart) part();
+        if (const auto goal = std::exchange(goal_, {})) {
+            path_->begin(*goal);
+            for (auto outcome = Outcome::point; outcome == Outcome::point;) {
+                outcome = path_->advance();
+                if (outcome == Outcome::interrupted)
+                    std::rethrow_exception(std::exchange(thrown_, nullptr));
+                guard();
+            }
         }
-        goal_ = {};
         return now();
     }
 
@@ -93,7 +94,7 @@ public:
         p.dissipated = r.damped;
         p.instabilities = path_->dissipation().events;
         p.contact_fraction = static_cast<double>(r.in_contact) / (sites * sites);
-        p.pushed_fraction = static_cast<double>(r.repulsive) / (sites * sites);
+        p.repulsive_fraction = static_cast<double>(r.repulsive) / (sites * sites);
         p.number = r.step;
         return p;
     }
@@ -131,20 +132,6 @@ private:
         }
         return thrown_ != nullptr;
     }
-    /// Down or up, all the way; empty: it is there.
-    std::optional<asperity::Leg> way_to_goal() const {
-        const asperity::StepRecord& r = path_->now();
-        if (goal_.at) {
-            if (*goal_.at == r.top) return std::nullopt;
-            return *goal_.at < r.top ? asperity::Leg::approach : asperity::Leg::pull_off;
-        }
-        if (!goal_.load) return std::nullopt;
-        const double slack = path_->slack();
-        const bool apart = r.in_contact == 0 && std::abs(r.force) <= slack;
-        if (apart || r.force < *goal_.load - slack) return asperity::Leg::approach;
-        if (r.force > *goal_.load + slack) return asperity::Leg::pull_off;
-        return std::nullopt;
-    }
     void guard() const {
         const auto wrong = asperity::violation(
             path_->now(), surface_.statistics.lowest - reach_of(case_.simulation.interface),
@@ -154,12 +141,6 @@ private:
                                    "it was led there, or steps missed too much of the energy",
                                    "lead it less far, or take a smaller drive.tolerance");
     }
-    [[noreturn]] void part() {
-        const double pull = -*std::exchange(goal_, {}).load / (case_.area() * units::megapascal);
-        throw io::PhysicsError(
-            fmt::format("the solids parted before the pull of {:.4g} MPa was reached", pull),
-            "the attraction is nowhere that large on this way", "take a smaller pull");
-    }
 
     const asperity::Case case_;
     const asperity::Surface surface_;
@@ -168,7 +149,7 @@ private:
     std::optional<Held> held_;
     std::optional<asperity::QuasistaticPath> path_;
     bool started_ = false;
-    asperity::QuasistaticPath::Goal goal_;
+    std::optional<asperity::Segment> goal_; ///< where the next relaxation leads it
     Looking* looking_ = nullptr;
     std::exception_ptr thrown_;
 };

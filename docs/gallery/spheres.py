@@ -21,9 +21,9 @@ with style():
     for axis, rms in zip(axes, (0, 3, 6)):
         lowest, left, right = 0.0, 1e9, -1e9
         for number, run in enumerate(r for r in runs if r.key("surface.rms") == rms):
-            leg, height, force = (run.series[name] for name in ("leg", "mean_height", "force"))
+            segment, height, force = (run.series[name] for name in ("segment", "mean_height", "force"))
             for which, colour, name in ((0, BLUE, "approach"), (1, RED, "pull-off")):
-                axis.plot(height[leg == which], force[leg == which] / NANONEWTON, color=colour, lw=1,
+                axis.plot(height[segment == which], force[segment == which] / NANONEWTON, color=colour, lw=1,
                           label=name if number == 0 else None)
             felt = abs(force) > 0.01 * -force.min()
             lowest, left, right = min(lowest, force.min()), min(left, height[felt].min()), max(right, height[felt].max())

@@ -2,67 +2,149 @@
 // SPDX-License-Identifier: MIT
 #include "engine/dynamics/drive.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace asperity {
-
-std::string_view name(Leg leg) {
-    switch (leg) {
-    case Leg::approach:
-        return "approach";
-    case Leg::pull_off:
-        return "pull-off";
-    case Leg::done:
-        break;
-    }
-    return "done";
-}
 
 bool out_of_reach(double top, double force, double strongest, double at_start) {
     return top >= 0.0 && std::abs(force) <= std::max(1e-6 * strongest, std::abs(at_start));
 }
 
-Drive::Drive(const DriveOptions& options)
-    : options_(options), leg_(options.approach   ? Leg::approach
-                              : options.pull_off ? Leg::pull_off
-                                                 : Leg::done) {}
-
-double Drive::velocity(double t) const {
-    if (by_hand_) return *by_hand_;
-    if (leg_ == Leg::approach) return -options_.velocity;
-    // From -v (after an approach) or rest to +v along half a cosine.
-    const double from = options_.approach ? -options_.velocity : 0.0, to = options_.velocity;
-    const double s = options_.ramp > 0.0 ? (t - turned_at_) / options_.ramp : 1.0;
-    if (s >= 1.0) return to;
-    return from + (to - from) * 0.5 * (1.0 - std::cos(std::numbers::pi * s));
+double VelocityProfile::at(double t, double ramp) const {
+    /// 0 to 1 along half a cosine.
+    const auto risen = [&](double since) {
+        const double s = ramp > 0.0 ? since / ramp : 1.0;
+        return s >= 1.0 ? 1.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * s));
+    };
+    if (t >= cruise) return to - to * risen(t - cruise);
+    const double r = risen(t);
+    return r == 1.0 ? to : from + (to - from) * r;
 }
 
-bool Drive::observe(double t, double force, bool gone) {
-    if (by_hand_) return false;
-    if (leg_ == Leg::approach) {
-        // Through attraction (beyond the load, if that pulls) and back to the load; or, where
-        // nothing attracts that much, pressed.
-        // A force of exactly zero is no contact: a warm block's tip was in reach and left it again.
-        if (force == 0.0) {
-            attracted_ = false;
-            return false;
-        }
-        const double load = options_.load_force;
-        if (force < std::min(load, 0.0)) attracted_ = true;
-        const bool back = attracted_ && force >= load;
-        const bool pressed = force > std::max(load, 0.0);
-        if (!back && !pressed) return false;
-        leg_ = options_.pull_off ? Leg::pull_off : Leg::done;
-        turned_at_ = t;
-        return true;
+double VelocityProfile::end(double ramp) const {
+    if (to != 0.0) return cruise + ramp;
+    return from != 0.0 ? ramp : 0.0;
+}
+
+VelocityProfile VelocityProfile::over(double distance, double from, double velocity, double ramp) {
+    const double left = distance - 0.5 * from * ramp; // beyond where the first velocity fades out
+    if (left == 0.0) return {from, 0.0, HUGE_VAL};
+    const double fastest = ramp > 0.0 ? std::min(velocity, std::abs(left) / ramp) : velocity;
+    return {from, std::copysign(fastest, left), std::abs(left) / fastest};
+}
+
+Drive::Drive(const DriveOptions& options) : options_(options) {
+    if (options_.path.empty()) return;
+    // A path that goes down from out of reach does so from the first step on.
+    const Segment& first = options_.path.front();
+    const bool down = first.kind == Segment::approach || first.kind == Segment::load;
+    if (down) normal_ = {-options_.velocity, -options_.velocity, HUGE_VAL};
+    if (first.kind == Segment::pull_off) normal_ = {0.0, options_.velocity, HUGE_VAL};
+}
+
+void Drive::begin_at(double reference_height) {
+    reference_height_ = reference_height;
+    if (at_ == 0 && begun_ == 0.0 && now().kind == Segment::height)
+        normal_ = VelocityProfile::over(now().amount - reference_height, 0.0, options_.velocity,
+                                        options_.ramp);
+}
+
+std::size_t Drive::segment() const {
+    return std::min(at_, options_.path.empty() ? 0 : options_.path.size() - 1);
+}
+
+double Drive::velocity(double t) const {
+    return by_hand_ ? *by_hand_ : normal_.at(t - begun_, options_.ramp);
+}
+
+double Drive::slide_velocity(int axis, double t) const {
+    return by_hand_ ? 0.0 : slide_[static_cast<std::size_t>(axis)].at(t - begun_, options_.ramp);
+}
+
+bool Drive::observe(const Felt& felt) {
+    if (by_hand_ || at_ == options_.path.size() || !ended(felt)) return false;
+    ++at_;
+    if (at_ < options_.path.size()) begin(felt);
+    return true;
+}
+
+/// The next segment, from the velocity that the top plane has.
+void Drive::begin(const Felt& felt) {
+    const Segment& next = options_.path[at_];
+    const double from = normal_.at(felt.time - begun_, options_.ramp), v = options_.velocity;
+    begun_ = felt.time;
+    attracted_ = false;
+    slide_ = {VelocityProfile{}, VelocityProfile{}};
+    switch (next.kind) {
+    case Segment::approach:
+        normal_ = {from, -v, HUGE_VAL};
+        break;
+    case Segment::pull_off:
+        normal_ = {from, v, HUGE_VAL};
+        break;
+    case Segment::load:
+        normal_ = {from, felt.force < next.amount ? -v : v, HUGE_VAL};
+        break;
+    case Segment::height:
+        normal_ = VelocityProfile::over(next.amount - reference_height_ - felt.top, from, v,
+                                        options_.ramp);
+        break;
+    case Segment::slide:
+        normal_ = {from, 0.0, HUGE_VAL};
+        slide_[static_cast<std::size_t>(next.axis)] =
+            VelocityProfile::over(next.amount, 0.0, v, options_.ramp);
+        break;
+    case Segment::hold:
+    case Segment::zero_load:
+        normal_ = {from, 0.0, HUGE_VAL};
+        break;
     }
-    if (leg_ == Leg::pull_off && gone) {
-        leg_ = Leg::done;
-        return true;
+}
+
+bool Drive::ended(const Felt& felt) {
+    const Segment& now = options_.path[at_];
+    const double since = felt.time - begun_;
+    switch (now.kind) {
+    case Segment::approach:
+        return approach_ended(felt.force);
+    case Segment::pull_off:
+        return felt.gone;
+    case Segment::load: {
+        const bool up = normal_.to > 0.0;
+        if (up && felt.gone && now.amount < 0.0)
+            throw io::PhysicsError(
+                fmt::format("the solids parted before the pull of \"{}\" was reached", now.text),
+                "the attraction is nowhere that large on this way", "take a smaller pull");
+        return up ? felt.force <= now.amount : felt.force >= now.amount;
     }
-    return false;
+    case Segment::height:
+        return since >= normal_.end(options_.ramp);
+    case Segment::hold:
+        return since >= normal_.end(options_.ramp) + now.amount;
+    case Segment::slide:
+        return since >= slide_[static_cast<std::size_t>(now.axis)].end(options_.ramp);
+    case Segment::zero_load:
+        break;
+    }
+    return true;
+}
+
+/// Through attraction (beyond the load, if that pulls) and back to the load; or, where nothing
+/// attracts that much, pressed.
+bool Drive::approach_ended(double force) {
+    // A force of exactly zero is no contact: a warm block's tip was in reach and left it again.
+    if (force == 0.0) {
+        attracted_ = false;
+        return false;
+    }
+    const double load = options_.load_force;
+    if (force < std::min(load, 0.0)) attracted_ = true;
+    const bool back = attracted_ && force >= load;
+    const bool pressed = force > std::max(load, 0.0);
+    return back || pressed;
 }
 
 } // namespace asperity

@@ -1,29 +1,37 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What moves the rigid top plane (docs/model.md).
+// What moves the rigid top plane over the substrate (docs/explanation/model.md), segment after
+// segment of the path.
 //
-// It moves down at constant velocity until the total normal force on the lowest layer has been
-// attractive and has returned to the prescribed load (zero), then reverses and moves up until the
-// force vanishes. The reversal is a smooth ramp: a sudden change of velocity by dv would send a
-// plane stress wave rho c dv (0.6 GPa for 2 x 5 m/s) through the block, which acts on the interface
-// as a load.
+// An approach moves down at constant velocity until the total normal force on the lowest layer has
+// been attractive and has returned to the prescribed load (zero); a pull-off moves up until the
+// force vanishes; a load moves up or down until the force is there; a height, a hold and a slide
+// end at rest. Velocities change along smooth ramps: a sudden change by dv would send a plane
+// stress wave rho c dv (0.6 GPa for 2 x 5 m/s) through the block, which acts on the interface as a
+// load.
+//
+// A slide moves the substrate under the block by the negative of its distance: seen from the block,
+// and from the damping medium that goes with it, nothing else changes.
 #pragma once
 
+#include "engine/scene/segment.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <optional>
-#include <string_view>
+#include <vector>
 
 namespace asperity {
 
-enum class Leg { approach, pull_off, done };
-std::string_view name(Leg leg);
-
 struct DriveOptions {
     double velocity = 5e-5;  ///< Å/fs
-    double ramp = 0.0;       ///< time over which the velocity turns, fs
-    double load_force = 0.0; ///< total normal force at which the approach ends, eV/Å
-    bool approach = true;
-    bool pull_off = true;
+    double ramp = 0.0;       ///< time over which a velocity changes, fs
+    double load_force = 0.0; ///< total normal force at which an approach ends, eV/Å
+    /// Amounts in the units of the engine: a load in eV/Å, a hold in fs.
+    std::vector<Segment> path = {{Segment::approach, 0.0, 0, "approach"},
+                                 {Segment::pull_off, 0.0, 0, "pull-off"}};
 };
 
 /// Whether a pull-off has come to its end: the top plane is back where the approach started or
@@ -32,37 +40,80 @@ struct DriveOptions {
 /// compression.
 bool out_of_reach(double top, double force, double strongest, double at_start = 0.0);
 
+/// A velocity over time: from one to another along half a cosine, and, where `cruise` ends, to rest
+/// along another.
+struct VelocityProfile {
+    double from = 0.0, to = 0.0; ///< Å/fs
+    double cruise = HUGE_VAL;    ///< when the second ramp begins, fs
+
+    double at(double t, double ramp) const;
+    /// When it is at rest, fs.
+    double end(double ramp) const;
+    /// From this velocity to rest at a distance, Å, at `velocity` (above 0) at most.
+    static VelocityProfile over(double distance, double from, double velocity, double ramp);
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("from", from);
+        v("to", to);
+        v("cruise", cruise);
+    }
+};
+
 class Drive {
 public:
     explicit Drive(const DriveOptions& options);
+    /// reference_height: of the lowest layer where the top plane's displacement is 0, Å.
+    void begin_at(double reference_height);
 
-    Leg leg() const { return leg_; }
-    bool done() const { return leg_ == Leg::done && !by_hand_; }
-    /// Velocity of the top plane along z at time t, Å/fs.
+    /// Number of the segment under way, from 0; of the last one when the path is done.
+    std::size_t segment() const;
+    const Segment& now() const { return options_.path[segment()]; }
+    bool done() const { return at_ == options_.path.size() && !by_hand_; }
+    /// Of the top plane along z at time t, Å/fs.
     double velocity(double t) const;
+    /// Of the block over the substrate along an axis, Å/fs.
+    double slide_velocity(int axis, double t) const;
 
-    /// Told of the force on the lowest layer at time t (eV/Å, positive upwards). True at the
-    /// step at which a leg ends. gone: out_of_reach() at this step.
-    bool observe(double t, double force, bool gone);
+    /// What a step has felt: force on the lowest layer, eV/Å, positive upwards; gone:
+    /// out_of_reach().
+    struct Felt {
+        double time = 0.0, force = 0.0, top = 0.0;
+        bool gone = false;
+    };
+    /// True at the step at which a segment ends. Throws io::PhysicsError where a pull that a
+    /// segment leads to is not there.
+    bool observe(const Felt& felt);
 
-    /// By hand: from now on the top plane moves at this velocity, Å/fs, and no leg ends; none: the
-    /// drive goes on where it was. Not in checkpoints.
+    /// By hand: from now on the top plane moves at this velocity, Å/fs, and no segment ends; none:
+    /// the drive goes on where it was. Not in checkpoints.
     void take_over(std::optional<double> velocity) { by_hand_ = velocity; }
     const std::optional<double>& by_hand() const { return by_hand_; }
 
     /// The state of the machine, for checkpoints.
     template <class Visitor>
     void visit(Visitor& v) {
-        v("leg", leg_);
-        v("turned_at", turned_at_);
+        v("segment", at_);
+        v("begun", begun_);
         v("attracted", attracted_);
+        v("normal", normal_);
+        v("slide_x", slide_[0]);
+        v("slide_y", slide_[1]);
+        v("reference_height", reference_height_);
     }
 
 private:
+    void begin(const Felt& felt);
+    bool ended(const Felt& felt);
+    bool approach_ended(double force);
+
     DriveOptions options_;
-    Leg leg_;
-    double turned_at_ = 0.0;
+    double reference_height_ = 0.0;
+    std::size_t at_ = 0;
+    double begun_ = 0.0; ///< when the segment began, fs
     bool attracted_ = false;
+    VelocityProfile normal_;
+    std::array<VelocityProfile, 2> slide_;
     std::optional<double> by_hand_;
 };
 

@@ -3,6 +3,7 @@
 #include "engine/dynamics/simulation.hpp"
 
 #include "decomposition/global_sum.hpp"
+#include "kernels/elastic_level.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,6 +27,7 @@ Simulation::Simulation(const SimulationOptions& options, const Surface& substrat
 
 void Simulation::start(double height) {
     reference_height_ = height;
+    drive_.begin_at(height);
     step_ = 0;
     block_.set_uniform(0.0, drive_.velocity(0.0));
     host_is_newer_ = true;
@@ -109,8 +111,15 @@ void Simulation::download() const {
 void Simulation::absorb_at_seams() { block_.absorb(step_ / absorbs_every_, radiated_); }
 
 void Simulation::sweep_interface(bool observe) {
+    if (slides()) interface_.slide_to(slide_[0], slide_[1]);
     interface_sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
                                        reference_height_, {.observe = observe});
+    if (slides()) {
+        const VectorPlane<double> f = block_.interface_force();
+        lateral_ = {};
+        elastic_kernels().sum(f.x, 0, f.x.ny, lateral_[0]);
+        elastic_kernels().sum(f.y, 0, f.y.ny, lateral_[1]);
+    }
     if (external_) add_external();
 }
 
@@ -166,6 +175,15 @@ void Simulation::advance_block(bool observe) {
     top_force_ = {};
     block_.add_top_force(top_force_);
     block_.set_top(block_.top() + options_.dt * velocity);
+    if (slides()) slide();
+}
+
+/// To where the block stands over the substrate at the next step.
+void Simulation::slide() {
+    const double middle = (static_cast<double>(step_) + 0.5) * options_.dt;
+    for (int axis : {0, 1})
+        slide_[static_cast<std::size_t>(axis)] +=
+            options_.dt * drive_.slide_velocity(axis, middle);
 }
 
 /// Sums over u(n), before it moves on.
@@ -189,9 +207,12 @@ void Simulation::update_energy_balance() {
         global_sums(communicator(),
                     std::array{interface_sums_.force_z, lowest_z_, top_force_,
                                kick_sums_.dissipated, kick_sums_.dragged, heat_,
-                               interface_sums_.energy, elastic_, kick_sums_.kinetic, radiated_});
-    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic,
-                radiated] = sums;
+                               interface_sums_.energy, elastic_, kick_sums_.kinetic, radiated_,
+                               lateral_[0], lateral_[1]});
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic, radiated,
+                lateral_x, lateral_y] = sums;
+    const std::array lateral{lateral_x, lateral_y};
+    const auto& here = interface_.place();
 
     const double sites = static_cast<double>(options_.block.sites);
     const double mean_height = reference_height_ + lowest / (sites * sites);
@@ -200,8 +221,11 @@ void Simulation::update_energy_balance() {
     if (has_previous_) {
         // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
         ledger_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
-        double& done = drive_.leg() == Leg::approach ? ledger_.approach : ledger_.pull_off;
-        done += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
+        if (slides())
+            for (std::size_t axis : {0u, 1u})
+                ledger_.top_work -= 0.5 * (lateral[axis] + record_.lateral_force[axis]) *
+                                    (here[axis] - record_.slide[axis]);
+        ledger_.interface += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
         // What the medium takes and gives likewise, half of it at each end; noise given after n-1
         // was observed is part of n's energy, that of n is not yet.
         ledger_.damped += 0.5 * (dissipated + pending_.dissipated);
@@ -222,6 +246,8 @@ void Simulation::update_energy_balance() {
     record_.mean_height = mean_height;
     record_.force = force;
     record_.top_force = top_force;
+    record_.slide = here;
+    record_.lateral_force = lateral;
     if (!record_.observed) return;
 
     const ContactCount contacts = count_contacts(interface_sums_, communicator());
@@ -239,7 +265,7 @@ void Simulation::update_energy_balance() {
     scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(ledger_.work())});
     const double change = lj + elastic + kinetic - *energy_at_start_;
     record_.work = ledger_.work();
-    record_.interface_work = ledger_.approach + ledger_.pull_off;
+    record_.interface_work = ledger_.interface;
     record_.damped = ledger_.damped;
     record_.radiated = ledger_.radiated;
     const double balance =

@@ -18,6 +18,7 @@
 #include "engine/interface/interface.hpp"
 #include "engine/phases.hpp"
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -43,6 +44,9 @@ struct StepRecord {
     double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
     double force = 0.0;       ///< total normal force of the substrate on the lowest layer, eV/Å
     double top_force = 0.0;   ///< elastic force on the top plane along z, eV/Å
+    // Along x and y, of a path that slides; else 0.
+    std::array<double, 2> slide{};         ///< place of the block over the substrate, Å
+    std::array<double, 2> lateral_force{}; ///< of the substrate on the lowest layer, eV/Å
     // Only where the step was observed:
     bool observed = false;
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
@@ -58,14 +62,13 @@ struct StepRecord {
 
 /// Work and dissipation since the start, eV.
 struct Ledger {
-    double top_work = 0.0;  ///< done on the block by the top plane
+    double top_work = 0.0;  ///< done on the block by the top plane, sideways too
     double drag_work = 0.0; ///< done on the block by the moving damping medium
     double damped = 0.0;    ///< dissipated against the medium
     double radiated = 0.0;  ///< taken by absorbing seams
     double heat = 0.0;      ///< given by the thermostat's noise
     double external = 0.0;  ///< done by forces from outside
-    double approach = 0.0;  ///< int F dz of the mean height over the approach
-    double pull_off = 0.0;  ///< the same over the pull-off (negative: attraction is overcome)
+    double interface = 0.0; ///< int F dz of the mean height
     double work() const { return top_work + drag_work + heat + external; }
     double lost() const { return damped + radiated; }
 };
@@ -87,7 +90,7 @@ public:
     long long steps() const { return step_; }
     double time() const { return static_cast<double>(step_) * options_.dt; }
     Drive& drive() { return drive_; }
-    Leg leg() const { return drive_.leg(); }
+    const Drive& drive() const { return drive_; }
     const Block& block() const {
         if (device_is_newer_) download();
         return block_;
@@ -132,6 +135,8 @@ private:
     void step_on_processor(bool observe);
     void download() const;
     double velocity_of_top() const;
+    bool slides() const { return options_.interface.slides; }
+    void slide();
     bool next_is_observed(bool observe);
     void begin_record(bool observe);
     bool absorbs() const { return absorbs_every_ > 0; }
@@ -159,6 +164,7 @@ private:
 
     long long absorbs_every_ = 0;   ///< so many steps; 0: seams reflect
     double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
+    std::array<double, 2> slide_{}; ///< of the block over the substrate, Å
     long long step_ = 0;
     StepRecord record_;
     Ledger ledger_;
@@ -178,6 +184,7 @@ private:
     InterfaceSums interface_sums_;
     KickSums kick_sums_;
     ExactSum top_force_, lowest_z_, elastic_, heat_, radiated_;
+    std::array<ExactSum, 2> lateral_; ///< of a path that slides
 };
 
 template <class Visitor>
@@ -204,19 +211,24 @@ void Simulation::visit(Visitor& v) {
     v("ledger.drag_work", ledger_.drag_work);
     v("ledger.damped", ledger_.damped);
     v("ledger.heat", ledger_.heat);
-    v("ledger.approach", ledger_.approach);
-    v("ledger.pull_off", ledger_.pull_off);
+    v("ledger.interface", ledger_.interface);
     v("energy.at_start", energy_at_start_);
     v("energy.work_at_start", work_at_start_);
     v("energy.damped_at_start", lost_at_start_);
     v("energy.scale", scale_);
-    v("booked", has_previous_);
+    v("has_previous", has_previous_);
     v("pending.dissipated", pending_.dissipated);
     v("pending.drag", pending_.drag);
     v("pending.heat", pending_.heat);
-    if (!absorbs()) return;
-    v("record.radiated", record_.radiated);
-    v("ledger.radiated", ledger_.radiated);
+    if (absorbs()) {
+        v("record.radiated", record_.radiated);
+        v("ledger.radiated", ledger_.radiated);
+    }
+    if (slides()) {
+        v("slide", slide_);
+        v("record.slide", record_.slide);
+        v("record.lateral_force", record_.lateral_force);
+    }
 }
 
 } // namespace asperity

@@ -20,9 +20,24 @@ SequenceOptions sequence_options(const Case& c, const Interface& interface,
     return o;
 }
 
+double Continuation::lead(Along along) {
+    if (along == along_) return at_;
+    along_ = along;
+    at_ = along == Along::z ? normal_ : place_[static_cast<std::size_t>(along)];
+    before_at_ = at_; // nothing is known along it
+    return at_;
+}
+
 void Continuation::begin(double at) {
     last_.take(state_of(block_));
-    at_ = before_at_ = at;
+    at_ = before_at_ = normal_ = at;
+}
+
+/// Over the substrate, with the coordinate there.
+void Continuation::place_block(double at) {
+    std::array<double, 2> place = place_;
+    if (along_ != Along::z) place[static_cast<std::size_t>(along_)] = at;
+    interface_.slide_to(place[0], place[1]);
 }
 
 void Continuation::accept(double at) {
@@ -30,11 +45,14 @@ void Continuation::accept(double at) {
     std::swap(before_, last_);
     last_.take(state_of(block_));
     before_at_ = std::exchange(at_, at);
+    if (along_ == Along::z) normal_ = at;
+    place_ = interface_.place();
 }
 
 void Continuation::put_back() {
     last_.restore(state_of(block_));
     block_.settle(constraint(at_));
+    place_block(at_);
 }
 
 bool Continuation::predicts(double at) const {
@@ -46,6 +64,7 @@ RelaxedState Continuation::relax_at(double at, bool predicted, const Report& rep
                                     const ForceWindow& window) {
     const auto arrays = state_of(block_);
     last_.restore(arrays);
+    place_block(at);
     RelaxOptions options;
     options.start = predicted ? Start::predicted : Start::near;
     if (predicted) before_.extrapolate((at - at_) / (at_ - before_at_), arrays);

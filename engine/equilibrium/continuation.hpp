@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A sequence of equilibria along a prescribed coordinate (the top plane, or the mean height of the
-// lowest layer): the last two points, and the relaxation to the next one, from the last point or
-// from the linear continuation of the last two.
+// A sequence of equilibria along a prescribed coordinate (the top plane or the mean height of the
+// lowest layer; or, at a fixed one of these, the place of the block over the substrate along x or
+// y): the last two points, and the relaxation to the next one, from the last point or from the
+// linear continuation of the last two.
 //
 // A prediction could carry a site across a barrier, even through the substrate: none is made where
 // it would move a site further than 1 Å.
@@ -12,6 +13,7 @@
 #include "decomposition/global_largest.hpp"
 #include "engine/equilibrium/zero_load.hpp"
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -43,6 +45,11 @@ public:
     Continuation(SpectralBlock& block, Interface& interface, const Options& options)
         : block_(block), interface_(interface), options_(options) {}
 
+    /// What is prescribed along z, or the place along x or y at a fixed one.
+    enum class Along { x, y, z };
+    /// From now on this coordinate changes. Returns where it stands.
+    double lead(Along along);
+
     /// The block as it is becomes the last point, the only one known.
     void begin(double at);
     /// The block as it is becomes the last point, at the same coordinate.
@@ -63,7 +70,10 @@ public:
     /// Towards the last point from where the block is: this share of the way.
     void retreat(double share) { last_.extrapolate(-share, state_of(block_)); }
 
-    Constraint constraint(double at) const { return {options_.along, at}; }
+    /// Along z, with the coordinate there.
+    Constraint constraint(double at) const {
+        return {options_.along, along_ == Along::z ? at : normal_};
+    }
     long long iterations() const { return iterations_; }
     void set_iterations(long long iterations) { iterations_ = iterations; }
     /// How far a site of the lowest layer has moved since the last point, Å.
@@ -79,17 +89,25 @@ public:
         v("at", at_);
         v("before", before_at_);
         v("moved", moved_);
+        v("along", along_);
+        v("normal", normal_);
+        v("place", place_);
         v("iterations", iterations_);
     }
     std::vector<StateArray> states();
 
 private:
+    void place_block(double at);
+
     SpectralBlock& block_;
     Interface& interface_;
     Options options_;
     Phases phases_; ///< of the relaxations; their lines are not lines of the step
     StateCopy last_, before_;
     double at_ = 0.0, before_at_ = 0.0;
+    Along along_ = Along::z;
+    double normal_ = 0.0;           ///< of the last point along z, Å
+    std::array<double, 2> place_{}; ///< of the block over the substrate at the last point, Å
     double moved_ = 0.0; ///< from before_ to last_, the site that moved most, Å
     long long iterations_ = 0;
 };

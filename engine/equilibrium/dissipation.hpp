@@ -6,7 +6,7 @@
 // that this sets free goes into vibrations that the path does not follow.
 #pragma once
 
-#include "engine/dynamics/drive.hpp"
+#include "engine/scene/segment.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace asperity {
 
 struct Instability {
     double energy = 0.0; ///< dissipated, eV
-    Leg leg = Leg::approach;
+    std::size_t segment = 0;                            ///< of the path
     double top = 0.0;                                   ///< displacement of what is held, Å
     double height_before = 0.0, height_after = 0.0;     ///< mean height of the lowest layer, Å
     double force_before = 0.0, force_after = 0.0;       ///< that holding it takes, eV/Å
@@ -30,7 +30,7 @@ struct Instability {
     template <class Visitor>
     void visit(Visitor& v) {
         v("energy", energy);
-        v("leg", leg);
+        v("segment", segment);
         v("top", top);
         v("height_before", height_before);
         v("height_after", height_after);
@@ -47,15 +47,15 @@ struct Instability {
 
 /// All so far.
 struct Dissipation {
-    double approach = 0.0, pull_off = 0.0; ///< on the last leg of each kind, eV
-    double earlier = 0.0;                  ///< on legs before these, eV
-    long long events = 0;                  ///< points of the path at which some was counted
-    std::vector<Instability> jumps;        ///< the strongest, in the order of the path
+    double in_segment = 0.0;       ///< in the segment under way, eV
+    double before = 0.0;           ///< in the segments before it, eV
+    long long events = 0;          ///< points of the path at which some was counted
+    std::vector<Instability> jumps; ///< the strongest, in the order of the path
 
-    double total() const { return earlier + approach + pull_off; }
-    void begin(Leg leg) { earlier += std::exchange(of(leg), 0.0); }
+    double total() const { return before + in_segment; }
+    void begin_segment() { before += std::exchange(in_segment, 0.0); }
     void add(const Instability& jump) {
-        of(jump.leg) += jump.energy;
+        in_segment += jump.energy;
         ++events;
         jumps.push_back(jump);
         constexpr std::size_t kept = 20;
@@ -68,15 +68,11 @@ struct Dissipation {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("approach", approach);
-        v("pull_off", pull_off);
-        v("earlier", earlier);
+        v("in_segment", in_segment);
+        v("before", before);
         v("events", events);
         v("jumps", jumps);
     }
-
-private:
-    double& of(Leg leg) { return leg == Leg::approach ? approach : pull_off; }
 };
 
 } // namespace asperity

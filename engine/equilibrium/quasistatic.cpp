@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/equilibrium/quasistatic.hpp"
 
+#include "decomposition/global_sum.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
+#include "kernels/elastic_level.hpp"
 
 #include <fmt/format.h>
 
@@ -68,40 +70,74 @@ void QuasistaticPath::resume() {
     record_.observed = true;
 }
 
-QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg, const Goal& goal) {
-    const double direction = leg == Leg::approach ? -1.0 : 1.0;
-    if (direction != direction_) {
-        // A new leg: its own sums, and no points of the leg before for the integral.
-        trail_.begin(record_.top, record_.top_force);
-        attracted_ = false;
-        (leg == Leg::approach ? approach_ : pull_off_) = 0.0;
-        (leg == Leg::approach ? approach_error_ : pull_off_error_) = {};
-        dissipation_.begin(leg);
+void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
+    segment_ = number;
+    kind_ = segment.kind;
+    end_.reset();
+    load_.reset();
+    const Along along = kind_ != Segment::slide ? Along::z : segment.axis == 0 ? Along::x : Along::y;
+    const double from = points_.lead(along);
+    double direction = 0.0;
+    switch (kind_) {
+    case Segment::approach:
+        direction = -1.0;
+        break;
+    case Segment::load: {
+        load_ = segment.amount;
+        const double slack = this->slack();
+        const bool apart = record_.in_contact == 0 && std::abs(record_.force) <= slack;
+        if (apart || record_.force < *load_ - slack)
+            direction = -1.0;
+        else if (record_.force > *load_ + slack)
+            direction = 1.0;
+        break;
+    }
+    case Segment::height:
+    case Segment::slide:
+        end_ = kind_ == Segment::height ? segment.amount - options_.reference_height
+                                        : from + segment.amount;
+        if (*end_ != from) direction = *end_ < from ? -1.0 : 1.0;
+        break;
+    default: // a pull-off
+        direction = 1.0;
+    }
+    if (along != along_ || direction != direction_) {
+        // No points of the segment before for the integral.
+        along_ = along;
         direction_ = direction;
+        trail_.begin(at(), force());
         ahead_.known = false;
         predicts_ = reversible_;
-        closing_in_ = false;
     }
-    const double load = goal.load.value_or(options_.load);
-    if (goal.load) // it may be beyond that load already
+    attracted_ = bracketed_ = false;
+    work_ = 0.0;
+    error_ = {};
+    dissipation_.begin_segment();
+}
+
+QuasistaticPath::Outcome QuasistaticPath::advance() {
+    if (direction_ == 0.0) return load_ ? Outcome::at_load : Outcome::there;
+    const double load = load_.value_or(options_.load);
+    if (load_) // it may be beyond that load already
         attracted_ = attracted_ || record_.force < load - slack(record_.in_contact);
-    const bool to_load = !goal.at && (leg == Leg::approach || goal.load);
-    const double aim =
-        leg == Leg::pull_off || attracted_ ? load : std::max(load, 0.0); // through attraction
+    const bool down = direction_ < 0.0;
+    const bool to_load = !end_ && kind_ != Segment::pull_off;
+    const double aim = !down || attracted_ ? load : std::max(load, 0.0); // through attraction
     for (;;) {
         const Ahead ahead = ahead_;
         const bool all_the_way = close_in();
-        const double left = goal.at ? direction * (*goal.at - record_.top) : HUGE_VAL;
+        const double left = end_ ? direction_ * (*end_ - at()) : HUGE_VAL;
         const double planned = length_;
         const bool arrives = left <= length_;
         if (arrives) length_ = left;
-        const double top = arrives ? *goal.at : record_.top + direction * length_;
-        predicts_ = predicts_ && points_.predicts(top);
+        const double there = arrives ? *end_ : at() + direction_ * length_;
+        predicts_ = predicts_ && points_.predicts(there);
         const long long iterations = points_.iterations();
         const bool last_try = length_ <= smallest_step();
+        const bool any_force = all_the_way || last_try || along_ != Along::z;
         const RelaxedState state =
-            points_.relax_at(top, predicts_, options_.report,
-                             all_the_way || last_try ? ForceWindow{} : acceptable_force(top));
+            points_.relax_at(there, predicts_, options_.report,
+                             any_force ? ForceWindow{} : acceptable_force(there));
         if (state.interrupted) { // resumed, the same step is made
             ahead_ = ahead;
             put_back();
@@ -110,48 +146,71 @@ QuasistaticPath::Outcome QuasistaticPath::advance(Leg leg, const Goal& goal) {
         }
         if (!state.converged && !predicts_ && last_try)
             throw io::PhysicsError(
-                fmt::format("no equilibrium was found with the {} displaced by {:.6g} Å",
-                            options_.along == Constraint::Of::top ? "top plane" : "mean height",
-                            top),
+                fmt::format("no equilibrium was found with the {} {:.6g} Å",
+                            along_ != Along::z                     ? "block moved sideways by"
+                            : options_.along == Constraint::Of::top ? "top plane displaced by"
+                                                                    : "mean height displaced by",
+                            there),
                 fmt::format("the largest force left is {:.2e} eV/Å after {} iterations, and {:.2e} "
                             "is asked for (a quarter of drive.tolerance)",
                             state.residual, state.iterations, 0.25 * options_.tolerance),
                 "a looser drive.tolerance");
-        if (state.converged && to_load && passes_load(leg, state, aim) && !last_try) {
+        if (state.converged && to_load && passes_load(state, aim) && !last_try) {
             const double part = (aim - record_.force) / (state.force - record_.force);
             length_ *= std::clamp(part, 0.02, 0.98);
-            closing_in_ = true;
+            bracketed_ = true;
             continue;
         }
+        const Trial trial{state, there,
+                          along_ == Along::z ? state.top_force : lateral_force()[axis()]};
         StepCheck step;
-        if (state.converged) step = check(state, top);
+        if (state.converged) step = check(trial);
         if (last_try) step.accepted = state.converged;
         if (step.accepted && (!predicts_ || step.dissipated == 0.0)) {
-            accept(state, top, step, leg);
+            accept(trial, step);
             if (arrives) length_ = std::max(length_, planned);
             break;
         }
         // What looks like an instability after a prediction is looked at again without.
         if (std::exchange(predicts_, false) && !state.jumped) continue;
-        if (state.jumped) ahead_ = {true, top, state.force};
-        if (state.converged && !step.excess) ahead_ = {true, top, state.top_force};
+        if (state.jumped) ahead_ = {true, there, state.force};
+        if (state.converged && !step.excess) ahead_ = {true, there, trial.force};
         length_ *= 0.5;
         predicts_ = reversible_;
     }
-    if (goal.at) return record_.top == *goal.at ? Outcome::there : Outcome::point;
-    const double slack = this->slack(record_.in_contact);
-    if (leg == Leg::approach) {
+    return outcome();
+}
+
+/// Of a step that was made.
+QuasistaticPath::Outcome QuasistaticPath::outcome() {
+    if (end_) return at() == *end_ ? Outcome::there : Outcome::point;
+    const double load = load_.value_or(options_.load), slack = this->slack(record_.in_contact);
+    if (direction_ < 0.0) {
+        const double aim = attracted_ ? load : std::max(load, 0.0);
         attracted_ = attracted_ || record_.force < std::min(load, 0.0) - slack;
         const bool back = attracted_ && record_.force >= load;
         const bool there =
-            back || (std::exchange(closing_in_, false) && record_.force >= aim - slack);
+            back || (std::exchange(bracketed_, false) && record_.force >= aim - slack);
         return there ? Outcome::at_load : Outcome::point;
     }
-    if (to_load && std::exchange(closing_in_, false) && record_.force <= aim + slack)
+    if (load_ && std::exchange(bracketed_, false) && record_.force <= load + slack)
         return Outcome::at_load;
     const bool apart = options_.reference_height + record_.top >= interface_.start_height() &&
                        std::abs(record_.force) <= 1e-6 * strongest_;
+    if (apart && load_)
+        throw io::PhysicsError(
+            fmt::format("the solids parted before the pull of {:.4g} eV/Å was reached", -load),
+            "the attraction is nowhere that large on this way", "take a smaller pull");
     return apart ? Outcome::apart : Outcome::point;
+}
+
+/// Of the substrate on the lowest layer, by the forces of the last relaxation. Collective.
+std::array<double, 2> QuasistaticPath::lateral_force() const {
+    const VectorPlane<double> f = block_.interface_force();
+    std::array<ExactSum, 2> sums;
+    elastic_kernels().sum(f.x, 0, f.x.ny, sums[0]);
+    elastic_kernels().sum(f.y, 0, f.y.ny, sums[1]);
+    return global_sums(block_.communicator(), sums);
 }
 
 /// What the force of a point may be wrong by, eV/Å: a quarter of the tolerance, which points are
@@ -166,9 +225,9 @@ double QuasistaticPath::slack(std::int64_t in_contact) const {
 
 /// With the last point still on the other side of it. Also where the attraction
 /// was too weak to be told from the slack.
-bool QuasistaticPath::passes_load(Leg leg, const RelaxedState& state, double aim) const {
+bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
     const double slack = this->slack(state.in_contact);
-    if (leg == Leg::pull_off) return record_.force >= aim - slack && state.force < aim - slack;
+    if (direction_ > 0.0) return record_.force >= aim - slack && state.force < aim - slack;
     return record_.force <= aim + slack && state.force > aim + slack;
 }
 
@@ -176,8 +235,8 @@ bool QuasistaticPath::passes_load(Leg leg, const RelaxedState& state, double aim
 /// step is known well enough: then true.
 bool QuasistaticPath::close_in() {
     if (!ahead_.known) return false;
-    const double way = std::abs(ahead_.top - record_.top);
-    if (way > smallest_step() && !work_is_known(ahead_.top, ahead_.force)) {
+    const double way = std::abs(ahead_.at - at());
+    if (way > smallest_step() && !work_is_known(ahead_.at, ahead_.force)) {
         length_ = std::min(length_, 0.5 * way);
         return false;
     }
@@ -188,24 +247,25 @@ bool QuasistaticPath::close_in() {
 }
 
 /// As check() has it where energy is missing.
-bool QuasistaticPath::work_is_known(double top, double force) const {
-    const double step = std::abs(top - record_.top);
-    return trail_.to(top, force).error <= options_.tolerance * sites_ * step ||
-           0.5 * step * std::abs(force - record_.top_force) <= allowed_uncertainty();
+bool QuasistaticPath::work_is_known(double to, double there) const {
+    const double step = std::abs(to - at());
+    return trail_.to(to, there).error <= options_.tolerance * sites_ * step ||
+           0.5 * step * std::abs(there - force()) <= allowed_uncertainty();
 }
 
 /// A force outside is too far from a smooth continuation for a step to this place; a half more than
 /// that, for a fall may come back a little.
-ForceWindow QuasistaticPath::acceptable_force(double top) const {
-    return {trail_.continued(top), 1.5 * 2.0 * allowed_uncertainty() / std::abs(top - record_.top)};
+ForceWindow QuasistaticPath::acceptable_force(double to) const {
+    return {trail_.continued(to), 1.5 * 2.0 * allowed_uncertainty() / std::abs(to - at())};
 }
 
-QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, double top) const {
-    const double step = std::abs(top - record_.top);
+QuasistaticPath::StepCheck QuasistaticPath::check(const Trial& to) const {
+    const RelaxedState& state = to.state;
+    const double step = std::abs(to.at - at());
     const double gained = state.interface_energy + state.elastic_energy - record_.interface_energy -
                           record_.elastic_energy;
     const double allowed = options_.tolerance * sites_ * step;
-    const ForceTrail::Integral integral = trail_.to(top, state.top_force);
+    const ForceTrail::Integral integral = trail_.to(to.at, to.force);
     StepCheck v;
     v.work = -integral.value;
     const double missing = v.work - gained;
@@ -222,8 +282,8 @@ QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, dou
     v.smooth = uncertain <= allowed;
     v.accepted = v.smooth;
     if (!v.smooth) {
-        v.work = -trail_.trapezium(top, state.top_force);
-        uncertain = 0.5 * step * std::abs(state.top_force - record_.top_force);
+        v.work = -trail_.trapezium(to.at, to.force);
+        uncertain = 0.5 * step * std::abs(to.force - force());
         v.accepted = uncertain <= allowed_uncertainty();
     }
     if (v.work - gained > std::max(uncertain, allowed)) v.dissipated = v.work - gained;
@@ -234,30 +294,25 @@ QuasistaticPath::StepCheck QuasistaticPath::check(const RelaxedState& state, dou
     return v;
 }
 
-void QuasistaticPath::accept(const RelaxedState& state, double top, const StepCheck& step,
-                             Leg leg) {
-    if (leg == Leg::approach)
-        approach_ -= step.work;
-    else
-        pull_off_ += step.work;
-    LegError& error = leg == Leg::approach ? approach_error_ : pull_off_error_;
-    error.gap += std::abs(step.gap);
-    error.squares += step.uncertain * step.uncertain;
+void QuasistaticPath::accept(const Trial& to, const StepCheck& step) {
+    work_ += step.work;
+    error_.gap += std::abs(step.gap);
+    error_.squares += step.uncertain * step.uncertain;
     record_.work += step.work;
     if (step.dissipated > 0.0) {
-        dissipation_.add(describe(state, step.dissipated, leg));
+        dissipation_.add(describe(to.state, step.dissipated));
         record_.damped = dissipation_.total();
     }
     if (step.smooth)
-        trail_.add(top, state.top_force);
+        trail_.add(to.at, to.force);
     else
-        trail_.begin(top, state.top_force);
-    points_.accept(top);
+        trail_.begin(to.at, to.force);
+    points_.accept(to.at);
     predicts_ = reversible_ = step.dissipated == 0.0;
-    if (ahead_.known && direction_ * (ahead_.top - top) <= 0.0) ahead_.known = false;
+    if (ahead_.known && direction_ * (ahead_.at - to.at) <= 0.0) ahead_.known = false;
     ++record_.step;
-    allowed_ += options_.tolerance * sites_ * std::abs(top - record_.top);
-    set_record(state, top);
+    allowed_ += options_.tolerance * sites_ * std::abs(to.at - at());
+    set_record(to.state, to.at);
     strongest_ = std::max(strongest_, -record_.force);
     // The error of a smooth step goes with the fourth power of its length, for each Å.
     const double growth = std::clamp(0.8 * std::sqrt(std::sqrt(step.margin)), 0.5, 2.0);
@@ -267,8 +322,12 @@ void QuasistaticPath::accept(const RelaxedState& state, double top, const StepCh
     length_ = std::clamp(length_, smallest_step(), options_.step);
 }
 
-void QuasistaticPath::set_record(const RelaxedState& state, double top) {
-    record_.top = top;
+void QuasistaticPath::set_record(const RelaxedState& state, double at) {
+    if (along_ == Along::z)
+        record_.top = at;
+    else
+        record_.slide[axis()] = at;
+    if (interface_.options().slides) record_.lateral_force = lateral_force();
     record_.mean_height = options_.reference_height + state.mean_height;
     record_.force = state.force;
     record_.top_force = state.top_force;
@@ -288,10 +347,10 @@ void QuasistaticPath::set_record(const RelaxedState& state, double top) {
     record_.residual = scale > 0.0 ? (record_.work - change - record_.damped) / scale : 0.0;
 }
 
-Instability QuasistaticPath::describe(const RelaxedState& state, double energy, Leg leg) const {
+Instability QuasistaticPath::describe(const RelaxedState& state, double energy) const {
     Instability instability;
     instability.energy = energy;
-    instability.leg = leg;
+    instability.segment = segment_;
     instability.top = record_.top;
     instability.height_before = record_.mean_height;
     instability.height_after = options_.reference_height + state.mean_height;

@@ -10,6 +10,9 @@
 // spring is stable then; only patches of the surface can still be unstable. Below, "top" is then
 // that mean height, as a displacement.
 //
+// A slide changes the place of the block over the substrate, at the same height of what is held. Then
+// the force below is that of the substrate along the slide, and "top" is that place.
+//
 // Between two points, the work of the top plane -int F dz_top is the change of the energy
 // U_LJ + U_el, unless the block became unstable in between and went over to another state: the
 // energy that is missing then was dissipated. From the last point a step is tried and
@@ -34,12 +37,12 @@
 // again without.
 #pragma once
 
-#include "engine/dynamics/drive.hpp"
 #include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/continuation.hpp"
 #include "engine/equilibrium/dissipation.hpp"
 #include "engine/equilibrium/force_trail.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -65,35 +68,28 @@ public:
     /// The block as it is.
     void start_here();
 
+    /// A segment of the path, and its number for what is recorded; amounts in the engine's units (a
+    /// load in eV/Å).
+    void begin(const Segment& segment, std::size_t number = 0);
     enum class Outcome { point, at_load, apart, there, interrupted };
-    /// The next point of a leg. at_load: the approach has come to its load (the path stands there
-    /// exactly); apart: nothing is left of the force on the pull-off. Where a relaxation was
-    /// interrupted, block and path are back at the last point, and the next call makes the whole
-    /// point again. Collective. Throws io::PhysicsError where
-    /// no equilibrium is found.
-    Outcome advance(Leg leg) { return advance(leg, {}); }
-    /// Another end than the leg's own: a place of what is held (Å, in the leg's direction), where
-    /// the path stands exactly and is `there`; or a load (eV/Å), at which it is at_load on both
-    /// ways.
-    struct Goal {
-        std::optional<double> at{}, load{};
-    };
-    Outcome advance(Leg leg, const Goal& goal);
+    /// The next point of the segment. at_load: an approach or a load has come to its load (the path
+    /// stands there exactly); apart: nothing is left of the force on a pull-off; there: a height or
+    /// a slide has come to its end, exactly. Where a relaxation was interrupted, block and path are
+    /// back at the last point, and the next call makes the whole point again. Collective. Throws
+    /// io::PhysicsError where no equilibrium is found, and where the solids part on the way to a
+    /// pull.
+    Outcome advance();
 
     /// The last point. Without time: step counts points, damped is what was dissipated.
     const StepRecord& now() const { return record_; }
-    /// Work of what is held over the last leg of this kind, eV: what it took up on the approach,
-    /// what it gave on the pull-off; positive where the solids attract. At a held mean height it is
-    /// that of the interface's force, for the mean height does not jump.
-    double work(Leg leg) const { return leg == Leg::approach ? approach_ : pull_off_; }
-    /// What this, and what was dissipated on the leg, may be wrong by, eV: the sum of the gaps in
-    /// the energy balance of its steps, and three times the root of the sum of squares of what the
-    /// work of each step with an instability is not known by. (Three, for these errors are not
-    /// independent: measured in docs/relaxation.md.)
-    double uncertainty(Leg leg) const {
-        const LegError& e = error(leg);
-        return e.gap + 3.0 * std::sqrt(e.squares);
-    }
+    /// Work that was done on the block in the segment under way, eV. At a held mean height it is
+    /// minus that of the interface's force, for the mean height does not jump.
+    double work() const { return work_; }
+    /// What this, and what was dissipated in the segment, may be wrong by, eV: the sum of the gaps
+    /// in the energy balance of its steps, and three times the root of the sum of squares of what
+    /// the work of each step with an instability is not known by. (Three, for these errors are not
+    /// independent: measured in docs/reports/accuracy.md.)
+    double uncertainty() const { return error_.gap + 3.0 * std::sqrt(error_.squares); }
     const Dissipation& dissipation() const { return dissipation_; }
     /// What the force of the last point may be wrong by, eV/Å.
     double slack() const { return slack(record_.in_contact); }
@@ -120,27 +116,37 @@ private:
         bool excess = false;     ///< more energy gained than the work can have brought
         double margin = 0.0;     ///< allowed error over the one found: how much the step may grow
     };
-    struct LegError {
+    struct SegmentError {
         double gap = 0.0, squares = 0.0; ///< eV, eV^2
     };
     /// A place further on, and the force there, by which steps close in on it. Between the last
     /// point and it the block becomes unstable, or the force is not smooth enough to tell.
     struct Ahead {
         bool known = false;
-        double top = 0.0, force = 0.0;
+        double at = 0.0, force = 0.0;
     };
-    const LegError& error(Leg leg) const {
-        return leg == Leg::approach ? approach_error_ : pull_off_error_;
+    using Along = Continuation::Along;
+    /// Equilibrium at a place of what is led, and the force that leading it there takes, eV/Å.
+    struct Trial {
+        const RelaxedState& state;
+        double at, force;
+    };
+    double at() const { return along_ == Along::z ? record_.top : record_.slide[axis()]; }
+    double force() const {
+        return along_ == Along::z ? record_.top_force : record_.lateral_force[axis()];
     }
-    StepCheck check(const RelaxedState& state, double top) const;
+    std::size_t axis() const { return static_cast<std::size_t>(along_); }
+    std::array<double, 2> lateral_force() const;
+    Outcome outcome();
+    StepCheck check(const Trial& to) const;
     double slack(std::int64_t in_contact) const;
-    bool passes_load(Leg leg, const RelaxedState& state, double aim) const;
+    bool passes_load(const RelaxedState& state, double aim) const;
     bool close_in();
-    bool work_is_known(double top, double force) const;
-    ForceWindow acceptable_force(double top) const;
-    void accept(const RelaxedState& state, double top, const StepCheck& step, Leg leg);
-    Instability describe(const RelaxedState& state, double energy, Leg leg) const;
-    void set_record(const RelaxedState& state, double top);
+    bool work_is_known(double at, double force) const;
+    ForceWindow acceptable_force(double at) const;
+    void accept(const Trial& to, const StepCheck& step);
+    Instability describe(const RelaxedState& state, double energy) const;
+    void set_record(const RelaxedState& state, double at);
     void first_point(double top);
     double smallest_step() const { return options_.step * 0x1p-16; }
     /// Of the work of a step with an instability, eV.
@@ -155,15 +161,19 @@ private:
     StepRecord record_;
     bool reversible_ = false; ///< the last step was: good for a prediction
     bool predicts_ = false;   ///< the next relaxation starts from a prediction
-    bool closing_in_ = false; ///< on the load at which the approach ends
+    bool bracketed_ = false; ///< the load at which the segment ends
     double length_ = 0.0;     ///< of the next step, Å
     Ahead ahead_;
-    double direction_ = 0.0; ///< of the last step
+    Segment::Kind kind_ = Segment::approach; ///< of the segment under way
+    std::size_t segment_ = 0;                ///< its number
+    Along along_ = Along::z;                 ///< what it leads
+    double direction_ = 0.0;  ///< of that; 0: the segment ends where it began
+    std::optional<double> end_, load_; ///< where it ends, Å or eV/Å; none: an approach's, or apart
     ForceTrail trail_;
     bool attracted_ = false;
     double strongest_ = 0.0; ///< attraction so far, eV/Å
-    double approach_ = 0.0, pull_off_ = 0.0;
-    LegError approach_error_, pull_off_error_;
+    double work_ = 0.0; ///< of the segment, eV
+    SegmentError error_;
     double energy_at_start_ = 0.0;
     double scale_ = 0.0;   ///< largest energy seen, for the residual, eV
     double allowed_ = 0.0; ///< what the steps so far may have missed, eV
@@ -180,7 +190,7 @@ void QuasistaticPath::visit(Visitor& v) {
     v("interface_energy", record_.interface_energy);
     v("elastic_energy", record_.elastic_energy);
     v("in_contact", record_.in_contact);
-    v("pushed", record_.repulsive);
+    v("repulsive", record_.repulsive);
     v("closest", record_.closest);
     v("work", record_.work);
     v("dissipated", record_.damped);
@@ -188,21 +198,25 @@ void QuasistaticPath::visit(Visitor& v) {
     v("points", points_);
     v("reversible", reversible_);
     v("predicts", predicts_);
-    v("closing_in", closing_in_);
+    v("bracketed", bracketed_);
     v("length", length_);
     v("ahead.known", ahead_.known);
-    v("ahead.top", ahead_.top);
+    v("ahead.top", ahead_.at);
     v("ahead.force", ahead_.force);
+    v("kind", kind_);
+    v("segment", segment_);
+    v("along", along_);
     v("direction", direction_);
+    v("end", end_);
+    v("load", load_);
+    v("slide", record_.slide);
+    v("lateral_force", record_.lateral_force);
     v("trail", trail_);
     v("attracted", attracted_);
     v("strongest", strongest_);
-    v("approach_work", approach_);
-    v("pull_off_work", pull_off_);
-    v("approach_gap", approach_error_.gap);
-    v("approach_squares", approach_error_.squares);
-    v("pull_off_gap", pull_off_error_.gap);
-    v("pull_off_squares", pull_off_error_.squares);
+    v("work_of_segment", work_);
+    v("gap", error_.gap);
+    v("squares", error_.squares);
     v("energy_at_start", energy_at_start_);
     v("scale", scale_);
     v("allowed", allowed_);

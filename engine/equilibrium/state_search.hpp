@@ -40,7 +40,7 @@
 #pragma once
 
 #include "engine/equilibrium/continuation.hpp"
-#include "engine/equilibrium/findings.hpp"
+#include "engine/equilibrium/path_results.hpp"
 #include "engine/equilibrium/force_trail.hpp"
 
 #include <cmath>

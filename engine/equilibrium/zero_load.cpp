@@ -68,7 +68,8 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
 }
 
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
-                          const Case& c, const std::function<bool(long long, double)>& stop) {
+                          const Case& c, const std::function<bool(long long, double)>& stop,
+                          const std::array<double, 2>& place) {
     const Communicator& ranks = moving.communicator();
     const ProcessGrid slabs =
         ProcessGrid::slabs(ranks.size(), ranks.rank(), c.simulation.block.sites);
@@ -82,7 +83,8 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     SpectralBlock block(c.simulation.block, ranks);
     InterfaceOptions options = c.simulation.interface;
     options.single_too = !options.mixed;
-    const Interface interface(surface, block.tile(), c.simulation.block.spacing, options);
+    Interface interface(surface, block.tile(), c.simulation.block.spacing, options);
+    interface.slide_to(place[0], place[1]);
     for (std::size_t k = 0; k < 3; ++k)
         move(moving.grid(), components(moving.lowest_layer())[k], slabs,
              components(block.layer().plane(0))[k]);

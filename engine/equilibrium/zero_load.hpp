@@ -6,7 +6,7 @@
 #pragma once
 
 #include "engine/block/block.hpp"
-#include "engine/equilibrium/findings.hpp"
+#include "engine/equilibrium/path_results.hpp"
 #include "engine/equilibrium/relaxation.hpp"
 #include "engine/equilibrium/state_array.hpp"
 #include "engine/setup/case.hpp"
@@ -33,10 +33,11 @@ struct LayerAtRest {
 };
 /// The state at zero load below a block in motion. At rest the displacements of its lowest layer
 /// are all that the state depends on (spectral_block.hpp): they go from the ranks' tiles to slabs
-/// of rows, where all ranks relax them, and back. The state is the same bits on any number of
+/// of rows, where all ranks relax them, and back. place: of the block over the substrate, Å. The state is the same bits on any number of
 /// ranks. Collective. Without numbers, and without a layer, if stop asked for an end.
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
-                          const Case& c, const std::function<bool(long long, double)>& stop);
+                          const Case& c, const std::function<bool(long long, double)>& stop,
+                          const std::array<double, 2>& place = {});
 
 /// "relaxing, largest force 1e-3 eV/Å"
 void show_relaxation(io::Progress& progress, long long iteration, double residual);

@@ -21,6 +21,15 @@ HeightMap::HeightMap(const Surface& substrate, int sites, double spacing)
     highest_ = *std::max_element(height_.begin(), height_.end());
 }
 
+void HeightMap::shift(int i, int j) {
+    std::vector<double> moved(height_.size());
+    for (int y = 0; y < sites_; ++y)
+        for (int x = 0; x < sites_; ++x)
+            moved[static_cast<std::size_t>(y) * static_cast<std::size_t>(sites_) +
+                  static_cast<std::size_t>(x)] = at(x - i, y - j);
+    height_.swap(moved); // views of the old array are to be made anew
+}
+
 double HeightMap::between(double x, double y) const {
     const double px = x / spacing_, py = y / spacing_;
     const int i = static_cast<int>(std::floor(px)), j = static_cast<int>(std::floor(py));

@@ -38,6 +38,9 @@ public:
     SubstrateMap view() const { return {height_.data(), sites_, spacing_}; }
     const std::vector<double>& heights() const { return height_; }
 
+    /// Moves all atoms by so many spacings.
+    void shift(int i, int j);
+
     /// Bilinear between the four atoms around (x, y), Å.
     double between(double x, double y) const;
     /// Calls visit(sideways distance, height) for every atom within `reach` sideways of (x, y).

@@ -13,6 +13,7 @@
 #include <limits>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 namespace asperity {
 
@@ -56,15 +57,59 @@ InterfaceMethod method_for(const InterfaceOptions& options, const Surface& surfa
 Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                      const InterfaceOptions& options)
     : options_(options), tile_(tile), spacing_(spacing), map_(substrate, tile.sites, spacing),
-      method_(method_for(options, substrate, tile.sites)), substrate_(substrate_of(substrate)) {
+      method_(method_for(options, substrate, tile.sites)),
+      substrate_(substrate_of(substrate.atoms)) {
     if (options.tail && !wall()) find_mean_heights();
+    if (options.slides) atoms_ = substrate.atoms;
 }
 
-Interface::Substrate Interface::substrate_of(const Surface& surface) const {
+void Interface::slide_to(double x, double y) {
+    if (std::array{x, y} == place_) return;
+    if (!options_.slides) throw std::logic_error("interface: it was not made to slide");
+    place_ = {x, y};
+    const double step = map_.spacing();
+    const auto spacings = [&](double at) { return static_cast<int>(std::lround(at / step)); };
+    const std::array whole{spacings(x), spacings(y)};
+    rest_ = {x - whole[0] * step, y - whole[1] * step};
+    if (slid_.empty()) slid_ = VectorField<double>(tile_, 1);
+    if (whole == whole_) return;
+    // The block goes one way, the substrate the other.
+    map_.shift(whole_[0] - whole[0], whole_[1] - whole[1]);
+    whole_ = whole;
+    AtomPositions moved = atoms_;
+    const double edge = tile_.sites * spacing_;
+    const auto wrap = [&](std::vector<double>& list, double by) {
+        for (double& at : list) {
+            at = std::fmod(at - by, edge);
+            if (at < 0.0) at += edge;
+        }
+    };
+    wrap(moved.x, whole[0] * step);
+    wrap(moved.y, whole[1] * step);
+    substrate_ = substrate_of(moved);
+    if (!mean_height_.empty()) find_mean_heights();
+}
+
+/// As seen from the substrate.
+VectorPlane<const double>
+Interface::over_substrate(const VectorPlane<const double>& displacement) const {
+    if (rest_ == std::array{0.0, 0.0}) return displacement;
+    const VectorPlane<double> to = slid_.plane(0);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < tile_.ny; ++y)
+        for (int x = 0; x < tile_.nx; ++x) {
+            to.x(x, y) = displacement.x(x, y) + rest_[0];
+            to.y(x, y) = displacement.y(x, y) + rest_[1];
+        }
+    const VectorPlane<const double> from = std::as_const(slid_).plane(0);
+    return {from.x, from.y, displacement.z};
+}
+
+Interface::Substrate Interface::substrate_of(const AtomPositions& atoms) const {
     const auto refuse = [](const char* why) {
         throw std::invalid_argument(std::string("interface: ") + why);
     };
-    const bool anywhere = surface.atoms.size() > 0;
+    const bool anywhere = atoms.size() > 0;
     if (method_ != InterfaceMethod::wall) check(options_, anywhere, spacing_, map_.spacing());
     switch (method_) {
     case InterfaceMethod::wall:
@@ -72,7 +117,7 @@ Interface::Substrate Interface::substrate_of(const Surface& surface) const {
         return OverWall(map_, tile_, *options_.wall);
     case InterfaceMethod::cells:
         if (!anywhere) refuse("the sweep over cells needs atoms anywhere, and there are none");
-        return OverAtoms(surface.atoms, tile_, spacing_, options_);
+        return OverAtoms(atoms, tile_, spacing_, options_);
     case InterfaceMethod::rows:
         if (anywhere) refuse("atoms anywhere have no rows; use the sweep over cells");
         return OverRows(map_, tile_, spacing_, options_);
@@ -82,7 +127,7 @@ Interface::Substrate Interface::substrate_of(const Surface& surface) const {
                    "use the sweep over rows or cells");
         return OverLattice(map_, tile_, spacing_, options_);
     default: // the reference loop
-        if (anywhere) return OverAtoms(surface.atoms, tile_, spacing_, options_);
+        if (anywhere) return OverAtoms(atoms, tile_, spacing_, options_);
         return {};
     }
 }
@@ -109,7 +154,8 @@ InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
                                const VectorPlane<double>& force, double reference_height,
                                SweepOptions how) const {
     how.mixed = options_.mixed || (how.mixed && options_.single_too);
-    return sweep_sites({displacement, force, spacing_, reference_height, tile_.x0, tile_.y0, {}},
+    return sweep_sites({over_substrate(displacement), force, spacing_, reference_height, tile_.x0,
+                        tile_.y0, {}},
                        how);
 }
 
@@ -156,8 +202,9 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
     const std::size_t count =
         static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
     maps.contact.resize(count);
+    const VectorPlane<const double> u = over_substrate(displacement);
     const InterfaceSites sites{
-        displacement,     force.plane(0),
+        u,                force.plane(0),
         spacing_,         reference_height,
         tile_.x0,         tile_.y0,
         nearest.plane(0), {maps.contact.data(), tile_.nx, tile_.nx, tile_.ny}};
@@ -174,8 +221,8 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
             maps.pressure.push_back(sites.force.z(x, y) * to_gpa);
             const double below =
                 wall() ? wall()->height()(x, y)
-                       : map_.between((tile_.x0 + x + 0.5) * spacing_ + displacement.x(x, y),
-                                      (tile_.y0 + y + 0.5) * spacing_ + displacement.y(x, y));
+                       : map_.between((tile_.x0 + x + 0.5) * spacing_ + u.x(x, y),
+                                      (tile_.y0 + y + 0.5) * spacing_ + u.y(x, y));
             maps.gap.push_back(reference_height + displacement.z(x, y) - below);
         }
     return maps;

@@ -25,6 +25,7 @@
 #include "engine/interface/over_wall.hpp"
 #include "engine/scene/surface.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -63,6 +64,12 @@ public:
     InterfaceSums sweep(const VectorPlane<const double>& displacement,
                         const VectorPlane<double>& force, double reference_height,
                         SweepOptions how = {}) const;
+
+    /// The block stands at (x, y) over the substrate from now on, Å: (0, 0) at first. Whole spacings
+    /// move the substrate and make its tables anew; what is left is added to the displacements of
+    /// each sweep. Only with options.slides.
+    void slide_to(double x, double y);
+    const std::array<double, 2>& place() const { return place_; }
 
     /// Null where there is none.
     const OverWall* wall() const { return std::get_if<OverWall>(&substrate_); }
@@ -115,8 +122,9 @@ public:
 private:
     /// None: the reference loop over the map.
     using Substrate = std::variant<std::monostate, OverLattice, OverRows, OverAtoms, OverWall>;
-    Substrate substrate_of(const Surface& surface) const;
+    Substrate substrate_of(const AtomPositions& atoms) const;
     InterfaceSums sweep_sites(const InterfaceSites& sites, SweepOptions how) const;
+    VectorPlane<const double> over_substrate(const VectorPlane<const double>& displacement) const;
     void find_mean_heights();
 
     InterfaceOptions options_;
@@ -126,6 +134,13 @@ private:
     InterfaceMethod method_;
     Substrate substrate_;
     Field<double> mean_height_; ///< tail: of the atoms within the cutoff sideways
+
+    // Where it slides.
+    AtomPositions atoms_;              ///< anywhere, where they stood at first
+    std::array<double, 2> place_{};    ///< of the block over the substrate, Å
+    std::array<int, 2> whole_{};       ///< of it: spacings by which the substrate was moved
+    std::array<double, 2> rest_{};     ///< what is left, Å
+    mutable VectorField<double> slid_; ///< displacements with that added: x and y are used
 
 public:
     // The views point into the object's own arrays.

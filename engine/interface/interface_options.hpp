@@ -26,6 +26,7 @@ struct InterfaceOptions {
     bool tail = false;       ///< continuum correction beyond the cutoff
     bool mixed = false;      ///< pairs in single precision, sums in double; not the reference
     bool single_too = false; ///< a double sweep may now and then be asked for in mixed precision
+    bool slides = false;     ///< the block is moved over the substrate (Interface::slide_to())
     InterfaceMethod method = InterfaceMethod::automatic;
     bool skip = true; ///< false: visit all offsets or atoms everywhere (same bits; for tests)
 

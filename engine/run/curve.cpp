@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace asperity {
 
@@ -19,7 +20,7 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
                                           std::size_t to) {
     constexpr double window = 2.0; // ps
     if (path.time.empty() || to - from < 3) return std::nullopt;
-    // A leg's first row is that of the step after the last one's end, between two of the series.
+    // A segment's first row is that of the step after the last one's end, between two of the series.
     const double spacing = path.time[from + 2] - path.time[from + 1];
     const auto rows = static_cast<std::size_t>(std::lround(window / spacing));
     if (rows < 4 || to - from < rows) return std::nullopt;
@@ -34,14 +35,23 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
 
 } // namespace
 
-void add_sphere_path(const PathSeries& path, const Scene& scene, io::Result& result) {
-    const std::size_t rows = path.leg.size();
-    const std::size_t turn = static_cast<std::size_t>(
-        std::find(path.leg.begin(), path.leg.end(), 1.0) - path.leg.begin());
-    if (turn == 0 || turn >= rows) return;                // no cycle
+void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
+                     const Scene& scene, io::Result& result) {
     if (!result.number("work_of_drive.pull_off")) return; // not to its end
+    /// Rows of the last segment of a kind, from the first to behind the last.
+    const auto rows_of = [&](Segment::Kind kind) {
+        double number = -1.0;
+        for (std::size_t i = 0; i < segments.size(); ++i)
+            if (segments[i].kind == kind) number = static_cast<double>(i);
+        const auto [first, end] = std::equal_range(path.segment.begin(), path.segment.end(), number);
+        return std::pair{static_cast<std::size_t>(first - path.segment.begin()),
+                         static_cast<std::size_t>(end - path.segment.begin())};
+    };
+    const auto in = rows_of(Segment::approach), out = rows_of(Segment::pull_off);
+    if (in.first == in.second || out.first == out.second) return; // no cycle
     const auto strongest =
-        std::min_element(path.force.begin() + static_cast<std::ptrdiff_t>(turn), path.force.end());
+        std::min_element(path.force.begin() + static_cast<std::ptrdiff_t>(out.first),
+                         path.force.begin() + static_cast<std::ptrdiff_t>(out.second));
     const double fraction =
         path.contact_fraction[static_cast<std::size_t>(strongest - path.force.begin())];
     result.set("contact_radius.pull_off", scene.edge() * std::sqrt(fraction / std::numbers::pi));
@@ -50,8 +60,8 @@ void add_sphere_path(const PathSeries& path, const Scene& scene, io::Result& res
             result.set(key, units::milli_per_unit *
                                 theory::jkr::work_from_pull_off(*force, *scene.surface.radius));
     };
-    averaged(0, turn, "jkr.in_averaged");
-    averaged(turn, rows, "jkr.out_averaged");
+    averaged(in.first, in.second, "jkr.in_averaged");
+    averaged(out.first, out.second, "jkr.out_averaged");
 }
 
 } // namespace asperity

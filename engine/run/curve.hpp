@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/scene/scene.hpp"
+#include "engine/scene/segment.hpp"
 #include "io/result.hpp"
 
 #include <vector>
@@ -13,13 +14,14 @@ namespace asperity {
 
 /// The series of a run, a value a row.
 struct PathSeries {
-    std::vector<double> leg;   ///< 0 approach, 1 pull-off
+    std::vector<double> segment; ///< number of it
     std::vector<double> time;  ///< ps; empty for a quasi-static path
     std::vector<double> force; ///< eV/Å, positive pushes
     std::vector<double> contact_fraction;
 };
-/// What a whole path of approach and pull-off over a sphere adds to a result: jkr.in_averaged,
-/// jkr.out_averaged and contact_radius.pull_off.
-void add_sphere_path(const PathSeries& path, const Scene& scene, io::Result& result);
+/// What the last approach and pull-off of a whole path over a sphere add to a result:
+/// jkr.in_averaged, jkr.out_averaged and contact_radius.pull_off.
+void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
+                     const Scene& scene, io::Result& result);
 
 } // namespace asperity

@@ -4,7 +4,6 @@
 
 #include "engine/run/guard.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace asperity {
@@ -17,71 +16,99 @@ void DrivenPath::start() {
 }
 
 void DrivenPath::follow(const StepRecord& now) {
-    if (now.step == 0) kinetic_at_start_ = now.kinetic_energy;
+    if (now.step == 0) {
+        kinetic_at_start_ = now.kinetic_energy;
+        apart_ = segment_start_ = {0.0, 0.0, start_.energy + kinetic_at_start_, start_.energy, 0.0};
+    }
     if (ended_)
         concluding_ = std::exchange(ended_, std::nullopt);
     else
         ended_ = tell_drive(now);
 }
 
-/// The leg that ended with this step, if one did.
-std::optional<Leg> DrivenPath::tell_drive(const StepRecord& now) {
-    const Leg leg = simulation_.leg();
-    double& attraction = leg == Leg::approach ? findings_.attraction_in : findings_.attraction_out;
-    attraction = std::max(attraction, -now.force);
-    const double strongest = std::max(findings_.attraction_in, findings_.attraction_out);
-    const bool gone = out_of_reach(now.top, now.force, strongest, start_.force);
-    if (!simulation_.drive().observe(now.time, now.force, gone)) return std::nullopt;
-    if (leg == Leg::approach) {
-        require_load_reached(simulation_.options().drive.load_force, attraction, 0.0, case_.area());
-        findings_.contact_made = now.time;
+/// The segment that ended with this step, if one did.
+std::optional<std::size_t> DrivenPath::tell_drive(const StepRecord& now) {
+    Drive& drive = simulation_.drive();
+    if (drive.by_hand() || drive.done()) return std::nullopt;
+    const std::size_t number = drive.segment();
+    const Segment& segment = case_.path[number];
+    results_.feel(segment, now);
+    const bool gone = out_of_reach(now.top, now.force, results_.strongest, start_.force);
+    if (!drive.observe({now.time, now.force, now.top, gone})) return std::nullopt;
+    interface_work_ = simulation_.ledger().interface;
+    if (segment.kind == Segment::approach) {
+        require_load_reached(simulation_.options().drive.load_force, results_.attraction_in, 0.0,
+                             case_.area());
+        results_.contact_made = now.time;
     }
-    return leg;
+    return number;
 }
 
-void DrivenPath::conclude(Leg leg) {
+void DrivenPath::conclude(std::size_t number) {
     concluding_.reset();
-    if (leg == Leg::approach)
-        conclude_approach();
-    else
-        conclude_pull_off();
+    const Segment& segment = case_.path[number];
+    const Account now = account();
+    SegmentResults ended =
+        results_.ended(number, segment, simulation_.now(),
+                       per_area_ * (now.drive_work - segment_start_.drive_work), case_.area());
+    ended.interface_work = per_area_ * (now.interface_work - segment_start_.interface_work);
+    ended.lost = per_area_ * (now.lost - segment_start_.lost);
+    results_.segments.push_back(ended);
+    if (segment.kind == Segment::approach) conclude_approach(now);
+    if (segment.kind == Segment::pull_off) conclude_pull_off(now, number);
+    segment_start_ = now;
+    results_.begin_segment();
 }
 
 // The path is taken from rest to rest, out of reach: the drive also sets the block in motion
 // before the first step and stops it after the last, and brings it in and out as a rigid body
 // where what binds it then is the interface's energy.
 
-void DrivenPath::conclude_approach() {
-    LegEnergies& in = findings_.approach;
-    turn_ = account();
-    in.interface_work = per_area_ * (simulation_.ledger().approach - start_.energy);
-    in.drive_work = -per_area_ * (turn_.drive_work + start_.energy + kinetic_at_start_);
+void DrivenPath::conclude_approach(const Account& now) {
+    WayEnergies& in = results_.approach;
+    in.interface_work = per_area_ * (now.interface_work - apart_.interface_work - apart_.bound);
+    in.drive_work =
+        -per_area_ * (now.drive_work - apart_.drive_work + apart_.bound + kinetic_at_start_);
+    in.lost.reset();
     if (reaches_the_state())
-        in.lost = per_area_ * (turn_.lost + turn_.energy) + findings_.zero_load->binding_energy;
+        in.lost =
+            per_area_ * (lost_since_apart(now) + now.energy) + results_.zero_load->binding_energy;
 }
 
-void DrivenPath::conclude_pull_off() {
-    Findings& found = findings_;
-    const double bound = simulation_.now().interface_energy;
-    const Account end = account();
-    found.pull_off.interface_work = -per_area_ * (simulation_.ledger().pull_off + bound);
-    found.pull_off.drive_work =
-        per_area_ * (end.drive_work - turn_.drive_work - bound - kinetic_at_start_);
-    if (scene_.drive.temperature > 0.0) return; // heat goes both ways
-    found.lost_in_cycle = per_area_ * (end.lost + end.energy - bound - kinetic_at_start_);
-    if (reaches_the_state()) found.pull_off.lost = *found.lost_in_cycle - *found.approach.lost;
+void DrivenPath::conclude_pull_off(const Account& now, std::size_t number) {
+    WayEnergies& out = results_.pull_off;
+    const double interface_work = simulation_.ledger().interface; // to where it is bound so much
+    out.interface_work =
+        -per_area_ * (interface_work - segment_start_.interface_work + now.bound);
+    out.drive_work = per_area_ * (now.drive_work - segment_start_.drive_work - now.bound -
+                                  kinetic_at_start_);
+    if (scene_.drive.temperature == 0.0) { // else heat goes both ways
+        results_.lost_in_cycle =
+            per_area_ * (lost_since_apart(now) + now.energy - now.bound - kinetic_at_start_);
+        const bool straight = number > 0 && case_.path[number - 1].kind == Segment::approach;
+        out.lost.reset();
+        if (straight && reaches_the_state())
+            out.lost = *results_.lost_in_cycle - *results_.approach.lost;
+    }
+    apart_ = now;
+}
+
+/// Damped or radiated since the solids were last apart, less what vibrated there, eV.
+double DrivenPath::lost_since_apart(const Account& now) const {
+    return now.lost - apart_.lost - (apart_.energy - apart_.bound - kinetic_at_start_);
 }
 
 /// The approach ends, but for vibrations, in the state at zero load.
 bool DrivenPath::reaches_the_state() const {
-    return findings_.zero_load && scene_.drive.temperature == 0.0 && scene_.drive.load == 0.0;
+    return results_.zero_load && scene_.drive.temperature == 0.0 && scene_.drive.load == 0.0;
 }
 
 DrivenPath::Account DrivenPath::account() const {
     const StepRecord& now = simulation_.now();
     const Ledger& ledger = simulation_.ledger();
     return {ledger.top_work + ledger.drag_work, ledger.lost(),
-            now.interface_energy + now.elastic_energy + now.kinetic_energy};
+            now.interface_energy + now.elastic_energy + now.kinetic_energy, now.interface_energy,
+            interface_work_};
 }
 
 } // namespace asperity

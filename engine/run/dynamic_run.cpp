@@ -32,7 +32,7 @@ public:
     DynamicRun(const Case& c, const RunOptions& options, const Communicator& ranks)
         : run_(c, options, ranks), case_(c),
           simulation_(c.simulation, run_.surface, ranks, run_.grid),
-          path_(c, simulation_, run_.findings) {}
+          path_(c, simulation_, run_.results) {}
 
     int carry_out() {
         const std::size_t bytes = simulation_.block().bytes() + simulation_.interface().bytes();
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    /// The loop over time: step, guard, record, tell the drive; a leg that has ended is concluded
+    /// The loop over time: step, guard, record, tell the drive; a segment that has ended is concluded
     /// one step later.
     void integrate() {
         for (;;) {
@@ -60,7 +60,7 @@ private:
             }
             if (run_.look_is_due() && run_.stop_here(state_writer(), position())) return;
             const auto frame = begin_frame();
-            // The step after a leg and the last of all are observed, so that the guard has seen the
+            // The step after a segment and the last of all are observed, so that the guard has seen the
             // energy balance before anything is concluded.
             const bool due = simulation_.steps() % scene_.output.series == 0;
             const StepRecord& now =
@@ -100,13 +100,14 @@ private:
                 fmt::format("the maps \"{}\" were not written: the path ended before", name));
     }
     bool is_due(double delay, double time) const { // ps, fs
-        return run_.findings.contact_made &&
-               time >= *run_.findings.contact_made + delay * units::picosecond;
+        return run_.results.contact_made &&
+               time >= *run_.results.contact_made + delay * units::picosecond;
     }
 
-    /// What a leg has shown. False: stopped on the way to it.
-    bool conclude(Leg leg) {
-        if (leg == Leg::approach && case_.on(Effect::relaxation)) {
+    /// What a segment has come to. False: stopped on the way to it.
+    bool conclude(std::size_t number) {
+        const Segment& segment = case_.path[number];
+        if (segment.kind == Segment::approach && case_.on(Effect::relaxation)) {
             // The block is not touched: a run that is stopped here starts the relaxation again.
             run_.save_if_on(state_writer());
             run_.progress.say("contact is made; relaxing a copy of its lowest layer under no load");
@@ -115,8 +116,15 @@ private:
                 return false;
             }
         }
-        path_.conclude(leg);
-        if (!simulation_.drive().done()) run_.progress.say("pull-off begins");
+        path_.conclude(number);
+        if (case_.maps.segments) {
+            const auto t = run_.phases.time(Phase::output);
+            run_.recorder().fields(fmt::format("segment-{}", number),
+                                   simulation_.block().lowest_layer(), run_.grid,
+                                   simulation_.interface(), simulation_.reference_height());
+        }
+        if (!simulation_.drive().done())
+            run_.progress.say(simulation_.drive().now().text + " begins");
         return true;
     }
 
@@ -129,9 +137,10 @@ private:
                           [&](long long iteration, double residual) {
                               show_relaxation(run_.progress, iteration, residual);
                               return run_.stop_relaxation();
-                          });
+                          },
+                          simulation_.now().slide);
         if (!found.numbers) return false;
-        run_.findings.zero_load = found.numbers;
+        run_.results.zero_load = found.numbers;
         if (case_.maps.zero_load)
             run_.recorder().fields("zero-load", std::as_const(found.layer).view()[0], run_.grid,
                                    simulation_.interface(), height);
@@ -162,9 +171,8 @@ private:
     void record_row() {
         const auto t = run_.phases.time(Phase::output);
         const bool keep = run_.recorder().rows() % rows_between_snapshots == 0;
-        const bool pulling = simulation_.leg() == Leg::pull_off ||
-                             (simulation_.leg() == Leg::done && scene_.has(PathPart::pull_off));
-        run_.recorder().row(simulation_.now(), pulling, scene_.surface.sites);
+        run_.recorder().row(simulation_.now(), simulation_.drive().segment(),
+                            scene_.surface.sites);
         if (!keep) return;
         snapshot_.take(simulation_);
         snapshot_numbers_ = {};
@@ -187,7 +195,7 @@ private:
         if (!run_.maps.any()) return;
         if (!now.observed && !run_.maps.due(now.step)) return;
         const auto t = run_.phases.time(Phase::output);
-        run_.maps.watch(now.step, simulation_.leg(), now.observed ? -now.force : 0.0,
+        run_.maps.watch(now.step, simulation_.drive().now().kind, now.observed ? -now.force : 0.0,
                         simulation_.block().lowest_layer(), simulation_.interface(),
                         simulation_.reference_height(), run_.recorder());
     }
@@ -224,9 +232,10 @@ private:
     std::string position() const { return fmt::format("step {}", simulation_.steps()); }
 
     io::Progress::State progress_state(const StepRecord& now) const {
-        return {fmt::format("{}, F = {:.1f} eV/Å", name(simulation_.leg()), now.force),
+        const Drive& drive = simulation_.drive();
+        return {fmt::format("{}, F = {:.1f} eV/Å", drive.now().text, now.force),
                 simulation_.steps(), now.time,
-                run_.way_done(simulation_.leg(), now.top, simulation_.reference_height())};
+                run_.way_done(drive.segment(), now.top, simulation_.reference_height())};
     }
 
     /// Steps and energies.

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The parts of the path one after the other: "zero-load" is one relaxation with
-// the top plane free, approach and pull-off are points of a quasi-static path,
-// until the path says that it is there.
+// The segments of the path one after the other: "zero-load" is one relaxation with the top plane
+// free, the others are points of a quasi-static path, until the path says that it is there.
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/equilibrium/state_search.hpp"
 #include "engine/equilibrium/zero_load.hpp"
@@ -38,7 +37,7 @@ public:
         const auto work = [&] {
             resume();
             run_.open_recorder();
-            follow_parts();
+            follow_path();
             run_.maps.write_kept(interface_, run_.recorder());
         };
         return run_.carry_out(block_.bytes() + interface_.bytes(), work,
@@ -46,15 +45,14 @@ public:
     }
 
 private:
-    void follow_parts() {
-        for (; part_ < scene_.drive.path.size(); ++part_, at_end_ = false) {
-            const PathPart part = scene_.drive.path[part_];
-            const bool whole = part == PathPart::zero_load  ? relax_free()
-                               : part == PathPart::approach ? follow_leg(Leg::approach)
-                                                            : follow_leg(Leg::pull_off);
+    void follow_path() {
+        for (; segment_ < case_.path.size(); ++segment_, at_end_ = false) {
+            const bool whole = now().kind == Segment::zero_load ? relax_free() : follow_segment();
             if (!whole) return;
         }
     }
+    /// The segment under way; of the case, with its amount in the units of the scene.
+    const Segment& now() const { return case_.path[segment_]; }
 
     /// Straight to the relaxed state under the load. False where it was stopped.
     bool relax_free() {
@@ -79,14 +77,14 @@ private:
 
     /// From the first state inwards. False where it was stopped.
     bool find_all_states() {
-        if (!searching_) search_.start(*run_.findings.zero_load);
+        if (!searching_) search_.start(*run_.results.zero_load);
         searching_ = true;
         resumed_ = false;
         for (auto outcome = StateSearch::Outcome::point; outcome != StateSearch::Outcome::done;) {
             if (run_.stop_here(state_writer(), position())) return false;
             const auto t = run_.phases.time(Phase::relax);
             outcome = search_.advance();
-            run_.findings.states = search_.found();
+            run_.results.states = search_.found();
             if (outcome == StateSearch::Outcome::interrupted) return stop_at_last_point();
         }
         search_.restore_first();
@@ -95,8 +93,8 @@ private:
     }
 
     /// Point by point. False where it was stopped.
-    bool follow_leg(Leg leg) {
-        begin_leg(leg);
+    bool follow_segment() {
+        begin_segment();
         while (!at_end_) {
             if (scene_.drive.max_steps > 0 && path_.now().step >= scene_.drive.max_steps) {
                 run_.stop_at_max_steps();
@@ -105,36 +103,33 @@ private:
             }
             if (run_.stop_here(state_writer(), position())) return false;
             const auto t = run_.phases.time(Phase::relax);
-            const QuasistaticPath::Outcome outcome = path_.advance(leg);
+            const long long before = path_.now().step;
+            const QuasistaticPath::Outcome outcome = path_.advance();
             if (outcome == QuasistaticPath::Outcome::interrupted) return stop_at_last_point();
             at_end_ = outcome != QuasistaticPath::Outcome::point;
-            note_point(leg);
+            if (path_.now().step > before) note_point();
             guard();
         }
-        return conclude(leg);
+        return conclude();
     }
 
-    void begin_leg(Leg leg) {
-        leg_ = leg;
+    void begin_segment() {
         if (std::exchange(resumed_, false)) return;
-        (leg == Leg::approach ? run_.findings.attraction_in : run_.findings.attraction_out) = 0.0;
-        if (part_ == 0)
-            path_.start();
-        else if (scene_.drive.path[part_ - 1] == PathPart::zero_load)
-            path_.start_here();
-        else
-            return; // the path goes on from where it stands
-        run_.recorder().row(path_.now(), leg == Leg::pull_off, scene_.surface.sites);
+        run_.results.begin_segment();
+        const bool first = segment_ == 0;
+        const bool from_state = !first && case_.path[segment_ - 1].kind == Segment::zero_load;
+        if (first) path_.start();
+        if (from_state) path_.start_here();
+        path_.begin(case_.simulation.drive.path[segment_], segment_);
+        if (first || from_state) run_.recorder().row(path_.now(), segment_, scene_.surface.sites);
     }
 
-    void note_point(Leg leg) {
-        const StepRecord& now = path_.now();
-        double& attraction =
-            leg == Leg::approach ? run_.findings.attraction_in : run_.findings.attraction_out;
-        attraction = std::max(attraction, -now.force);
-        run_.findings.dissipated = path_.dissipation();
-        run_.recorder().row(now, leg == Leg::pull_off, scene_.surface.sites);
-        run_.maps.watch(now.step, leg, -now.force, block_.lowest_layer(), interface_,
+    void note_point() {
+        const StepRecord& point = path_.now();
+        run_.results.feel(now(), point);
+        run_.results.dissipated = path_.dissipation();
+        run_.recorder().row(point, segment_, scene_.surface.sites);
+        run_.maps.watch(point.step, now().kind, -point.force, block_.lowest_layer(), interface_,
                         reference_height(), run_.recorder());
         if (run_.progress.due()) run_.progress.update(path_progress());
     }
@@ -152,32 +147,57 @@ private:
 
     /// Of the last point; its steps are iterations.
     io::Progress::State path_progress() const {
-        const StepRecord& now = path_.now();
-        return {fmt::format("{}, F = {:.1f} eV/Å", name(leg_), now.force), path_.iterations(), 0.0,
-                run_.way_done(leg_, now.top, interface_.start_height())};
+        return {fmt::format("{}, F = {:.1f} eV/Å", now().text, path_.now().force),
+                path_.iterations(), 0.0,
+                run_.way_done(segment_, path_.now().top, interface_.start_height())};
     }
 
-    /// What a leg has shown. False where it was stopped on the way to it.
-    bool conclude(Leg leg) {
+    /// What a segment has come to. False where it was stopped on the way to it.
+    bool conclude() {
         const double per_area = units::milli_per_unit / (case_.area());
-        const Dissipation& lost = path_.dissipation();
-        Findings& findings = run_.findings;
-        LegEnergies& here = leg == Leg::approach ? findings.approach : findings.pull_off;
-        here.drive_work = per_area * path_.work(leg);
-        here.lost = per_area * (leg == Leg::approach ? lost.approach : lost.pull_off);
-        here.uncertainty = per_area * path_.uncertainty(leg);
-        if (scene_.drive.hold == Hold::mean_height) here.interface_work = here.drive_work;
-        if (leg == Leg::pull_off) {
-            if (findings.approach.lost)
-                findings.lost_in_cycle = *findings.approach.lost + *here.lost;
-            return true;
+        const double work = per_area * path_.work();
+        const double lost = per_area * path_.dissipation().in_segment;
+        const double uncertainty = per_area * path_.uncertainty();
+        PathResults& results = run_.results;
+        SegmentResults ended = results.ended(segment_, now(), path_.now(), work, case_.area());
+        ended.lost = lost;
+        ended.uncertainty = uncertainty;
+        if (scene_.drive.hold == Hold::mean_height)
+            ended.interface_work = now().kind == Segment::slide ? 0.0 : -work;
+
+        const bool in = now().kind == Segment::approach;
+        if (in || now().kind == Segment::pull_off) {
+            WayEnergies& here = in ? results.approach : results.pull_off;
+            here.drive_work = in ? -work : work;
+            here.lost = lost;
+            here.uncertainty = uncertainty;
+            if (scene_.drive.hold == Hold::mean_height) here.interface_work = here.drive_work;
         }
-        require_load_reached(case_.simulation.drive.load_force, findings.attraction_in,
-                             path_.slack(), case_.area());
-        path_.put_back(); // as after a resume, to the same bits
-        const bool found = find_state(0.0);
-        path_.put_back();
-        return found || stop_at_last_point();
+        if (now().kind == Segment::pull_off && results.approach.lost)
+            results.lost_in_cycle = lost + lost_since_apart();
+        if (in) {
+            require_load_reached(case_.simulation.drive.load_force, results.attraction_in,
+                                 path_.slack(), case_.area());
+            path_.put_back(); // as after a resume, to the same bits
+            const bool found = find_state(0.0);
+            path_.put_back();
+            if (!found) return stop_at_last_point();
+        }
+        results.segments.push_back(ended);
+        if (case_.maps.segments)
+            run_.recorder().fields(fmt::format("segment-{}", segment_), block_.lowest_layer(),
+                                   run_.grid, interface_, reference_height());
+        return true;
+    }
+    /// In the segments that have ended, back to where the solids were out of reach, meV/Å^2.
+    double lost_since_apart() const {
+        const auto& segments = run_.results.segments;
+        double lost = 0.0;
+        for (std::size_t i = segments.size(); i-- > 0;) {
+            if (case_.path[segments[i].number].kind == Segment::pull_off) break;
+            lost += segments[i].lost;
+        }
+        return lost;
     }
 
     bool stop_at_last_point() {
@@ -196,8 +216,8 @@ private:
                                           });
         if (!state) return false;
         // A path that starts in a state comes back to another; its numbers are of the first.
-        if (!run_.findings.zero_load || scene_.drive.path.front() != PathPart::zero_load)
-            run_.findings.zero_load = state;
+        if (!run_.results.zero_load || !case_.starts_with(Segment::zero_load))
+            run_.results.zero_load = state;
         if (case_.maps.zero_load)
             run_.recorder().fields("zero-load", block_.lowest_layer(), run_.grid, interface_,
                                    reference_height());
@@ -207,7 +227,7 @@ private:
     bool points() const { return path_.now().observed; }
     std::string position() const {
         return searching_ ? fmt::format("point {} of the search for states",
-                                        run_.findings.states ? run_.findings.states->points : 0)
+                                        run_.results.states ? run_.results.states->points : 0)
                : points() ? fmt::format("point {}", path_.now().step)
                           : "an unfinished relaxation";
     }
@@ -219,8 +239,8 @@ private:
             add_energies(path_.now(), result);
         } else {
             result.set("energy.kinetic", 0.0);
-            if (!run_.findings.zero_load) return;
-            const ZeroLoad& z = *run_.findings.zero_load;
+            if (!run_.results.zero_load) return;
+            const ZeroLoad& z = *run_.results.zero_load;
             const double area = case_.area() / units::milli_per_unit;
             result.set("run.iterations",
                        static_cast<long long>(z.iterations) + search_.iterations());
@@ -233,12 +253,12 @@ private:
     // found.
     struct Place {
         double top;
-        std::size_t part;
+        std::size_t segment;
         bool at_end, on_path, searching, searched;
         template <class Visitor>
         void visit(Visitor& v) {
             v("top", top);
-            v("part", part);
+            v("segment", segment);
             v("at_end", at_end);
             v("on_path", on_path);
             v("searching", searching);
@@ -250,8 +270,8 @@ private:
     }
     void write_state(const io::FilePlace& file) {
         CollectNumbers collect;
-        Place place{block_.top(), part_,      at_end_,
-                    points(),     searching_, run_.findings.states && !searching_};
+        Place place{block_.top(), segment_,      at_end_,
+                    points(),     searching_, run_.results.states && !searching_};
         collect("place", place);
         if (place.on_path) collect("path", path_);
         if (place.searching || place.searched) collect("search", search_);
@@ -275,17 +295,17 @@ private:
         RestoreNumbers restore(numbers);
         Place place{};
         restore("place", place);
-        part_ = place.part;
+        segment_ = place.segment;
         at_end_ = place.at_end;
         read_checkpoint(*from, run_.ranks, run_.grid, arrays(place), run_.fingerprint());
         if (place.on_path) {
             restore("path", path_);
             path_.resume();
-            run_.findings.dissipated = path_.dissipation();
+            run_.results.dissipated = path_.dissipation();
         }
         if (place.searching || place.searched) {
             restore("search", search_);
-            run_.findings.states = search_.found();
+            run_.results.states = search_.found();
         }
         if (place.searching) {
             search_.resume();
@@ -321,8 +341,7 @@ private:
     SpectralBlock block_;
     QuasistaticPath path_;
     StateSearch search_;
-    Leg leg_ = Leg::approach;
-    std::size_t part_ = 0;   ///< of the path: the one under way
+    std::size_t segment_ = 0; ///< number of the one under way
     bool at_end_ = false;    ///< it has come to its end and is to be concluded
     bool resumed_ = false;   ///< it goes on from a checkpoint
     bool searching_ = false; ///< for all states, the first being found

@@ -13,12 +13,12 @@ PathMaps::PathMaps(const MapTimes& times, const ProcessGrid& grid) : times_(time
     if (times.pull_off) layer_ = VectorField<double>(grid.tile(0), 1);
 }
 
-void PathMaps::watch(long long step, Leg leg, double attraction,
+void PathMaps::watch(long long step, Segment::Kind kind, double attraction,
                      const VectorPlane<const double>& layer, const Interface& interface,
                      double reference_height, Recorder& recorder) {
     if (due(step))
         recorder.fields(fmt::format("step-{}", step), layer, grid_, interface, reference_height);
-    if (leg != Leg::pull_off || attraction <= attraction_ || !times_.pull_off) return;
+    if (kind != Segment::pull_off || attraction <= attraction_ || !times_.pull_off) return;
     attraction_ = attraction;
     reference_height_ = reference_height;
     kept_ = true;

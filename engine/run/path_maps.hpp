@@ -5,7 +5,6 @@
 // those of the largest attraction of the pull-off are kept until the end of the work.
 #pragma once
 
-#include "engine/dynamics/drive.hpp"
 #include "engine/equilibrium/state_array.hpp"
 #include "engine/run/recorder.hpp"
 #include "engine/setup/case.hpp"
@@ -22,7 +21,7 @@ public:
     bool any() const { return times_.every || times_.pull_off; }
     bool due(long long step) const { return times_.every && step % *times_.every == 0; }
     /// Collective.
-    void watch(long long step, Leg leg, double attraction, const VectorPlane<const double>& layer,
+    void watch(long long step, Segment::Kind kind, double attraction, const VectorPlane<const double>& layer,
                const Interface& interface, double reference_height, Recorder& recorder);
     /// At the end of the work. Collective.
     void write_kept(const Interface& interface, Recorder& recorder);

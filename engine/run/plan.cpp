@@ -47,23 +47,60 @@ std::string memory_text(double bytes) {
 } // namespace
 
 ExpectedPath expected_path(const Case& c, double start) {
-    const auto& [block, drive] = std::tie(c.simulation.block, c.simulation.drive);
+    const BlockOptions& block = c.simulation.block;
+    const double contact = c.flat.separation - start; // displacement of the top plane
+    const double modulus = block.lame() + 2.0 * block.shear_modulus(); // eV/Å^3
+    const double yields = block.thickness * block.spacing / modulus;   // under a pressure
     ExpectedPath path;
-    if (drive.approach) path.approach = start - c.flat.separation;
-    if (!drive.pull_off) return path;
-    // Elongation of the block when it separates, at half the largest tension.
-    const double modulus = block.lame() + 2.0 * block.shear_modulus();
-    const double stretch =
-        0.5 * c.largest_tension * units::gigapascal * block.thickness * block.spacing / modulus;
-    path.pull_off = std::max(path.approach, stretch);
-    path.turn = drive.ramp;
+    double at = 0.0, pressure = 0.0;
+    for (const Segment& segment : c.path) {
+        double to = at, way = 0.0;
+        switch (segment.kind) {
+        case Segment::approach:
+            to = contact;
+            pressure = 0.0;
+            break;
+        case Segment::pull_off: {
+            // Elongation of the block when it separates, at half the largest tension.
+            const double stretch = 0.5 * c.largest_tension * units::gigapascal * yields;
+            way = std::max(-at, stretch);
+            to = 0.0;
+            break;
+        }
+        case Segment::load: {
+            const double asked = segment.amount * units::megapascal;
+            to = std::min(at, contact) + (pressure - asked) * yields;
+            pressure = asked;
+            break;
+        }
+        case Segment::height:
+            to = segment.amount - start;
+            break;
+        case Segment::slide:
+            way = std::abs(segment.amount);
+            break;
+        case Segment::hold:
+            path.at_rest += segment.amount * units::picosecond;
+            break;
+        case Segment::zero_load:
+            break;
+        }
+        way = std::max(way, std::abs(to - at));
+        at = to;
+        path.ways.push_back(way);
+        path.deepest = std::max(path.deepest, -at);
+        if (segment.kind == Segment::approach || segment.kind == Segment::pull_off)
+            path.free += way;
+    }
+    if (c.path.size() > 1)
+        path.turns = c.simulation.drive.ramp * static_cast<double>(c.path.size() - 1);
     return path;
 }
 
 long long expected_steps(const Case& c, double start) {
     if (!c.in_time) return 0;
     const ExpectedPath path = expected_path(c, start);
-    const double time = (path.approach + path.pull_off) / c.simulation.drive.velocity + path.turn;
+    const double time = path.way() / c.simulation.drive.velocity + path.at_rest + path.turns;
     const long long steps = std::llround(time / c.simulation.dt);
     const long long most = c.scene.drive.max_steps;
     return most > 0 ? std::min(steps, most) : steps;
@@ -113,9 +150,10 @@ Plan make_plan(const Case& c, int threads) {
     const auto steps = static_cast<double>(plan.steps);
     const ExpectedPath path = expected_path(c, start);
     // During approach and pull-off the cost of a step changes between that out of reach and that in
-    // contact; in the turn the block is in contact.
-    const double turn = steps > 0.0 ? std::min(1.0, path.turn / (steps * c.simulation.dt)) : 0.0;
-    const double near = turn + 0.5 * (1.0 - turn);
+    // contact; elsewhere the block is in contact.
+    const double free = path.free / c.simulation.drive.velocity;
+    const double near =
+        steps > 0.0 ? 1.0 - 0.5 * std::min(1.0, free / (steps * c.simulation.dt)) : 1.0;
     plan.block = {bytes(Part::block),
                   share * steps *
                       ((1.0 - near) * rehearsal.far_step() + near * rehearsal.near_step())};
@@ -129,7 +167,7 @@ Plan make_plan(const Case& c, int threads) {
         plan.iterations = rehearsal.iterations();
         if (plan.typical)
             plan.iterations += std::llround(iterations_of_point * points_over_steps *
-                                            (path.approach + path.pull_off) /
+                                            path.way() /
                                             std::min(c.scene.drive.step, c.longest_step));
         plan.state.seconds = share * static_cast<double>(plan.iterations) * rehearsal.iteration();
     }

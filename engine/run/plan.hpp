@@ -14,16 +14,24 @@
 
 #include <array>
 #include <cstdio>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace asperity {
 
-/// Distances that the top plane moves along a path, as far as they are known beforehand.
+/// What the top plane does along a path, as far as it is known beforehand.
 struct ExpectedPath {
-    double approach = 0.0; ///< from the start to contact, Å
-    double pull_off = 0.0; ///< from there until the contact has separated, Å
-    double turn = 0.0;     ///< duration of the turn between them, fs
+    std::vector<double> ways; ///< of each segment: how far it moves, or the block over the
+                              ///< substrate, Å
+    double deepest = 0.0;     ///< below the start, Å
+    double free = 0.0;        ///< of all ways: approaches and pull-offs, which begin or end out of
+                              ///< reach, Å
+    double at_rest = 0.0;     ///< time of holds, fs
+    double turns = 0.0;       ///< time of the ramps after the first segment, fs
+
+    double way() const { return std::accumulate(ways.begin(), ways.end(), 0.0); }
 };
 /// start: height of the lowest layer at the start, Å.
 ExpectedPath expected_path(const Case& c, double start);

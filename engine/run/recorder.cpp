@@ -19,12 +19,12 @@ namespace {
 /// What a row is made of.
 struct Row {
     const StepRecord& r;
-    bool pulling;
+    double segment; ///< its number
     double sites; ///< N^2
 };
 
-/// absorbing: in time, where seams absorb.
-enum class In { both, dynamic, absorbing, quasistatic };
+/// absorbing: in time, where seams absorb; sliding: where the path slides.
+enum class In { both, dynamic, absorbing, sliding, quasistatic };
 
 struct RecordColumn {
     const char* name;
@@ -35,11 +35,15 @@ struct RecordColumn {
 const RecordColumn record_columns[] = {
     {"step", In::both, [](const Row& w) { return static_cast<double>(w.r.step); }},
     {"time", In::dynamic, [](const Row& w) { return w.r.time * 1e-3; }},
-    {"leg", In::both, [](const Row& w) { return w.pulling ? 1.0 : 0.0; }},
-    {"top", In::both, [](const Row& w) { return w.r.top; }},
+    {"segment", In::both, [](const Row& w) { return w.segment; }},
+    {"top_displacement", In::both, [](const Row& w) { return w.r.top; }},
     {"mean_height", In::both, [](const Row& w) { return w.r.mean_height; }},
     {"force", In::both, [](const Row& w) { return w.r.force; }},
     {"top_force", In::both, [](const Row& w) { return w.r.top_force; }},
+    {"slide_x", In::sliding, [](const Row& w) { return w.r.slide[0]; }},
+    {"slide_y", In::sliding, [](const Row& w) { return w.r.slide[1]; }},
+    {"lateral_force_x", In::sliding, [](const Row& w) { return w.r.lateral_force[0]; }},
+    {"lateral_force_y", In::sliding, [](const Row& w) { return w.r.lateral_force[1]; }},
     {"interface_energy", In::both, [](const Row& w) { return w.r.interface_energy; }},
     {"elastic_energy", In::both, [](const Row& w) { return w.r.elastic_energy; }},
     {"kinetic_energy", In::dynamic, [](const Row& w) { return w.r.kinetic_energy; }},
@@ -48,16 +52,17 @@ const RecordColumn record_columns[] = {
     {"damped", In::dynamic, [](const Row& w) { return w.r.damped; }},
     {"radiated", In::absorbing, [](const Row& w) { return w.r.radiated; }},
     {"dissipated", In::quasistatic, [](const Row& w) { return w.r.damped; }},
-    {"residual", In::both, [](const Row& w) { return w.r.residual; }},
+    {"balance_error", In::both, [](const Row& w) { return w.r.residual; }},
     {"contact_fraction", In::both,
      [](const Row& w) { return static_cast<double>(w.r.in_contact) / w.sites; }},
-    {"pushed_fraction", In::both,
+    {"repulsive_fraction", In::both,
      [](const Row& w) { return static_cast<double>(w.r.repulsive) / w.sites; }},
     {"closest", In::both, [](const Row& w) { return w.r.closest; }},
 };
 
-bool is_in(const RecordColumn& c, DriveMode mode, bool absorbs) {
-    if (c.in == In::absorbing) return absorbs;
+bool is_in(const RecordColumn& c, DriveMode mode, const Effects& effects) {
+    if (c.in == In::absorbing) return effects.on(Effect::seams);
+    if (c.in == In::sliding) return effects.on(Effect::sliding);
     return c.in == In::both || (c.in == In::dynamic) == (mode == DriveMode::dynamic);
 }
 
@@ -175,10 +180,10 @@ private:
 } // namespace
 
 Recorder::Recorder(const io::Directory& directory, const Surface& surface,
-                   const Communicator& communicator, DriveMode mode, bool absorbs,
+                   const Communicator& communicator, DriveMode mode, const Effects& effects,
                    const std::optional<Position>& resume, AddToFile add)
     : communicator_(communicator), directory_(directory), surface_(surface), add_(std::move(add)),
-      mode_(mode), absorbs_(absorbs) {
+      mode_(mode), effects_(effects) {
     if (resume) rows_ = resume->rows;
     communicator_.on_root([&] {
         journal_.emplace(directory_, io::run_file::journal, resume ? resume->mark.bytes : 0);
@@ -186,12 +191,12 @@ Recorder::Recorder(const io::Directory& directory, const Surface& surface,
     });
 }
 
-void Recorder::row(const StepRecord& record, bool pulling, int sites) {
-    const Row row{record, pulling, static_cast<double>(sites) * sites};
+void Recorder::row(const StepRecord& record, std::size_t segment, int sites) {
+    const Row row{record, static_cast<double>(segment), static_cast<double>(sites) * sites};
     ++rows_;
     communicator_.on_root([&] {
         for (const RecordColumn& c : record_columns)
-            if (is_in(c, mode_, absorbs_)) waiting_.push_back(c.value(row));
+            if (is_in(c, mode_, effects_)) waiting_.push_back(c.value(row));
         if (rows_ % rows_in_memory == 0) append_rows();
     });
 }
@@ -357,7 +362,7 @@ std::map<std::string, std::vector<double>> Recorder::series() const {
     std::map<std::string, std::vector<double>> all;
     std::vector<std::vector<double>*> columns;
     for (const RecordColumn& c : record_columns)
-        if (is_in(c, mode_, absorbs_)) columns.push_back(&all[c.name]);
+        if (is_in(c, mode_, effects_)) columns.push_back(&all[c.name]);
     journal_->replay([&](std::uint64_t kind, io::Journal::Bytes payload) {
         io::PayloadReader record(payload);
         while (kind == rows_record && !record.at_end())

@@ -11,6 +11,7 @@
 
 #include "engine/dynamics/simulation.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/setup/effects.hpp"
 #include "io/directory.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/journal.hpp"
@@ -43,14 +44,15 @@ public:
     using AddToFile = std::function<void(io::Hdf5File&)>;
 
     /// A new journal, or one that goes on from a position which it holds (Journal::holds). The
-    /// surface must outlive the recorder. absorbs: seams of the block do.
+    /// surface must outlive the recorder. They and the effects must outlive
+    /// it.
     Recorder(const io::Directory& directory, const Surface& surface,
-             const Communicator& communicator, DriveMode mode, bool absorbs,
+             const Communicator& communicator, DriveMode mode, const Effects& effects,
              const std::optional<Position>& resume, AddToFile add);
 
     /// One row: an observed step, or a point of a quasi-static path (which has no time, no kinetic
-    /// energy and no damping, and no columns for them). sites: N.
-    void row(const StepRecord& record, bool pulling, int sites);
+    /// energy and no damping, and no columns for them). segment: number of it; sites: N.
+    void row(const StepRecord& record, std::size_t segment, int sites);
     std::uint64_t rows() const { return rows_; }
     /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
     /// Once for each name.
@@ -100,7 +102,7 @@ private:
     const Surface& surface_;
     AddToFile add_;
     DriveMode mode_;
-    bool absorbs_;
+    const Effects& effects_;
     std::optional<io::Journal> journal_; ///< root only
     std::vector<double> waiting_;        ///< rows that are not in the journal yet; root only
     std::uint64_t rows_ = 0;

@@ -304,7 +304,7 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
             keep_points([&] {
                 path.emplace(*waves, *interface, path_options(piece, *interface));
                 path->start();
-                path->advance(Leg::approach);
+                path->advance();
             });
         waves->set_uniform(height - start);
         part(Part::state, [&] {

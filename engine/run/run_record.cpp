@@ -39,40 +39,65 @@ void add_zero_load(const ZeroLoad& z, io::Result& result) {
     result.set("binding_energy_uncertainty", z.uncertainty);
     result.set("work_of_adhesion.pairwise", z.pairwise);
     result.set("contact_fraction", z.contact_fraction);
-    result.set("pushed_fraction", z.repulsive_fraction);
+    result.set("repulsive_fraction", z.repulsive_fraction);
     result.set("zero_load.elastic_energy", z.elastic);
     result.set("zero_load.mean_height", z.mean_height);
     result.set("zero_load.residual_force", z.residual);
     result.set("run.iterations", static_cast<long long>(z.iterations));
 }
 
-void add_path(const Findings& findings, std::optional<double> radius, io::Result& result) {
-    const LegEnergies &in = findings.approach, &out = findings.pull_off;
+void add_path(const PathResults& results, std::optional<double> radius, io::Result& result) {
+    const WayEnergies &in = results.approach, &out = results.pull_off;
     result.set("work_of_adhesion.approach", in.interface_work);
     result.set("work_of_adhesion.pull_off", out.interface_work);
     result.set("work_of_drive.approach", in.drive_work);
     result.set("work_of_drive.pull_off", out.drive_work);
     result.set("lost.approach", in.lost);
     result.set("lost.pull_off", out.lost);
-    result.set("lost.cycle", findings.lost_in_cycle);
+    result.set("lost.cycle", results.lost_in_cycle);
     if (in.interface_work) result.set("work_of_adhesion.uncertainty.approach", in.uncertainty);
     if (out.interface_work) result.set("work_of_adhesion.uncertainty.pull_off", out.uncertainty);
     result.set("work_of_drive.uncertainty.approach", in.uncertainty);
     result.set("work_of_drive.uncertainty.pull_off", out.uncertainty);
     result.set("lost.uncertainty.approach", in.uncertainty);
     result.set("lost.uncertainty.pull_off", out.uncertainty);
-    if (in.drive_work) result.set("approach_force", findings.attraction_in);
-    if (out.drive_work) result.set("pull_off_force", findings.attraction_out);
+    if (in.drive_work) result.set("approach_force", results.attraction_in);
+    if (out.drive_work) result.set("pull_off_force", results.attraction_out);
     if (!radius) return;
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, *radius);
     };
-    if (in.drive_work) result.set("jkr.in", as_work(findings.attraction_in));
-    if (out.drive_work) result.set("jkr.out", as_work(findings.attraction_out));
+    if (in.drive_work) result.set("jkr.in", as_work(results.attraction_in));
+    if (out.drive_work) result.set("jkr.out", as_work(results.attraction_out));
 }
 
-void add_dissipation(const Findings& findings, const Scene& scene, io::Result& result) {
-    const Dissipation& lost = *findings.dissipated;
+void add_segments(const PathResults& results, const Case& c, io::Result& result) {
+    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
+    result.set_list("segments[]");
+    for (std::size_t i = 0; i < results.segments.size(); ++i) {
+        const SegmentResults& s = results.segments[i];
+        const auto given = [&](io::Key key, const std::optional<double>& value) {
+            if (value) result.set(key, i, *value);
+        };
+        result.set("segments[].segment", i, static_cast<long long>(s.number));
+        result.set("segments[].name", i, c.path[s.number].text);
+        result.set("segments[].work_of_drive", i, s.drive_work);
+        given("segments[].work_of_interface", s.interface_work);
+        result.set("segments[].lost", i, s.lost);
+        given("segments[].uncertainty", s.uncertainty);
+        result.set("segments[].largest_attraction", i, s.attraction);
+        given("segments[].friction", s.lateral_mean);
+        given("segments[].largest_friction", s.lateral_most);
+        result.set("segments[].pressure", i, s.force / (c.area() * units::megapascal));
+        result.set("segments[].mean_height", i, s.mean_height);
+        result.set("segments[].top_displacement", i, s.top);
+        result.set("segments[].contact_fraction", i, static_cast<double>(s.in_contact) / sites);
+        if (c.on(Effect::sliding)) result.set("segments[].slide", i, std::vector{s.slide[0], s.slide[1]});
+    }
+}
+
+void add_dissipation(const PathResults& results, const Scene& scene, io::Result& result) {
+    const Dissipation& lost = *results.dissipated;
     const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
     result.set("dissipated.energy", lost.total());
     result.set("dissipated.events", lost.events);
@@ -80,10 +105,9 @@ void add_dissipation(const Findings& findings, const Scene& scene, io::Result& r
     for (std::size_t i = 0; i < lost.jumps.size(); ++i) {
         const Instability& jump = lost.jumps[i];
         const auto both = [](double before, double after) { return std::vector{before, after}; };
-        result.set("dissipated.jumps[].leg", i,
-                   jump.leg == Leg::approach ? "approach" : "pull-off");
+        result.set("dissipated.jumps[].segment", i, static_cast<long long>(jump.segment));
         result.set("dissipated.jumps[].energy", i, jump.energy);
-        result.set("dissipated.jumps[].top", i, jump.top);
+        result.set("dissipated.jumps[].top_displacement", i, jump.top);
         result.set("dissipated.jumps[].mean_height", i,
                    both(jump.height_before, jump.height_after));
         result.set("dissipated.jumps[].force", i, both(jump.force_before, jump.force_after));
@@ -112,7 +136,7 @@ void add_states(const StateList& states, io::Result& result) {
         const ZeroLoad& z = state.numbers;
         put("states.*.binding_energy", "states.all[].binding_energy", z.binding_energy);
         put("states.*.contact_fraction", "states.all[].contact_fraction", z.contact_fraction);
-        put("states.*.pushed_fraction", "states.all[].pushed_fraction", z.repulsive_fraction);
+        put("states.*.repulsive_fraction", "states.all[].repulsive_fraction", z.repulsive_fraction);
         put("states.*.mean_height", "states.all[].mean_height", z.mean_height);
         put("states.*.elastic_energy", "states.all[].elastic_energy", z.elastic);
         put("states.*.barrier", "states.all[].barrier",
@@ -165,13 +189,14 @@ io::Result surface_result(const Case& c, const Surface& surface) {
     return result;
 }
 
-io::Result run_result(const Case& c, const Surface& surface, const Findings& findings) {
+io::Result run_result(const Case& c, const Surface& surface, const PathResults& results) {
     io::Result result = surface_result(c, surface);
     result.set("delta_gamma", c.flat.work_of_adhesion);
-    add_path(findings, c.scene.surface.radius, result);
-    if (findings.zero_load) add_zero_load(*findings.zero_load, result);
-    if (findings.states) add_states(*findings.states, result);
-    if (findings.dissipated) add_dissipation(findings, c.scene, result);
+    add_path(results, c.scene.surface.radius, result);
+    if (results.zero_load) add_zero_load(*results.zero_load, result);
+    if (!results.segments.empty()) add_segments(results, c, result);
+    if (results.states) add_states(*results.states, result);
+    if (results.dissipated) add_dissipation(results, c.scene, result);
     add_theory(c, surface, result);
     add_sphere(c, result);
     result.set("run.ranks", c.ranks);
@@ -182,7 +207,7 @@ io::Result run_result(const Case& c, const Surface& surface, const Findings& fin
 }
 
 void add_energies(const StepRecord& now, io::Result& result) {
-    result.set("energy.residual", now.residual);
+    result.set("energy.balance_error", now.residual);
     result.set("energy.work", now.work);
     result.set("energy.kinetic", now.kinetic_energy);
     result.set("energy.elastic", now.elastic_energy);

@@ -5,7 +5,7 @@
 // described in io/quantities.hpp.
 #pragma once
 
-#include "engine/equilibrium/findings.hpp"
+#include "engine/equilibrium/path_results.hpp"
 #include "engine/setup/case.hpp"
 #include "io/result.hpp"
 
@@ -18,8 +18,8 @@ io::Result scene_result(const Scene& scene);
 /// The same with the statistics of the surface.
 io::Result surface_result(const Case& c, const Surface& surface);
 /// What runs in time and without it have in common: the scene, its surface, its effects, the
-/// findings, theory, ranks and threads.
-io::Result run_result(const Case& c, const Surface& surface, const Findings& findings);
+/// results, theory, ranks and threads.
+io::Result run_result(const Case& c, const Surface& surface, const PathResults& results);
 
 /// What the search for all states at zero load may have missed, in words.
 std::string states_missed(const StateList& states);

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <numeric>
 #include <system_error>
 
 #include <sys/resource.h>
@@ -104,7 +105,7 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
         const io::Result result = write_result(nullptr, add_to);
         if (options_.silent) return;
         print_unless_closed([&] {
-            print_summary(stdout, case_, result, findings.states, storage_.path());
+            print_summary(stdout, case_, result, results, storage_.path());
             if (stopped_ != Stopped::no)
                 fmt::print("  Stopped early ({}): the path is not complete.\n", name(stopped_));
         });
@@ -192,7 +193,7 @@ void RunSession::open_recorder() {
     };
     recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
                       case_.in_time ? DriveMode::dynamic : DriveMode::quasistatic,
-                      case_.on(Effect::seams), resumed_at_, add);
+                      case_.effects, resumed_at_, add);
 }
 
 void RunSession::collect(CollectNumbers& numbers) {
@@ -201,7 +202,7 @@ void RunSession::collect(CollectNumbers& numbers) {
     numbers("run.records", records);
     numbers("run.processor_seconds", processor);
     numbers("run.maps", maps);
-    numbers("run.findings", findings);
+    numbers("run.results", results);
 }
 
 void RunSession::restore(RestoreNumbers& numbers) {
@@ -210,7 +211,7 @@ void RunSession::restore(RestoreNumbers& numbers) {
     resumed_at_ = records;
     numbers("run.processor_seconds", processor_before_);
     numbers("run.maps", maps);
-    numbers("run.findings", findings);
+    numbers("run.results", results);
 }
 
 double RunSession::processor_seconds() const {
@@ -222,10 +223,18 @@ double RunSession::processor_seconds() const {
     return processor_before_ + seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-double RunSession::way_done(Leg leg, double top, double start_height) const {
+double RunSession::way_done(std::size_t segment, double top, double start_height) const {
     const ExpectedPath path = expected_path(case_, start_height);
-    const double done = leg == Leg::approach ? -top : 2.0 * path.approach + top;
-    return std::clamp(done / (path.approach + path.pull_off), 0.0, 0.99);
+    const double ended = std::accumulate(path.ways.begin(),
+                                         path.ways.begin() + static_cast<std::ptrdiff_t>(segment),
+                                         0.0);
+    const double all = std::accumulate(path.ways.begin(), path.ways.end(), 0.0);
+    const double depth = path.deepest + top; // of an approach still to come, of a pull-off done
+    double here = 0.0;
+    if (case_.path[segment].kind == Segment::approach) here = path.ways[segment] - depth;
+    if (case_.path[segment].kind == Segment::pull_off) here = depth;
+    here = std::clamp(here, 0.0, path.ways[segment]);
+    return all > 0.0 ? std::clamp((ended + here) / all, 0.0, 0.99) : 0.0;
 }
 
 void RunSession::write_failure(const Failure& failure, const AddToResult& add_to) {
@@ -243,7 +252,7 @@ void RunSession::write_failure(const Failure& failure, const AddToResult& add_to
 }
 
 io::Result RunSession::write_result(const Failure* failure, const AddToResult& add_to) {
-    io::Result result = run_result(case_, surface, findings);
+    io::Result result = run_result(case_, surface, results);
     add_to(result);
     result.set("run.wall_seconds", interruptions_.seconds());
     result.set("run.processor_seconds", processor_seconds());
@@ -255,11 +264,11 @@ io::Result RunSession::write_result(const Failure* failure, const AddToResult& a
     }
     if (recorder_ && case_.scene.surface.radius) {
         auto series = recorder_->series();
-        add_sphere_path({.leg = series["leg"],
+        add_sphere_path({.segment = series["segment"],
                          .time = series["time"], // none of a quasi-static path
                          .force = series["force"],
                          .contact_fraction = series["contact_fraction"]},
-                        case_.scene, result);
+                        case_.path, case_.scene, result);
     }
     io::write_result(storage_.directory(), result);
     if (failure || stopped_ != Stopped::no) return result;

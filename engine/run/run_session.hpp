@@ -3,7 +3,7 @@
 //
 // What every run uses, whatever it does in between: the surface, the result directory
 // (run_storage.hpp) and what is recorded in it (recorder.hpp), checkpoints, reasons to stop
-// (interruptions.hpp), what was found (findings.hpp), and the result.
+// (interruptions.hpp), what it has come to (path_results.hpp), and the result.
 //
 // A kind of run has one as a member, and reads from top to bottom in its own file: dynamic_run.cpp
 // in time, equilibrium_run.cpp without.
@@ -14,7 +14,7 @@
 
 #include "decomposition/communicator.hpp"
 #include "decomposition/process_grid.hpp"
-#include "engine/equilibrium/findings.hpp"
+#include "engine/equilibrium/path_results.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "engine/run/interruptions.hpp"
 #include "engine/run/path_maps.hpp"
@@ -54,7 +54,7 @@ private:
 
 public:
     io::Progress progress;
-    Findings findings;
+    PathResults results;
     Phases phases; ///< relaxations, checkpoints, output
     PathMaps maps;
 
@@ -79,7 +79,7 @@ public:
     void save(const WriteState& write);
     /// At drive.max_steps, and before what may take long: only if the scene has checkpoints.
     void save_if_on(const WriteState& write);
-    /// The numbers of what this class holds (records, maps, findings), as "run.*", and back.
+    /// The numbers of what this class holds (records, maps, results), as "run.*", and back.
     void collect(CollectNumbers& numbers);
     void restore(RestoreNumbers& numbers);
     /// What may not change between a checkpoint and its resumption: the physics, as text.
@@ -114,7 +114,7 @@ public:
     }
     /// Done of the whole way from start_height (above the substrate's zero), 0 to 1, as far as the
     /// top plane's displacement tells.
-    double way_done(Leg leg, double top, double start_height) const;
+    double way_done(std::size_t segment, double top, double start_height) const;
 
 private:
     /// Why the run ends early.

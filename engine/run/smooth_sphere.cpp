@@ -119,7 +119,7 @@ void add_sphere(const Case& c, io::Result& result) {
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, R);
     };
-    const bool pressed = scene.drive.path.front() == PathPart::zero_load && scene.drive.load != 0.0;
+    const bool pressed = c.starts_with(Segment::zero_load) && scene.drive.load != 0.0;
     if (const auto binding = result.number("binding_energy"); binding && !pressed) {
         const double energy = *binding / units::milli_per_unit * scene.edge() * scene.edge();
         const double modulus =

@@ -12,10 +12,12 @@
 //         v("trail", trail);   // a class with a visit() of its own: "trail.points",
 //         v("jumps", jumps);   // a vector of these: "jumps.count", "jumps.0.energy",
 //         v("lost", lost);     // an optional of these: "lost.given", "lost"
+//         v("slide", slide);   // an array of these: "slide.0", "slide.1"
 //     }
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -59,6 +61,11 @@ public:
     }
 
 private:
+    template <class T, std::size_t n>
+    void visit_members(const std::string& name, std::array<T, n>& values) {
+        for (std::size_t i = 0; i < n; ++i)
+            (*this)(name + "." + std::to_string(i), values[i]);
+    }
     template <class T>
     void visit_members(const std::string& name, std::optional<T>& value) {
         bool given = value.has_value();

@@ -66,6 +66,12 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
                        "heat of the thermostat.\n");
         return;
     }
+    if (c.guided()) {
+        if (const Number lost = of("lost.cycle"))
+            fmt::print(to, "  From the approach to the end of the pull-off {:.2f} meV/Å² are lost.\n",
+                       *lost);
+        return;
+    }
     const double lost =
         of("lost.cycle").value_or(*of("work_of_drive.pull_off") - *of("work_of_drive.approach"));
     if (std::abs(lost) < std::max(0.01 * flat, 0.005))
@@ -89,6 +95,31 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
     if (std::abs(lost) >= std::max(0.01 * flat, 0.005) && scene.drive.hold == Hold::top)
         fmt::print(to, "  A thick block is a soft spring and snaps as a whole; a thinner one "
                        "(block.thickness) less so.\n");
+}
+
+/// The segments of a path that does more than to approach and to pull off.
+void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
+    const bool slides = c.on(Effect::sliding);
+    std::vector<std::string> head = {"segment",
+                                     named("work of the drive", "segments[].work_of_drive"),
+                                     named("lost", "segments[].lost"),
+                                     named("ends at", "segments[].pressure"),
+                                     named("mean height", "segments[].mean_height"), "contact"};
+    if (slides) head.push_back(named("friction", "segments[].friction"));
+    io::Table table(head);
+    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
+    for (const SegmentResults& s : results.segments) {
+        std::vector<std::string> row = {c.path[s.number].text,
+                                        number(s.drive_work, 2),
+                                        number(s.lost, 2),
+                                        number(s.force / (c.area() * units::megapascal), 1),
+                                        number(s.mean_height, 2),
+                                        number(static_cast<double>(s.in_contact) / sites, 4)};
+        if (slides) row.push_back(number(s.lateral_mean, 2));
+        table.row(row);
+    }
+    fmt::print(to, "\n");
+    table.print(to);
 }
 
 /// All states at zero load.
@@ -154,11 +185,11 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
 }
 
 void print_summary(std::FILE* to, const Case& c, const io::Result& result,
-                   const std::optional<StateList>& states, const std::string& directory) {
+                   const PathResults& results, const std::string& directory) {
     const Scene& scene = c.scene;
     const Numbers of{result};
     const double flat = of("delta_gamma").value_or(0.0);
-    const bool loaded = scene.has(PathPart::zero_load) && scene.drive.load != 0.0;
+    const bool loaded = c.has(Segment::zero_load) && scene.drive.load != 0.0;
     const std::string at =
         loaded ? fmt::format("under {:.6g} MPa", scene.drive.load) : std::string("at zero load");
     io::Table table({"", "approach", "pull-off", "state " + at});
@@ -200,13 +231,14 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     if (scene.surface.radius)
         row("  as a JKR sphere", "jkr.in", 2, of("jkr.in"), of("jkr.out"), {});
     row("contact area fraction", "contact_fraction", 4, {}, {}, of("contact_fraction"));
-    row("repulsive sites, fraction", "pushed_fraction", 4, {}, {}, of("pushed_fraction"));
+    row("repulsive sites, fraction", "repulsive_fraction", 4, {}, {}, of("repulsive_fraction"));
     row("elastic energy stored", "zero_load.elastic_energy", 2, {}, {},
         of("zero_load.elastic_energy"));
     row("energy of the pairs alone", "work_of_adhesion.pairwise", 2, {}, {},
         of("work_of_adhesion.pairwise"));
     fmt::print(to, "\n");
     table.print(to);
+    if (c.guided()) print_segments(to, c, results);
     fmt::print(to, "\nHow to read it\n");
     if (state)
         fmt::print(to,
@@ -225,9 +257,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         fmt::print(to,
                    "  At finite strain no state at zero load is given: states are sums of waves, "
                    "which do not add up.\n");
-    if (states) print_states(to, *states);
+    if (results.states) print_states(to, *results.states);
     if (drive_in && drive_out) print_cycle(to, c, of, flat);
-    if (const Number residual = of("energy.residual"))
+    if (const Number residual = of("energy.balance_error"))
         fmt::print(to,
                    "  Energy balance: work done = energy gained + energy {}, to {:.1e} of the "
                    "largest term.\n",

@@ -4,7 +4,7 @@
 // What a run prints at its beginning and at its end.
 #pragma once
 
-#include "engine/equilibrium/findings.hpp"
+#include "engine/equilibrium/path_results.hpp"
 #include "engine/setup/case.hpp"
 #include "io/result.hpp"
 
@@ -19,6 +19,6 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
 
 /// The numbers of result.json side by side, and how to read them. states: where all were asked for.
 void print_summary(std::FILE* to, const Case& c, const io::Result& result,
-                   const std::optional<StateList>& states, const std::string& directory);
+                   const PathResults& results, const std::string& directory);
 
 } // namespace asperity

@@ -201,11 +201,11 @@ io::Schema bind(Scene& scene) {
         "mode", drive.mode,
         {{"dynamic", DriveMode::dynamic}, {"quasistatic", DriveMode::quasistatic}},
         "velocity Verlet, or force balance at each top position");
-    schema.list_of<PathPart>("path", drive.path,
-                             {{"approach", PathPart::approach},
-                              {"pull-off", PathPart::pull_off},
-                              {"zero-load", PathPart::zero_load}},
-                             "the parts of the run, in order");
+    schema.list("path", drive.path, {},
+                "the segments of the run, in order: \"approach\" to drive.load, \"pull-off\", "
+                "\"zero-load\" (without time, first), \"load 100 MPa\", \"height 12 Å\" (of the "
+                "lowest layer of the undeformed block, or its mean height where that is held), "
+                "\"slide x 5 Å\" (or y, at the same height), \"hold 20 ps\" (in time)");
     schema.number("velocity", drive.velocity, "m/s", positive(), "of the top plane (dynamic)");
     schema.choice<Hold>("hold", drive.hold,
                         {{"top", Hold::top}, {"mean-height", Hold::mean_height}},
@@ -290,9 +290,11 @@ io::Schema bind(Scene& scene) {
                       "steps between frames of the lowest layer (H5MD, in run.h5)");
     schema.boolean("velocities", output.velocities, "in the frames of the trajectory too");
     schema.list(
-        "fields", output.fields, {"zero-load", std::string(after_zero_load), "pull-off", "every:"},
+        "fields", output.fields,
+        {"zero-load", std::string(after_zero_load), "pull-off", "segments", "every:"},
         "when maps are written: at zero load, so many ps after the approach has ended, at the "
-        "largest attraction of the pull-off, every so many steps (points of a quasi-static path)");
+        "largest attraction of the pull-off, at the end of each segment of drive.path, every so "
+        "many steps (points of a quasi-static path)");
     schema.integer("series", output.series, at_least(1), "steps between rows of the series");
     schema.number("checkpoint", output.checkpoint, "s", at_least(0.0),
                   "wall time between checkpoints; 0: none");
@@ -302,10 +304,6 @@ io::Schema bind(Scene& scene) {
                       "range start:stop:step. Other commands pass over it.",
                       "surface.rms = [1, 2, 3]", scene.sweep);
     return schema;
-}
-
-bool Scene::has(PathPart part) const {
-    return std::find(drive.path.begin(), drive.path.end(), part) != drive.path.end();
 }
 
 Scene read_scene_text(const std::string& text, const std::string& file,

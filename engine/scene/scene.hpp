@@ -37,7 +37,6 @@ enum class WallLawKind { smeared, exponential };
 enum class DriveMode { dynamic, quasistatic };
 enum class Hold { top, mean_height };
 enum class States { first, all };
-enum class PathPart { approach, pull_off, zero_load };
 using theory::AreaFactor;
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
@@ -107,7 +106,7 @@ struct Scene {
 
     struct Drive {
         DriveMode mode = DriveMode::dynamic;
-        std::vector<PathPart> path = {PathPart::approach, PathPart::pull_off};
+        std::vector<std::string> path = {"approach", "pull-off"}; ///< segments (segment.hpp)
         double velocity = 5.0;         ///< m/s
         double step = 0.25;            ///< Å
         Hold hold = Hold::top;         ///< of a quasi-static path
@@ -155,7 +154,6 @@ struct Scene {
     double edge() const { return surface.sites * surface.spacing; } ///< of the box, Å
     /// An empty list of problems that knows this scene's positions.
     io::Problems problems() const { return io::Problems(positions); }
-    bool has(PathPart part) const;
     /// The scene itself says so: only then is a map scaled.
     bool gives_rms() const { return positions.is_set("surface.rms"); }
 };

@@ -16,6 +16,7 @@
 #include "engine/dynamics/simulation.hpp"
 #include "engine/interface/flat_reference.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/scene/segment.hpp"
 #include "engine/scene/surface.hpp"
 #include "engine/setup/effects.hpp"
 
@@ -31,6 +32,7 @@ namespace asperity {
 /// When maps are written (output.fields).
 struct MapTimes {
     bool zero_load = false, pull_off = false;
+    bool segments = false; ///< at the end of each segment of the path
     std::optional<long long> every; ///< steps, or points of a quasi-static path
     /// Delay after the end of the approach, ps, and name; in the order of the delays.
     std::vector<std::pair<double, std::string>> after_zero_load;
@@ -41,6 +43,7 @@ struct Case {
     int ranks = 1;       ///< that it is for
     bool in_time = true; ///< the path is followed in time; else equilibria only
     std::string file;    ///< of the map or the atoms, where it was found; empty: the scene has none
+    std::vector<Segment> path; ///< its segments; never empty where the scene is right
     MapTimes maps;
     std::vector<std::string> types;            ///< of atoms: rows of simulation.interface.by_type
     std::vector<std::string> table_files;      ///< of simulation.interface.tables
@@ -59,6 +62,10 @@ struct Case {
     std::vector<io::Problem> refused;
 
     bool on(Effect effect) const { return effects.on(effect); }
+    bool has(Segment::Kind kind) const;
+    /// The path does more than to approach and to pull off.
+    bool guided() const;
+    bool starts_with(Segment::Kind kind) const { return !path.empty() && path[0].kind == kind; }
     /// Area of the interface, Å^2.
     double area() const { return scene.edge() * scene.edge(); }
     /// Atoms of a substrate of one layer along the edge of the box.

@@ -20,6 +20,68 @@ namespace asperity {
 
 namespace {
 
+/// Whether the segments of the path can follow one another.
+void check_path(const Case& c, io::Problems& problems) {
+    if (c.scene.drive.path.empty())
+        problems.add("drive.path", "is empty", "there would be nothing to do",
+                     "for example path = [\"approach\", \"pull-off\"]");
+    const bool frictionless =
+        c.scene.interface.kind == InterfaceKind::wall || c.scene.interface.frictionless;
+    bool apart = true; // nothing is in reach
+    for (std::size_t i = 0; i < c.path.size(); ++i) {
+        const Segment& segment = c.path[i];
+        const auto refuse = [&](const std::string& why_not, const char* why, const char* instead) {
+            problems.add("drive.path", fmt::format("has \"{}\" {}", segment.text, why_not), why,
+                         instead);
+        };
+        const bool after_all = apart;
+        apart = segment.kind == Segment::pull_off;
+        switch (segment.kind) {
+        case Segment::approach:
+            if (!after_all)
+                refuse("from a state that is in contact already", "an approach starts out of reach",
+                       "put a \"pull-off\" before it, or lead it further with \"load\" or "
+                       "\"height\"");
+            break;
+        case Segment::pull_off:
+            if (after_all)
+                refuse("with nothing to pull off",
+                       "it starts where an \"approach\" or \"zero-load\" ends",
+                       "for example path = [\"approach\", \"pull-off\"]");
+            break;
+        case Segment::zero_load:
+            if (i > 0)
+                refuse("after something else",
+                       "it goes straight to the relaxed state and needs nothing before it",
+                       "take it out, or take path = [\"zero-load\"]: after an approach the state "
+                       "under zero load is found anyway");
+            break;
+        case Segment::load:
+            if (after_all && !(segment.amount > 0.0))
+                refuse("from out of reach", "there is no pressure there to come down to",
+                       "put an \"approach\" before it");
+            break;
+        case Segment::height:
+            break;
+        case Segment::slide:
+            if (after_all)
+                refuse("out of reach", "nothing slides there", "put an \"approach\" before it");
+            if (frictionless)
+                refuse("without lateral forces",
+                       "over a wall, or with interface.frictionless, nothing resists a slide",
+                       "take interface.kind = \"atoms\" with frictionless = false");
+            break;
+        case Segment::hold:
+            if (!c.in_time)
+                refuse("on a path without time", "equilibria do not change while they are held",
+                       "take it out, or take drive.mode = \"dynamic\"");
+            else if (after_all)
+                refuse("out of reach", "nothing happens there", "put an \"approach\" before it");
+            break;
+        }
+    }
+}
+
 /// What a substrate of atoms anywhere cannot be combined with.
 void check_atoms(const Scene& scene, io::Problems& problems) {
     const auto& [surface, interface] = std::tie(scene.surface, scene.interface);
@@ -154,27 +216,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "take drive.mode = \"quasistatic\" or drive.path = [\"zero-load\"], or "
                      "frictionless = false");
 
-    const auto& path = drive.path;
-    if (path.empty())
-        problems.add("drive.path", "is empty", "there would be nothing to do",
-                     "for example path = [\"approach\", \"pull-off\"]");
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        const bool approach = path[i] == PathPart::approach;
-        const bool follows_pull_off = i > 0 && path[i - 1] == PathPart::pull_off;
-        if (approach && i > 0 && !follows_pull_off)
-            problems.add("drive.path",
-                         "has an \"approach\" from a state that is in contact already",
-                         "an approach starts out of reach", "put a \"pull-off\" before it");
-        if (path[i] == PathPart::pull_off && (i == 0 || follows_pull_off))
-            problems.add("drive.path", "has a \"pull-off\" with nothing to pull off",
-                         "it starts where an \"approach\" or \"zero-load\" ends",
-                         "for example path = [\"approach\", \"pull-off\"]");
-        if (path[i] == PathPart::zero_load && i > 0)
-            problems.add("drive.path", "has \"zero-load\" after something else",
-                         "it goes straight to the relaxed state and needs nothing before it",
-                         "take it out, or take path = [\"zero-load\"]: after an approach the state "
-                         "under zero load is found anyway");
-    }
+    check_path(c, problems);
     if (drive.hold == Hold::mean_height && c.in_time)
         problems.add("drive.hold", "= \"mean-height\" on a path in time",
                      "in time the top plane is driven, and the lowest layer's mean height is what "
@@ -208,11 +250,15 @@ void check_keys(const Case& c, io::Problems& problems) {
     if (scene.numerics.device != no_device && scene.numerics.device != any_device)
         for (const io::Problem& p : device_problems(c))
             problems.add(p.where, p.what, p.why, p.fix);
-    if (!c.maps.after_zero_load.empty() && (!c.in_time || !scene.has(PathPart::pull_off)))
+    if (!c.maps.after_zero_load.empty() && (!c.in_time || !c.has(Segment::pull_off)))
         problems.add("output.fields", "asks for \"" + c.maps.after_zero_load.front().second + "\"",
                      "no pull-off goes on in time after zero load",
                      "take a dynamic path with a pull-off, or take it out of output.fields");
-    if (c.maps.pull_off && !scene.has(PathPart::pull_off))
+    if (c.maps.segments && c.path.size() == 1 && c.starts_with(Segment::zero_load))
+        problems.add("output.fields", "asks for \"segments\"",
+                     "drive.path is one relaxation, whose state is \"zero-load\"",
+                     "take \"zero-load\" in its place");
+    if (c.maps.pull_off && !c.has(Segment::pull_off))
         problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
                      "add it to drive.path or take it out of output.fields");
     if (scene.output.trajectory && !c.in_time)
@@ -239,6 +285,10 @@ std::vector<io::Problem> device_problems(const Case& c) {
     if (c.scene.block.seams == Seams::absorb && c.simulation.block.multiscale)
         refuse("block.seams = \"absorb\"", "seams absorb on the processor only",
                "take numerics.device = \"none\", or block.seams = \"reflect\"");
+    if (c.has(Segment::slide))
+        refuse("a slide in drive.path",
+               "a device keeps its copy of the substrate where it is, and a slide moves it",
+               "take numerics.device = \"none\"");
     if (!fuses(processor_level()))
         refuse(fmt::format("kernels of level {}", name(processor_level())),
                "a device fuses multiplications with additions, and these kernels do not: the same "
@@ -255,14 +305,9 @@ void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused) {
                     "it is part of the scene format, and this release does not compute it",
                     std::move(instead));
     };
-    const auto parts = static_cast<std::size_t>(
-        std::count(scene.drive.path.begin(), scene.drive.path.end(), PathPart::approach));
-    if (parts > 1 && c.in_time)
-        refuse("drive.path", "a path of several cycles in time",
-               "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
-    if (scene.drive.mode == DriveMode::dynamic && scene.drive.path.size() > 1 &&
-        scene.drive.path.front() == PathPart::zero_load)
-        refuse("drive.path", "a pull-off from \"zero-load\" in time",
+    if (scene.drive.mode == DriveMode::dynamic && c.path.size() > 1 &&
+        c.starts_with(Segment::zero_load))
+        refuse("drive.path", "a path in time from \"zero-load\"",
                "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
 }
 
@@ -288,7 +333,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
             fmt::format("the block is thinner ({} layers) than wide ({} sites): the longest waves "
                         "feel the rigid top plane",
                         scene.block.thickness, surface.sites));
-    if (scene.has(PathPart::zero_load) && scene.drive.load != 0.0)
+    if (c.has(Segment::zero_load) && scene.drive.load != 0.0)
         list.push_back(fmt::format("the \"zero-load\" state carries drive.load = {:.6g} MPa; its "
                                    "binding energy leaves out the load's potential",
                                    scene.drive.load));
@@ -313,9 +358,9 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     const auto idle = [&](const std::string& key, const std::string& reason) {
         if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
     };
-    if (!scene.has(PathPart::approach) && !scene.has(PathPart::pull_off))
+    if (c.path.size() == 1 && c.starts_with(Segment::zero_load))
         idle("drive.hold", "drive.path relaxes with nothing held");
-    if (!scene.has(PathPart::zero_load))
+    if (!c.has(Segment::zero_load))
         idle("drive.states", "drive.path does not start at \"zero-load\"");
     if (!c.in_time)
         for (const char* key :

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace asperity {
 
 namespace {
@@ -14,10 +16,10 @@ using Switch = Effects::Switch;
 
 /// What several rules ask of a case.
 bool follows_path(const Case& c) {
-    return c.scene.has(PathPart::approach) || c.scene.has(PathPart::pull_off);
+    return std::any_of(c.path.begin(), c.path.end(), [](const Segment& s) { return s.kind != Segment::zero_load; });
 }
 std::string equilibria(const Case& c) {
-    return c.scene.has(PathPart::zero_load) ? "drive.path = [\"zero-load\"]"
+    return c.has(Segment::zero_load) ? "drive.path = [\"zero-load\"]"
                                             : "drive.mode = \"quasistatic\"";
 }
 Switch off_without_time(const Case& c) { return {false, "no time passes: " + equilibria(c)}; }
@@ -65,7 +67,7 @@ Switch observation(const Case& c) {
 
 Switch maps(const Case& c) {
     const MapTimes& m = c.maps;
-    if (m.zero_load || m.pull_off || (follows_path(c) && m.every) || !m.after_zero_load.empty())
+    if (m.zero_load || m.pull_off || m.segments || (follows_path(c) && m.every) || !m.after_zero_load.empty())
         return {true, "output.fields asks for them"};
     return {false, "output.fields asks for no state of this path"};
 }
@@ -109,6 +111,11 @@ constexpr std::array<Rule, effect_count> rules = {{
              return Switch{false, "interface.kind = \"wall\": one gap a site"};
          return Switch{true, "always: what is beyond interface.cutoff adds exact zeros"};
      }},
+    {Effect::sliding, "sliding",
+     [](const Case& c) {
+         return c.has(Segment::slide) ? Switch{true, "drive.path has a \"slide\""}
+                                      : Switch{false, "drive.path has no \"slide\""};
+     }},
     {Effect::tail, "long-range tail",
      [](const Case& c) {
          if (c.scene.interface.kind == InterfaceKind::wall)
@@ -125,7 +132,7 @@ constexpr std::array<Rule, effect_count> rules = {{
     {Effect::relaxation, "relaxation", relaxation},
     {Effect::states, "all states",
      [](const Case& c) {
-         const bool all = c.scene.drive.states == States::all && c.scene.has(PathPart::zero_load);
+         const bool all = c.scene.drive.states == States::all && c.has(Segment::zero_load);
          return Switch{all, fmt::format("drive.states = \"{}\"", all ? "all" : "first")};
      }},
     {Effect::observation, "energies and contact", observation},

@@ -27,6 +27,7 @@ enum class Effect {
     coarse_levels, ///< a block that gets coarser with depth
     seams,         ///< levels that absorb what the next one cannot carry
     skipping,      ///< sites out of reach are left out of the sweep
+    sliding,       ///< of the block over the substrate
     tail,          ///< continuum correction beyond the cutoff
     curvature,     ///< a spherical cap under the roughness
     relaxation,    ///< states of equilibrium

@@ -65,6 +65,7 @@ MapTimes maps_of(const Scene& scene, io::Problems& problems) {
         std::string kind = field;
         if (field == "zero-load") maps.zero_load = true;
         if (field == "pull-off") maps.pull_off = true;
+        if (field == "segments") maps.segments = true;
         if (field.starts_with(after_zero_load))
             maps.after_zero_load.emplace_back(std::stod(field.substr(after_zero_load.size())),
                                               field);
@@ -242,8 +243,12 @@ void fill_motion(Case& c, io::Problems& refused) {
     drive.velocity = scene.drive.velocity * units::metre_per_second;
     drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
     drive.load_force = scene.drive.load * units::megapascal * c.area();
-    drive.approach = scene.has(PathPart::approach);
-    drive.pull_off = scene.has(PathPart::pull_off);
+    drive.path = c.path;
+    for (Segment& segment : drive.path) {
+        if (segment.kind == Segment::load) segment.amount *= units::megapascal * c.area();
+        if (segment.kind == Segment::hold) segment.amount *= units::picosecond;
+    }
+    c.simulation.interface.slides = c.on(Effect::sliding);
 
     c.simulation.dt = scene.drive.timestep;
     if (c.on(Effect::damping)) {
@@ -321,6 +326,17 @@ ProcessGrid Case::grid(int rank) const {
     return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(levels.size()));
 }
 
+bool Case::has(Segment::Kind kind) const {
+    return std::any_of(path.begin(), path.end(), [&](const Segment& s) { return s.kind == kind; });
+}
+
+bool Case::guided() const {
+    return std::any_of(path.begin(), path.end(), [](const Segment& s) {
+        return s.kind != Segment::approach && s.kind != Segment::pull_off &&
+               s.kind != Segment::zero_load;
+    });
+}
+
 void Case::require_runnable() const {
     if (!refused.empty()) throw io::SceneError(refused);
 }
@@ -329,10 +345,11 @@ Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
     Case c;
     c.scene = scene;
     c.ranks = ranks;
-    c.in_time = scene.drive.mode == DriveMode::dynamic && !scene.has(PathPart::zero_load);
+    io::Problems found = scene.problems();
+    c.path = parse_path(scene.drive.path, found);
+    c.in_time = scene.drive.mode == DriveMode::dynamic && !c.has(Segment::zero_load);
     c.simulation.block = block_of(scene, c.in_time);
     c.levels = level_shapes(c.simulation.block);
-    io::Problems found = scene.problems();
     c.file = file_of(scene, found);
     c.maps = maps_of(scene, found);
     find_potentials(c, found);

@@ -20,7 +20,7 @@ MOST_STATES = 6
 
 PATH_CAPTIONS = {
     False: "Force of the substrate on the block over the mean separation, the mean height of the lowest layer above the "
-           "substrate’s mean plane; negative is attraction. The area under a curve is the work of adhesion of that leg.",
+           "substrate’s mean plane; negative is attraction. The area under a curve is the work of adhesion of that segment.",
     True: "Force of the substrate on the block over the mean height of the lowest layer above the apex; negative is "
           "attraction. Beside it what a smooth sphere would do: JKR alone, and JKR and Maugis-Dugdale with the sphere’s "
           "periodic images."}
@@ -29,7 +29,7 @@ MAPS = (("gap", "Gap", "Height of each site above the substrate below it."),
                                  "repulsive; the colour bar spans 99\u00a0% of the values."),
         ("contact", "Contact", ""))
 STATE_COLUMNS = (("binding_energy", "binding energy, meV/Å²"), ("contact_fraction", "contact"),
-                 ("pushed_fraction", "repulsive"), ("mean_height", "mean height, Å"),
+                 ("repulsive_fraction", "repulsive"), ("mean_height", "mean height, Å"),
                  ("elastic_energy", "elastic energy, meV/Å²"), ("barrier", "barrier to the next, MPa"))
 
 
@@ -121,6 +121,25 @@ def _energies(page: Page, run: Result) -> None:
     page.figure("loading", "Force and displacement of the top plane", "Elastic force on the driven top plane over its "
                 "displacement: what a testing machine would record. Between the curves lies the energy lost in a "
                 "cycle.", partial(plots.loading, run))
+    page.figure("friction", "Force against the slides", "Lateral force of the substrate on the lowest layer against each "
+                "slide, over its distance.", partial(plots.friction, run))
+
+
+SEGMENT_COLUMNS = (("name", "segment"), ("work_of_drive", "work of the drive, meV/Å²"), ("lost", "lost, meV/Å²"),
+                   ("pressure", "ends at, MPa"), ("mean_height", "mean height, Å"), ("contact_fraction", "contact"),
+                   ("friction", "friction, eV/Å"))
+
+
+def _segments(page: Page, run: Result) -> None:
+    """Of a path that does more than to approach and to pull off."""
+    found = run.find("segments")
+    if not isinstance(found, list) or set(run.segments) <= {"approach", "pull-off", "zero-load"}:
+        return
+    columns = [c for c in SEGMENT_COLUMNS if any(isinstance(s, dict) and c[0] in s for s in found)]
+    page.section("segments", "Segments of the path")
+    page.add("table", {"heads": [head for _, head in columns],
+                       "rows": [Row([str(s.get("name", "")), *(words.general(s.get(k), 5) for k, _ in columns[1:])])
+                                for s in found if isinstance(s, dict)]})
 
 
 def _numbers(page: Page, run: Result) -> None:
@@ -169,7 +188,7 @@ def end(page: Page, result: Values, heading: str, keys: dict | None, note: str) 
 def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
     """DIR/report.html of a run; kinds: of files of its figures."""
     page = Page(run.directory, "Asperity report", run.title, words.lead(run), kinds=kinds)
-    for part in (_top, _path, _states, _surface, _energies, _numbers, _times):
+    for part in (_top, _path, _segments, _states, _surface, _energies, _numbers, _times):
         part(page, run)
     keys = run.find("scene")
     beside = {"file": "map", "atoms": "file of atoms"}.get(str(run.key("surface.kind")), "")

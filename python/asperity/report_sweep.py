@@ -92,18 +92,18 @@ class _Points:
 def _force_curves(points: _Points, ax: Axes) -> bool:
     """The force curves of several points in one plot, spread evenly over them."""
     runs = [(n, r) for n, r in points.runs
-            if {"leg", "mean_height", "force"} <= set(r.series) and len(r.series["leg"]) > 1]
+            if {"segment", "mean_height", "force"} <= set(r.series) and len(r.series["segment"]) > 1]
     if len(runs) < 2:
         return False
     few = min(len(runs), MOST_CURVES)
     for k in range(few):
         name, run = runs[k * (len(runs) - 1) // (few - 1)]
         unit, label = run_plots.force_unit(run)
-        for leg, line in ((0, DASHES[4]), (1, "-")):
-            here = run.series["leg"] == leg
+        for number, words in enumerate(run.segments):
+            here = run.series["segment"] == number
             if here.sum() > 1:
                 curve(ax, run.series["mean_height"][here], run.series["force"][here] / unit,
-                      name if leg else "", colour=COLOURS[k], line=line)
+                      name if words == "pull-off" else "", colour=COLOURS[k], line=DASHES[4] if words == "approach" else "-")
     ax.plot([], [], color=GREY, linestyle="-", label="pull-off")
     ax.plot([], [], color=GREY, linestyle=DASHES[4], label="approach")
     felt = [h for _, r in runs for h in r.series["mean_height"][

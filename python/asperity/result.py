@@ -378,6 +378,12 @@ class Result(Values):
         units = self._members.get("units")
         return Values(units if isinstance(units, dict) else {})
 
+    @property
+    def segments(self) -> list[str]:
+        """The segments of the path, as the scene names them: series["segment"] counts them from 0."""
+        path = self.key("drive.path")
+        return [str(s) for s in path] if isinstance(path, list) else []
+
     def unit(self, name: str) -> str:
         """The unit of a number by its path; "" of a pure number or if the file does not tell."""
         return self.units.text(name)

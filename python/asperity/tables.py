@@ -25,10 +25,10 @@ OVER_FLAT = ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pu
 """Energies of a result that also have a column of their ratio to the flat reference."""
 FIRST = ("delta_gamma", "binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off",
          "work_of_drive.approach", "work_of_drive.pull_off", "lost.approach", "lost.pull_off", "lost.cycle",
-         "work_of_adhesion.pairwise", "contact_fraction", "pushed_fraction", "pull_off_force", "jkr.in", "jkr.out",
+         "work_of_adhesion.pairwise", "contact_fraction", "repulsive_fraction", "pull_off_force", "jkr.in", "jkr.out",
          "jkr.in_averaged", "jkr.out_averaged", "jkr.zero_load", "sphere.maugis_images", "sphere.renormalised",
          "contact_radius.zero_load", "contact_radius.pull_off", "realised_rms",
-         "realised_rms_slope", "energy.residual", "run.wall_seconds")
+         "realised_rms_slope", "energy.balance_error", "run.wall_seconds")
 """Columns of results that come first; whatever else result.json holds follows."""
 THEORY_FIRST = ("delta_gamma", "gamma_eff", "gamma_eff_ratio", "contact_fraction", "gamma_full_contact",
                 "gamma_full_contact_ratio", "theta", "gamma_eff_ratio_error", "contact_fraction_error")

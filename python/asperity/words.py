@@ -129,14 +129,14 @@ def key_numbers(run: Result) -> list[KeyNumber]:
     theory = run.number("theory.contact_fraction")
     if theory is not None and run.number("contact_fraction") is None:
         found.append(KeyNumber(percent(theory), "", f"contact area in theory{pressed}"))
-    residual = run.number("energy.residual")
+    residual = run.number("energy.balance_error")
     if residual is not None and not run.failure_text:
         found.append(KeyNumber(f"{abs(residual):.1e}", "", "energy balance", "relative to its largest term"))
     return found
 
 
 def _state_sentence(run: Result, state: float, flat: float) -> str:
-    bonds, contact, pushed = (run.number(k) for k in ("work_of_adhesion.pairwise", "contact_fraction", "pushed_fraction"))
+    bonds, contact, pushed = (run.number(k) for k in ("work_of_adhesion.pairwise", "contact_fraction", "repulsive_fraction"))
     at = load_words(run.find("scene"))[0]
     at = "Without external force" if at == "at zero load" else "U" + at[1:]
     if run.curved:
@@ -184,7 +184,7 @@ def findings(run: Result) -> list[str]:
     state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
     if state is not None and flat > 0:
         text.append(_state_sentence(run, state, flat))
-    if into is not None and out is not None and flat > 0:
+    if into is not None and out is not None and flat > 0 and set(run.segments) <= {"approach", "pull-off"}:
         text.append(_cycle_sentence(run, into, out, flat))
     theory = run.number("theory.gamma_eff")
     if theory is not None and flat > 0:

@@ -54,7 +54,7 @@ class Runs:
         self.state(name, {"drive.mode": "quasistatic", "drive.path": ["approach", "pull-off"], "drive.hold": "mean-height",
                           "output.fields": []} | keys)
         with h5py.File(self.out / name / "run.h5") as file:
-            series = {k: file[f"series/{k}"][:] for k in ("force", "mean_height", "contact_fraction", "leg")}
+            series = {k: file[f"series/{k}"][:] for k in ("force", "mean_height", "contact_fraction", "segment")}
             curves = {n: {k: c[k][:] for k in c} for n, c in file.get("curves", {}).items()}
         return series | {"curves": curves}
 
@@ -184,7 +184,7 @@ def jkr(runs: Runs) -> None:
         r = runs.path(name, {"surface.kind": "flat", "surface.radius": 300, "surface.sites": sites, "surface.spacing": 332.8 / sites,
                              "interface.adhesion": 30, "interface.range": reach, "drive.tolerance": 1e-3 * (64 / sites) ** 2})
         sphere, unit = asperity.load(runs.out / name)["sphere"], 1.5 * math.pi * 0.03 * 300
-        attached = (r["leg"] == r["leg"].max()) & (r["contact_fraction"] > 0.004)
+        attached = (r["segment"] == r["segment"].max()) & (r["contact_fraction"] > 0.004)
         off = {}
         for theory, curve in r["curves"].items():
             # From the deepest point outwards to where the theory's branch ends at a held height.

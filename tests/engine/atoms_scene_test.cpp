@@ -56,7 +56,7 @@ std::vector<double> path_over(const Case& c, const Surface& surface) {
     std::vector<double> numbers;
     for (int n = 0; n < 900; ++n) {
         const StepRecord& now = s.step(n % 10 == 0);
-        s.drive().observe(now.time, now.force, false);
+        s.drive().observe({now.time, now.force, 0.0, false});
         numbers.insert(numbers.end(), {now.force, now.mean_height});
         if (now.observed)
             numbers.insert(numbers.end(), {now.interface_energy, now.elastic_energy,

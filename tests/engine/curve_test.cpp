@@ -22,23 +22,25 @@
 namespace asperity {
 namespace {
 
+const std::vector<Segment> cycle = {Segment{Segment::approach}, Segment{Segment::pull_off}};
+
 TEST(Paths, OfASphereTellItsRadiusAndItsMeanForce) {
     const Scene scene = read_scene_text(
         "[surface]\nsites = 10\nspacing = 10\nradius = 1000\n[interface]\ncutoff = 10\n", "s.toml");
     PathSeries path;
     for (int i = 0; i < 40; ++i) {
         const bool out = i >= 15;
-        path.leg.push_back(out ? 1.0 : 0.0);
-        // Eight rows in 2 ps. The first row of a leg may lie anywhere between two of the series.
+        path.segment.push_back(out ? 1.0 : 0.0);
+        // Eight rows in 2 ps. The first row of a segment may lie anywhere between two of the series.
         path.time.push_back(i == 15 ? 0.25 * 16 - 0.1 : 0.25 * i);
         path.force.push_back(i == 20 ? -90.0 : i >= 25 && i < 33 ? -50.0 : 0.0);
         path.contact_fraction.push_back(i == 20 ? 0.04 : 0.01);
     }
     io::Result result;
-    add_sphere_path(path, scene, result);
+    add_sphere_path(path, cycle, scene, result);
     EXPECT_FALSE(result.number("contact_radius.pull_off")) << "the path has not come to its end";
     result.set("work_of_drive.pull_off", 8.0);
-    add_sphere_path(path, scene, result);
+    add_sphere_path(path, cycle, scene, result);
     const io::Json json = result.json();
     EXPECT_NEAR(io::find(json, "contact_radius.pull_off")->get<double>(),
                 std::sqrt(0.04 * 1e4 / M_PI), 1e-9);
@@ -53,7 +55,7 @@ double averaged(std::size_t from, std::size_t count, io::Key key) {
     PathSeries path;
     for (std::size_t i = 0; i < 400; ++i) {
         const std::size_t row = i % 200;
-        path.leg.push_back(i < 200 ? 0.0 : 1.0);
+        path.segment.push_back(i < 200 ? 0.0 : 1.0);
         path.time.push_back(0.1 * static_cast<double>(i));
         path.force.push_back(row >= from && row < from + count ? -1.0 : 0.0);
         path.contact_fraction.push_back(0.1);
@@ -62,7 +64,7 @@ double averaged(std::size_t from, std::size_t count, io::Key key) {
     scene.surface.radius = 100.0;
     io::Result result;
     result.set("work_of_drive.pull_off", 1.0);
-    add_sphere_path(path, scene, result);
+    add_sphere_path(path, cycle, scene, result);
     const std::optional<double> value = result.number(key);
     EXPECT_TRUE(value) << key.quantity->name << " is missing";
     return value.value_or(std::nan(""));

@@ -193,7 +193,7 @@ TEST(MixedPrecision, ClosesTheEnergyBalanceOfADrivenRun) {
     for (bool mixed : {false, true}) {
         SimulationOptions options = contact_options(mixed);
         options.drive.velocity = 1e-3; // Å/fs
-        options.drive.approach = true;
+        options.drive.path = {Segment{Segment::approach}, Segment{Segment::pull_off}};
         options.damping = 1e-3;
         options.dt = 5.0;
         Simulation simulation(options, test::reference_surface("n8_b_rms1.0"), Communicator(),

@@ -83,7 +83,7 @@ TEST(PotentialOfAScene, EnergiesOfAPathBalanceForEveryPotential) {
             EXPECT_NEAR(number(r, "work_of_drive", part) + sign * number(r, "lost", part), state,
                         1e-3 * state)
                 << keys[0] << part;
-        EXPECT_LT(std::abs(number(r, "energy", "residual")), 1e-3);
+        EXPECT_LT(std::abs(number(r, "energy", "balance_error")), 1e-3);
     }
 }
 

@@ -73,7 +73,7 @@ TEST(ResultNumbers, AreTheSameAfterAResume) {
         const io::Scratch scratch;
         const Json whole = test::run_scene(read_scene_text(text, "s.toml"), scratch / "whole");
         const auto steps = io::find(whole, "run.steps")->get<long long>();
-        // Stopped late on the pull-off: both legs' instabilities are behind, some of their work to
+        // Stopped late on the pull-off: both segments' instabilities are behind, some of their work to
         // come.
         const Json parts = run_in_two_parts(text, steps - steps / 20, scratch / "parts");
         if (&text == &unstable) {
@@ -96,7 +96,7 @@ TEST(ResultNumbers, AnInstabilityLiesBetweenTwoRowsOfTheSeries) {
     const auto column = [&](const char* name) {
         return file.read<double>(std::string("/series/") + name);
     };
-    const auto top = column("top"), lost = column("dissipated"), leg = column("leg"),
+    const auto top = column("top_displacement"), lost = column("dissipated"), segment = column("segment"),
                force = column("top_force"), height = column("mean_height"),
                contact = column("contact_fraction");
     const Json& jumps = *io::find(result, listed_instabilities);
@@ -104,9 +104,9 @@ TEST(ResultNumbers, AnInstabilityLiesBetweenTwoRowsOfTheSeries) {
     double strongest = 0.0;
     for (const Json& jump : jumps) {
         std::size_t row = 0; // the last one before
-        const double on_leg = jump.at("leg") == "approach" ? 0.0 : 1.0;
-        while (row + 1 < top.size() && !(top[row] == jump.at("top").get<double>() &&
-                                         leg[row + 1] == on_leg && lost[row + 1] > lost[row]))
+        const double number = jump.at("segment").get<double>();
+        while (row + 1 < top.size() && !(top[row] == jump.at("top_displacement").get<double>() &&
+                                         segment[row + 1] == number && lost[row + 1] > lost[row]))
             ++row;
         ASSERT_LT(row + 1, top.size()) << jump;
         EXPECT_NEAR(lost[row + 1] - lost[row], jump.at("energy").get<double>(), 1e-9 * lost.back());

@@ -144,11 +144,11 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
                 energy("work_of_adhesion.pairwise") - energy("zero_load.elastic_energy"), 1e-9);
 
     // The series.
-    const auto force = run.data("/series/force", "eV/Å"), leg = run.data("/series/leg", "1"),
-               top = run.data("/series/top", "Å");
+    const auto force = run.data("/series/force", "eV/Å"), segment = run.data("/series/segment", "1"),
+               top = run.data("/series/top_displacement", "Å");
     double strongest[2] = {0.0, 0.0}, work[2] = {0.0, 0.0};
     for (std::size_t i = 0; i < force.size(); ++i) {
-        const std::size_t out = leg[i] == 1.0;
+        const std::size_t out = segment[i] == 1.0;
         strongest[out] = std::max(strongest[out], -force[i]);
         if (i > 0) work[out] += 0.5 * (force[i] + force[i - 1]) * (top[i] - top[i - 1]);
     }
@@ -167,10 +167,10 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
     const auto pressure = run.data(state + "pressure", "GPa");
     const auto repulsive =
         std::count_if(pressure.begin(), pressure.end(), [](double p) { return p > 0.0; });
-    EXPECT_EQ(run.number("pushed_fraction", "1"),
+    EXPECT_EQ(run.number("repulsive_fraction", "1"),
               static_cast<double>(repulsive) / static_cast<double>(pressure.size()));
     EXPECT_EQ(run.number("contact_fraction", "1"), mean(run.data(state + "contact", "1")));
-    EXPECT_NE(run.number("contact_fraction", "1"), run.number("pushed_fraction", "1"));
+    EXPECT_NE(run.number("contact_fraction", "1"), run.number("repulsive_fraction", "1"));
     EXPECT_NEAR(run.number("zero_load.mean_height", "Å"),
                 run.file->read_attribute<double>("/fields/zero-load", "reference_height") +
                     mean(run.data(state + "u_z", "Å")),
@@ -264,14 +264,14 @@ TEST(Results, TheFirstOfSeveralStatesIsWhereTheSearchStarted) {
     const Case c = read_case_text("[surface]\nsites = 16\nrms = 0\n[block]\nthickness = 8\n"
                                   "[drive]\npath = [\"zero-load\"]\nstates = \"all\"\n",
                                   "s.toml");
-    Findings findings;
-    StateList& states = findings.states.emplace();
+    PathResults results;
+    StateList& states = results.states.emplace();
     for (const double energy : {1.0, 2.0, 3.0}) {
         states.all.emplace_back();
         states.all.back().numbers.binding_energy = energy;
     }
     states.first = 1;
-    const Json json = run_result(c, surface_of(c), findings).json();
+    const Json json = run_result(c, surface_of(c), results).json();
     EXPECT_EQ(json.at("states").at("first").at("binding_energy"), 2.0);
     EXPECT_EQ(json.at("states").at("deepest").at("binding_energy"), 3.0);
 }

@@ -65,9 +65,9 @@ TEST(RunFiles, FractionsAreThoseOfTheMaps) {
     const double repulsive = share(pressure, [](double p) { return p > 0.0; });
     const double touching = share(distance, [&](double d) { return d < inflection; });
     ASSERT_NE(repulsive, touching) << "the case must tell one from the other";
-    EXPECT_EQ(result.at("pushed_fraction").get<double>(), repulsive);
+    EXPECT_EQ(result.at("repulsive_fraction").get<double>(), repulsive);
     EXPECT_EQ(result.at("contact_fraction").get<double>(), touching);
-    EXPECT_EQ(file.read<double>("/series/pushed_fraction").back(), repulsive);
+    EXPECT_EQ(file.read<double>("/series/repulsive_fraction").back(), repulsive);
     EXPECT_EQ(file.read<double>("/series/contact_fraction").back(), touching);
 }
 

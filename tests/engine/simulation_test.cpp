@@ -25,26 +25,26 @@ DriveOptions both_ways() {
 
 TEST(Drive, ApproachEndsWhereTheForceComesBackToZero) {
     Drive drive(both_ways());
-    EXPECT_EQ(drive.leg(), Leg::approach);
+    EXPECT_EQ(drive.now().kind, Segment::approach);
     EXPECT_EQ(drive.velocity(0.0), -5e-5);
-    EXPECT_FALSE(drive.observe(0.0, 0.0, false)) << "out of reach is not contact";
-    EXPECT_FALSE(drive.observe(10.0, -1.0, false));
-    EXPECT_FALSE(drive.observe(20.0, -9.0, true)) << "nothing ends an approach but the force";
-    EXPECT_FALSE(drive.observe(30.0, -0.01, false));
-    EXPECT_TRUE(drive.observe(40.0, 0.02, false));
-    EXPECT_EQ(drive.leg(), Leg::pull_off);
-    EXPECT_FALSE(drive.observe(50.0, 3.0, false)) << "a leg ends once";
+    EXPECT_FALSE(drive.observe({0.0, 0.0, 0.0, false})) << "out of reach is not contact";
+    EXPECT_FALSE(drive.observe({10.0, -1.0, 0.0, false}));
+    EXPECT_FALSE(drive.observe({20.0, -9.0, 0.0, true})) << "nothing ends an approach but the force";
+    EXPECT_FALSE(drive.observe({30.0, -0.01, 0.0, false}));
+    EXPECT_TRUE(drive.observe({40.0, 0.02, 0.0, false}));
+    EXPECT_EQ(drive.now().kind, Segment::pull_off);
+    EXPECT_FALSE(drive.observe({50.0, 3.0, 0.0, false})) << "a segment ends once";
 }
 
 TEST(Drive, ALoadIsReachedWithOrWithoutAttraction) {
     auto options = both_ways();
     options.load_force = 2.0;
     Drive sticky(options), hard(options);
-    EXPECT_FALSE(sticky.observe(0.0, -1.0, false));
-    EXPECT_FALSE(sticky.observe(1.0, 1.0, false)) << "through zero, but not at the load";
-    EXPECT_TRUE(sticky.observe(2.0, 2.5, false));
-    EXPECT_FALSE(hard.observe(0.0, 1.0, false));
-    EXPECT_TRUE(hard.observe(1.0, 2.5, false));
+    EXPECT_FALSE(sticky.observe({0.0, -1.0, 0.0, false}));
+    EXPECT_FALSE(sticky.observe({1.0, 1.0, 0.0, false})) << "through zero, but not at the load";
+    EXPECT_TRUE(sticky.observe({2.0, 2.5, 0.0, false}));
+    EXPECT_FALSE(hard.observe({0.0, 1.0, 0.0, false}));
+    EXPECT_TRUE(hard.observe({1.0, 2.5, 0.0, false}));
 }
 
 TEST(Drive, ATipThatLeavesTheReachAgainIsNoContact) {
@@ -53,10 +53,10 @@ TEST(Drive, ATipThatLeavesTheReachAgainIsNoContact) {
     for (double load : {-2.0, 0.0, 2.0}) {
         options.load_force = load;
         Drive drive(options);
-        EXPECT_FALSE(drive.observe(0.0, -5.0, false));
-        EXPECT_FALSE(drive.observe(1.0, 0.0, false)) << "out of reach";
-        EXPECT_FALSE(drive.observe(2.0, -5.0, false));
-        EXPECT_TRUE(drive.observe(3.0, 2.5, false)) << load;
+        EXPECT_FALSE(drive.observe({0.0, -5.0, 0.0, false}));
+        EXPECT_FALSE(drive.observe({1.0, 0.0, 0.0, false})) << "out of reach";
+        EXPECT_FALSE(drive.observe({2.0, -5.0, 0.0, false}));
+        EXPECT_TRUE(drive.observe({3.0, 2.5, 0.0, false})) << load;
     }
 }
 
@@ -64,21 +64,21 @@ TEST(Drive, APullingLoadIsReachedFromBeyondIt) {
     auto options = both_ways();
     options.load_force = -2.0;
     Drive drive(options);
-    EXPECT_FALSE(drive.observe(0.0, 0.0, false))
+    EXPECT_FALSE(drive.observe({0.0, 0.0, 0.0, false}))
         << "out of reach is above the load, but no contact";
-    EXPECT_FALSE(drive.observe(1.0, -1.0, false));
-    EXPECT_FALSE(drive.observe(2.0, -5.0, false)) << "beyond the load";
-    EXPECT_FALSE(drive.observe(3.0, -2.5, false));
-    EXPECT_TRUE(drive.observe(4.0, -1.5, false));
+    EXPECT_FALSE(drive.observe({1.0, -1.0, 0.0, false}));
+    EXPECT_FALSE(drive.observe({2.0, -5.0, 0.0, false})) << "beyond the load";
+    EXPECT_FALSE(drive.observe({3.0, -2.5, 0.0, false}));
+    EXPECT_TRUE(drive.observe({4.0, -1.5, 0.0, false}));
     Drive weak(options);
-    EXPECT_FALSE(weak.observe(0.0, -1.0, false)) << "never attracts that much";
-    EXPECT_TRUE(weak.observe(1.0, 0.5, false));
+    EXPECT_FALSE(weak.observe({0.0, -1.0, 0.0, false})) << "never attracts that much";
+    EXPECT_TRUE(weak.observe({1.0, 0.5, 0.0, false}));
 }
 
 TEST(Drive, TurnsSmoothly) {
     Drive drive(both_ways());
-    drive.observe(100.0, -1.0, false);
-    drive.observe(200.0, 1.0, false);
+    drive.observe({100.0, -1.0, 0.0, false});
+    drive.observe({200.0, 1.0, 0.0, false});
     EXPECT_NEAR(drive.velocity(200.0), -5e-5, 1e-18);
     EXPECT_NEAR(drive.velocity(700.0), 0.0, 1e-18) << "half way through the ramp";
     EXPECT_EQ(drive.velocity(1200.0), 5e-5);
@@ -101,11 +101,11 @@ TEST(Drive, TurnsSmoothly) {
 
 TEST(Drive, PullOffEndsOutOfReach) {
     Drive drive(both_ways());
-    drive.observe(0.0, -1.0, false);
-    drive.observe(1.0, 1.0, false);
-    EXPECT_FALSE(drive.observe(2.0, -5.0, false));
-    EXPECT_FALSE(drive.observe(3.0, 0.0, false)) << "a zero of the force is not the end";
-    EXPECT_TRUE(drive.observe(4.0, 0.0, true));
+    drive.observe({0.0, -1.0, 0.0, false});
+    drive.observe({1.0, 1.0, 0.0, false});
+    EXPECT_FALSE(drive.observe({2.0, -5.0, 0.0, false}));
+    EXPECT_FALSE(drive.observe({3.0, 0.0, 0.0, false})) << "a zero of the force is not the end";
+    EXPECT_TRUE(drive.observe({4.0, 0.0, 0.0, true}));
     EXPECT_TRUE(drive.done());
 }
 
@@ -117,17 +117,17 @@ TEST(Drive, NothingIsOutOfReachBeforeTheTopIsBackAtItsStart) {
     EXPECT_FALSE(out_of_reach(1.0, 9.1e-6, 9.0));
 }
 
-TEST(Drive, LegsThatWereNotAskedForAreLeftOut) {
+TEST(Drive, SegmentsThatWereNotAskedForAreLeftOut) {
     auto options = both_ways();
-    options.pull_off = false;
+    options.path = {Segment{Segment::approach}};
     Drive in(options);
-    in.observe(0.0, -1.0, false);
-    EXPECT_TRUE(in.observe(1.0, 0.5, false));
+    in.observe({0.0, -1.0, 0.0, false});
+    EXPECT_TRUE(in.observe({1.0, 0.5, 0.0, false}));
     EXPECT_TRUE(in.done());
     options = both_ways();
-    options.approach = false;
+    options.path = {Segment{Segment::pull_off}};
     Drive out(options);
-    EXPECT_EQ(out.leg(), Leg::pull_off);
+    EXPECT_EQ(out.now().kind, Segment::pull_off);
     EXPECT_EQ(out.velocity(0.0), 0.0) << "from rest";
     EXPECT_NEAR(out.velocity(500.0), 2.5e-5, 1e-18);
     EXPECT_EQ(out.velocity(1000.0), 5e-5);
@@ -170,7 +170,7 @@ TEST(Simulation, NothingHappensOutOfReach) {
     EXPECT_NEAR(now.mean_height, 20.0 - 999 * 10.0 * 5e-5, 1e-12);
     EXPECT_NEAR(now.elastic_energy, 0.0, 1e-20);
     EXPECT_NEAR(simulation.ledger().damped, 0.0, 1e-20);
-    EXPECT_EQ(simulation.leg(), Leg::approach);
+    EXPECT_EQ(simulation.drive().now().kind, Segment::approach);
 }
 
 TEST(Simulation, TheTopMovesByTheIntegralOfItsVelocity) {
@@ -179,7 +179,7 @@ TEST(Simulation, TheTopMovesByTheIntegralOfItsVelocity) {
     SimulationOptions options;
     options.block = test::paper_block(8, 4, 0);
     options.interface = test::paper_interface();
-    options.drive.approach = false;
+    options.drive.path = {Segment{Segment::pull_off}};
     options.drive.ramp = 40 * options.dt;
     Simulation simulation(options, test::flat_surface(8), Communicator(),
                           test::serial_grid(options.block));

@@ -125,7 +125,7 @@ TEST(TheoryOfAScene, RenormalisedIsLeftOutWhereTheSceneSaysSo) {
     add_theory(resolve(s), surface_of(resolve(s)), result);
     EXPECT_EQ(io::find(result.json(), "theory.renormalised"), nullptr);
     s.theory.renormalised = true;
-    s.drive.path = {PathPart::zero_load};
+    s.drive.path = {"zero-load"};
     s.interface.frictionless = true;
     const TheoryCase without = theory_case(resolve(s));
     s.interface.frictionless = false;
@@ -196,7 +196,7 @@ TEST(TheoryOfAScene, ExpectedErrorCoversSimulatedStates) {
         if (row.wall) {
             s.interface.kind = InterfaceKind::wall;
             s.interface.frictionless = true;
-            s.drive.path = {PathPart::zero_load};
+            s.drive.path = {"zero-load"};
             s.interface.law = WallLawKind::smeared;
         }
         s.theory.spectrum = TheorySpectrum::realised;

@@ -3,7 +3,7 @@
 //
 // A checkpoint whose digest is right: it is put behind the bytes here, or none would get past it.
 #include "engine/run/checkpoint.hpp"
-#include "engine/equilibrium/findings.hpp"
+#include "engine/equilibrium/path_results.hpp"
 #include "engine/run/run_storage.hpp"
 #include "target.hpp"
 
@@ -23,9 +23,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         const StateNumbers numbers = read_checkpoint_numbers(file.name());
         fuzz::try_out([&] { position_in(numbers); });
         RestoreNumbers restore(numbers);
-        Findings findings;
+        PathResults results;
         Dissipation dissipation;
-        fuzz::try_out([&] { restore("run.findings", findings); });
+        fuzz::try_out([&] { restore("run.results", results); });
         fuzz::try_out([&] { restore("path.dissipation", dissipation); });
         const ProcessGrid grid(1, 0, 4, 1);
         Field<double> field(grid.tile(0), 2);

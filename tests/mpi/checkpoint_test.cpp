@@ -46,7 +46,7 @@ Simulation make(const Communicator& ranks) {
 void advance(Simulation& s, int steps) {
     for (int n = 0; n < steps; ++n) {
         const StepRecord& now = s.step(s.steps() % 10 == 0);
-        s.drive().observe(now.time, now.force, false);
+        s.drive().observe({now.time, now.force, 0.0, false});
     }
 }
 
@@ -58,24 +58,24 @@ std::uint64_t trace(Simulation& s) {
     const Ledger& l = s.ledger();
     for (double value : {now.time, now.top, now.mean_height, now.force, now.top_force,
                          now.interface_energy, now.elastic_energy, now.kinetic_energy, l.top_work,
-                         l.drag_work, l.damped, l.radiated, l.heat, l.approach, l.pull_off,
-                         now.residual, static_cast<double>(s.leg()), s.drive().velocity(s.time())})
+                         l.drag_work, l.damped, l.radiated, l.heat, l.interface,
+                         now.residual, static_cast<double>(s.drive().now().kind), s.drive().velocity(s.time())})
         hash = test::mix(hash, value);
     return hash;
 }
 
-constexpr int first_leg = 170, second_leg = 80; // cut while the drive turns round
+constexpr int first_part = 170, second_part = 80; // cut while the drive turns round
 
 std::uint64_t uninterrupted() {
     std::array<std::int64_t, 1> hash = {0};
     if (world().root()) {
         Simulation s = make(Communicator());
         s.start(start_height);
-        advance(s, first_leg);
-        EXPECT_EQ(s.leg(), Leg::pull_off);
+        advance(s, first_part);
+        EXPECT_EQ(s.drive().now().kind, Segment::pull_off);
         EXPECT_LT(std::abs(s.drive().velocity(s.time())), options().drive.velocity)
             << "in the turn";
-        advance(s, second_leg);
+        advance(s, second_part);
         EXPECT_GT(s.now().in_contact, 0);
         hash[0] = std::bit_cast<std::int64_t>(trace(s));
     }
@@ -114,7 +114,7 @@ TEST(Checkpoint, WrittenByAllRanksAndTakenUpByOne) {
     const Scratch scratch("many_to_one");
     Simulation before = make(world());
     before.start(start_height);
-    advance(before, first_leg);
+    advance(before, first_part);
     CollectNumbers more;
     std::int64_t rows = (std::int64_t{1} << 60) + 1; // more digits than a double has
     double binding = 0.1;
@@ -128,14 +128,14 @@ TEST(Checkpoint, WrittenByAllRanksAndTakenUpByOne) {
         const StateNumbers numbers = read_checkpoint(scratch.path, after, "scene A");
         EXPECT_EQ(std::get<std::int64_t>(numbers.at("rows")), rows);
         EXPECT_EQ(std::get<double>(numbers.at("binding")), binding);
-        EXPECT_EQ(after.steps(), first_leg);
-        advance(after, second_leg);
+        EXPECT_EQ(after.steps(), first_part);
+        advance(after, second_part);
         EXPECT_EQ(trace(after), expected);
         EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.directory), {}), 1)
             << "a temporary file is left";
     }
     // Writing has changed nothing.
-    advance(before, second_leg);
+    advance(before, second_part);
     EXPECT_EQ(trace(before), expected);
 }
 
@@ -145,15 +145,15 @@ TEST(Checkpoint, WrittenByOneAndTakenUpByAllRanks) {
     if (world().root()) {
         Simulation before = make(Communicator());
         before.start(start_height);
-        advance(before, first_leg);
+        advance(before, first_part);
         write_checkpoint(scratch.path, before, {}, "scene A");
     }
     world().barrier();
     Simulation after = make(world());
     advance(after, 3); // whatever it did before must be forgotten
     EXPECT_FALSE(read_checkpoint(scratch.path, after, "scene A").contains("rows"));
-    EXPECT_EQ(after.steps(), first_leg);
-    advance(after, second_leg);
+    EXPECT_EQ(after.steps(), first_part);
+    advance(after, second_part);
     EXPECT_EQ(trace(after), expected);
 }
 
@@ -168,13 +168,13 @@ void goes_on(const SimulationOptions& o, const char* name) {
     };
     Simulation before = made();
     before.start(start_height);
-    advance(before, first_leg);
+    advance(before, first_part);
     write_checkpoint(scratch.path, before, {}, "scene A");
     world().barrier();
     Simulation after = made();
     read_checkpoint(scratch.path, after, "scene A");
-    advance(before, second_leg);
-    advance(after, second_leg);
+    advance(before, second_part);
+    advance(after, second_part);
     EXPECT_GT(before.now().elastic_energy, 0.0);
     EXPECT_EQ(trace(after), trace(before));
 }
@@ -191,7 +191,7 @@ TEST(Checkpoint, WithSeamsThatAbsorb) {
     SimulationOptions o = options();
     o.temperature = 0.0;
     o.block.absorption_span = 7 * o.dt; // between two absorptions, when it stops
-    static_assert(first_leg % 7 != 0);
+    static_assert(first_part % 7 != 0);
     goes_on(o, "absorbing");
 }
 
@@ -237,17 +237,17 @@ TEST(Checkpoint, WhatIsNoneIsRefused) {
 TEST(Snapshot, PutsTheSimulationBack) {
     Simulation s = make(world());
     s.start(start_height);
-    advance(s, first_leg);
+    advance(s, first_part);
     Snapshot snapshot;
     EXPECT_TRUE(snapshot.empty());
     snapshot.take(s);
-    EXPECT_EQ(snapshot.step(), first_leg);
+    EXPECT_EQ(snapshot.step(), first_part);
     const std::uint64_t there = test::fingerprint(s.block());
-    advance(s, second_leg);
+    advance(s, second_part);
     const std::uint64_t end = trace(s);
     snapshot.restore(s);
-    EXPECT_EQ(s.steps(), first_leg);
+    EXPECT_EQ(s.steps(), first_part);
     EXPECT_EQ(test::fingerprint(s.block()), there);
-    advance(s, second_leg);
+    advance(s, second_part);
     EXPECT_EQ(trace(s), end);
 }

@@ -121,7 +121,7 @@ struct Trace {
 void advance(Simulation& s, int steps, Trace& trace) {
     for (int n = 0; n < steps; ++n) {
         const StepRecord& now = s.step(s.steps() % 10 == 0);
-        s.drive().observe(now.time, now.force, false); // turns round on contact
+        s.drive().observe({now.time, now.force, 0.0, false}); // turns round on contact
         trace.force = now.force;
         for (double value : {now.top, now.mean_height, now.force, now.top_force})
             trace.records = test::mix(trace.records, value);
@@ -135,7 +135,7 @@ void advance(Simulation& s, int steps, Trace& trace) {
 }
 void conclude(Simulation& s, Trace& trace) {
     const Ledger& l = s.ledger();
-    for (double value : {l.top_work, l.drag_work, l.damped, l.heat, l.approach, l.pull_off})
+    for (double value : {l.top_work, l.drag_work, l.damped, l.heat, l.interface})
         trace.records = test::mix(trace.records, value);
     trace.state = test::fingerprint(s.block());
 }

@@ -64,7 +64,6 @@ struct Contact {
     long long looks = 0;    ///< at relaxations so far
     long long stop_at = -1; ///< of these; -1: at none
     QuasistaticPath path;
-    Leg leg = Leg::approach;
 
     explicit Contact(const Communicator& ranks, const Kind& kind = {})
         : options(test::paper_block(kind.sites, kind.thickness, 0)), surface(surface_of(kind)),
@@ -84,8 +83,8 @@ struct Contact {
     }
     using Outcome = QuasistaticPath::Outcome;
     Outcome advance() {
-        const Outcome outcome = path.advance(leg);
-        if (outcome == Outcome::at_load) leg = Leg::pull_off;
+        const Outcome outcome = path.advance();
+        if (outcome == Outcome::at_load) path.begin({Segment::pull_off}, 1);
         return outcome;
     }
     std::uint64_t trace() {
@@ -93,8 +92,8 @@ struct Contact {
         const StepRecord& r = path.now();
         for (double value : {r.top, r.mean_height, r.force, r.top_force, r.interface_energy,
                              r.elastic_energy, r.work, r.damped, r.residual, r.closest,
-                             static_cast<double>(r.in_contact), path.work(Leg::approach),
-                             -path.work(Leg::pull_off), static_cast<double>(path.iterations())})
+                             static_cast<double>(r.in_contact), path.work(),
+                             static_cast<double>(path.iterations())})
             hash = test::mix(hash, value);
         for (const Instability& jump : path.dissipation().jumps)
             for (double value :
@@ -105,14 +104,12 @@ struct Contact {
     }
     void write(const std::string& file, const Communicator& ranks) {
         CollectNumbers collect;
-        collect("leg", leg);
         collect("path", path);
         write_checkpoint(file, ranks, grid, path.states(), collect.numbers, "it");
     }
     void read(const std::string& file, const Communicator& ranks) {
         const StateNumbers numbers = read_checkpoint(file, ranks, grid, path.states(), "it");
         RestoreNumbers restore(numbers);
-        restore("leg", leg);
         restore("path", path);
         path.resume();
     }

@@ -102,7 +102,7 @@ Trace run(const Stack& stack, const Communicator& ranks) {
     Trace trace;
     for (int n = 0; n < 300; ++n) {
         const StepRecord& now = s.step(n % 10 == 0);
-        s.drive().observe(now.time, now.force, false); // turns round on contact
+        s.drive().observe({now.time, now.force, 0.0, false}); // turns round on contact
         for (double value : {now.top, now.mean_height, now.force, now.top_force})
             trace.numbers.push_back(value);
         if (!now.observed) continue;
@@ -114,7 +114,7 @@ Trace run(const Stack& stack, const Communicator& ranks) {
     }
     const Ledger& l = s.ledger();
     for (double value :
-         {l.top_work, l.drag_work, l.damped, l.radiated, l.heat, l.approach, l.pull_off})
+         {l.top_work, l.drag_work, l.damped, l.radiated, l.heat, l.interface})
         trace.numbers.push_back(value);
     trace.state = test::fingerprint(s.block());
     return trace;

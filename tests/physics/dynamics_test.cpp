@@ -332,7 +332,7 @@ Approach approach_slowly(const SimulationOptions& options, const Surface& surfac
     s.start(surface.statistics.highest + cutoff_of(options.interface.potential));
     for (;;) {
         const StepRecord& now = s.step(true);
-        if (s.drive().observe(now.time, now.force, false)) break;
+        if (s.drive().observe({now.time, now.force, 0.0, false})) break;
         if (s.steps() > 300000) {
             ADD_FAILURE() << "no contact";
             break;
@@ -341,7 +341,7 @@ Approach approach_slowly(const SimulationOptions& options, const Surface& surfac
     const double area = std::pow(options.block.sites * options.block.spacing, 2);
     Approach result;
     result.there = -1e3 * (s.now().interface_energy + s.now().elastic_energy) / area;
-    result.work = 1e3 * s.ledger().approach / area;
+    result.work = 1e3 * s.ledger().interface / area;
     const LayerAtRest rest =
         test::bring_to_rest(s.block(), surface, s.reference_height(), options, 1e-6);
     result.binding = rest.numbers.value().binding_energy;
@@ -358,7 +358,7 @@ TEST(Approach, FlatOnFlatEndsInTheStaticMinimumAndDoesItsWork) {
     options.block = test::paper_block(8, 4, 0);
     options.interface = test::paper_interface();
     options.drive.velocity = 1e-4;
-    options.drive.pull_off = false;
+    options.drive.path = {Segment{Segment::approach}};
     options.damping = 2e-3;
     const Approach a = approach_slowly(options, test::flat_surface(8));
     EXPECT_NEAR(a.binding, 98.86330213, 2e-6);
@@ -373,7 +373,7 @@ TEST(Approach, RoughContactRelaxesToTheStaticState) {
     options.block = test::paper_block(8, 8, 0);
     options.interface = test::paper_interface();
     options.drive.velocity = 1e-4;
-    options.drive.pull_off = false;
+    options.drive.path = {Segment{Segment::approach}};
     options.damping = 2e-3;
     const Approach a = approach_slowly(options, test::reference_surface("n8_a_rms0.4"));
     EXPECT_NEAR(a.binding, 90.720765166, 1e-5);

@@ -27,7 +27,7 @@ using Solids = test::PathCase;
 
 namespace {
 
-QuasistaticPath path_of(Solids& c, double tolerance, double load = 0.0) {
+test::KeptPath path_of(Solids& c, double tolerance, double load = 0.0) {
     return c.path(tolerance, 0.25, load, Constraint::Of::mean_height);
 }
 
@@ -65,7 +65,7 @@ void expect_in(const Dissipation& a, const Dissipation& b, double least, double 
         const auto same = [&](const Instability& y) {
             const double place = std::abs(x.height_before - x.height_after) +
                                  std::abs(y.height_before - y.height_after) + late;
-            return x.leg == y.leg && std::abs(x.height_after - y.height_after) <= place &&
+            return x.segment == y.segment && std::abs(x.height_after - y.height_after) <= place &&
                    std::abs(x.energy - y.energy) <=
                        uncertain(x) + uncertain(y) +
                            late * std::abs(x.force_after - x.force_before);
@@ -119,16 +119,16 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
         for (double tolerance : {1e-3, 1e-4, 1e-5}) {
             Solids c(test::paper_block(10, thickness, 0), test::flat_surface(10));
             const OneDimension one{c};
-            QuasistaticPath path = path_of(c, tolerance);
+            test::KeptPath path = path_of(c, tolerance);
             path.start();
-            const auto in = follow(path, Leg::approach);
+            const auto in = follow(path, Segment::approach);
             const double state = -energy(path.now()), way = -path.now().top;
-            const auto out = follow(path, Leg::pull_off);
+            const auto out = follow(path, Segment::pull_off);
             // Where pairs of a flat layer leave the cutoff together F jumps, and what a polynomial
             // misses there may be taken for a fall.
             EXPECT_LT(path.dissipation().total(), 0.1 * tolerance * c.sites() * way);
-            EXPECT_NEAR(path.work(Leg::approach), state, tolerance * c.sites() * way);
-            EXPECT_NEAR(path.work(Leg::pull_off), state, tolerance * c.sites() * way);
+            EXPECT_NEAR(-path.work(Segment::approach), state, tolerance * c.sites() * way);
+            EXPECT_NEAR(path.work(Segment::pull_off), state, tolerance * c.sites() * way);
             int unstable = 0;
             for (const auto* leg : {&in, &out})
                 for (const StepRecord& r : *leg) {
@@ -217,22 +217,22 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     // Soft and gently rough: under a held top plane it snaps as a whole.
     constexpr double tolerance = 1e-4;
     Solids c(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
-    QuasistaticPath path = path_of(c, tolerance);
+    test::KeptPath path = path_of(c, tolerance);
     path.start();
-    const auto in = follow(path, Leg::approach);
+    const auto in = follow(path, Segment::approach);
     const RelaxedState state = let_go(c);
     path.put_back();
-    const auto out = follow(path, Leg::pull_off);
+    const auto out = follow(path, Segment::pull_off);
     const double bound = -state.interface_energy - state.elastic_energy;
     const double allowed = tolerance * c.sites() * (in.front().top - in.back().top);
     EXPECT_EQ(path.dissipation().total(), 0.0);
-    EXPECT_NEAR(path.work(Leg::approach), bound, allowed);
-    EXPECT_NEAR(path.work(Leg::pull_off), bound, allowed);
+    EXPECT_NEAR(-path.work(Segment::approach), bound, allowed);
+    EXPECT_NEAR(path.work(Segment::pull_off), bound, allowed);
 
     Solids d(test::paper_block(16, 60, 0), test::reference_surface("c1_N16_T16_rms0.5"));
-    QuasistaticPath falling = d.path(tolerance);
+    test::KeptPath falling = d.path(tolerance);
     falling.start();
-    follow(falling, Leg::approach);
+    follow(falling, Segment::approach);
     const RelaxedState same = let_go(d);
     EXPECT_GT(falling.dissipation().total(), 0.1 * bound);
     EXPECT_NEAR(state.interface_energy + state.elastic_energy,
@@ -263,12 +263,12 @@ TEST(MeanHeight, SurfaceFallsWhereItsLongestWaveGetsUnstable) {
             for (int i = 0; i < 50; ++i)
                 (slope(0.5 * (inner + outer)) > stiffness ? inner : outer) = 0.5 * (inner + outer);
 
-            QuasistaticPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
+            test::KeptPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
             path.start();
             StepRecord before = path.now();
             while (path.dissipation().events == 0) {
                 before = path.now();
-                ASSERT_EQ(path.advance(Leg::approach), QuasistaticPath::Outcome::point);
+                ASSERT_EQ(path.advance(Segment::approach), QuasistaticPath::Outcome::point);
             }
             const Instability& fall = path.dissipation().jumps.front();
             EXPECT_GT(fall.height_before, inner);
@@ -293,12 +293,12 @@ TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
     for (double step : {0.25, 0.1}) {
         Solids c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25),
                  test::Friction::without);
-        QuasistaticPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
+        test::KeptPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
         path.start();
-        follow(path, Leg::approach);
+        follow(path, Segment::approach);
         lost.push_back(path.dissipation());
-        EXPECT_NEAR(path.work(Leg::approach) + path.dissipation().total(), -energy(path.now()),
-                    path.uncertainty(Leg::approach));
+        EXPECT_NEAR(-path.work(Segment::approach) + path.dissipation().total(), -energy(path.now()),
+                    path.uncertainty(Segment::approach));
         for (const Instability& fall : path.dissipation().jumps)
             EXPECT_GT(fall.energy, 0.0);
     }
@@ -311,12 +311,12 @@ TEST(MeanHeight, FallsThatTakeTheForceTooFarAreGivenUp) {
     // A relaxation that ends far from the force expected is given up before its end; one whose
     // force is only near the edge of its window for its first moves is not.
     Solids c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25));
-    QuasistaticPath path = path_of(c, 2e-4);
+    test::KeptPath path = path_of(c, 2e-4);
     path.start();
     StepRecord before = path.now();
     while (path.dissipation().events == 0) {
         before = path.now();
-        ASSERT_EQ(path.advance(Leg::approach), QuasistaticPath::Outcome::point);
+        ASSERT_EQ(path.advance(Segment::approach), QuasistaticPath::Outcome::point);
     }
     const double after = path.now().top;
     const auto fall = [&](const ForceWindow& window) {
@@ -357,12 +357,12 @@ TEST(MeanHeight, WorkIsThatOfATighterPath) {
     std::vector<std::array<double, 4>> works;
     for (double tolerance : {1e-4, 2e-5}) {
         Solids c(test::paper_block(64, 64, 0), make_surface(rough));
-        QuasistaticPath path = path_of(c, tolerance);
+        test::KeptPath path = path_of(c, tolerance);
         path.start();
-        follow(path, Leg::approach);
-        follow(path, Leg::pull_off);
-        works.push_back({path.work(Leg::approach), path.uncertainty(Leg::approach),
-                         -path.work(Leg::pull_off), path.uncertainty(Leg::pull_off)});
+        follow(path, Segment::approach);
+        follow(path, Segment::pull_off);
+        works.push_back({-path.work(Segment::approach), path.uncertainty(Segment::approach),
+                         -path.work(Segment::pull_off), path.uncertainty(Segment::pull_off)});
     }
     EXPECT_NEAR(works[0][0], works[1][0], works[0][1] + works[1][1]);
     EXPECT_NEAR(works[0][2], works[1][2], works[0][3] + works[1][3]);
@@ -383,18 +383,18 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
           Model{"c3_N32_T32_rms1.5", 1.0, 32, 0.0}}) {
         Solids c(test::paper_block(m.sites, m.sites, 0), test::reference_surface(m.map, m.factor));
         constexpr double tolerance = 5e-4;
-        QuasistaticPath path = path_of(c, tolerance);
+        test::KeptPath path = path_of(c, tolerance);
         path.start();
-        const auto in = follow(path, Leg::approach);
+        const auto in = follow(path, Segment::approach);
         const double state = -energy(path.now());
-        const auto out = follow(path, Leg::pull_off);
+        const auto out = follow(path, Segment::pull_off);
         const Dissipation& lost = path.dissipation();
         const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
         EXPECT_GE(lost.total(), m.least * state);
         const double allowed = 0.2 * tolerance * c.sites();
-        EXPECT_NEAR(path.work(Leg::approach) + lost.approach, state, allowed * way);
-        EXPECT_NEAR(path.work(Leg::pull_off) - lost.pull_off, state, allowed * back);
-        EXPECT_NEAR(-path.work(Leg::approach) - -path.work(Leg::pull_off), lost.total(),
+        EXPECT_NEAR(-path.work(Segment::approach) + path.lost(Segment::approach), state, allowed * way);
+        EXPECT_NEAR(path.work(Segment::pull_off) - path.lost(Segment::pull_off), state, allowed * back);
+        EXPECT_NEAR(path.work(Segment::approach) - -path.work(Segment::pull_off), lost.total(),
                     allowed * (way + back));
         EXPECT_LT(std::abs(path.now().residual), 1e-3);
         EXPECT_NEAR(energy(path.now()), 0.0, 1e-3 * std::abs(state) + 1e-3);
@@ -405,9 +405,9 @@ TEST(MeanHeight, EndsAtItsLoadWhereTheForceFallsWithTheHeight) {
     for (double pressure : {0.0, 1.0, -5.0}) { // GPa; the largest tension is 9
         Solids c(test::paper_block(10, 200, 0), test::flat_surface(10));
         const double load = pressure * units::gigapascal * 6.76 * c.sites();
-        QuasistaticPath path = path_of(c, 1e-5, load);
+        test::KeptPath path = path_of(c, 1e-5, load);
         path.start();
-        follow(path, Leg::approach);
+        follow(path, Segment::approach);
         EXPECT_NEAR(path.now().force, load, 0.25e-5 * c.sites());
         EXPECT_LT(path.now().mean_height, 3.4) << "the inner branch";
     }
@@ -418,9 +418,9 @@ TEST(MeanHeight, LandsWhereTheAttractionIsLostInTheTolerance) {
     // each site.
     constexpr double tolerance = 2e-2;
     Solids c(test::paper_block(16, 16, 0), test::reference_surface("c1_N16_T16_rms0.5", 20.0));
-    QuasistaticPath path = c.path(tolerance);
+    test::KeptPath path = c.path(tolerance);
     path.start();
-    const auto in = follow(path, Leg::approach);
+    const auto in = follow(path, Segment::approach);
     double strongest = 0.0;
     for (const StepRecord& r : in)
         strongest = std::max(strongest, -r.force);
@@ -434,9 +434,9 @@ TEST(MeanHeight, EndsInTheFirstStateHoweverWeaklyItBinds) {
     // site of the surface. The path ends where a relaxation without a path does.
     constexpr double tolerance = 1e-2;
     Solids c(test::paper_block(32, 32, 0), test::reference_surface("c3_N32_T32_rms1.5", 6.0));
-    QuasistaticPath path = path_of(c, tolerance);
+    test::KeptPath path = path_of(c, tolerance);
     path.start();
-    const auto in = follow(path, Leg::approach);
+    const auto in = follow(path, Segment::approach);
     double strongest = 0.0;
     for (const StepRecord& r : in)
         strongest = std::max(strongest, -r.force);
@@ -461,13 +461,13 @@ TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     const RelaxedState pressed =
         relax(c.block, c.interface, c.interface.start_height(), Constraint::load(20.0), o, phases);
     ASSERT_TRUE(pressed.converged);
-    QuasistaticPath path = path_of(c, 1e-4);
+    test::KeptPath path = path_of(c, 1e-4);
     path.start_here();
     EXPECT_NEAR(path.now().force, 20.0, 0.01);
     EXPECT_NEAR(path.now().mean_height, c.interface.start_height() + pressed.mean_height, 1e-9);
     const double bound = -energy(path.now());
-    const auto out = follow(path, Leg::pull_off);
+    const auto out = follow(path, Segment::pull_off);
     EXPECT_EQ(path.dissipation().total(), 0.0);
-    EXPECT_NEAR(path.work(Leg::pull_off), bound,
+    EXPECT_NEAR(path.work(Segment::pull_off), bound,
                 1e-4 * c.sites() * (out.back().top - out.front().top));
 }

@@ -3,7 +3,7 @@
 //
 // What holds of every path, thin block or thick, top plane or mean height held, in time or without:
 // its pull-off ends apart, with nothing left of contact, force and energy; its stated errors only
-// grow along a leg, and cover what the balance of energy lacks; with the energy that is bound
+// grow along a kind, and cover what the balance of energy lacks; with the energy that is bound
 // beyond the reach of its ends, its works in time are those from out of reach.
 #include "io/hdf5_file.hpp"
 #include "support/path_case.hpp"
@@ -24,13 +24,13 @@ using Outcome = QuasistaticPath::Outcome;
 
 namespace {
 
-/// Of a leg, point by point.
-void expect_errors_that_only_grow(QuasistaticPath& path, Leg leg) {
+/// Of a kind, point by point.
+void expect_errors_that_only_grow(test::KeptPath& path, Segment::Kind kind) {
     double before = 0.0;
     for (Outcome outcome = Outcome::point; outcome == Outcome::point;) {
-        outcome = path.advance(leg);
-        const double now = path.uncertainty(leg);
-        ASSERT_GE(now, before) << name(leg) << ", point " << path.now().step;
+        outcome = path.advance(kind);
+        const double now = path.uncertainty(kind);
+        ASSERT_GE(now, before) << word(kind) << ", point " << path.now().step;
         before = now;
     }
     EXPECT_GT(before, 0.0);
@@ -46,12 +46,12 @@ TEST(PathEnd, NothingIsLeftOfTheContact) {
             const bool held_top = along == Constraint::Of::top;
             SCOPED_TRACE(std::to_string(thickness) + (held_top ? ", top" : ", mean height"));
             Solids c(test::paper_block(10, thickness, 0), test::flat_surface(10));
-            QuasistaticPath path = c.path(1e-3, 0.5, 0.0, along);
+            test::KeptPath path = c.path(1e-3, 0.5, 0.0, along);
             path.start();
-            follow(path, Leg::approach);
+            follow(path, Segment::approach);
             const double bound = -energy(path.now());
             double strongest = 0.0;
-            for (const StepRecord& r : follow(path, Leg::pull_off))
+            for (const StepRecord& r : follow(path, Segment::pull_off))
                 strongest = std::max(strongest, -r.force);
             const StepRecord& end = path.now();
             EXPECT_GT(strongest, 30.0);
@@ -76,7 +76,7 @@ TEST(PathEnd, InTimeNothingIsLeftOfTheContact) {
     };
     const auto energies = file.read<double>("/series/interface_energy");
     const double deepest = *std::min_element(energies.begin(), energies.end());
-    EXPECT_EQ(last("leg"), 1.0);
+    EXPECT_EQ(last("segment"), 1.0);
     EXPECT_EQ(last("contact_fraction"), 0.0);
     // The run ends at a step between two rows, as close as the approach began.
     EXPECT_LE(std::abs(last("interface_energy")), 1e-3 * std::abs(deepest));
@@ -87,21 +87,21 @@ TEST(PathEnd, InTimeNothingIsLeftOfTheContact) {
 TEST(PathErrors, GrowAlongALegAndCoverTheBalance) {
     for (const auto along : {Constraint::Of::top, Constraint::Of::mean_height}) {
         Solids c(test::paper_block(32, 200, 0), test::reference_surface("c3_N32_T32_rms1.5"));
-        QuasistaticPath path = c.path(2e-4, 0.25, 0.0, along);
+        test::KeptPath path = c.path(2e-4, 0.25, 0.0, along);
         path.start();
         const double start = energy(path.now());
-        expect_errors_that_only_grow(path, Leg::approach);
-        const double in = path.uncertainty(Leg::approach);
-        expect_errors_that_only_grow(path, Leg::pull_off);
+        expect_errors_that_only_grow(path, Segment::approach);
+        const double in = path.uncertainty(Segment::approach);
+        expect_errors_that_only_grow(path, Segment::pull_off);
         if (along == Constraint::Of::top) {
             EXPECT_GT(path.dissipation().events, 1);
         }
-        EXPECT_EQ(path.uncertainty(Leg::approach), in) << "the other leg's";
+        EXPECT_EQ(path.uncertainty(Segment::approach), in) << "the other kind's";
         // The gaps in the balance of all steps add up to that of the cycle.
         const double lacks =
             path.now().work - (energy(path.now()) - start) - path.dissipation().total();
         EXPECT_LE(std::abs(lacks),
-                  path.uncertainty(Leg::approach) + path.uncertainty(Leg::pull_off) + 1e-9);
+                  path.uncertainty(Segment::approach) + path.uncertainty(Segment::pull_off) + 1e-9);
     }
 }
 
@@ -110,13 +110,13 @@ TEST(PathErrors, AreThreeTimesWhatTheWorkOfAnInstabilityIsNotKnownBy) {
     // before less that of the first one after and the work between them, which is known to lie
     // between the forces of the two.
     Solids c(test::paper_block(10, 40, 0), test::flat_surface(10));
-    QuasistaticPath path = c.path(1e-4, 0.25);
+    test::KeptPath path = c.path(1e-4, 0.25);
     path.start();
-    for (const Leg leg : {Leg::approach, Leg::pull_off}) {
+    for (const Segment::Kind kind : {Segment::approach, Segment::pull_off}) {
         double gaps = 0.0, squares = 0.0;
         StepRecord last = path.now();
         for (Outcome outcome = Outcome::point; outcome == Outcome::point;) {
-            outcome = path.advance(leg);
+            outcome = path.advance(kind);
             const StepRecord& now = path.now();
             gaps += std::abs(now.work - last.work - energy(now) + energy(last) - now.damped +
                              last.damped);
@@ -127,10 +127,10 @@ TEST(PathErrors, AreThreeTimesWhatTheWorkOfAnInstabilityIsNotKnownBy) {
             }
             last = now;
         }
-        ASSERT_GT(squares, 0.0) << name(leg);
+        ASSERT_GT(squares, 0.0) << word(kind);
         // Smaller losses, where the force stays smooth, have their own share.
-        EXPECT_GE(path.uncertainty(leg), (gaps + 3.0 * std::sqrt(squares)) * (1.0 - 1e-6));
-        EXPECT_LE(path.uncertainty(leg), 1.5 * (gaps + 3.0 * std::sqrt(squares)));
+        EXPECT_GE(path.uncertainty(kind), (gaps + 3.0 * std::sqrt(squares)) * (1.0 - 1e-6));
+        EXPECT_LE(path.uncertainty(kind), 1.5 * (gaps + 3.0 * std::sqrt(squares)));
     }
 }
 

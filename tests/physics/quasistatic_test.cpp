@@ -28,20 +28,20 @@ namespace {
 /// step.
 void expect_balance(Solids& c, Constraint::Of along, bool snaps) {
     constexpr double tolerance = 1e-4;
-    QuasistaticPath path = c.path(tolerance, 0.25, 0.0, along);
+    test::KeptPath path = c.path(tolerance, 0.25, 0.0, along);
     path.start();
-    const auto in = follow(path, Leg::approach);
+    const auto in = follow(path, Segment::approach);
     const double state = -energy(path.now());
-    const auto out = follow(path, Leg::pull_off);
+    const auto out = follow(path, Segment::pull_off);
     const Dissipation& lost = path.dissipation();
     const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
     if (snaps) {
-        ASSERT_GT(lost.approach, 1.0);
-        ASSERT_GT(lost.pull_off, 1.0);
+        ASSERT_GT(path.lost(Segment::approach), 1.0);
+        ASSERT_GT(path.lost(Segment::pull_off), 1.0);
     }
-    EXPECT_NEAR(path.work(Leg::approach) + lost.approach, state,
+    EXPECT_NEAR(-path.work(Segment::approach) + path.lost(Segment::approach), state,
                 tolerance * c.sites() * (way + 1.0));
-    EXPECT_NEAR(path.work(Leg::pull_off) - lost.pull_off, state,
+    EXPECT_NEAR(path.work(Segment::pull_off) - path.lost(Segment::pull_off), state,
                 tolerance * c.sites() * (back + 1.0));
     // The loop of F over the mean height encloses what was lost: by trapezia of the points,
     // which the falls are exact for.
@@ -91,14 +91,14 @@ TEST(Quasistatic, StiffBlockIsReversible) {
     // the tolerance allows on the way (13 Å both), and nothing is lost.
     for (double tolerance : {1e-3, 1e-4, 1e-5}) {
         Solids c(test::paper_block(10, 3, 0), test::flat_surface(10));
-        QuasistaticPath path = c.path(tolerance);
+        test::KeptPath path = c.path(tolerance);
         path.start();
-        const auto in = follow(path, Leg::approach);
+        const auto in = follow(path, Segment::approach);
         const double state = -energy(path.now());
-        const auto out = follow(path, Leg::pull_off);
+        const auto out = follow(path, Segment::pull_off);
         const double allowed = tolerance * c.sites() * 11.0;
-        EXPECT_NEAR(path.work(Leg::approach), state, allowed);
-        EXPECT_NEAR(path.work(Leg::pull_off), state, allowed);
+        EXPECT_NEAR(-path.work(Segment::approach), state, allowed);
+        EXPECT_NEAR(path.work(Segment::pull_off), state, allowed);
         EXPECT_EQ(path.dissipation().total(), 0.0);
         EXPECT_NEAR(energy(path.now()), 0.0, 1e-6 * state);
         const OneDimension one{c};
@@ -114,10 +114,10 @@ TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
         Solids c(test::paper_block(10, thickness, 0), test::flat_surface(10));
         const OneDimension one{c};
         constexpr double tolerance = 1e-5, step = 0.25;
-        QuasistaticPath path = c.path(tolerance, step);
+        test::KeptPath path = c.path(tolerance, step);
         path.start();
-        const auto in = follow(path, Leg::approach);
-        const auto out = follow(path, Leg::pull_off);
+        const auto in = follow(path, Segment::approach);
+        const auto out = follow(path, Segment::pull_off);
         // Every point is a point of the one-dimensional problem.
         for (const auto* leg : {&in, &out})
             for (const StepRecord& r : *leg) {
@@ -159,9 +159,9 @@ TEST(Quasistatic, EndsExactlyAtItsLoad) {
     for (double pressure : {0.0, 1.0, -0.5}) { // GPa
         Solids c(test::paper_block(10, 10, 0), test::flat_surface(10));
         const double load = pressure * units::gigapascal * 6.76 * c.sites();
-        QuasistaticPath path = c.path(1e-5, 0.25, load);
+        test::KeptPath path = c.path(1e-5, 0.25, load);
         path.start();
-        follow(path, Leg::approach);
+        follow(path, Segment::approach);
         EXPECT_NEAR(path.now().force, load, 0.25e-5 * c.sites());
         // On the inner branch, whatever the sign.
         EXPECT_LT(path.now().mean_height, 3.2);
@@ -174,15 +174,15 @@ TEST(Quasistatic, WorkUnderLoadIsTheEnergyGained) {
     for (double pressure : {2.0, -2.0}) { // GPa
         Solids c(test::paper_block(10, 3, 0), test::flat_surface(10));
         constexpr double tolerance = 1e-5;
-        QuasistaticPath path =
+        test::KeptPath path =
             c.path(tolerance, 0.25, pressure * units::gigapascal * 6.76 * c.sites());
         path.start();
         const double before = energy(path.now());
-        follow(path, Leg::approach);
+        follow(path, Segment::approach);
         EXPECT_EQ(path.dissipation().total(), 0.0);
         const double allowed = tolerance * c.sites() * 13.0;
         ASSERT_GT(path.now().elastic_energy, 20.0 * allowed) << "the case must tell it";
-        EXPECT_NEAR(path.work(Leg::approach), before - energy(path.now()), allowed) << pressure;
+        EXPECT_NEAR(-path.work(Segment::approach), before - energy(path.now()), allowed) << pressure;
     }
 }
 
@@ -215,9 +215,9 @@ TEST(Quasistatic, HeldTopOverAWallIsInBalance) {
         const double site = o.spacing * o.spacing;
         Solids c(o, test::reference_surface("c3_N32_T32_rms1.5", 2.0),
                  ExponentialWall(0.0754 * site, 1.25, 50.0));
-        QuasistaticPath path = c.path(tolerance, 0.2);
+        test::KeptPath path = c.path(tolerance, 0.2);
         path.start();
-        for (const Leg leg : {Leg::approach, Leg::pull_off}) {
+        for (const Segment::Kind leg : {Segment::approach, Segment::pull_off}) {
             double sum = 0.0;
             const auto points = follow(path, leg);
             ASSERT_GT(points.size(), 20u);
@@ -232,16 +232,16 @@ TEST(Quasistatic, HeldTopOverAWallIsInBalance) {
 TEST(Quasistatic, AgainTheSameCycle) {
     // Apart, nothing is left of the contact: a second cycle is the first.
     Solids c(test::paper_block(10, 40, 0), test::flat_surface(10));
-    QuasistaticPath path = c.path(1e-5);
+    test::KeptPath path = c.path(1e-5);
     path.start();
     double in[2], out[2], lost[2], lost_in[2];
     for (int n = 0; n < 2; ++n) {
-        follow(path, Leg::approach);
-        in[n] = path.work(Leg::approach);
-        follow(path, Leg::pull_off);
-        out[n] = -path.work(Leg::pull_off);
+        follow(path, Segment::approach);
+        in[n] = -path.work(Segment::approach);
+        follow(path, Segment::pull_off);
+        out[n] = -path.work(Segment::pull_off);
         lost[n] = path.dissipation().total();
-        lost_in[n] = path.dissipation().approach;
+        lost_in[n] = path.lost(Segment::approach);
     }
     const double allowed = 1e-5 * c.sites() * 12.0;
     EXPECT_NEAR(in[0], in[1], allowed);
@@ -294,7 +294,7 @@ TEST(Quasistatic, SlowMotionApproachesThePath) {
     const OneDimension one{c};
     const auto off = [&](double velocity) {
         o.drive.velocity = velocity;
-        o.drive.pull_off = false;
+        o.drive.path = {Segment{Segment::approach}};
         Simulation s(o, c.surface, Communicator(), c.grid);
         s.start(c.interface.start_height());
         double largest = 0.0;
@@ -304,7 +304,7 @@ TEST(Quasistatic, SlowMotionApproachesThePath) {
                 const double z = one.other(now.top, 2.8, 14.0);
                 largest = std::max(largest, std::abs(now.force - one.force(z)));
             }
-            s.drive().observe(now.time, now.force, false);
+            s.drive().observe({now.time, now.force, 0.0, false});
         }
         return largest / c.sites();
     };
@@ -319,7 +319,7 @@ TEST(Dissipation, KeepsTheStrongestInstabilitiesInTheOrderOfThePath) {
     for (int i = 0; i < 30; ++i) {
         Instability jump;
         jump.energy = (7 * i) % 30 + 1.0; // 1 to 30, each once
-        jump.leg = i < 15 ? Leg::approach : Leg::pull_off;
+        jump.segment = i < 15 ? 0 : 1;
         jump.top = -i;
         lost.add(jump);
         sum += jump.energy;

@@ -310,9 +310,9 @@ TEST(Wall, RelaxationEndsWhereASlowApproachEnds) {
             o.tolerance = 1e-3;
             o.step = 0.05;
             o.reference_height = soft.at.interface.start_height();
-            QuasistaticPath path(soft.at.block, soft.at.interface, o);
+            test::KeptPath path(soft.at.block, soft.at.interface, o);
             path.start();
-            test::follow(path, Leg::approach);
+            test::follow(path, Segment::approach);
             const double at_end = test::energy(path.now());
             EXPECT_LT(at_end, 0.0);
             EXPECT_NEAR(found.interface_energy + found.elastic_energy, at_end, 1e-4 * -at_end)
@@ -332,9 +332,9 @@ TEST(Wall, HeldPathsEnd) {
         o.along = along;
         o.tolerance = 1e-3;
         o.reference_height = at.at.interface.start_height();
-        QuasistaticPath path(at.at.block, at.at.interface, o);
+        test::KeptPath path(at.at.block, at.at.interface, o);
         path.start();
-        for (const Leg leg : {Leg::approach, Leg::pull_off})
+        for (const Segment::Kind leg : {Segment::approach, Segment::pull_off})
             test::follow(path, leg);
         EXPECT_LT(path.iterations(), 20000);
     }

@@ -23,7 +23,7 @@ def test_forces_of_flat_solids_are_stresses(path_run):
     ax = path_run.plot.separation(axes())
     curves = {c.label: c for c in style.drawn(ax).curves}
     assert set(curves) == {"approach", "pull-off"}
-    leg, force = path_run.series["leg"], path_run.series["force"]
+    leg, force = path_run.series["segment"], path_run.series["force"]
     # eV/Å over Å² in GPa: 1 eV/Å^3 = 160.2176634 GPa
     assert curves["pull-off"].y == pytest.approx(force[leg == 1] / path_run.edge**2 * 160.2176634)
     assert (curves["approach"].x == path_run.series["mean_height"][leg == 0]).all()
@@ -38,7 +38,7 @@ def test_forces_of_flat_solids_are_stresses(path_run):
 def test_forces_of_spheres_are_forces(sphere_run):
     ax = sphere_run.plot.separation(axes())
     curves = {c.label: c for c in style.drawn(ax).curves}
-    force = sphere_run.series["force"][sphere_run.series["leg"] == 0]
+    force = sphere_run.series["force"][sphere_run.series["segment"] == 0]
     assert curves["approach"].y == pytest.approx(force * 1.602176634)  # 1 eV/Å = 1.602176634 nN
     assert "nN" in ax.get_ylabel()
 
@@ -120,7 +120,7 @@ def test_files_hold_the_curves(path_run, tmp_path):
     assert b"<path" in written[2].read_bytes()
     text = files.csv(fig)
     table = np.genfromtxt(io.StringIO(text), delimiter=",", skip_header=1)
-    leg = path_run.series["leg"]
+    leg = path_run.series["segment"]
     approach = table[:, 1][np.isfinite(table[:, 1])]
     assert approach == pytest.approx(path_run.series["force"][leg == 0] / path_run.edge**2 / units.GIGAPASCAL, rel=1e-8)
     assert text.startswith("mean separation (Å),approach: mean stress F/A_0 (GPa)")

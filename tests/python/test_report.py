@@ -93,7 +93,7 @@ def test_values_can_be_read_by_pointing(path_run):
     maps = [d for d in found.data if "map" in d]
     assert len(curves) == 9 and len(maps) == 4
     force = dict(map(tuple, curves[0]["curves"]))  # force over separation comes first
-    leg = path_run.series["leg"] == 1
+    leg = path_run.series["segment"] == 1
     assert force["pull-off"][0] == pytest.approx([path_run.series["mean_height"][leg][0],
                                                   path_run.series["force"][leg][0] / path_run.edge**2 * 160.21766], rel=1e-4)
     one = next(d["map"] for d in maps if "gap" in d["map"]["unit"])

@@ -43,12 +43,12 @@ def test_a_result_is_what_the_files_hold(path_run):
 def test_series_are_frames_where_pandas_is(path_run, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=dict))  # what a frame is made from
     frame = path_run.series.frame()
-    assert set(frame) == set(path_run.series) and (frame["top"] == path_run.series["top"]).all()
+    assert set(frame) == set(path_run.series) and (frame["top_displacement"] == path_run.series["top_displacement"]).all()
 
 
 def test_numbers_are_found_by_their_paths(path_run):
     numbers = path_run.numbers()
-    assert numbers["energy.residual"] == path_run.energy.residual
+    assert numbers["energy.balance_error"] == path_run.energy.balance_error
     assert "scene.surface.radius" not in numbers  # "none"
     assert path_run.number("scene.surface.radius") is None
     assert path_run.number("theory.converged") is None  # a truth is no number

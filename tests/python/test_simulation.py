@@ -19,10 +19,10 @@ import asperity
 
 COLUMNS = {"time": lambda s: s.time, "force": lambda s: s.force, "top_force": lambda s: s.top_force,
            "mean_height": lambda s: s.mean_height, "contact_fraction": lambda s: s.contact,
-           "pushed_fraction": lambda s: s.pushed, "interface_energy": lambda s: s.energy.interface,
+           "repulsive_fraction": lambda s: s.repulsive_fraction, "interface_energy": lambda s: s.energy.interface,
            "elastic_energy": lambda s: s.energy.elastic, "kinetic_energy": lambda s: s.energy.kinetic,
            "work": lambda s: s.energy.work, "damped": lambda s: s.energy.damped,
-           "residual": lambda s: s.energy.residual}
+           "balance_error": lambda s: s.energy.balance_error}
 TINY = {"name": "tiny", "surface": {"sites": 16, "rms": 0.5},
         "drive": {"velocity": 100.0, "timestep": 20.0}, "theory": {"renormalised": False}}
 
@@ -49,7 +49,7 @@ def test_numbers_are_those_of_a_run(path_run, device):
     rows = []
     sim.every(100, lambda s: rows.append([get(s) for get in COLUMNS.values()]))
     assert sim.step(10**9) == sim.steps == path_run.run.steps
-    assert sim.done and sim.leg == "done" and sim.step(5) == 0
+    assert sim.done and sim.segment == "done" and sim.step(5) == 0
     rows = numpy.array(rows)
     of_run = numpy.isin(path_run.series["time"], rows[:, 0])  # the run also records the step after each way
     assert of_run.sum() == len(rows) > 8
@@ -96,7 +96,7 @@ def test_views_are_views(device):
     sim.v.x[5, 5] = 1e-3
     sim.step()
     assert sim.v.x[5, 5] == pytest.approx(1e-3, abs=5e-4)
-    assert abs(sim.energy.residual) < 0.02
+    assert abs(sim.energy.balance_error) < 0.02
 
 
 def test_forces_and_heights():
@@ -136,7 +136,7 @@ def test_top_by_hand():
     sim.top.position = place
     assert sim.top.position == place
     sim.step(20)
-    assert abs(sim.energy.residual) < 0.02
+    assert abs(sim.energy.balance_error) < 0.02
     sim.top.velocity = None
     assert sim.top.velocity == pytest.approx(scene_velocity)
     sim.step(10**6)
@@ -154,7 +154,7 @@ def test_external_field_does_work():
     start, force = sim.u.x.mean(), sim.force
     for _ in range(40):
         sim.step(10)
-        assert abs(sim.energy.residual) < 1e-3
+        assert abs(sim.energy.balance_error) < 1e-3
     assert sim.u.x.mean() > start and sim.external_work > 0.01
     assert sim.force == pytest.approx(force, abs=abs(sim.force) + 1.0)  # the substrate's alone
     sim.external.x[...] = 0.0  # in place
@@ -189,7 +189,7 @@ def test_save_and_resume(tmp_path):
         s.step(10**6)
     assert sim.steps == again.steps and (state(sim) == state(again)).all()
     assert sim.work_of_drive.pull_off == again.work_of_drive.pull_off
-    assert sim.energy.residual == again.energy.residual
+    assert sim.energy.balance_error == again.energy.balance_error
 
 
 def test_observers():
@@ -303,7 +303,7 @@ def test_statics_meets_the_path_of_a_run(results, hold):
     soft = {"drive.hold": hold, "block.thickness": 128}
     run = asperity.run(STATIC, soft, out=results / f"statics-{hold}")
     statics, name = asperity.Statics(STATIC, soft), {"top": "top", "mean-height": "mean_height"}[hold]
-    series, inwards = run.series, run.series["leg"] == 0
+    series, inwards = run.series, run.series["segment"] == 0
     scale, depth = abs(series["force"]).max(), abs(series["interface_energy"]).max()
     for way in (inwards, ~inwards):
         for k in numpy.flatnonzero(way)[2::6]:

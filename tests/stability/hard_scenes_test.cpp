@@ -46,7 +46,7 @@ class HardScene : public testing::TestWithParam<Hard> {};
 
 TEST_P(HardScene, StaysStable) {
     const io::Json result = follow(GetParam().name);
-    const double residual = std::abs(number(result, "energy.residual"));
+    const double residual = std::abs(number(result, "energy.balance_error"));
     EXPECT_LT(residual, GetParam().residual);
     // The zero-load state is found, no better than flat on flat and no worse than nothing.
     const double share = number(result, "binding_energy") / number(result, "delta_gamma");

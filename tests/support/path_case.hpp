@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -25,6 +26,42 @@ inline InterfaceOptions over(const WallLaw& wall) {
 }
 
 enum class Friction { with, without };
+
+/// A path that keeps the numbers of the last segment of each kind.
+class KeptPath : public QuasistaticPath {
+public:
+    using QuasistaticPath::QuasistaticPath;
+    using QuasistaticPath::advance;
+
+    /// A new segment.
+    void lead(const Segment& segment) {
+        if (begun_) ended_[static_cast<std::size_t>(kind_)] = here();
+        kind_ = segment.kind;
+        begin(segment, begun_++);
+    }
+    /// Of a segment of this kind, which begins with it where another was under way.
+    Outcome advance(Segment::Kind kind) {
+        if (!begun_ || kind != kind_) lead({kind, 0.0, 0, ""});
+        return QuasistaticPath::advance();
+    }
+    double work(Segment::Kind kind) const { return of(kind).work; } ///< on the block, eV
+    double uncertainty(Segment::Kind kind) const { return of(kind).uncertainty; }
+    double lost(Segment::Kind kind) const { return of(kind).lost; } ///< eV
+
+private:
+    struct Numbers {
+        double work = 0.0, uncertainty = 0.0, lost = 0.0;
+    };
+    Numbers here() const {
+        return {QuasistaticPath::work(), QuasistaticPath::uncertainty(), dissipation().in_segment};
+    }
+    Numbers of(Segment::Kind kind) const {
+        return begun_ && kind == kind_ ? here() : ended_[static_cast<std::size_t>(kind)];
+    }
+    std::size_t begun_ = 0; ///< segments
+    Segment::Kind kind_ = Segment::approach;
+    std::array<Numbers, Segment::kinds> ended_{};
+};
 
 /// A block over a surface, and the path of equilibria.
 struct PathCase {
@@ -43,7 +80,7 @@ struct PathCase {
         : options(o), surface(std::move(s)),
           interface(surface, grid.tile(0), o.spacing, over(wall)), block(o, Communicator(), true) {}
 
-    QuasistaticPath path(double tolerance, double step = 0.25, double load = 0.0,
+    KeptPath path(double tolerance, double step = 0.25, double load = 0.0,
                          Constraint::Of along = Constraint::Of::top) {
         PathOptions p;
         p.along = along;
@@ -51,7 +88,7 @@ struct PathCase {
         p.tolerance = tolerance;
         p.load = load;
         p.reference_height = interface.start_height();
-        return QuasistaticPath(block, interface, p);
+        return KeptPath(block, interface, p);
     }
     double sites() const { return static_cast<double>(options.sites) * options.sites; }
     /// Of the whole block under uniform stretch, eV/Å^2.
@@ -61,17 +98,22 @@ struct PathCase {
     }
 };
 
-/// All points of a leg.
-inline std::vector<StepRecord> follow(QuasistaticPath& path, Leg leg) {
+/// All points of a new segment.
+inline std::vector<StepRecord> follow(KeptPath& path, const Segment& segment) {
+    path.lead(segment);
     std::vector<StepRecord> points = {path.now()};
     using Outcome = QuasistaticPath::Outcome;
     for (Outcome o = Outcome::point; o == Outcome::point;) {
-        o = path.advance(leg);
+        o = path.QuasistaticPath::advance();
         points.push_back(path.now());
         if (points.size() > 5000) ADD_FAILURE() << "no end";
         if (points.size() > 5000) break;
     }
     return points;
+}
+
+inline std::vector<StepRecord> follow(KeptPath& path, Segment::Kind kind) {
+    return follow(path, {kind, 0.0, 0, ""});
 }
 
 inline double energy(const StepRecord& r) { return r.interface_energy + r.elastic_energy; }

@@ -18,7 +18,8 @@ from ..result import Result, State, Values, load_words
 from ..units import GIGAPASCAL, NANONEWTON
 from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into, finish, image
 
-LEGS = (("approach", BLUE), ("pull-off", RED))
+WAYS = {"approach": BLUE, "pull-off": RED}  # other segments of a path have the other colours in turn
+OTHERS = (GREEN, PINK, SKY, YELLOW)
 
 
 def _columns(run: Result, *names: str) -> list[np.ndarray] | None:
@@ -36,27 +37,32 @@ def force_unit(run: Result) -> tuple[float, str]:
     return run.edge**2 * GIGAPASCAL, "mean stress $F/A_0$ (GPa)"
 
 
-def _legs(ax: Axes, leg: np.ndarray, x: np.ndarray, y: np.ndarray, name: str = "", lines=("-", DASHES[1])) -> bool:
-    any_drawn = False
-    for number, (words, colour) in enumerate(LEGS):
-        here = leg == number
+def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str = "", lines=("-", DASHES[1])) -> bool:
+    """A curve for each segment of the path."""
+    labels: set[str] = set()
+    others = 0
+    for number, words in enumerate(run.segments):
+        here = run.series["segment"] == number
+        if words not in WAYS:
+            others += 1
         if here.sum() > 1:
-            curve(ax, x[here], y[here], words + name, colour=colour, line=lines[number])
-            any_drawn = True
-    return any_drawn
+            curve(ax, x[here], y[here], "" if words in labels else words + name,
+                  colour=WAYS.get(words, OTHERS[others % len(OTHERS)]), line=lines[words == "pull-off"])
+            labels.add(words)
+    return bool(labels)
 
 
 def separation(run: Result, ax: Axes) -> bool:
     """Force of the substrate over the mean separation, both ways; of a sphere beside smooth ones."""
-    columns = _columns(run, "leg", "mean_height", "force")
+    columns = _columns(run, "segment", "mean_height", "force")
     if columns is None:
         return False
-    leg, height, force = columns
+    _, height, force = columns
     unit, label = force_unit(run)
     for number, (words, x, y) in enumerate(run.curves):
         curve(ax, x, y / unit, words if "theory" in words else "theory: " + words,
               colour=(GREY, YELLOW, YELLOW, PINK)[number % 4], line=DASHES[(4, 2, 3, 1)[number % 4]], behind=True)
-    _legs(ax, leg, height, force / unit)
+    _by_segment(ax, run, height, force / unit)
     least, greatest = force.min(), force.max()
     felt = height[np.abs(force) > -1e-3 * least]  # beyond, nothing is felt
     if felt.size and felt.max() > felt.min():
@@ -73,13 +79,13 @@ def separation(run: Result, ax: Axes) -> bool:
 
 def loading(run: Result, ax: Axes) -> bool:
     """Force over the displacement of the driven top plane: what a testing machine records."""
-    columns = _columns(run, "leg", "top", "top_force")
+    columns = _columns(run, "segment", "top_displacement", "top_force")
     # With the mean height prescribed, the top plane follows: the plot of the separation again.
     if columns is None or run.key("drive.hold") == "mean-height":
         return False
-    leg, top, force = columns
+    _, top, force = columns
     unit, label = force_unit(run)
-    done = _legs(ax, leg, top, force / unit)
+    done = _by_segment(ax, run, top, force / unit)
     ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     finish(ax, "displacement of the top plane (Å)", label)
     return done
@@ -87,15 +93,34 @@ def loading(run: Result, ax: Axes) -> bool:
 
 def contact(run: Result, ax: Axes) -> bool:
     """Contact fraction and fraction of repulsive sites over the displacement of the top plane."""
-    columns = _columns(run, "leg", "top", "contact_fraction", "pushed_fraction")
+    columns = _columns(run, "segment", "top_displacement", "contact_fraction", "repulsive_fraction")
     if columns is None:
         return False
-    leg, top, touching, pushed = columns
-    done = _legs(ax, leg, top, touching, ", in contact")
-    _legs(ax, leg, top, pushed, ", repulsive", (DASHES[4], DASHES[2]))
+    _, top, touching, repulsive = columns
+    done = _by_segment(ax, run, top, touching, ", in contact")
+    _by_segment(ax, run, top, repulsive, ", repulsive", (DASHES[4], DASHES[2]))
     ax.set_ylim(bottom=0)
     finish(ax, "displacement of the top plane (Å)", "fraction of the sites")
     return done
+
+
+def friction(run: Result, ax: Axes) -> bool:
+    """Force against each slide of the path, over its distance."""
+    unit, _ = force_unit(run)
+    drawn = False
+    for number, words in enumerate(run.segments):
+        word, *rest = words.split()
+        if word != "slide" or "slide_x" not in run.series:
+            continue
+        here, axis = run.series["segment"] == number, rest[0]
+        place, force = run.series["slide_" + axis][here], run.series["lateral_force_" + axis][here]
+        if len(place) > 1:
+            sign = np.sign(place[-1] - place[0])
+            curve(ax, np.abs(place - place[0]), -sign * force / unit, words, colour=OTHERS[number % len(OTHERS)])
+            drawn = True
+    ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
+    finish(ax, "distance of the slide (Å)", "force against it (nN)" if run.curved else "shear stress against it (GPa)")
+    return drawn
 
 
 def energy(run: Result, ax: Axes) -> bool:
@@ -117,12 +142,12 @@ def energy(run: Result, ax: Axes) -> bool:
 
 
 def balance(run: Result, ax: Axes) -> bool:
-    """The residual of the energy balance over time."""
-    columns = _columns(run, "time", "residual")
+    """The error of the energy balance over time."""
+    columns = _columns(run, "time", "balance_error")
     if columns is None:
         return False
     curve(ax, columns[0], columns[1] * 1e6)
-    finish(ax, "time (ps)", "residual ($10^{-6}$ of the largest term)")
+    finish(ax, "time (ps)", "error of the balance ($10^{-6}$ of the largest term)")
     return True
 
 

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What a run has come to so far: the numbers behind the summary and result.json.
+#pragma once
+
+#include "engine/dynamics/simulation.hpp"
+#include "engine/equilibrium/dissipation.hpp"
+#include "engine/scene/segment.hpp"
+#include "engine/units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace asperity {
+
+/// Of the relaxed state under zero load.
+struct ZeroLoad {
+    double binding_energy = 0.0; ///< gamma_state = -(U_LJ + U_el) / A0, meV/Å^2
+    double pairwise = 0.0;       ///< -U_LJ / A0: the atom-by-atom work, meV/Å^2
+    double elastic = 0.0;        ///< U_el / A0, meV/Å^2
+    double contact_fraction = 0.0;
+    double repulsive_fraction = 0.0;
+    double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
+    double residual = 0.0;    ///< largest force left, eV/Å
+    long long iterations = 0;
+    /// Of the binding energy: what forces as large as drive.tolerance stand for in the softest wave
+    /// of the box, meV/Å^2.
+    double uncertainty = 0.0;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("binding_energy", binding_energy);
+        v("pairwise", pairwise);
+        v("elastic", elastic);
+        v("contact_fraction", contact_fraction);
+        v("repulsive_fraction", repulsive_fraction);
+        v("mean_height", mean_height);
+        v("residual", residual);
+        v("iterations", iterations);
+        v("uncertainty", uncertainty);
+    }
+};
+
+/// The stable states under one load that a search has passed (state_search.hpp).
+struct StateList {
+    struct State {
+        ZeroLoad numbers;
+        /// Largest force on the way to the next state inwards, over the load and the area, eV/Å^3;
+        /// empty for the innermost.
+        std::optional<double> barrier;
+    };
+    /// Why the search ended: no area is left to attract, what is left cannot make a deeper state,
+    /// or no equilibrium was found further in.
+    enum class End { none, contact, energy, no_equilibrium };
+
+    std::vector<State> all; ///< from the outermost inwards
+    std::size_t first = 0;  ///< of these, the one that the search started in
+    double step = 0.0;      ///< of the mean height, Å
+    double innermost = HUGE_VAL;
+    long long points = 0, instabilities = 0;
+    End end = End::none;
+
+    const State& deepest() const {
+        return *std::max_element(all.begin(), all.end(), [](const State& a, const State& b) {
+            return a.numbers.binding_energy < b.numbers.binding_energy;
+        });
+    }
+};
+
+/// Energies of an approach or a pull-off that has ended, meV/Å^2. Works are positive where the
+/// solids attract: taken up on the way in, given on the way out.
+struct WayEnergies {
+    /// Of the interface's force on the mean height of the lowest layer, int F dz / A0. Empty at a
+    /// held top without time, where the mean height jumps at instabilities.
+    std::optional<double> interface_work;
+    /// Of what drives or holds the block: the top plane (in time with the medium that damps, which
+    /// moves along), or the holder of the mean height.
+    std::optional<double> drive_work;
+    /// Damped or dissipated, or left in vibrations at the end (in time). Empty with a thermostat,
+    /// and where no state at zero load is known between approach and pull-off.
+    std::optional<double> lost;
+    std::optional<double> uncertainty; ///< of each of these; without time only
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("interface_work", interface_work);
+        v("drive_work", drive_work);
+        v("lost", lost);
+        v("uncertainty", uncertainty);
+    }
+};
+
+/// A segment of the path that has ended: what was done on the way, and where it ended.
+struct SegmentResults {
+    std::size_t number = 0;  ///< in the path
+    double drive_work = 0.0; ///< done on the block by what drives or holds it, meV/Å^2
+    std::optional<double> interface_work; ///< int F dz / A0, meV/Å^2; empty as above
+    double lost = 0.0;                    ///< damped, radiated or dissipated, meV/Å^2
+    std::optional<double> uncertainty;    ///< of the drive's work; without time only, meV/Å^2
+    double attraction = 0.0;              ///< the largest, eV/Å
+    std::optional<double> lateral_mean;   ///< force against a slide, work over distance, eV/Å
+    std::optional<double> lateral_most;   ///< the largest of it, eV/Å
+    // At its end:
+    double force = 0.0, mean_height = 0.0, top = 0.0; ///< eV/Å, Å, Å
+    std::array<double, 2> slide{};                    ///< Å
+    long long in_contact = 0;                         ///< sites
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("number", number);
+        v("drive_work", drive_work);
+        v("interface_work", interface_work);
+        v("lost", lost);
+        v("uncertainty", uncertainty);
+        v("attraction", attraction);
+        v("lateral_mean", lateral_mean);
+        v("lateral_most", lateral_most);
+        v("force", force);
+        v("mean_height", mean_height);
+        v("top", top);
+        v("slide", slide);
+        v("in_contact", in_contact);
+    }
+};
+
+struct PathResults {
+    std::optional<ZeroLoad> zero_load; ///< where there are several: the first
+    std::optional<StateList> states;   ///< where all were asked for
+    WayEnergies approach, pull_off;    ///< the last of each
+    std::optional<double> lost_in_cycle;   ///< from out of reach to out of reach, meV/Å^2
+    double attraction_in = 0.0;            ///< largest attraction of the last approach, eV/Å
+    double attraction_out = 0.0;           ///< of the last pull-off
+    double strongest = 0.0;                ///< of the path so far
+    std::optional<double> contact_made;    ///< when the last approach ended, fs
+    std::optional<Dissipation> dissipated; ///< of a quasi-static path (which lists it itself)
+    std::vector<SegmentResults> segments;  ///< those that have ended
+    // Of the segment under way, eV/Å:
+    double attraction = 0.0, lateral_most = 0.0;
+
+    void begin_segment() { attraction = lateral_most = 0.0; }
+    /// What a step or point of the segment under way has felt.
+    void feel(const Segment& segment, const StepRecord& now) {
+        attraction = std::max(attraction, -now.force);
+        strongest = std::max(strongest, attraction);
+        if (segment.kind == Segment::approach) attraction_in = attraction;
+        if (segment.kind == Segment::pull_off) attraction_out = attraction;
+        if (segment.kind == Segment::slide)
+            lateral_most = std::max(lateral_most, against(segment, now));
+    }
+    /// Force against a slide, eV/Å.
+    static double against(const Segment& slide, const StepRecord& now) {
+        const double force = now.lateral_force[static_cast<std::size_t>(slide.axis)];
+        return slide.amount > 0.0 ? -force : force;
+    }
+    /// Where the segment under way has ended: what of it follows from the last step or point.
+    SegmentResults ended(std::size_t number, const Segment& segment, const StepRecord& now,
+                         double drive_work, double area) const {
+        SegmentResults r;
+        r.number = number;
+        r.drive_work = drive_work;
+        r.attraction = attraction;
+        if (segment.kind == Segment::slide) {
+            r.lateral_mean = drive_work * area / units::milli_per_unit / std::abs(segment.amount);
+            r.lateral_most = lateral_most;
+        }
+        r.force = now.force;
+        r.mean_height = now.mean_height;
+        r.top = now.top;
+        r.slide = now.slide;
+        r.in_contact = now.in_contact;
+        return r;
+    }
+
+    /// For checkpoints; but the states and what was dissipated, which those who find them keep.
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("approach", approach);
+        v("pull_off", pull_off);
+        v("lost_in_cycle", lost_in_cycle);
+        v("attraction_in", attraction_in);
+        v("attraction_out", attraction_out);
+        v("strongest", strongest);
+        v("contact_made", contact_made);
+        v("segments", segments);
+        v("attraction", attraction);
+        v("lateral_most", lateral_most);
+        v("zero_load", zero_load);
+    }
+};
+
+} // namespace asperity
