@@ -140,6 +140,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
                              any_force ? ForceWindow{} : acceptable_force(there));
         if (state.interrupted) { // resumed, the same step is made
             ahead_ = ahead;
+            length_ = planned;
             put_back();
             points_.set_iterations(iterations);
             return Outcome::interrupted;

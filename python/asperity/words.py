@@ -184,7 +184,7 @@ def findings(run: Result) -> list[str]:
     state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
     if state is not None and flat > 0:
         text.append(_state_sentence(run, state, flat))
-    if into is not None and out is not None and flat > 0 and set(run.segments) <= {"approach", "pull-off"}:
+    if into is not None and out is not None and flat > 0 and set(run.segments) <= {"approach", "pull-off", "zero-load"}:
         text.append(_cycle_sentence(run, into, out, flat))
     theory = run.number("theory.gamma_eff")
     if theory is not None and flat > 0:

@@ -37,8 +37,8 @@ bad "time step" $'[surface]\nsites = 32\n[drive]\ntimestep = 200.0' \
 bad "missing map" $'[surface]\nkind = "file"\nfile = "gone.h5"' \
     "scene.toml:3:8: surface.file = \"gone.h5\": there is no such file"
 bad "no TOML" $'[surface]\nrms = 0.3 nm' "scene.toml:2:" "stand in quotes: rms = \"0.3 nm\""
-bad "path" $'[drive]\npath = ["pull-off"]' "scene.toml:2:8: drive.path has a \"pull-off\""
-bad "not yet" $'[drive]\npath = ["zero-load", "pull-off"]' "scene.toml:2:8: drive.path = a pull-off from \"zero-load\" in time is not available yet"
+bad "path" $'[drive]\npath = ["pull-off"]' "scene.toml:2:8: drive.path has \"pull-off\""
+bad "not yet" $'[drive]\npath = ["zero-load", "pull-off"]' "scene.toml:2:8: drive.path = a path in time from \"zero-load\" is not available yet"
 bad "a model that is gone" $'[block]\nmodel = "spectral"' "scene.toml:2:9: block.model = \"spectral\" is not a choice any more" "leave block.model out"
 bad "a key that is gone" $'[numerics]\naccuracy = "1%"' "scene.toml:2:1: numerics.accuracy is not a key any more" "asperity cost SCENE --target 1%"
 bad "waves at finite strain" $'[block]\nstrain = "finite"\n[drive]\npath = ["zero-load"]' \

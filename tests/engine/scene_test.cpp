@@ -6,6 +6,8 @@
 #include "io/json.hpp"
 #include "io/quantities.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -205,6 +207,30 @@ TEST(Scene, Paths) {
     only("drive.path = [\"approach\", \"zero-load\"]");
     only("drive.path = [\"approach\", \"pull-off\", \"pull-off\"]");
     EXPECT_EQ(only("drive.path = [\"aproach\"]").fix, "did you mean \"approach\"?");
+    for (const char* member : {"load", "load 3 Å", "slide 3 Å", "slide z 3 Å", "slide x 0", "hold",
+                               "hold -2 ps", "approach 3", "height 2 GPa", "load 3 MPa more", ""})
+        only(fmt::format("drive.path = [\"approach\", \"{}\"]", member));
+    const std::string quasistatic = "drive.mode = \"quasistatic\"\n";
+    for (const char* path :
+         {"\"load -3\"", "\"slide x 2\"", "\"approach\", \"load 1\", \"approach\"",
+          "\"approach\", \"pull-off\", \"slide y 1\""})
+        only(fmt::format("{}drive.path = [{}]", quasistatic, path));
+    only(quasistatic + "drive.path = [\"approach\", \"hold 3 ps\"]");
+    only(quasistatic + "interface.kind = \"wall\"\ndrive.path = [\"approach\", \"slide x 2 Å\"]");
+    only("numerics.device = \"emulated\"\ndrive.path = [\"approach\", \"slide x 2 Å\"]");
+    const Case guided =
+        read_case_text("drive.path = [\"approach\", \"load 1 GPa\", \"height 1.2 nm\", "
+                       "\"slide y -5\", \"hold 20 ps\", \" pull-off \"]",
+                       "s.toml");
+    ASSERT_EQ(guided.path.size(), 6u);
+    EXPECT_EQ(guided.path[1].amount, 1000.0);
+    EXPECT_EQ(guided.path[2].amount, 12.0);
+    EXPECT_EQ(guided.path[3].amount, -5.0);
+    EXPECT_EQ(guided.path[3].axis, 1);
+    EXPECT_EQ(guided.path[4].amount, 20.0);
+    EXPECT_EQ(guided.path[5].kind, Segment::pull_off);
+    EXPECT_EQ(guided.simulation.drive.path[4].amount, 20000.0) << "fs";
+    EXPECT_TRUE(guided.on(Effect::sliding));
 }
 
 TEST(Scene, Ranges) {

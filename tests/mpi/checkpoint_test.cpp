@@ -30,6 +30,8 @@ SimulationOptions options() {
     SimulationOptions o;
     o.block = test::paper_block(32, 32, 3);
     o.interface = test::paper_interface();
+    o.interface.slides = true;
+    o.drive.path = {{Segment::approach}, {Segment::slide, 0.7, 1}};
     o.drive.velocity = 2e-3;
     o.drive.ramp = 800.0;
     o.damping = 1e-3;
@@ -56,10 +58,26 @@ std::uint64_t trace(Simulation& s) {
     s.step(true);
     const StepRecord& now = s.now();
     const Ledger& l = s.ledger();
-    for (double value : {now.time, now.top, now.mean_height, now.force, now.top_force,
-                         now.interface_energy, now.elastic_energy, now.kinetic_energy, l.top_work,
-                         l.drag_work, l.damped, l.radiated, l.heat, l.interface,
-                         now.residual, static_cast<double>(s.drive().now().kind), s.drive().velocity(s.time())})
+    for (double value : {now.time,
+                         now.top,
+                         now.mean_height,
+                         now.force,
+                         now.top_force,
+                         now.interface_energy,
+                         now.elastic_energy,
+                         now.kinetic_energy,
+                         l.top_work,
+                         l.drag_work,
+                         l.damped,
+                         l.radiated,
+                         l.heat,
+                         l.interface,
+                         now.residual,
+                         static_cast<double>(s.drive().now().kind),
+                         s.drive().velocity(s.time()),
+                         s.drive().slide_velocity(1, s.time()),
+                         now.slide[1],
+                         now.lateral_force[1]})
         hash = test::mix(hash, value);
     return hash;
 }
@@ -72,7 +90,7 @@ std::uint64_t uninterrupted() {
         Simulation s = make(Communicator());
         s.start(start_height);
         advance(s, first_part);
-        EXPECT_EQ(s.drive().now().kind, Segment::pull_off);
+        EXPECT_EQ(s.drive().now().kind, Segment::slide);
         EXPECT_LT(std::abs(s.drive().velocity(s.time())), options().drive.velocity)
             << "in the turn";
         advance(s, second_part);

@@ -32,11 +32,13 @@ struct Kind {
     Constraint::Of along = Constraint::Of::top;
     std::optional<WallLaw> wall = {};
     int sites = 16, thickness = 60;
+    bool slides = false; ///< between approach and pull-off
 };
 
 InterfaceOptions interface_of(const Kind& kind) {
     InterfaceOptions o = test::paper_interface();
     o.wall = kind.wall;
+    o.slides = kind.slides;
     return o;
 }
 
@@ -64,13 +66,14 @@ struct Contact {
     long long looks = 0;    ///< at relaxations so far
     long long stop_at = -1; ///< of these; -1: at none
     QuasistaticPath path;
+    bool slides;
 
     explicit Contact(const Communicator& ranks, const Kind& kind = {})
         : options(test::paper_block(kind.sites, kind.thickness, 0)), surface(surface_of(kind)),
           grid(ProcessGrid::slabs(ranks.size(), ranks.rank(), kind.sites)),
           interface(surface, grid.tile(0), options.spacing, interface_of(kind)),
           block(options, ranks, kind.frictionless),
-          path(block, interface, path_options(kind.along)) {}
+          path(block, interface, path_options(kind.along)), slides(kind.slides) {}
 
     PathOptions path_options(Constraint::Of along) {
         PathOptions o;
@@ -84,15 +87,18 @@ struct Contact {
     using Outcome = QuasistaticPath::Outcome;
     Outcome advance() {
         const Outcome outcome = path.advance();
-        if (outcome == Outcome::at_load) path.begin({Segment::pull_off}, 1);
+        if (outcome == Outcome::at_load && slides)
+            path.begin({Segment::slide, 1.7, 1}, 1);
+        else if (outcome != Outcome::point && outcome != Outcome::interrupted)
+            path.begin({Segment::pull_off}, 2);
         return outcome;
     }
     std::uint64_t trace() {
         std::uint64_t hash = 1;
         const StepRecord& r = path.now();
         for (double value : {r.top, r.mean_height, r.force, r.top_force, r.interface_energy,
-                             r.elastic_energy, r.work, r.damped, r.residual, r.closest,
-                             static_cast<double>(r.in_contact), path.work(),
+                             r.elastic_energy, r.work, r.damped, r.residual, r.closest, r.slide[1],
+                             r.lateral_force[1], static_cast<double>(r.in_contact), path.work(),
                              static_cast<double>(path.iterations())})
             hash = test::mix(hash, value);
         for (const Instability& jump : path.dissipation().jumps)
@@ -138,9 +144,11 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
     for (const Kind& kind :
          {Kind{}, Kind{.name = "mean height", .along = Constraint::Of::mean_height},
           Kind{.name = "frictionless", .frictionless = true},
+          Kind{.name = "slide", .thickness = 4, .slides = true},
           Kind{.name = "wall", .frictionless = true, .wall = ExponentialWall(0.7, 0.4, 1000.0)}}) {
-        const std::vector<std::uint64_t> whole = cycle(world(), kind, 45);
-        EXPECT_EQ(whole, cycle(Communicator(), kind, 45)) << kind.name << " on one rank";
+        const std::size_t most = kind.slides ? 90 : 45;
+        const std::vector<std::uint64_t> whole = cycle(world(), kind, most);
+        EXPECT_EQ(whole, cycle(Communicator(), kind, most)) << kind.name << " on one rank";
         // Each stretch by objects of its own.
         std::size_t point = 0;
         int stops = 0, within = 0;

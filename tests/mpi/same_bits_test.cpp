@@ -38,6 +38,7 @@ struct Stack {
     bool atoms = false;   ///< a substrate of atoms anywhere
     bool types = false;   ///< of two types
     bool absorbs = false; ///< at its seams
+    bool slides = false;  ///< in contact
 };
 constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"deep", 62, 2, 0.0},
@@ -48,7 +49,9 @@ constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"atoms", 32, 3, 0.0, false, true},
                             {"types", 32, 3, 0.0, false, true, true},
                             {"absorbing", 32, 3, 0.0, false, false, false, true},
-                            {"absorbing, deep", 62, 2, 0.0, true, false, false, true}};
+                            {"absorbing, deep", 62, 2, 0.0, true, false, false, true},
+                            {"sliding", 32, 3, 0.0, false, false, false, false, true},
+                            {"sliding over atoms", 32, 3, 0.0, false, true, false, false, true}};
 void PrintTo(const Stack& s, std::ostream* out) { *out << s.name; }
 
 Surface surface_of(const Stack& stack, const char* name) {
@@ -62,6 +65,7 @@ Surface surface_of(const Stack& stack, const char* name) {
 
 InterfaceOptions interface_of(const Stack& stack) {
     InterfaceOptions options = test::paper_interface();
+    options.slides = stack.slides;
     if (stack.types) options.by_type = {options.potential, Morse{0.05, 1.7, 3.4, 10.0}};
     return options;
 }
@@ -83,6 +87,11 @@ SimulationOptions options_of(const Stack& stack) {
     options.damping_from = 0.3;
     options.temperature = stack.temperature;
     options.seed = 7;
+    // Over more than a spacing: the substrate's tables are made anew.
+    if (stack.slides) {
+        options.drive.ramp = 100.0;
+        options.drive.path = {{Segment::approach}, {Segment::slide, -1.6, 0}};
+    }
     return options;
 }
 
@@ -100,10 +109,11 @@ Trace run(const Stack& stack, const Communicator& ranks) {
     Simulation s(options, surface, ranks, test::grid_for(options.block, ranks));
     s.start(7.0);
     Trace trace;
-    for (int n = 0; n < 300; ++n) {
+    for (int n = 0; n < (stack.slides ? 500 : 300); ++n) {
         const StepRecord& now = s.step(n % 10 == 0);
         s.drive().observe({now.time, now.force, 0.0, false}); // turns round on contact
-        for (double value : {now.top, now.mean_height, now.force, now.top_force})
+        for (double value : {now.top, now.mean_height, now.force, now.top_force, now.slide[0],
+                             now.lateral_force[0], now.lateral_force[1]})
             trace.numbers.push_back(value);
         if (!now.observed) continue;
         for (double value : {now.interface_energy, now.elastic_energy, now.kinetic_energy,
@@ -112,9 +122,9 @@ Trace run(const Stack& stack, const Communicator& ranks) {
             trace.numbers.push_back(value);
         trace.in_contact = std::max(trace.in_contact, now.in_contact);
     }
+    EXPECT_EQ(s.interface().place()[0] < -1.3, stack.slides);
     const Ledger& l = s.ledger();
-    for (double value :
-         {l.top_work, l.drag_work, l.damped, l.radiated, l.heat, l.interface})
+    for (double value : {l.top_work, l.drag_work, l.damped, l.radiated, l.heat, l.interface})
         trace.numbers.push_back(value);
     trace.state = test::fingerprint(s.block());
     return trace;
