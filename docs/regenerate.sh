@@ -19,9 +19,9 @@ made=""
 made() { made="$made $*"; echo "made: $*"; }
 
 ./asperity info >$place/info.txt # builds, before a page is opened
-./asperity defaults --markdown >$place/scene.md && mv $place/scene.md docs/scene.md
-./asperity defaults --results >$place/result.md && mv $place/result.md docs/result.md
-made docs/scene.md docs/result.md
+./asperity defaults --markdown >$place/scene.md && mv $place/scene.md docs/reference/scene.md
+./asperity defaults --results >$place/result.md && mv $place/result.md docs/reference/result.md
+made docs/reference/scene.md docs/reference/result.md
 
 for figure in 2 3; do
     ./asperity sweep scenes/paper/fig$figure.toml --theory-only --out $place/theory-$figure >$place/log.txt

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The suite's numbers for people: tables for the terminal, docs/performance.md and its plots."""
+"""The suite's numbers for people: tables for the terminal, docs/reports/performance.md and its plots."""
 import math
 import os
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What moves the rigid top plane (docs/model.md).
+// What moves the rigid top plane (docs/explanation/model.md).
 //
 // It moves down at constant velocity until the total normal force on the lowest layer has been
 // attractive and has returned to the prescribed load (zero), then reverses and moves up until the

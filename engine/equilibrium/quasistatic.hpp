@@ -89,7 +89,7 @@ public:
     /// What this, and what was dissipated on the leg, may be wrong by, eV: the sum of the gaps in
     /// the energy balance of its steps, and three times the root of the sum of squares of what the
     /// work of each step with an instability is not known by. (Three, for these errors are not
-    /// independent: measured in docs/relaxation.md.)
+    /// independent: measured in docs/explanation/relaxation.md.)
     double uncertainty(Leg leg) const {
         const LegError& e = error(leg);
         return e.gap + 3.0 * std::sqrt(e.squares);
