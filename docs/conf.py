@@ -5,20 +5,22 @@
     cmake --build build/release --target docs           # the site is build/release/docs/index.html
     sphinx-build -W -b html docs build/docs             # the same with the program that is built already
 
-Needs python3-sphinx, python3-myst-parser and furo of Debian. Three pages of the reference are completed here: the
-commands by what the program prints, the C++ interface by its header, the Python interface by autodoc. The program
-is that of $ASPERITY_PROGRAM or the build of this source tree.
+Needs python3-sphinx, python3-myst-parser and furo of Debian. Pages are Markdown that reads the same elsewhere; two
+of the reference are completed here: the commands by what the program prints, the C++ interface by its header. The
+program is that of $ASPERITY_PROGRAM or the build of this source tree.
 """
 
+import os
 import re
 import sys
 import types
 from pathlib import Path
 
+from sphinx.errors import ConfigError
+
 root = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(root / "python"), str(root / "packaging")]
 
-from asperity import program  # noqa: E402
 from generate import commands_of, say  # noqa: E402
 
 project = "Asperity"
@@ -44,7 +46,9 @@ except ImportError:  # a build without pybind11: what is compiled is missing fro
 
 def commands() -> str:
     """The help of every command of the program, and of the two that only the script has."""
-    found = program.path()
+    found = os.environ.get("ASPERITY_PROGRAM") or str(root / "build/release/engine/asperity")
+    if not os.access(found, os.X_OK):
+        raise ConfigError(f"there is no program {found}: build it (./asperity info), or set ASPERITY_PROGRAM")
     general = say(found, "--help")
     pages = [(name, say(found, name, "--help")) for name, _ in commands_of(general)]
     return "".join(f"\n## {title}\n\n```text\n{text.strip()}\n```\n" for title, text in [("asperity", general), *pages])
@@ -71,8 +75,16 @@ def header() -> str:
     return "".join(out)
 
 
+def outside(link):
+    """A link to a Markdown file that is no page of the site: its text and the file's name."""
+    text, file = link.groups()
+    return f"`{file}`" if text in file else f"{text} (`{file}`)"
+
+
 def complete(app, page, source):
-    """A page of the reference, with what is generated behind its text."""
+    """A page before it is parsed: what is generated comes behind the text of its page."""
+    up = re.escape("../" * (page.count("/") + 1))
+    source[0] = re.sub(rf"\[([^\]]+)\]\({up}([^)#]+\.md)(?:#[^)]*)?\)", outside, source[0])
     made = {"reference/command-line": commands, "reference/cpp": header}.get(page)
     if made:
         source[0] += made()
