@@ -5,9 +5,9 @@
     cmake --build build/release --target docs           # the site is build/release/docs/index.html
     sphinx-build -W -b html docs build/docs             # the same with the program that is built already
 
-Needs python3-sphinx, python3-myst-parser and furo of Debian. Pages are Markdown that reads the same elsewhere; two
-of the reference are completed here: the commands by what the program prints, the C++ interface by its header. The
-program is that of $ASPERITY_PROGRAM or the build of this source tree.
+Needs python3-sphinx, python3-myst-parser and furo of Debian; with libjs-katex formulas need no network. Pages are
+Markdown that reads the same elsewhere; two of the reference are completed here: the commands by what the program
+prints, the C++ interface by its header. The program is that of $ASPERITY_PROGRAM or the build of this source tree.
 """
 
 import os
@@ -34,6 +34,14 @@ suppress_warnings = ["myst.header"]  # a page that is completed here may begin i
 highlight_language = "none"
 html_theme = "furo"
 html_title = f"Asperity {version}"
+html_static_path = ["site.css"]
+html_css_files = ["site.css"]
+katex = Path("/usr/share/javascript/katex")
+if (katex / "contrib/auto-render.js").is_file():  # formulas without a network; otherwise MathJax comes from its server
+    html_static_path.append(str(katex))
+    html_css_files.append("katex.min.css")
+    mathjax_path, mathjax_options = "katex.min.js", {"defer": "defer"}
+    html_js_files = [("contrib/auto-render.js", {"defer": "defer", "onload": "renderMathInElement(document.body)"})]
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 

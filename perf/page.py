@@ -303,6 +303,8 @@ kernels {m['kernels']}; {results['date']}, commit {results.get('commit', 'unknow
 
 {summary(results)}
 
+Commands:
+
     ./asperity bench                           # the kernels and the steps, a minute
     ./asperity bench --scaling                 # and the scaling study
     ./asperity bench --page --save-baseline    # on a quiet machine: this page, and what later runs are compared with
