@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The pages as a site:
 
-    cmake --build build/release --target docs           # the site is build/release/docs/index.html
+    cmake --build build/release --target docs           # the site is build/release/site/index.html
     sphinx-build -W -b html docs build/docs             # the same with the program that is built already
 
 Needs python3-sphinx, python3-myst-parser and furo of Debian; with libjs-katex formulas need no network. Pages are
