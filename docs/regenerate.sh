@@ -61,6 +61,8 @@ made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-rea
 
 "$python" scenes/validation/seams.py returned --long --layers 4 --picture $gallery/seams.png >$place/seams.txt
 made $gallery/seams.png
+"$python" $gallery/lammps.py # of a table measured before
+made $gallery/lammps.svg
 
 if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then
     ./asperity run scenes/first-contact.toml --set drive.path=zero-load surface.sites=96 \
