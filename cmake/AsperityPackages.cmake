@@ -49,7 +49,7 @@ function(asperity_say_what_is_missing)
         "  conda-forge:    conda install -c conda-forge${conda}\n"
         "  Homebrew:       brew install${homebrew}\n"
         "  or load modules; what lies elsewhere is found by CMAKE_PREFIX_PATH and PKG_CONFIG_PATH "
-        "(docs/install.md)")
+        "(docs/howto/install.md)")
 endfunction()
 
 find_package(OpenMP QUIET COMPONENTS CXX)

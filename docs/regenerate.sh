@@ -19,9 +19,9 @@ made=""
 made() { made="$made $*"; echo "made: $*"; }
 
 ./asperity info >$place/info.txt # builds, before a page is opened
-./asperity defaults --markdown >$place/scene.md && mv $place/scene.md docs/scene.md
-./asperity defaults --results >$place/result.md && mv $place/result.md docs/result.md
-made docs/scene.md docs/result.md
+./asperity defaults --markdown >$place/scene.md && mv $place/scene.md docs/reference/scene.md
+./asperity defaults --results >$place/result.md && mv $place/result.md docs/reference/result.md
+made docs/reference/scene.md docs/reference/result.md
 
 for figure in 2 3; do
     ./asperity sweep scenes/paper/fig$figure.toml --theory-only --out $place/theory-$figure >$place/log.txt
@@ -61,6 +61,8 @@ made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-rea
 
 "$python" scenes/validation/seams.py returned --long --layers 4 --picture $gallery/seams.png >$place/seams.txt
 made $gallery/seams.png
+"$python" $gallery/lammps.py # of a table measured before
+made $gallery/lammps.svg
 
 if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then
     ./asperity run scenes/first-contact.toml --set drive.path=zero-load surface.sites=96 \

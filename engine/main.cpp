@@ -115,13 +115,12 @@ std::vector<Command> all_commands() {
         {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}},
         {"defaults",
          "every key of a scene with its default, as TOML",
-         {{"--markdown", "", "as the reference page docs/scene.md", &Arguments::markdown},
+         {{"--markdown", "", "as the reference page docs/reference/scene.md", &Arguments::markdown},
           {"--plain", "", "without explanations", &Arguments::plain},
           takes::json,
           {"--results", "",
-           "every name of result.json and run.h5: the reference page docs/result.md; with --json "
-           "those "
-           "of result.json",
+           "every name of result.json and run.h5: the reference page docs/reference/result.md; "
+           "with --json those of result.json",
            &Arguments::results}},
          [](const Arguments& given, const Communicator& world) {
              return given.json

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Physical constants in the units of the engine: Å, eV, fs (docs/model.md).
+// Physical constants in the units of the engine: Å, eV, fs (docs/explanation/model.md).
 #pragma once
 
 namespace asperity::units {

@@ -6,7 +6,7 @@
 //
 // This is the one place where a result is described. Result (io/result.hpp) takes no name that is
 // not here and states the units from here in result.json; the summary of a run, the columns and
-// attributes of run.h5 and docs/result.md (`asperity defaults --results`) follow.
+// attributes of run.h5 and docs/reference/result.md (`asperity defaults --results`) follow.
 //
 // Names: dots lead deeper; "*" stands for any name, "[]" for each element of a list.
 // Units: as io/units.hpp reads them; "1" for a pure number, "" for what is no number.
@@ -328,7 +328,7 @@ inline std::string_view unit_of(Key key) { return key.quantity->unit; }
 /// The quantity of run.h5 with this path ("/fields/zero-load/gap"); nullptr if there is none.
 const Quantity* run_quantity(std::string_view path);
 
-/// docs/result.md.
+/// docs/reference/result.md.
 std::string result_markdown();
 
 } // namespace asperity::io

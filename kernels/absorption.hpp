@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Absorption in the cells of a level (docs/seams.md).
+// Absorption in the cells of a level (docs/explanation/seams.md).
 //
 // In a cell that absorbs, the velocities of the eight corners relax towards their mean: each corner
 // carries an eighth of the cell's mass and is given the impulse

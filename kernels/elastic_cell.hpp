@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The elastic block's one stencil (docs/model.md), small strain.
+// The elastic block's one stencil (docs/explanation/model.md), small strain.
 //
 // The energy is a sum over cubic cells of edge s with eight corners,
 //

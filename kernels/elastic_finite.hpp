@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The elastic block at finite strain (docs/model.md): the same cells as elastic_cell.hpp, with
-// the springs' true lengths and the true volume,
+// The elastic block at finite strain (docs/explanation/model.md): the same cells as
+// elastic_cell.hpp, with the springs' true lengths and the true volume,
 //
 //   U_cell = sum_edges 1/2 (k/4) (|r| - s)^2 + sum_face-diagonals 1/2 (k/2) (|r| - sqrt(2) s)^2
 //            + 1/2 (lambda - mu) s^3 theta^2,

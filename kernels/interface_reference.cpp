@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The reference sweep: slow, scalar and plain, the executable specification of docs/model.md.
+// The reference sweep: slow, scalar and plain, the executable specification of
+// docs/explanation/model.md.
 //
 // One loop over the rows of substrate atoms within the cutoff of the site, one over the atoms of a
 // row. Atoms are counted beyond the box and folded back for their height alone, so periodic images

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The pair potentials of the interface (docs/model.md):
+// The pair potentials of the interface (docs/explanation/model.md):
 //
 //     V(r) = V0(r) - V0(r_c)  for r < r_c,   0 beyond.
 //

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// S(q): what the elastic block is to its lowest layer at rest (docs/model.md).
+// S(q): what the elastic block is to its lowest layer at rest (docs/explanation/model.md).
 //
 // A static plane wave u exp(i q r) in the lowest layer of a lattice of `thickness` cells, its top
 // plane clamped, is answered by the force -S(q) u, all other layers being at equilibrium. S follows

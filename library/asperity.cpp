@@ -37,10 +37,10 @@ public:
     }
     const io::Json& value(const std::string& name) const {
         if (const io::Json* found = io::find(values, name)) return *found;
-        throw io::SceneError(io::Problem{directory + "/result.json",
-                                         fmt::format("has no '{}'", name),
-                                         "the run did not compute it, or the name is misspelt",
-                                         "names are in docs/result.md and in Result::json()"});
+        throw io::SceneError(
+            io::Problem{directory + "/result.json", fmt::format("has no '{}'", name),
+                        "the run did not compute it, or the name is misspelt",
+                        "names are in docs/reference/result.md and in Result::json()"});
     }
     const std::string& checked(const io::Hdf5File& from, const std::string& object) const {
         if (from.exists(object)) return object;

@@ -18,9 +18,10 @@
 //     }
 // clang-format on
 //
-// Keys of scenes are in docs/scene.md, names and units of results in docs/result.md; they mean the
-// same here as for the program. Every function throws libasperity::Error. A run takes OpenMP's
-// threads; two runs at once in one process are not supported.
+// Keys of scenes are in docs/reference/scene.md, names and units of results in
+// docs/reference/result.md; they mean the same here as for the program. Every function throws
+// libasperity::Error. A run takes OpenMP's threads; two runs at once in one process are not
+// supported.
 //
 // Versions: MAJOR.MINOR.PATCH. Before 1.0 a new MINOR may change this header and has a soname of
 // its own (libasperity.so.0.1); from 1.0 on only a new MAJOR does. The classes hold one pointer

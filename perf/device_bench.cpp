@@ -9,7 +9,8 @@
 // numerics.device is "emulated" unless given. Prints JSON: the limits of memory (GB/s of a triad)
 // and arithmetic (GFLOP/s of fused multiplications), measured on the device in the same run; the
 // fastest stretch of steps, and for each launch its time by the device's clock, the bytes and
-// operations counted for it (docs/device.md), and the share of the limit that it reaches.
+// operations counted for it (docs/explanation/device.md), and the share of the limit that it
+// reaches.
 #include "engine/scene/scene.hpp"
 #include "engine/setup/case.hpp"
 #include "io/error.hpp"
@@ -29,8 +30,8 @@ using namespace asperity;
 
 namespace {
 
-// Counted from the kernels' texts (docs/device.md): bytes that memory must move at least, and
-// operations, a fused one as two.
+// Counted from the kernels' texts (docs/explanation/device.md): bytes that memory must move at
+// least, and operations, a fused one as two.
 constexpr double moved_node = 96.0, operations_node = 159.0;
 constexpr double moved_site = 56.0, operations_pair = 15.5;
 constexpr double moved_face = 72.0, moved_hanging = 30.0;

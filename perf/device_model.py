@@ -6,7 +6,7 @@
     python3 perf/device_model.py build/release/perf [--terms]
 
 volumes (of that folder) counts what the most loaded device holds and sends, for a block as thick as
-wide; docs/device.md explains the terms. --terms prints those of the largest tile of each size alone.
+wide; docs/explanation/device.md explains the terms. --terms prints those of the largest tile of each size alone.
 """
 import argparse
 import math
@@ -24,7 +24,7 @@ MEMORY, FIRST_CACHE, INSTRUCTIONS = 3.35e12, 128 * CLOCKS, 64 * CLOCKS
 SECOND_CACHE = 5.5e12
 LAUNCH, COPY, COPY_BYTES, MESSAGE, MESSAGE_BYTES = 3e-6, 10e-6, 50e9, 3e-6, 25e9
 
-# Counted from the texts (docs/device.md), a node, site, pair, node of an upper or a hanging plane.
+# Counted from the texts (docs/explanation/device.md), a node, site, pair, node of an upper or a hanging plane.
 # (All upper planes but the top hang, and that has a few nodes.)
 NODE_MEMORY, NODE_SECOND, NODE_FIRST, NODE_OPERATIONS = 96, 27 * 8 + 72, 81 * 8 + 72, 159
 SITE_MEMORY, FACE_MEMORY, HANGING_MEMORY = 56, 72, 30

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The suite's numbers for people: tables for the terminal, docs/performance.md and its plots."""
+"""The suite's numbers for people: tables for the terminal, docs/reports/performance.md, its tables and plots."""
+import csv
 import math
 import os
+import re
 
 import machine
 import scaling as study
@@ -114,8 +116,8 @@ def _scaling_tables(scaling, limits, phases):
     out.append(_table("Larger machines, predicted",
                       "In contact, as many layers as sites, ranks of one thread. First with messages as measured here, then over a "
                       f"network of {1e6 * network['latency']:g} µs and {1e-9 * network['bandwidth']:g} GB/s a rank (assumed, "
-                      "not measured; messages over 64 kB wait for two more latencies). Held by all: share of a rank's nodes that "
-                      f"every rank computes alike. If shared: steps/s gained over this network if {study.SHARED_AMONG} ranks "
+                      "not measured; messages over 64 kB wait for two more latencies). Held by all: fraction of a rank's nodes "
+                      f"that every rank computes alike. If shared: steps/s gained over this network if {study.SHARED_AMONG} ranks "
                       "together held these nodes, for two more swaps a step.",
                       ["sites", "ranks", "steps/s", "efficiency", "communication", "network: steps/s", "efficiency",
                        "communication", "held by all", "if shared"], rows))
@@ -167,18 +169,21 @@ def terminal(table):
                       "  " + "─" * (sum(widths) + 2 * (len(widths) - 1))] + [line(r) for r in table["rows"]] + [""])
 
 
-def markdown(table):
-    line = "| " + " | ".join(table["header"]) + " |"
-    rule = "|---|" + "---:|" * (len(table["header"]) - 1)
-    return "\n".join(["### " + table["title"], "", table["note"], "", line, rule] +
-                     ["| " + " | ".join(r) + " |" for r in table["rows"]] + [""])
+def published(table, folder):
+    """A table as a file of its own, data/performance/TITLE.csv, and as the part of the page that shows it."""
+    name = re.sub(r"[^a-z0-9]+", "-", table["title"].lower()).strip("-")
+    with open(os.path.join(folder, "data", "performance", name + ".csv"), "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([table["header"], *table["rows"]])
+    file = f"../data/performance/{name}.csv"
+    return (f"### {table['title']}\n\n{table['note']} ([table]({file}))\n\n"
+            f"```{{csv-table}}\n:file: {file}\n:header-rows: 1\n```\n")
 
 
 # --- plots -----------------------------------------------------------------------------------------------------
 
 
 def limits_plot(results, plt):
-    """Each kernel's share of the limits, in percent."""
+    """Each kernel's fraction of the limits, in percent."""
     kinds = (("of limit", "of its bound: arithmetic, division or memory"), ("of fused", "of the fused multiply-add loop"),
              ("of stream", "of the memory's stream"))
     rows = [r for g in results["kernels"] for r in g["rows"] if any(key in r for key, _ in kinds)]
@@ -188,7 +193,7 @@ def limits_plot(results, plt):
         ax.barh([i + 0.27 * (number - 1) for i in there], [100.0 * rows[i][key] for i in there], 0.27, label=label)
     ax.set_yticks(range(len(rows)), [r["label"] for r in rows])
     ax.invert_yaxis()
-    ax.set_xlabel("share of the limit measured in the same run, %")
+    ax.set_xlabel("fraction of the limit measured in the same run, %")
     ax.legend(loc="lower center", bbox_to_anchor=(0.3, 1.0))
     return figure
 
@@ -231,10 +236,45 @@ def predicted_plot(larger, network, plt):
 # --- the page --------------------------------------------------------------------------------------------------
 
 
+def summary(results):
+    """What the tables say, in sentences."""
+    rows = {r["label"]: r for g in results["kernels"] for r in g["rows"]}
+    double, mixed = rows["lattice, double, forces"], rows["lattice, mixed, forces"]
+    name = [label for label in rows if re.fullmatch(r"pass of [\dx ]+, [\d.]+ MB", label)][-1]
+    node, finite = rows[name], rows[name + ", finite strain, ν = 1/4"]
+    contact = [s for s in results["steps"] if s["place"] == "contact"]
+    n = max(s["sites"] for s in contact)
+    step = {s["precision"]: s for s in contact if s["sites"] == n}
+    def part(phase):
+        return _percent(step["double"]["phases"][phase] / step["double"]["seconds"])
+    scaling = results["scaling"]
+    wide = max(e["sites"] for e in scaling["strong"])
+    two = {e["ranks"]: e["efficiency"] for e in scaling["strong"]
+           if e["sites"] == wide and e["place"] == "contact" and e["ranks"] * e["threads"] == 2}
+    ratios = [c["predicted"] / c["measured"] for c in scaling["check"]]
+    larger = [e for e in scaling["larger"] if e["messages"] == "network"]
+    small = max((e for e in larger if e["sites"] == larger[0]["sites"] and e["ranks"] <= 256), key=lambda e: e["ranks"])
+    network = scaling["network"]
+    return "\n".join([
+        f"- A pair of atoms of one lattice takes {_number(double['ns'])} ns in double and {_number(mixed['ns'])} ns in mixed precision: "
+        f"{_percent(double['of limit'])} and {_percent(mixed['of limit'])} of the limit of this processor.",
+        f"- A node of the elastic block takes {_number(node['ns'])} ns ({name}), {_percent(node['of limit'])} of the limit "
+        f"({node['bound']}), and {_number(finite['ns'])} ns at finite strain.",
+        f"- A step of {n} sites and layers in contact takes {_number(1e3 * step['double']['seconds'])} ms in double "
+        f"({part('interface')} interface, {part('advance')} block) and {_number(1e3 * step['mixed']['seconds'])} ms in mixed precision.",
+        f"- At {wide} sites in contact two threads have an efficiency of {two[1]:.2f}, two ranks of {two[2]:.2f}.",
+        f"- The model below gives {min(ratios):.2f} to {max(ratios):.2f} of the measured time of a step on two ranks. For a network of "
+        f"{1e6 * network['latency']:g} µs and {1e-9 * network['bandwidth']:g} GB/s a rank it predicts "
+        f"{_number(1.0 / small['seconds'])} steps/s for {small['sites']} sites on {small['ranks']} ranks (efficiency "
+        f"{small['efficiency']:.2f}) and {_number(1.0 / larger[-1]['seconds'])} for {larger[-1]['sites']} sites on "
+        f"{larger[-1]['ranks']} (efficiency {larger[-1]['efficiency']:.2f})."])
+
+
 def write(results, baseline, baselines, phases, folder):
-    """performance.md in the folder, its plots in gallery/perf there; baselines: of all processors."""
+    """reports/performance.md in the folder, its tables in data/performance, its plots in gallery/perf; baselines: of all processors."""
     plots = os.path.join(folder, "gallery", "perf")
-    os.makedirs(plots, exist_ok=True)
+    for place in (plots, os.path.join(folder, "data", "performance"), os.path.join(folder, "reports")):
+        os.makedirs(place, exist_ok=True)
     scaling, m = results["scaling"], results["machine"]
     import matplotlib  # only the page needs it
 
@@ -247,72 +287,58 @@ def write(results, baseline, baselines, phases, folder):
         figure.savefig(os.path.join(plots, name + ".svg"), metadata={"Date": None})
     all_tables = tables(results, baseline, phases)
     first = next(i for i, t in enumerate(all_tables) if t["title"].startswith("Two cores"))
+    compared = processors_table(results, baselines)
     c = scaling["coefficients"]
-    costs = "\n".join(["| nodes of a rank | " + " | ".join(map(str, c["nodes"])) + " |", "|---|" + "---:|" * len(c["nodes"])] +
-                      [f"| ns a {name} | " + " | ".join(map(_number, c["ns"][key])) + " |" for key, name in
-                       (("node", "node"), ("site", "site in contact"), ("hanging", "hanging node"), ("byte", "byte copied"))])
+    costs = _table("Costs in the model", "By the number of nodes of a rank, ns.", ["item", *map(str, c["nodes"])],
+                   [[name, *map(_number, c["ns"][key])] for key, name in
+                    (("node", "node"), ("site", "site in contact"), ("hanging", "constrained node"), ("byte", "byte copied"))])
+    def parts(some):
+        return "\n".join(published(t, folder) for t in some)
     text = f"""# Performance
 
-Written by `./asperity bench --page`; do not edit.
+![fraction of the limits](../gallery/perf/limits.svg)
 
-Measured on {results['date']} with the program of commit {results.get('commit', 'unknown')}:
-{m['processor']} (family {m['family']}, model {m['model']}), {m['cores']} cores, kernels {m['kernels']}.
-{machine.words(results['load'])} {baseline_words(baseline)}
+Written by `./asperity bench --page`; do not edit. {m['processor']} (family {m['family']}, model {m['model']}), {m['cores']} cores,
+kernels {m['kernels']}; {results['date']}, commit {results.get('commit', 'unknown')}. {machine.words(results['load'])} {baseline_words(baseline)}
 
-Every time is the shortest of repeats that alternate with each other; every share is of a limit measured
-in the same run. *Of fused* is the share of a loop of fused multiply-adds, *of stream* that of a stream
-triad on as many threads. *Limit* is what this processor takes at best for an item, and *bound* names
-what sets it: the kernel's own multiplications, additions, divisions and shifts in a loop in which none
-waits for another and nothing is loaded (arithmetic; division where divisions and roots alone take as
-long), or u and v read and written once at the stream's rate (memory). What a kernel takes beyond it goes
-into loads and stores, waiting for results, lanes beyond the cutoff, and what a row or block of sites
-takes once. *Against baseline* is a speed relative to
-`perf/baselines/` for the same processor, marked where it differs by more than 10 %. Times taken while
-other programs run are not reliable.
+{summary(results)}
+
+Commands:
 
     ./asperity bench                           # the kernels and the steps, a minute
     ./asperity bench --scaling                 # and the scaling study
     ./asperity bench --page --save-baseline    # on a quiet machine: this page, and what later runs are compared with
 
-![share of the limits](gallery/perf/limits.svg)
-
 ## Kernels and steps
 
-"""
-    compared = processors_table(results, baselines)
-    text += "\n".join(markdown(t) for t in all_tables[:first] + ([compared] if compared else []))
-    text += """
+Every time is the shortest of repeats that alternate with each other; fractions are of limits measured in the same run: *of
+fused* of a loop of fused multiply-adds, *of stream* of a stream triad on as many threads. *Limit* is the time of an item at
+best, and *bound* what sets it: its multiplications, additions, divisions and shifts in a loop without dependences and loads
+(arithmetic, or division alone), or u and v read and written once (memory).
+
+{parts(all_tables[:first] + ([compared] if compared else []))}
 ## Scaling
 
-![a step by phase](gallery/perf/phases.svg)
+![a step by phase](../gallery/perf/phases.svg)
 
-"""
-    text += "\n".join(markdown(t) for t in all_tables[first:first + 2])
-    text += f"""
+{parts(all_tables[first:first + 2])}
 ## Larger machines: a model
+
+![larger machines](../gallery/perf/larger.svg)
 
 A step of the most loaded rank takes
 
-    nodes x t_node + sites x t_site + hanging nodes x t_hanging             work
+    nodes x t_node + sites x t_site + constrained nodes x t_constrained     work
     + (bytes wrapped + 2 x bytes sent) x t_byte                             copies into and out of halos
     + swap(x) + swap(y)                                                     messages to neighbours
     + log2(ranks) x t_sum                                                   the reduction
     + log2(ranks) x latency + bytes gathered x t_gathered                   where coarse levels are held by all
 
-with volumes counted by the decomposition itself (`perf/volumes.cpp`: halos two nodes wide, all levels in
-one message to each neighbour) and times measured here: those of work and copies on one core,
-interpolated by the number of nodes of a rank; a reduction {_number(c['us a reduction'])} µs, a short message
-{_number(c['us a short message'])} µs, a long one {_number(c['GB/s of a long message'])} GB/s.
+with volumes of the decomposition (`perf/volumes.cpp`) and times measured here: a reduction {_number(c['us a reduction'])} µs, a short
+message {_number(c['us a short message'])} µs, a long one {_number(c['GB/s of a long message'])} GB/s. A node costs less where the block
+of a rank fits into its cache, so efficiencies above 1 can occur. Not included: waiting for late ranks, memory shared by more
+cores than here, and effects of a network other than latency and bandwidth.
 
-{costs}
-
-A node costs less where a rank's block fits into its cache, so efficiencies above 1 can occur. Not
-included: waiting for late ranks, memory shared by more cores than here, and effects of a network other
-than latency and bandwidth.
-
-![larger machines](gallery/perf/larger.svg)
-
-"""
-    text += "\n".join(markdown(t) for t in all_tables[first + 2:])
-    with open(os.path.join(folder, "performance.md"), "w") as file:
+{parts([costs, *all_tables[first + 2:]])}"""
+    with open(os.path.join(folder, "reports", "performance.md"), "w") as file:
         file.write(text)

@@ -191,7 +191,7 @@ def main():
     parser.add_argument("--network", action="store_true",
                         help="nothing but two ranks on two hosts (network namespaces; root) and the model for them (6 minutes)")
     parser.add_argument("--page", nargs="?", const=os.path.join(SOURCE, "docs"), metavar="DIR",
-                        help="write performance.md and its plots there (default: docs); runs all of it")
+                        help="write reports/performance.md, its tables and plots there (default: docs); runs all of it")
     parser.add_argument("--out", metavar="FILE", help="JSON with all numbers (default: bench.json in the build)")
     parser.add_argument("--from", dest="earlier", metavar="FILE", help="measure nothing: take the numbers of such a JSON")
     parser.add_argument("--save-baseline", action="store_true", help="make these numbers the baseline of this processor")
@@ -263,7 +263,7 @@ def main():
             with open(os.path.join(os.path.dirname(stored), name)) as file:
                 every.append(json.load(file))
         page.write(results, baseline, every, PHASES, args.page)
-        say(f"Page: {os.path.join(args.page, 'performance.md')}")
+        say(f"Page: {os.path.join(args.page, 'reports', 'performance.md')}")
     if not args.earlier:
         say(f"Numbers: {out}")
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The renormalised theory of adhesive contact: what roughness leaves of the potential of two flat
-// surfaces (derivation, assumptions and comparison with simulations: docs/theory.md).
+// surfaces (derivation, assumptions and comparison with simulations: docs/explanation/theory.md).
 //
 // φ(u) is the energy per area at the mean separation u. Roughness is taken in shells of wavevectors
 // from the finest to the coarsest. A shell of height variance dh² = 2π q C(q) dq is answered by the
@@ -73,9 +73,9 @@ struct RenormalisedOptions {
         0.125; ///< of the coarsest grid at the minimum, over its distance to inflection
 };
 
-/// Within these 19 of 20 simulated surfaces lie (calibrated; docs/theory.md has how). With N waves
-/// of equal variance (Spectrum::waves), s the rms slope, T and F the state's tilt_cost and
-/// stiffening, A its contact fraction:
+/// Within these 19 of 20 simulated surfaces lie (calibrated; docs/explanation/theory.md has how).
+/// With N waves of equal variance (Spectrum::waves), s the rms slope, T and F the state's tilt_cost
+/// and stiffening, A its contact fraction:
 ///     γ_eff/Δγ: √[ (m (1 - γ_eff/Δγ)/√N)² + (3.2 s² T)² + (1.2 F)² ],      m = 0.5, ensemble 1.5
 ///     A:        √[ (m (1 - γ_eff/Δγ)/√N)² + (1.6 s²)² A (1 - A) ],         m = 0.8, ensemble 1.1
 /// T, F and the second term of A are those of atoms; a wall has none of them. Each has the

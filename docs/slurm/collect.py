@@ -5,7 +5,7 @@
 
     python3 docs/slurm/collect.py results/study surface.seed binding_energy
 
-KEY is a number of the scenes, QUANTITY one of result.json (docs/result.md). Writes DIR/collected.csv and
+KEY is a number of the scenes, QUANTITY one of result.json (docs/reference/result.md). Writes DIR/collected.csv and
 DIR/collected.png, a point for each run, with mean and standard deviation at each value of KEY.
 """
 

@@ -22,7 +22,7 @@ CellElasticity BlockOptions::elasticity(int level) const {
 double BlockOptions::absorbed_share(int level, int cells, int z) const {
     const int from = absorbs_from(level, cells);
     if (z < from) return 0.0;
-    // Rates over c_P / s, found by the search of docs/seams.md.
+    // Rates over c_P / s, found by the search of docs/explanation/seams.md.
     const double height = (z - from + 0.5) / (cells - from);
     const double rate = level > 0 ? 3.0 * std::sqrt(height) : 2.3 * height;
     // Time between two absorptions of a level, in that sound takes to cross a cell of it.

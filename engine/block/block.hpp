@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The elastic block: a stack of levels over one cell stencil (docs/model.md).
+// The elastic block: a stack of levels over one cell stencil (docs/explanation/model.md).
 //
 // Level l is a regular lattice of cells of edge 2^l a, `cells` layers thick. Its planes are
 // numbered from below: planes 0 .. cells-1 move; plane `cells` is prescribed, for it hangs on the

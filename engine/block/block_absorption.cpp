@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Seams that absorb what the next level cannot carry (docs/seams.md).
+// Seams that absorb what the next level cannot carry (docs/explanation/seams.md).
 #include "engine/block/block.hpp"
 
 #include "kernels/absorption.hpp"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The elastic block without its inside (docs/model.md).
+// The elastic block without its inside (docs/explanation/model.md).
 //
 // All that is left of a lattice of `thickness` layers whose inside is at rest is its lowest layer
 // and the stiffness S(q) that the rest gives to it, one 3 x 3 matrix a wave

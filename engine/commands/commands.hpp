@@ -23,7 +23,8 @@ int check_command(const Case& c, bool json, const Communicator& world);
 int plan_command(const Case& c, const Communicator& world);
 /// `asperity surface`: heights.h5 and result.json in `out` (empty: results/<scene>-surface).
 int surface_command(const Case& c, const std::string& out, const Communicator& world);
-/// `asperity defaults`: as TOML, with or without explanations, or as the page docs/scene.md.
+/// `asperity defaults`: as TOML, with or without explanations, or as the page
+/// docs/reference/scene.md.
 int defaults_command(bool markdown, bool plain, bool results, const Communicator& world);
 /// `asperity defaults --json`: of every key its kind, unit, default, choices and meaning; results:
 /// instead of every value of result.json its unit and meaning.

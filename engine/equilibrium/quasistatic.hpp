@@ -88,7 +88,7 @@ public:
     /// What this, and what was dissipated in the segment, may be wrong by, eV: the sum of the gaps
     /// in the energy balance of its steps, and three times the root of the sum of squares of what
     /// the work of each step with an instability is not known by. (Three, for these errors are not
-    /// independent: measured in docs/reports/accuracy.md.)
+    /// independent: measured in docs/explanation/relaxation.md.)
     double uncertainty() const { return error_.gap + 3.0 * std::sqrt(error_.squares); }
     const Dissipation& dissipation() const { return dissipation_; }
     /// What the force of the last point may be wrong by, eV/Å.

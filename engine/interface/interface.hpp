@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The interface: one tile of the block's lowest layer over the rigid substrate (docs/model.md),
-// whose atoms it meets, or a wall in their place.
+// The interface: one tile of the block's lowest layer over the rigid substrate
+// (docs/explanation/model.md), whose atoms it meets, or a wall in their place.
 //
 // Built once per run. Every rank knows the whole height map, so nothing is communicated here: the
 // sweep is local to the tile, and its sums are exact (ExactSum), to be merged over ranks in any

@@ -270,7 +270,7 @@ void Recorder::end_frame(const Frame& frame, const Simulation& simulation) {
         const auto sites = static_cast<std::size_t>(block.sites);
         std::vector<float> position(3 * sites * sites), velocity;
         for (std::size_t i = 0; i < sites * sites; ++i) {
-            // Sites stand over the hollows of the substrate (docs/model.md).
+            // Sites stand over the hollows of the substrate (docs/explanation/model.md).
             const std::array<double, 3> rest = {
                 (static_cast<double>(i % sites) + 0.5) * block.spacing,
                 (static_cast<double>(i / sites) + 0.5) * block.spacing,

@@ -20,7 +20,8 @@ namespace asperity {
 
 namespace {
 
-/// The steepest roughness at which the theory was held against simulations (docs/theory.md).
+/// The steepest roughness at which the theory was held against simulations
+/// (docs/explanation/theory.md).
 constexpr double compared_slope = 0.6;
 
 WavePhase phase_of(double angle) { return {std::cos(angle), std::sin(angle)}; }

@@ -5,9 +5,9 @@
 //
 // Scene{} is the paper's flat case. bind() ties every field to its key, unit, range and line of
 // documentation; that list is the only place where keys are named, and the reader, `asperity
-// defaults`, result.json and docs/scene.md all follow from it. Names and defaults do not change
-// from release to release: tests/engine/scene_test.cpp has them all. What a scene means, and what
-// is wrong with it, is found by resolve() (engine/setup/case.hpp).
+// defaults`, result.json and docs/reference/scene.md all follow from it. Names and defaults do not
+// change from release to release: tests/engine/scene_test.cpp has them all. What a scene means, and
+// what is wrong with it, is found by resolve() (engine/setup/case.hpp).
 #pragma once
 
 #include "engine/scene/surface.hpp"
@@ -178,7 +178,7 @@ std::string scene_toml(const Scene& scene, bool with_docs = true);
 nlohmann::ordered_json scene_json(const Scene& scene);
 /// The unit of each value there.
 nlohmann::ordered_json scene_units(const Scene& scene);
-/// docs/scene.md
+/// docs/reference/scene.md
 std::string scene_markdown();
 
 } // namespace asperity

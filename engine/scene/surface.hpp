@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The substrate's height map (docs/model.md): flat, self-affine, or measured; curved on
+// The substrate's height map (docs/explanation/model.md): flat, self-affine, or measured; curved on
 // request. Or its atoms, at positions of their own, and the map of the topmost ones.
 //
 // A self-affine surface is made by Fourier filtering: each integer wavevector draws its amplitude

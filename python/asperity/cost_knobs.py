@@ -164,7 +164,7 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
         for value in values:
             value.setting.append("block.model=multiscale")
         knobs.append(Knob("layers", values, KnobValue("lattice", ["block.model=lattice"]),
-                          "about -2 (docs/model.md: stiffness of waves)", "block", -2.0, True))
+                          "about -2 (docs/explanation/model.md: stiffness of waves)", "block", -2.0, True))
     layers = int(own("block.thickness"))
     knobs.append(Knob("thickness", [_value("block.thickness", t, "layers")
                                     for t in (layers // 4, layers // 2, layers, 2 * layers) if t >= 1],

@@ -117,7 +117,7 @@ class Simulation(_engine.Simulation):
             print(sim.time, sim.force, sim.contact)
 
     scene      a TOML file, or a dictionary of its sections: {"surface": {"sites": 64}}
-    overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/scene.md
+    overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/reference/scene.md
 
     The path starts and turns as `asperity run` has it, to the same bits. A step takes forces at its start and
     then moves the sites: time, force and energies are of that start, as in the rows of a run's series, and u has

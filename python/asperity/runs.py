@@ -44,7 +44,7 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
     """Simulates a scene and returns its Result.
 
     scene      a TOML file, or a dictionary of its sections: {"surface": {"sites": 64}}
-    overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/scene.md
+    overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/reference/scene.md
     out        the result directory; None: results/<scene>, or the next name that is free
     ranks      MPI ranks
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The renormalised theory against states at zero load over many sets of parameters (docs/theory.md).
+"""The renormalised theory against states at zero load over many sets of parameters (docs/explanation/theory.md).
 
     scenes/validation/parameters.py [SET ...] [--out results/parameters]     # all: a quarter of an hour of one core
     scenes/validation/parameters.py --draw 100 [--from 33] --out results/drawn    # scenes drawn at random: an hour

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What the form of the pair potential changes (docs/validation.md).
+"""What the form of the pair potential changes (docs/reports/validation.md).
 
     scenes/validation/potentials.py [--sites 64] [--rms 1.5] [--out results/potentials]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What the seams of the multiscale block return of sound (docs/seams.md).
+"""What the seams of the multiscale block return of sound (docs/explanation/seams.md).
 
     scenes/validation/seams.py returned [--layers 2 4 8] [--angles 0 45] [--long] [--picture FILE]
     scenes/validation/seams.py echoes [--program build/release/perf/seam_echo]
@@ -27,7 +27,7 @@ C_P = np.sqrt(LAME + 2 * MU)
 
 
 def cell() -> np.ndarray:
-    """Stiffness of a cell (docs/model.md) whose motion does not vary along y: corners (x, z), three components each."""
+    """Stiffness of a cell (docs/explanation/model.md) whose motion does not vary along y: corners (x, z), three components each."""
     stiff = np.zeros((24, 24))
     corners = [np.array([p & 1, p >> 1 & 1, p >> 2 & 1]) for p in range(8)]
     for p in range(8):

@@ -4,7 +4,7 @@
 #
 # The adhesive sine wave (Johnson 1995): states of a frictionless spectral block over h cos(2πx/λ), λ the box, for several
 # α = √(2wλ/(π²E*h²)), w the flat reference. Contact fraction and binding energy at zero load, beside the closed forms of
-# docs/validation.md; and the contact fraction under load, p over p* = πE*h/λ, at α = 0.3.
+# docs/reports/validation.md; and the contact fraction under load, p over p* = πE*h/λ, at α = 0.3.
 #
 #     scenes/validation/sine.sh results/sine [sites ...]      # 128 256: half a minute; 512: a minute more
 #

@@ -71,7 +71,7 @@ def westergaard(runs: Runs) -> None:
 
 
 def johnson_exact(alpha: float) -> tuple[float, float]:
-    """Contact fraction and binding energy over w at zero load (docs/validation.md)."""
+    """Contact fraction and binding energy over w at zero load (docs/reports/validation.md)."""
     low, high = 0.0, 0.999
     branch = lambda f: math.sin(math.pi * f / 2) ** 2 - alpha * math.sqrt(math.tan(math.pi * f / 2))
     low = max((k / 1000 for k in range(1, 900) if branch(k / 1000) < 0 <= branch((k + 1) / 1000)), default=0.0)

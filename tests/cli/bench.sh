@@ -25,7 +25,7 @@ bench 0 --quick --page page --out numbers.json
 says "lattice, double, forces"
 says "other programs used"
 python3 - <<'END' || fail "what was written is not well formed"
-import json, math, os, re, xml.dom.minidom
+import csv, json, math, os, re, xml.dom.minidom
 r = json.load(open("numbers.json"))
 times = [x["ns"] for g in r["kernels"] for x in g["rows"]] + [s["seconds"] for s in r["steps"]]
 times += [e["seconds"] for kind in ("strong", "weak", "larger") for e in r["scaling"][kind]]
@@ -40,17 +40,21 @@ for c in r["scaling"]["check"]:
 # No phase is longer than its step, and together they are most of it.
 for s in r["steps"]:
     assert 0.5 * s["seconds"] < sum(s["phases"].values()) <= 1.01 * s["seconds"], s
-page = open("page/performance.md").read()
-for table in re.findall(r"(?:^\|.*\n)+", page, re.M):
-    assert len({line.count("|") for line in table.splitlines()}) == 1, table
+page = open("page/reports/performance.md").read()
+tables = re.findall(r"^:file: (.*\.csv)$", page, re.M)
+assert len(tables) >= 10 and len(set(tables)) == len(tables), tables
+for table in tables:
+    assert f"({table})" in page, table # a link for readers of the Markdown
+    rows = list(csv.reader(open("page/reports/" + table)))
+    assert len(rows) > 1 and len({len(row) for row in rows}) == 1, table
 plots = re.findall(r"\]\((.*\.svg)\)", page)
 assert len(plots) == 3
 for plot in plots:
-    xml.dom.minidom.parse("page/" + plot)
+    xml.dom.minidom.parse("page/reports/" + plot)
 END
-cp page/performance.md first.md
+cp page/reports/performance.md first.md
 bench 0 --from numbers.json --page page --quick
-cmp -s first.md page/performance.md || fail "the same numbers made another page"
+cmp -s first.md page/reports/performance.md || fail "the same numbers made another page"
 echo '{}' >empty.json
 bench 1 --from empty.json
 says "holds no numbers"

@@ -24,8 +24,8 @@ expect 0 defaults --plain
 printf '%s\n' "$out" >plain.toml
 expect 0 check plain.toml
 expect 0 defaults --markdown
-[ "$out" = "$(cat "$source/docs/scene.md")" ] ||
-    fail "docs/scene.md is out of date: ./asperity defaults --markdown > docs/scene.md"
+[ "$out" = "$(cat "$source/docs/reference/scene.md")" ] ||
+    fail "docs/reference/scene.md is out of date: ./asperity defaults --markdown > docs/reference/scene.md"
 
 mkdir new && cd new || exit 1
 # A scene to start from: nothing wrong with it, all keys in it, those behind # with their defaults.

@@ -6,7 +6,7 @@
 #
 # Makes the Debian package and installs it on a bare Debian 12 in a chroot, with nothing else but man and, at
 # the end, a compiler. There: the man page is read, first-contact run, two ranks, a report made, the Python
-# example of docs/how-to.md run, the example of libasperity compiled and run, the package removed.
+# example of docs/howto/results.md run, the example of libasperity compiled and run, the package removed.
 # Needs root, debootstrap and a mirror ($ASPERITY_MIRROR, else that of the first source in apt's list).
 # ASPERITY_CHROOT: a bare tree that debootstrap --variant=minbase has made, to be copied instead of made.
 # Exit code 77: not possible here.
@@ -47,7 +47,7 @@ cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/" 2>/dev/null
 rm -f "$root"/etc/dpkg/dpkg.cfg.d/* "$root"/etc/apt/apt.conf.d/docker-clean
 mount -t proc proc "$root/proc" && mount --bind /dev "$root/dev" || skip "cannot mount in a chroot"
 cp "$package" "$root/tmp/asperity.deb"
-sed -n '/^```python$/,/^```$/p' "$source/docs/how-to.md" | sed '/^```$/q' | sed '/^```/d' >"$root/root/notebook.py"
+sed -n '/^```python$/,/^```$/p' "$source/docs/howto/results.md" | sed '/^```$/q' | sed '/^```/d' >"$root/root/notebook.py"
 in_root() { # in_root COMMANDS: in /root, with no more of this machine's environment than its proxies
     local proxies=()
     mapfile -t proxies < <(env | grep -iE '^(https?|ftp|no)_proxy=')
@@ -68,7 +68,7 @@ in_root 'mpirun -n 2 asperity run scenes/first-contact.toml --set drive.path=zer
     --out two-ranks --progress off' >/dev/null || fail "run on two ranks"
 in_root 'asperity report results/first-contact && [ -s results/first-contact/report.html ]' || fail "report"
 in_root "python3 notebook.py && python3 -c 'import asperity; print(asperity.load(\"results/smoother\").binding_energy)'" ||
-    fail "the Python example of docs/how-to.md"
+    fail "the Python example of docs/howto/results.md"
 
 # The library: a compiler and CMake, and nothing of what the library itself was built with.
 install_packages g++ cmake make pkg-config || fail "installation: $(tail -n 5 "$work/install.log")"

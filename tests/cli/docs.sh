@@ -30,14 +30,13 @@ while IFS= read -r line; do
         [ "$wanted" = 0 ] && command="$command --set drive.max_steps=30" ;;
     esac
     command=${command//.\/asperity/\"$asperity\"}
-    command=${command//docs\/scene.md/scene.md}
     command=${command//mpirun /${mpirun[*]} }
     out=$(eval "timeout 400 $command" 2>&1 </dev/null)
     code=$?
     [ $code -eq "$wanted" ] || fail "exit code $code, not $wanted: $command
 $out"
     count=$((count + 1))
-done < <(cat "$source/README.md" "$source/ARCHITECTURE.md" "$source"/docs/*.md "$source"/docs/gallery/*.md |
+done < <(find "$source/README.md" "$source/ARCHITECTURE.md" "$source/docs" -name '*.md' -print0 | sort -z | xargs -0 cat |
     grep -E '^    (mpirun .*)?\./asperity ' | sed 's/^    //')
 [ $count -ge 10 ] || fail "only $count commands were found"
 finish

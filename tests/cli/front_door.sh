@@ -54,7 +54,7 @@ stand_in cmake 'cd - >/dev/null; echo "cmake $* in $OLDPWD" >>calls; lacks=; pac
     printf "%s\n" "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" "$@" | sed "s/^-D\(.*\)=/\1:STRING=/" >build/release/CMakeCache.txt
     [ -z "$lacks" ] || { printf "%s\n" "CMake Error at x.cmake:1 (message):" "  Not all was found." "" \
         "    missing:        $lacks" "    Debian, Ubuntu: apt-get install --no-install-recommends$packages" "    Fedora:         dnf install of-fedora" \
-        "    or load modules (docs/install.md)" "Call Stack"; exit 1; }
+        "    or load modules (docs/howto/install.md)" "Call Stack"; exit 1; }
     touch build/release/build.ninja
     printf "#!/bin/sh\necho built\n" >build/release/engine/asperity; chmod +x build/release/engine/asperity'
 stand_in ninja 'true'

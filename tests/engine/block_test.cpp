@@ -326,7 +326,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, BlockLaws, testing::ValuesIn(shapes));
 namespace {
 
 /// The largest eigenvalue of the bulk's dynamical matrix for a wave of phase q from atom to atom,
-/// from the energy of a cell: springs between corners and the dilatation (docs/model.md).
+/// from the energy of a cell: springs between corners and the dilatation
+/// (docs/explanation/model.md).
 double largest_eigenvalue(const BlockOptions& o, const std::array<double, 3>& q) {
     using Complex = std::complex<double>;
     const double s = o.spacing, mu = o.shear_modulus(), lame = o.lame();
@@ -419,7 +420,7 @@ TEST(BlockFrequency, HighestOfTheBulk) {
 }
 
 TEST(BlockModuli, OfThePaper) {
-    // docs/model.md, in GPa.
+    // docs/explanation/model.md, in GPa.
     const BlockOptions o = test::paper_block(8, 8, 0);
     const double gpa = 160.21766208;
     EXPECT_NEAR(o.lame() * gpa, 142.711, 5e-4);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Flat on flat: the numbers of docs/model.md.
+// Flat on flat: the numbers of docs/explanation/model.md.
 #include "engine/interface/flat_reference.hpp"
 
 #include <gtest/gtest.h>

@@ -357,15 +357,16 @@ TEST(Scene, ScenesThatComeWithAsperity) {
 }
 
 TEST(Scene, PageOfResultsIsUpToDate) {
-    std::ifstream page(std::string(ASPERITY_SOURCE_DIR) + "/docs/result.md");
+    std::ifstream page(std::string(ASPERITY_SOURCE_DIR) + "/docs/reference/result.md");
     const std::string text((std::istreambuf_iterator<char>(page)), {});
-    EXPECT_EQ(text, io::result_markdown()) << "./asperity defaults --results > docs/result.md";
+    EXPECT_EQ(text, io::result_markdown())
+        << "./asperity defaults --results > docs/reference/result.md";
 }
 
 TEST(Scene, ReferencePageIsUpToDate) {
-    std::ifstream page(std::string(ASPERITY_SOURCE_DIR) + "/docs/scene.md");
+    std::ifstream page(std::string(ASPERITY_SOURCE_DIR) + "/docs/reference/scene.md");
     const std::string text((std::istreambuf_iterator<char>(page)), {});
-    EXPECT_EQ(text, scene_markdown()) << "./asperity defaults --markdown > docs/scene.md";
+    EXPECT_EQ(text, scene_markdown()) << "./asperity defaults --markdown > docs/reference/scene.md";
 }
 
 } // namespace

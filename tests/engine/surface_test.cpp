@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Surfaces: what was asked for is what is there (docs/model.md).
+// Surfaces: what was asked for is what is there (docs/explanation/model.md).
 #include "engine/scene/surface.hpp"
 
 #include "engine/scene/map_statistics.hpp"

@@ -48,7 +48,7 @@ TEST(TheoryOfAScene, GivesTheNumbersOfThePaper) {
         EXPECT_NEAR(n.gamma_eff, 100.0 * row.gamma, 2e-3) << row.rms;
         EXPECT_NEAR(n.state.area, row.area, 2e-5) << row.rms;
         EXPECT_NEAR(n.gamma_full_contact, 100.0 * row.full, 2e-3) << row.rms;
-        EXPECT_NEAR(what.flat, 98.86, 5e-3); // docs/model.md
+        EXPECT_NEAR(what.flat, 98.86, 5e-3); // docs/explanation/model.md
     }
 }
 

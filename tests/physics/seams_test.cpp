@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Seams that absorb (docs/seams.md): the operator is that of its definition; it takes energy and no
-// momentum, and nothing of a motion as a whole or of a state at rest; what is sent into the block
-// does not come back; the books close.
+// Seams that absorb (docs/explanation/seams.md): the operator is that of its definition; it takes
+// energy and no momentum, and nothing of a motion as a whole or of a state at rest; what is sent
+// into the block does not come back; the books close.
 #include "support/cases.hpp"
 #include "support/echo.hpp"
 #include "support/elastic_operator.hpp"

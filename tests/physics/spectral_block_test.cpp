@@ -53,7 +53,7 @@ TEST(SurfaceMatrix, IsTheElimination) {
 TEST(SurfaceMatrix, GivesTheNumbersOfTheModel) {
     struct Row {
         int period;
-        double along_x; // reference (docs/model.md)
+        double along_x; // reference (docs/explanation/model.md)
     };
     for (const Row& row :
          {Row{4, 0.8713020761}, Row{8, 0.9797060798}, Row{16, 0.9964538307}, Row{32, 0.9992299794}})

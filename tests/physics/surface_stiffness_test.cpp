@@ -3,7 +3,7 @@
 //
 // The block's answer to a frictionless normal wave: the lattice against plane-by-plane elimination
 // from the definition of the cell energy, and the multiscale block against the lattice
-// (docs/model.md).
+// (docs/explanation/model.md).
 //
 // Numbers named "reference" come from an independent program in another language
 // (tests/physics/data/README.md). The prescribed wave is relaxed to a relative force of 1e-7; the

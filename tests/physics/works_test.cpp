@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The two works of a path and the energy that it loses (docs/model.md), as a run writes them:
+// The two works of a path and the energy that it loses (docs/explanation/model.md), as a run writes
+// them:
 //
 //     work of the drive in + lost in = binding energy = work of the drive out - lost out
 //

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The relaxed state under zero load against numbers from elsewhere: flat on flat for each cutoff
-// (docs/model.md), and rough maps relaxed by an independent program
+// (docs/explanation/model.md), and rough maps relaxed by an independent program
 // (tests/physics/data/README.md).
 #include "engine/interface/flat_reference.hpp"
 #include "support/cases.hpp"

@@ -56,8 +56,8 @@ TEST_P(HardScene, StaysStable) {
     EXPECT_GE(number(result, "energy.elastic"), 0.0);
 }
 
-// Bounds: the energy error of Verlet at these speeds, measured (docs/stability.md), times ten or
-// so.
+// Bounds: the energy error of Verlet at these speeds, measured (docs/reports/stability.md), times
+// ten or so.
 INSTANTIATE_TEST_SUITE_P(Scenes, HardScene,
                          testing::Values(Hard{"rough-25A", 1e-4}, Hard{"snap-in-50", 1e-3},
                                          Hard{"epsilon-ten", 5e-3},

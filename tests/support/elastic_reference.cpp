@@ -10,9 +10,9 @@ namespace asperity::test {
 
 namespace {
 
-// Energy and forces of one cubic cell, straight from the definition (docs/model.md). u[p][i] is
-// component i of the displacement of corner p (bit 0 of p is x, bit 1 y, bit 2 z), Å; f[p][i] the
-// force on it, eV/Å, overwritten; what is returned is the cell's energy, eV.
+// Energy and forces of one cubic cell, straight from the definition (docs/explanation/model.md).
+// u[p][i] is component i of the displacement of corner p (bit 0 of p is x, bit 1 y, bit 2 z), Å;
+// f[p][i] the force on it, eV/Å, overwritten; what is returned is the cell's energy, eV.
 
 /// Small strain: springs feel e.du, the dilatation term the trace of the mean gradient.
 double linear_cell(const double (&u)[8][3], const CellElasticity& c, double (&f)[8][3]) {

@@ -76,7 +76,7 @@ TEST(Renormalised, FlatIsFlat) {
     EXPECT_EQ(s.gamma_ratio, 1);
     EXPECT_EQ(s.contact_fraction, 1);
     EXPECT_EQ(s.gamma_eff, rough(0).flat.work_of_adhesion());
-    EXPECT_NEAR(s.gamma_eff, 0.0988633, 1e-6); // docs/model.md
+    EXPECT_NEAR(s.gamma_eff, 0.0988633, 1e-6); // docs/explanation/model.md
     EXPECT_NEAR(s.separation, 3.108, 1e-3);
     EXPECT_NEAR(s.tension / paper::gpa, 9.08, 0.01);
     // Continuous there: 0.1 Å of roughness costs little.
