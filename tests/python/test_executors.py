@@ -10,6 +10,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -19,6 +20,7 @@ from conftest import ROOT, command
 
 import asperity
 import asperity.runs
+from asperity import files, pool
 from asperity.sweeps import load_sweep
 
 try:
@@ -199,6 +201,28 @@ if __name__ == "__main__":
     done = subprocess.run([*ranks(3), sys.executable, "-m", "mpi4py.futures", "study.py"], env=ENVIRONMENT,
                           capture_output=True, text=True, timeout=120)
     assert done.returncode == 0 and "8 points" in done.stdout and "8 done" in done.stdout, done.stdout + done.stderr
+
+
+def test_a_point_waits_for_the_run_that_another_worker_left(place):
+    """Which is writing its checkpoint, and has the directory until then."""
+    (place / "going").touch()
+    words = [os.environ["ASPERITY_PROGRAM"], "run", "scene.toml", "--out", "point", "--set", "drive.max_steps=20"]
+    task = pool.Task(words, str(place), str(place / "point"), 1, True, str(place / "going"))
+
+    def hold():
+        with files.in_use(place / "point"):
+            held.set()
+            time.sleep(1.0)
+
+    held = threading.Event()
+    other = threading.Thread(target=hold)
+    other.start()
+    held.wait()
+    pool.run_task(task)
+    other.join()
+    assert (place / "point/result.json").exists()
+    (place / "going").unlink()
+    assert pool.run_task(task) == pool.Ended(pool.STOPPED)
 
 
 def leave(*_):
