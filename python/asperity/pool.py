@@ -169,15 +169,15 @@ def _told(task: Task) -> str:
 def run_task(task: Task) -> Ended:
     """Runs a task to its end, or until it is told to stop."""
     place, start = Path(task.directory), time.monotonic()
-    try:
-        files.directory(place)
-        # A run whose worker was killed writes its checkpoint meanwhile.
-        while not (told := _told(task)) and time.monotonic() - start < 60 and files.kept(place):
-            time.sleep(0.1)
-    except Error as error:
-        return Ended(error.code, 0.0, str(error).splitlines()[0])
+    # A run whose worker was killed writes its checkpoint meanwhile.
+    while not (told := _told(task)) and time.monotonic() - start < 60 and files.kept(place):
+        time.sleep(0.1)
     if told:
         return Ended(STOPPED)
+    try:
+        files.directory(place)
+    except Error as error:
+        return Ended(error.code, 0.0, str(error).splitlines()[0])
     environment = environment_alone()
     if task.threads and (task.overrule or "OMP_NUM_THREADS" not in environment):
         environment["OMP_NUM_THREADS"] = str(task.threads)
