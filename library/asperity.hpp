@@ -211,6 +211,7 @@ class LIBASPERITY_API Simulation {
 public:
     /// Throws Error 2 for a scene without time, and for what a run would refuse.
     explicit Simulation(const Scene& scene);
+    Scene scene() const;
     /// From a file of save(): the same bits as if it had never stopped.
     static Simulation resume(const std::string& file);
 

@@ -23,6 +23,23 @@ void look_for_signals() {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+/// What a scene's author should know, as warnings of Python at the caller of the class.
+void warn(const std::vector<std::string>& notes) {
+    if (notes.empty()) return;
+    const py::object kind = py::module_::import("asperity.errors").attr("SceneWarning");
+    for (const std::string& note : notes)
+        if (PyErr_WarnEx(kind.ptr(), note.c_str(), 2) != 0) throw py::error_already_set();
+}
+
+Scene read(const std::string& file, const std::vector<std::string>& overrides) {
+    Scene scene = [&] {
+        const py::gil_scoped_release release;
+        return Scene::read(file, overrides);
+    }();
+    warn(scene.notes());
+    return scene;
+}
+
 /// An array over memory of the engine; it keeps that alive.
 py::object array_of(const View& view, bool writable) {
     if (!view.data) return py::none();
@@ -157,25 +174,24 @@ PYBIND11_MODULE(_engine, m) {
 
     py::class_<Simulation>(m, "Simulation")
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
+            const Scene scene = read(file, overrides);
             const py::gil_scoped_release release;
-            return Simulation(Scene::read(file, overrides));
+            return Simulation(scene);
         }))
         .def(py::init([](const std::string& saved) {
             const py::gil_scoped_release release;
             return Simulation::resume(saved);
         }))
         .def(
-            "step",
-            [](Simulation& sim, long long n) {
+            "_step",
+            [](Simulation& sim, long long n, const py::object& look) {
                 const py::gil_scoped_release release;
-                return sim.step(n, look_for_signals);
-            },
-            py::arg("n") = 1,
-            "Makes n steps, or fewer: none past the end of the scene's path (`done`). Returns how "
-            "many.\n\n"
-            "Other Python threads run meanwhile; Ctrl-C ends it between two steps. Raises "
-            "PhysicsError where\n"
-            "the physics fails a guard; that simulation has then ended.")
+                return sim.step(n, [&] {
+                    look_for_signals();
+                    const py::gil_scoped_acquire acquire;
+                    if (!look.is_none()) look();
+                });
+            })
         .def("_every", &Simulation::every)
         .def(
             "relax",
@@ -253,6 +269,8 @@ PYBIND11_MODULE(_engine, m) {
         .def_property_readonly(
             "_substrate_height",
             [](Simulation& sim) { return array_of(sim.substrate_height(), false); })
+        .def_property_readonly("_scene", [](const Simulation& sim) { return sim.scene().toml(); })
+        .def_property_readonly("_name", [](const Simulation& sim) { return sim.scene().name(); })
         .def_property_readonly("_substrate_edge", &Simulation::substrate_edge)
         .def_property("_top_position", &Simulation::top_position, &Simulation::set_top_position)
         .def_property("_top_velocity", &Simulation::top_velocity, &Simulation::set_top_velocity)
@@ -282,8 +300,9 @@ PYBIND11_MODULE(_engine, m) {
 
     py::class_<Statics>(m, "Statics")
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
+            const Scene scene = read(file, overrides);
             const py::gil_scoped_release release;
-            return Statics(Scene::read(file, overrides));
+            return Statics(scene);
         }))
         .def(
             "relax",

@@ -294,6 +294,7 @@ public:
         take_copies();
     }
 
+    const Scene& scene() const { return scene_; }
     const asperity::StepRecord& now() const { return now_; }
     asperity::Simulation& engine() { return simulation_; }
     const asperity::Case& of_case() const { return case_; }
@@ -494,6 +495,8 @@ Simulation Simulation::resume(const std::string& file) {
         return Simulation(std::move(inside));
     });
 }
+
+Scene Simulation::scene() const { return inside_->scene(); }
 
 long long Simulation::step(long long n, const Look& look) {
     return at_work_on([&] { return inside_->step(n, look); });
