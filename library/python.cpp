@@ -10,6 +10,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <memory>
+#include <optional>
 #include <utility>
 
 namespace py = pybind11;
@@ -38,6 +40,10 @@ Scene read(const std::string& file, const std::vector<std::string>& overrides) {
     }();
     warn(scene.notes());
     return scene;
+}
+
+std::unique_ptr<Parallel> ranks_of(const std::optional<int>& communicator) {
+    return communicator ? std::make_unique<Parallel>(*communicator) : nullptr;
 }
 
 /// An array over memory of the engine; it keeps that alive.
@@ -173,25 +179,27 @@ PYBIND11_MODULE(_engine, m) {
         .def("__repr__", shown);
 
     py::class_<Simulation>(m, "Simulation")
-        .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
+        .def(py::init([](const std::string& file, const std::vector<std::string>& overrides,
+                         const std::optional<int>& communicator) {
+            const auto ranks = ranks_of(communicator);
             const Scene scene = read(file, overrides);
             const py::gil_scoped_release release;
             return Simulation(scene);
         }))
-        .def(py::init([](const std::string& saved) {
+        .def(py::init([](const std::string& saved, const std::optional<int>& communicator) {
+            const auto ranks = ranks_of(communicator);
             const py::gil_scoped_release release;
             return Simulation::resume(saved);
         }))
-        .def(
-            "_step",
-            [](Simulation& sim, long long n, const py::object& look) {
-                const py::gil_scoped_release release;
-                return sim.step(n, [&] {
-                    look_for_signals();
-                    const py::gil_scoped_acquire acquire;
-                    if (!look.is_none()) look();
-                });
-            })
+        .def("_step",
+             [](Simulation& sim, long long n, const py::object& look) {
+                 const py::gil_scoped_release release;
+                 return sim.step(n, [&] {
+                     look_for_signals();
+                     const py::gil_scoped_acquire acquire;
+                     if (!look.is_none()) look();
+                 });
+             })
         .def("_every", &Simulation::every)
         .def(
             "relax",
@@ -265,6 +273,18 @@ PYBIND11_MODULE(_engine, m) {
             "place; None: no field")
         .def_property_readonly("external_work", &Simulation::external_work,
                                "work of the external field so far, eV")
+        .def_property_readonly(
+            "tile",
+            [](const Simulation& sim) {
+                const Tile tile = sim.tile();
+                const auto part = [](std::size_t from, std::size_t n) {
+                    return py::slice(static_cast<py::ssize_t>(from),
+                                     static_cast<py::ssize_t>(from + n), 1);
+                };
+                return py::make_tuple(part(tile.y, tile.ny), part(tile.x, tile.nx));
+            },
+            "which sites are this rank's, as an index [y, x]: u.z is whole[tile]; without comm, "
+            "all")
         .def_property_readonly("spacing", &Simulation::spacing, "distance of the sites, Å")
         .def_property_readonly(
             "_substrate_height",

@@ -155,6 +155,19 @@ def _bar(steps: int) -> Iterator[Callable[[Simulation, int], None]]:
             yield tell
 
 
+def _number(comm: Any) -> int | None:
+    """Of mpi4py's communicator, for the engine. Raises SceneError for one of another MPI than the engine's."""
+    if comm is None:
+        return None
+    from mpi4py import MPI
+
+    theirs, ours = MPI.Get_library_version().splitlines()[0], program.mpi()
+    if not set(ours.split()) <= set(theirs.replace(",", " ").split()):
+        raise SceneError("comm", f"is of {theirs}", f"the engine was built with {ours}",
+                         "install an mpi4py of the same MPI")
+    return comm.py2f()
+
+
 class Simulation(_engine.Simulation):
     """A scene's path in time, a step at a time.
 
@@ -171,14 +184,17 @@ class Simulation(_engine.Simulation):
     moved on by one step. Energies and contacts are summed in observed steps: the last of each step(), each
     output.series-th, and those of observers.
 
-    One process, on all its threads (OMP_NUM_THREADS). Raises SceneError for a scene that has no time, or that a
-    run would refuse, and warns (SceneWarning) of what is worth knowing of a scene.
+    comm       ranks to share it, mpi4py's MPI.COMM_WORLD; each has a `tile` of the sites. All of them make the
+               same calls with the same arguments, but for what is written to their own sites.
+
+    It takes all threads of its process, or rank (OMP_NUM_THREADS). Raises SceneError for a scene that has no time,
+    or that a run would refuse, and warns (SceneWarning) of what is worth knowing of a scene.
     """
 
-    def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
+    def __init__(self, scene: SceneLike, overrides: Overrides | None = None, comm: Any = None):
         """A scene at the start of its path."""
         with scene_file(scene) as file:
-            super().__init__(file, assignments(overrides))
+            super().__init__(file, assignments(overrides), _number(comm))
         self._begin()
 
     def _begin(self) -> None:
@@ -186,10 +202,10 @@ class Simulation(_engine.Simulation):
         self._rows: list[dict[str, float]] = []
 
     @classmethod
-    def resume(cls, file: str | os.PathLike) -> Simulation:
+    def resume(cls, file: str | os.PathLike, comm: Any = None) -> Simulation:
         """The simulation that save() wrote, which goes on to the same bits. Observers are given anew."""
         simulation = cls.__new__(cls)
-        _engine.Simulation.__init__(simulation, os.fspath(file))
+        _engine.Simulation.__init__(simulation, os.fspath(file), _number(comm))
         simulation._begin()
         return simulation
 
@@ -276,7 +292,6 @@ class Simulation(_engine.Simulation):
                     file[f"fields/now/{name}"].attrs["unit"] = unit
                 file["substrate/height"] = self.substrate.height
                 file["substrate/height"].attrs["unit"] = "Å"
-                file["substrate"].attrs["edge"] = self.substrate.edge
             files.write(place / "result.json", files.sealed_json({
                 "name": self._name, "run": {"version": _engine.version, "steps": self.steps},
                 "scene": tomllib.loads(self._scene)}))

@@ -479,7 +479,17 @@ def test_examples(name, tmp_path):
     script = ROOT / "examples" / f"{name}.py"
     lines = [line for line in script.read_text(encoding="utf-8").splitlines() if line.strip()]
     assert len(lines) < 40
-    done = subprocess.run([sys.executable, str(script), "16"], capture_output=True, text=True, cwd=tmp_path,
-                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+    done = subprocess.run([sys.executable, str(script), "16", "--plot", "picture.svg"], capture_output=True, text=True,
+                          cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
     assert done.returncode == 0 and done.stdout.strip(), done.stdout + done.stderr
-    assert not list(Path(tmp_path).iterdir())
+    assert [p.name for p in Path(tmp_path).iterdir()] == ["picture.svg"]
+    assert (tmp_path / "picture.svg").stat().st_size < 60_000
+    if name == "load_cycles":  # at the same load there is more contact on the way out; both cycles dissipate
+        rows = [line.split() for line in done.stdout.splitlines() if " MPa " in line]
+        contact = [(row[1], float(row[2]), float(row[6])) for row in rows]
+        for cycle in "12":
+            loads = [load for number, load, _ in contact if number == cycle]
+            area = [share for number, _, share in contact if number == cycle]
+            assert loads[:3] == loads[6:3:-1] and all(out >= into for into, out in zip(area[:3], area[6:3:-1]))
+        assert sum(area[4:7]) > sum(area[:3]) or float(done.stdout.split()[-2]) < 0.01
+        assert all(float(line.split()[-2]) > -1e-3 for line in done.stdout.splitlines() if "dissipates" in line)
