@@ -6,29 +6,30 @@
 """
 import sys
 
+import numpy
+
 import asperity
 
 sites = int(sys.argv[1]) if len(sys.argv) > 1 else 32
-statics = asperity.Statics({"surface": {"sites": sites, "rms": 2.0}, "block": {"thickness": sites},
+statics = asperity.Statics({"surface": {"sites": sites, "rms": 2.0}, "block": {"thickness": 512},
                             "drive": {"mode": "quasistatic", "hold": "top"}})
-statics.load = 0.0  # into contact
-statics.relax()
-per_site = 1e3 / (sites * 2.6) ** 2  # eV of the whole to meV/Å²
+statics.load = "2 GPa"
+deep, area = statics.relax().top, (2.6 * sites) ** 2  # Å, Å²
 rows = []
 for cycle in (1, 2):
     before = statics.now.dissipated
-    for load in (500, 1000, 2000, 4000, 2000, 1000, 500, 0, -500, 0):  # MPa
-        statics.load = load
+    for top in numpy.concatenate([numpy.linspace(deep, 0, 20), numpy.linspace(0, deep, 20)]):  # out, and in again
+        statics.top = top
         point = statics.relax()
-        rows.append((load, 100 * point.contact))
-        print(f"cycle {cycle}  {load:5d} MPa  {point.mean_height:6.3f} Å  {100 * point.contact:5.1f} % in contact")
-    print(f"cycle {cycle} dissipates {(point.dissipated - before) * per_site:.3f} meV/Å²")
+        rows.append((160.2 * point.force / area, 100 * point.contact))  # GPa, %
+        print(f"cycle {cycle}  {top:7.2f} Å  {rows[-1][0]:7.3f} GPa  {rows[-1][1]:5.1f} % in contact")
+    print(f"cycle {cycle} dissipates {1e3 * (point.dissipated - before) / area:.2f} meV/Å²")
 
 if "--plot" in sys.argv:
     import matplotlib.pyplot as plt
 
     plt.figure(figsize=(5, 3.2), layout="constrained")
     plt.plot(*zip(*rows), "o-")
-    plt.xlabel("load (MPa)")
+    plt.xlabel("load (GPa)")
     plt.ylabel("sites in contact (%)")
     plt.savefig(sys.argv[-1])

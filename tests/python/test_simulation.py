@@ -484,12 +484,8 @@ def test_examples(name, tmp_path):
     assert done.returncode == 0 and done.stdout.strip(), done.stdout + done.stderr
     assert [p.name for p in Path(tmp_path).iterdir()] == ["picture.svg"]
     assert (tmp_path / "picture.svg").stat().st_size < 60_000
-    if name == "load_cycles":  # at the same load there is more contact on the way out; both cycles dissipate
-        rows = [line.split() for line in done.stdout.splitlines() if " MPa " in line]
-        contact = [(row[1], float(row[2]), float(row[6])) for row in rows]
-        for cycle in "12":
-            loads = [load for number, load, _ in contact if number == cycle]
-            area = [share for number, _, share in contact if number == cycle]
-            assert loads[:3] == loads[6:3:-1] and all(out >= into for into, out in zip(area[:3], area[6:3:-1]))
-        assert sum(area[4:7]) > sum(area[:3]) or float(done.stdout.split()[-2]) < 0.01
-        assert all(float(line.split()[-2]) > -1e-3 for line in done.stdout.splitlines() if "dissipates" in line)
+    if name == "load_cycles":  # what the first cycle dissipates in snaps, the second does again
+        first, second = (float(line.split()[-2]) for line in done.stdout.splitlines() if "dissipates" in line)
+        assert first > 1.0 and second == pytest.approx(first, rel=0.02)
+        contact = numpy.array([float(line.split()[6]) for line in done.stdout.splitlines() if "GPa" in line]).reshape(4, 20)
+        assert (contact[::2, ::-1] >= contact[1::2] - 0.2).all() and (contact[::2, ::-1] > contact[1::2] + 20.0).any()
