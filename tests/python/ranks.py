@@ -48,8 +48,8 @@ assert again.work_of_drive.pull_off == sim.work_of_drive.pull_off and (whole(aga
 sim = asperity.Simulation(conftest.SMALL, comm=comm)
 sim.step(20)
 rows, columns = sim.tile
-if rows.start == columns.start == 0:
-    sim.u.z[0, 0] += 0.01
+if rows.start <= 15 < rows.stop and columns.start <= 15 < columns.stop:  # at the edge between two ranks
+    sim.u.z[15 - rows.start, 15 - columns.start] += 0.01
 field = numpy.zeros((32, 32, 3))
 field[3, :, 0] = 0.02
 sim.external = field[sim.tile]
