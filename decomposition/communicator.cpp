@@ -59,6 +59,12 @@ Communicator::Communicator(std::shared_ptr<const Mpi> mpi) : mpi_(std::move(mpi)
     MPI_Comm_rank(mpi_->machine, &local_rank_);
 }
 
+Communicator Communicator::of_fortran(int number) {
+    MPI_Comm own;
+    MPI_Comm_dup(MPI_Comm_f2c(number), &own);
+    return Communicator(std::make_shared<const Mpi>(own));
+}
+
 bool Communicator::takes_device_memory() const {
 #if defined(MPIX_CUDA_AWARE_SUPPORT)
     return mpi_ && MPIX_Query_cuda_support() == 1;

@@ -38,6 +38,9 @@ class Communicator {
 public:
     /// One rank, no MPI.
     Communicator() = default;
+    /// The ranks of a communicator in a program that has started MPI itself, by its number in
+    /// Fortran (MPI_Comm_c2f). They get one of their own, until MPI ends. Collective.
+    static Communicator of_fortran(int number);
 
     int rank() const { return rank_; }
     int size() const { return size_; }

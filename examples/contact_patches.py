@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """An observable of one's own: how many separate patches are in contact, over time.
 
-    python3 examples/contact_patches.py [SITES]
+    python3 examples/contact_patches.py [SITES [--plot FILE]]
 """
 import sys
 
@@ -25,10 +25,18 @@ def patches(contact):
 sites = int(sys.argv[1]) if len(sys.argv) > 1 else 64
 sim = asperity.Simulation({"surface": {"sites": sites, "rms": 1.0},
                            "drive": {"velocity": 50.0, "timestep": 20.0}})
-rows = []
-sim.every(200, lambda s: rows.append((s.time, s.contact, patches(s.maps().contact))))
+sim.every(200, lambda s: patches(s.maps().contact), "patches")
 while not sim.done:
     sim.step(1000)
-for time, contact, count in rows:
-    print(f"{time:8.1f} ps  {100 * contact:5.1f} % in contact  {count:3d} patches")
-print("most patches at once:", max(count for _, _, count in rows))
+path = sim.series
+for time, contact, count in zip(path["time"], path["contact_fraction"], path["patches"]):
+    print(f"{time:8.1f} ps  {100 * contact:5.1f} % in contact  {count:3.0f} patches")
+
+if "--plot" in sys.argv:
+    import matplotlib.pyplot as plt
+
+    plt.figure(figsize=(5, 3.2), layout="constrained")
+    plt.plot(path["time"], path["patches"])
+    plt.xlabel("time (ps)")
+    plt.ylabel("patches in contact")
+    plt.savefig(sys.argv[-1])

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Coupling to something else: a spring drags a patch of the lowest layer sideways, once in contact.
 
-    python3 examples/spring.py [SITES]
+    python3 examples/spring.py [SITES [--plot FILE]]
 """
 import sys
 
@@ -21,12 +21,22 @@ patch = numpy.zeros((sites, sites), bool)
 patch[: sites // 4, : sites // 4] = True
 stiffness, speed = 0.5, 0.05  # eV/Å² for each site of the patch; Å/ps of the spring's other end
 sim.external = numpy.zeros((sites, sites, 3))
-start, home = sim.time, sim.u.x[patch].mean()
+start, home, rows = sim.time, sim.u.x[patch].mean(), []
 for _ in range(20):
     for _ in range(25):  # the other program's turn: a force from where the patch is
         stretch = speed * (sim.time - start) - (sim.u.x[patch].mean() - home)
         sim.external.x[patch] = stiffness * stretch
         sim.step(2)
+    rows.append((sim.time - start, stiffness * stretch * patch.sum()))
     print(f"{sim.time - start:6.1f} ps  patch at {sim.u.x[patch].mean() - home:7.4f} Å  "
-          f"pulled with {stiffness * stretch * patch.sum():8.4f} eV/Å")
+          f"pulled with {rows[-1][1]:8.4f} eV/Å")
 print(f"work of the spring {sim.external_work:.4f} eV")
+
+if "--plot" in sys.argv:
+    import matplotlib.pyplot as plt
+
+    plt.figure(figsize=(5, 3.2), layout="constrained")
+    plt.plot(*zip(*rows))
+    plt.xlabel("time (ps)")
+    plt.ylabel("pull of the spring (eV/Å)")
+    plt.savefig(sys.argv[-1])

@@ -61,7 +61,15 @@ namespace {
 
 const asperity::Communicator* parallel_world = nullptr;
 
-int world_size() { return parallel_world ? parallel_world->size() : 1; }
+}
+
+asperity::Communicator world() {
+    return parallel_world ? *parallel_world : asperity::Communicator();
+}
+
+namespace {
+
+int world_size() { return world().size(); }
 
 /// How long an error waits for the other ranks, s.
 constexpr double patience = 10.0;
@@ -234,9 +242,8 @@ Map Result::heights() const {
 }
 
 Result run(const Scene& scene, const std::string& directory, const Options& options) {
-    const asperity::Communicator world =
-        parallel_world ? *parallel_world : asperity::Communicator();
-    return agreed(world, [&] {
+    const asperity::Communicator ranks = world();
+    return agreed(ranks, [&] {
         if (directory.empty())
             throw io::SceneError(io::Problem{"libasperity::run", "is given no directory",
                                              "a run writes its result into one",
@@ -254,26 +261,33 @@ Result run(const Scene& scene, const std::string& directory, const Options& opti
             inner.listener = [&](const io::Progress::State& now) {
                 options.progress({now.phase, now.steps, now.time_fs, now.fraction});
             };
-        asperity::run(asperity::resolve(scene.inside().resolved.scene, world.size()), inner, world);
+        asperity::run(asperity::resolve(scene.inside().resolved.scene, ranks.size()), inner, ranks);
         return Result::load(directory);
     });
 }
 
 class Parallel::Inside {
 public:
-    Inside(int& argc, char**& argv) : session(argc, argv) {
-        if (session.unconnected() == 0) return;
-        const int code = translated([&] { return asperity::refuse_unconnected(session); });
+    Inside(int& argc, char**& argv) {
+        session.emplace(argc, argv);
+        ranks = session->world();
+        if (session->unconnected() == 0) return;
+        const int code = translated([&] { return asperity::refuse_unconnected(*session); });
         throw Error(code, "the first process says why");
     }
-    asperity::ParallelSession session;
+    explicit Inside(int communicator) : ranks(asperity::Communicator::of_fortran(communicator)) {}
+    std::optional<asperity::ParallelSession> session;
+    asperity::Communicator ranks;
 };
 
 Parallel::Parallel(int& argc, char**& argv) : inside_(std::make_unique<Inside>(argc, argv)) {
-    parallel_world = &inside_->session.world();
+    parallel_world = &inside_->ranks;
+}
+Parallel::Parallel(int communicator) : inside_(std::make_unique<Inside>(communicator)) {
+    parallel_world = &inside_->ranks;
 }
 Parallel::~Parallel() { parallel_world = nullptr; }
-int Parallel::rank() const { return inside_->session.world().rank(); }
-int Parallel::size() const { return inside_->session.world().size(); }
+int Parallel::rank() const { return inside_->ranks.rank(); }
+int Parallel::size() const { return inside_->ranks.size(); }
 
 } // namespace libasperity

@@ -152,8 +152,10 @@ LIBASPERITY_API Result run(const Scene& scene, const std::string& directory,
 //     while (!sim.done() && sim.force() <= 0.0) sim.step(100);
 //     sim.set_top_velocity(-2.0);
 //
-// One process, on all its threads; objects may live side by side, and calls that work (step, relax,
-// save) wait for each other. An object is a handle: copies of it are the same engine.
+// Objects may live side by side, and calls that work (step, relax, save) wait for each other. An
+// object is a handle: copies of it are the same engine. A Simulation takes the ranks of a Parallel,
+// each of which has a tile of the sites: all of them make the same calls with the same arguments,
+// but for what is written to their own sites.
 
 /// Values on the lattice where the engine has them, row by row; keeps the engine alive. Those of a
 /// simulation are current until its next step, and again when step() has returned or an observer is
@@ -171,7 +173,13 @@ struct VectorView {
     View x, y, z;
 };
 
-/// eV, since the start; balance_error: what the energy balance is off by, over the largest of its terms.
+/// Sites of a rank: ny times nx from (y, x) on.
+struct Tile {
+    std::size_t y = 0, x = 0, ny = 0, nx = 0;
+};
+
+/// eV, since the start; balance_error: what the energy balance is off by, over the largest of its
+/// terms.
 struct Energies {
     double elastic = 0.0, interface = 0.0, kinetic = 0.0;
     double work = 0.0;     ///< done on the block: by the top plane, the medium that damps, noise,
@@ -212,6 +220,7 @@ class LIBASPERITY_API Simulation {
 public:
     /// Throws Error 2 for a scene without time, and for what a run would refuse.
     explicit Simulation(const Scene& scene);
+    Scene scene() const;
     /// From a file of save(): the same bits as if it had never stopped.
     static Simulation resume(const std::string& file);
 
@@ -263,6 +272,7 @@ public:
     View substrate_height() const; ///< Å; to be read
     double substrate_edge() const; ///< of the box, Å
     double spacing() const;        ///< of the sites, Å
+    Tile tile() const;             ///< whose sites the views and maps of this rank are
     SiteMaps maps() const;         ///< of the sites as they are now
 
     /// Forces on the sites of the lowest layer beside the substrate's, eV/Å, from the next step on;
@@ -343,6 +353,9 @@ private:
 class LIBASPERITY_API Parallel {
 public:
     Parallel(int& argc, char**& argv);
+    /// In a program that has started MPI itself: the ranks of a communicator, by its number in
+    /// Fortran (MPI_Comm_c2f). What is begun before the object ends keeps them.
+    explicit Parallel(int communicator);
     ~Parallel();
     Parallel(const Parallel&) = delete;
     Parallel& operator=(const Parallel&) = delete;

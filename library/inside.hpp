@@ -47,9 +47,10 @@ auto at_work_on(const Work& work) {
     return translated(work);
 }
 
+/// The ranks of a Parallel; without one, this process alone.
+asperity::Communicator world();
+
 [[noreturn]] void refuse(const char* where, std::string what, std::string why, std::string fix);
-/// A program that steps is one process.
-void refuse_ranks(const char* where, int ranks);
 
 /// Calls a Look, now and then.
 class Looking {

@@ -10,6 +10,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <memory>
+#include <optional>
 #include <utility>
 
 namespace py = pybind11;
@@ -21,6 +23,27 @@ namespace {
 void look_for_signals() {
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+/// What a scene's author should know, as warnings of Python at the caller of the class.
+void warn(const std::vector<std::string>& notes) {
+    if (notes.empty()) return;
+    const py::object kind = py::module_::import("asperity.errors").attr("SceneWarning");
+    for (const std::string& note : notes)
+        if (PyErr_WarnEx(kind.ptr(), note.c_str(), 2) != 0) throw py::error_already_set();
+}
+
+Scene read(const std::string& file, const std::vector<std::string>& overrides) {
+    Scene scene = [&] {
+        const py::gil_scoped_release release;
+        return Scene::read(file, overrides);
+    }();
+    warn(scene.notes());
+    return scene;
+}
+
+std::unique_ptr<Parallel> ranks_of(const std::optional<int>& communicator) {
+    return communicator ? std::make_unique<Parallel>(*communicator) : nullptr;
 }
 
 /// An array over memory of the engine; it keeps that alive.
@@ -156,26 +179,27 @@ PYBIND11_MODULE(_engine, m) {
         .def("__repr__", shown);
 
     py::class_<Simulation>(m, "Simulation")
-        .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
+        .def(py::init([](const std::string& file, const std::vector<std::string>& overrides,
+                         const std::optional<int>& communicator) {
+            const auto ranks = ranks_of(communicator);
+            const Scene scene = read(file, overrides);
             const py::gil_scoped_release release;
-            return Simulation(Scene::read(file, overrides));
+            return Simulation(scene);
         }))
-        .def(py::init([](const std::string& saved) {
+        .def(py::init([](const std::string& saved, const std::optional<int>& communicator) {
+            const auto ranks = ranks_of(communicator);
             const py::gil_scoped_release release;
             return Simulation::resume(saved);
         }))
-        .def(
-            "step",
-            [](Simulation& sim, long long n) {
-                const py::gil_scoped_release release;
-                return sim.step(n, look_for_signals);
-            },
-            py::arg("n") = 1,
-            "Makes n steps, or fewer: none past the end of the scene's path (`done`). Returns how "
-            "many.\n\n"
-            "Other Python threads run meanwhile; Ctrl-C ends it between two steps. Raises "
-            "PhysicsError where\n"
-            "the physics fails a guard; that simulation has then ended.")
+        .def("_step",
+             [](Simulation& sim, long long n, const py::object& look) {
+                 const py::gil_scoped_release release;
+                 return sim.step(n, [&] {
+                     look_for_signals();
+                     const py::gil_scoped_acquire acquire;
+                     if (!look.is_none()) look();
+                 });
+             })
         .def("_every", &Simulation::every)
         .def(
             "relax",
@@ -249,10 +273,24 @@ PYBIND11_MODULE(_engine, m) {
             "place; None: no field")
         .def_property_readonly("external_work", &Simulation::external_work,
                                "work of the external field so far, eV")
+        .def_property_readonly(
+            "tile",
+            [](const Simulation& sim) {
+                const Tile tile = sim.tile();
+                const auto part = [](std::size_t from, std::size_t n) {
+                    return py::slice(static_cast<py::ssize_t>(from),
+                                     static_cast<py::ssize_t>(from + n), 1);
+                };
+                return py::make_tuple(part(tile.y, tile.ny), part(tile.x, tile.nx));
+            },
+            "which sites are this rank's, as an index [y, x]: u.z is whole[tile]; without comm, "
+            "all")
         .def_property_readonly("spacing", &Simulation::spacing, "distance of the sites, Å")
         .def_property_readonly(
             "_substrate_height",
             [](Simulation& sim) { return array_of(sim.substrate_height(), false); })
+        .def_property_readonly("_scene", [](const Simulation& sim) { return sim.scene().toml(); })
+        .def_property_readonly("_name", [](const Simulation& sim) { return sim.scene().name(); })
         .def_property_readonly("_substrate_edge", &Simulation::substrate_edge)
         .def_property("_top_position", &Simulation::top_position, &Simulation::set_top_position)
         .def_property("_top_velocity", &Simulation::top_velocity, &Simulation::set_top_velocity)
@@ -282,8 +320,9 @@ PYBIND11_MODULE(_engine, m) {
 
     py::class_<Statics>(m, "Statics")
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
+            const Scene scene = read(file, overrides);
             const py::gil_scoped_release release;
-            return Statics(Scene::read(file, overrides));
+            return Statics(scene);
         }))
         .def(
             "relax",

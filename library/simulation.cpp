@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 namespace libasperity {
@@ -29,13 +30,6 @@ std::recursive_mutex& at_work() {
 
 void refuse(const char* where, std::string what, std::string why, std::string fix) {
     throw io::SceneError(io::Problem{where, std::move(what), std::move(why), std::move(fix)});
-}
-
-void refuse_ranks(const char* where, int ranks) {
-    if (ranks == 1) return;
-    refuse(where, fmt::format("on {} ranks", ranks),
-           "a program that steps is one process, on all its threads",
-           "start it without mpirun; runs take ranks (libasperity::run)");
 }
 
 namespace {
@@ -131,8 +125,8 @@ Scene described_scene(const std::string& file) {
 class Simulation::Inside : public std::enable_shared_from_this<Simulation::Inside> {
 public:
     explicit Inside(const Scene& scene)
-        : scene_(scene), surface_(checked_surface()), grid_(case_.grid(0)),
-          simulation_(case_.simulation, surface_, asperity::Communicator(), grid_),
+        : scene_(scene), surface_(checked_surface()), grid_(case_.grid(ranks_.rank())),
+          simulation_(case_.simulation, surface_, ranks_, grid_),
           path_(case_, simulation_, results_),
           lowest_height_(surface_.statistics.lowest - reach_of(case_.simulation.interface)) {}
 
@@ -294,8 +288,10 @@ public:
         take_copies();
     }
 
+    const Scene& scene() const { return scene_; }
     const asperity::StepRecord& now() const { return now_; }
     asperity::Simulation& engine() { return simulation_; }
+    asperity::Tile tile() const { return grid_.tile(0); }
     const asperity::Case& of_case() const { return case_; }
     const asperity::PathResults& results() const { return results_; }
     const asperity::Surface& surface() const { return surface_; }
@@ -367,10 +363,13 @@ private:
                    "take libasperity::Statics (asperity.Statics), or drive.mode = \"dynamic\" and "
                    "drive.path = "
                    "[\"approach\", \"pull-off\"]");
-        refuse_ranks("Simulation", case_.ranks);
+        if (case_.ranks != ranks_.size())
+            refuse("Simulation", fmt::format("on {} ranks", ranks_.size()),
+                   fmt::format("its scene was read for {}", case_.ranks),
+                   "read the scene while the Parallel lives");
         case_.require_runnable();
-        asperity::require_memory(case_, asperity::Communicator());
-        return asperity::surface_of(case_);
+        asperity::require_memory(case_, ranks_);
+        return asperity::surface_of(case_, ranks_);
     }
 
     void require_whole() const {
@@ -431,18 +430,35 @@ private:
     void bring_up_views() {
         if (std::exchange(moved_, false) && looked_at_) take_copies();
     }
-    /// Before steps: what was written through views becomes the state.
+    /// Before steps: what was written through views becomes the state. Collective.
     void take_in_writes() {
-        if (external_) require_finite("external", std::as_const(*external_).plane(0));
-        if (!looked_at_) return;
-        // As the views have it: the device's copy is not newer, for it was brought up.
-        const asperity::Block::Level& level = simulation_.block().levels().front();
-        if (!u_.same(level.u.view()[0]) || !v_.same(level.v.view()[0])) {
-            require_finite("u", level.u.view()[0]);
-            require_finite("v", level.v.view()[0]);
+        enum { as_it_was, written, wrong };
+        int found = as_it_was;
+        std::exception_ptr error;
+        try {
+            if (external_) require_finite("external", std::as_const(*external_).plane(0));
+            if (looked_at_) {
+                // As the views have it: the device's copy is not newer, for it was brought up.
+                const asperity::Block::Level& level = simulation_.block().levels().front();
+                if (!u_.same(level.u.view()[0]) || !v_.same(level.v.view()[0])) {
+                    found = written;
+                    require_finite("u", level.u.view()[0]);
+                    require_finite("v", level.v.view()[0]);
+                }
+            }
+        } catch (const io::Error&) {
+            found = wrong;
+            error = std::current_exception();
+        }
+        found = static_cast<int>(ranks_.max(found));
+        if (error) std::rethrow_exception(error);
+        if (found == wrong)
+            refuse("Simulation", "was given values that are no numbers on another rank",
+                   "that rank says which", "write numbers there");
+        if (found == written) {
             simulation_.block_to_write().exchange();
             simulation_.restart_balance();
-            take_copies();
+            if (looked_at_) take_copies();
         }
         if (lease_.expired()) looked_at_ = false;
     }
@@ -461,6 +477,7 @@ private:
 
     const Scene scene_;
     const asperity::Case& case_ = scene_.inside().resolved;
+    const asperity::Communicator ranks_ = world();
     const asperity::Surface surface_;
     const asperity::ProcessGrid grid_;
     asperity::Simulation simulation_;
@@ -494,6 +511,8 @@ Simulation Simulation::resume(const std::string& file) {
         return Simulation(std::move(inside));
     });
 }
+
+Scene Simulation::scene() const { return inside_->scene(); }
 
 long long Simulation::step(long long n, const Look& look) {
     return at_work_on([&] { return inside_->step(n, look); });
@@ -561,6 +580,11 @@ VectorView Simulation::f() {
 }
 View Simulation::substrate_height() const { return inside_->heights(); }
 double Simulation::substrate_edge() const { return inside_->surface().length; }
+Tile Simulation::tile() const {
+    const asperity::Tile tile = inside_->tile();
+    const auto size = [](int n) { return static_cast<std::size_t>(n); };
+    return {size(tile.y0), size(tile.x0), size(tile.ny), size(tile.nx)};
+}
 double Simulation::spacing() const { return inside_->of_case().scene.surface.spacing; }
 SiteMaps Simulation::maps() const {
     return translated([&] {

@@ -27,7 +27,10 @@ const char* name(Held held) { return held == Held::top ? "the top plane" : "the 
 
 /// The same solids without time.
 asperity::Case without_time(const asperity::Case& c) {
-    refuse_ranks("Statics", c.ranks);
+    if (c.ranks != 1)
+        refuse("Statics", fmt::format("on {} ranks", c.ranks),
+               "it is one process, on all its threads",
+               "start it without mpirun; runs take ranks (libasperity::run)");
     if (!c.in_time) return c;
     asperity::Scene scene = c.scene;
     scene.drive.mode = asperity::DriveMode::quasistatic;

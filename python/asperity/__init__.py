@@ -17,10 +17,17 @@ The program does the physics, reads scenes and checks them; this package starts 
 and draws. Errors of the program are the exceptions SceneError, PhysicsError, InputOutputError, Stopped.
 """
 
-from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, Stopped
+from typing import TYPE_CHECKING
 
-__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "Stopped",
-           "Sweep", "load", "load_sweep", "run", "sweep"]
+from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped
+
+if TYPE_CHECKING:
+    from .engine import Simulation as Simulation
+    from .engine import Statics as Statics
+    from .forms import Result, Sweep, load, load_sweep, run, sweep
+
+__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "SceneWarning",
+           "Stopped", "Sweep", "load", "load_sweep", "run", "sweep"]
 
 
 def __getattr__(name: str):

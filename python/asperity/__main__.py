@@ -9,7 +9,9 @@ handed to the program.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
+import signal
 import sys
 
 from . import program
@@ -58,6 +60,10 @@ def _parser() -> argparse.ArgumentParser:
     sweep.add_argument("--jobs", type=_many, default=1, metavar="N",
                        help="points side by side; each takes an equal share of the processors, unless "
                             "OMP_NUM_THREADS or --launch chooses")
+    executor = dict(metavar="WHERE", default="", help="run them on workers instead: mpi (the ranks of "
+                    "`mpirun -n 3 asperity ... --executor mpi`, the first of which leads) or dask:tcp://HOST:PORT; one "
+                    "thread each, unless OMP_NUM_THREADS says more there")
+    sweep.add_argument("--executor", **executor)
     sweep.add_argument("--launch", default="", metavar="WORDS",
                        help='what to put before the program for every point: "mpirun -n 2"')
     sweep.add_argument("--wall-limit", default="", metavar="23h50m",
@@ -67,6 +73,7 @@ def _parser() -> argparse.ArgumentParser:
                "The same command goes on where it stopped.")
     scene(cost, "results/<scene>-cost")
     cost.add_argument("--jobs", type=_many, default=1, metavar="N", help="runs side by side, one thread each")
+    cost.add_argument("--executor", **executor)
     cost.add_argument("--target", metavar="ERROR",
                       help="find the cheapest numerical settings that keep this error: 1%%, 0.01")
     cost.add_argument("--knobs", default="", metavar="NAMES", help="only these: timestep,cutoff,layers,...")
@@ -112,23 +119,31 @@ def _carry_out(given: argparse.Namespace) -> int:
         from .export import export_command
 
         return export_command(given.directory, given.format)
-    from .commands import cost_command, sweep_command
-    from .pool import PoolOptions
+    from .pool import PoolOptions, executor_of
     from .terminal import PROGRESS_MODES, parse_duration
 
     if given.progress not in PROGRESS_MODES:
         raise SceneError(f"--progress {given.progress}", "is none of its choices",
                          "choices: " + ", ".join(PROGRESS_MODES))
     scenes = _scenes(given)
-    if given.command == "cost":
-        if len(scenes) > 1:
-            raise SceneError("command line", "more than one scene is given", f"{scenes[0]} and {scenes[1]}",
-                             "for example: asperity cost scenes/cost/small.toml")
-        return cost_command(scenes[0], given.sets, [k for k in given.knobs.split(",") if k], given.out,
-                            PoolOptions(given.jobs, 1, progress=given.progress), given.target)
-    limit = parse_duration(given.wall_limit) if given.wall_limit else None
-    pool = PoolOptions(given.jobs, 0, given.launch.split(), limit, given.progress)
-    return sweep_command(scenes, given.sets, given.out, given.theory_only, pool)
+    cost = given.command == "cost"
+    if cost and len(scenes) > 1:
+        raise SceneError("command line", "more than one scene is given", f"{scenes[0]} and {scenes[1]}",
+                         "for example: asperity cost scenes/cost/small.toml")
+    options = PoolOptions(given.jobs, 1 if cost else 0, progress=given.progress)
+    if not cost:
+        options.launch = given.launch.split()
+        options.wall_limit = parse_duration(given.wall_limit) if given.wall_limit else None
+    with executor_of(given.executor) if given.executor else contextlib.nullcontext() as executor:
+        if given.executor and executor is None:
+            return 0  # a rank that has worked for the first one
+        options.executor = executor
+        from .commands import cost_command, sweep_command
+
+        if cost:
+            return cost_command(scenes[0], given.sets, [k for k in given.knobs.split(",") if k], given.out, options,
+                                given.target)
+        return sweep_command(scenes, given.sets, given.out, given.theory_only, options)
 
 
 def main(words: list[str]) -> int:
@@ -137,13 +152,20 @@ def main(words: list[str]) -> int:
     if not words or words[0] not in commands:
         os.execv(program.path(), [program.path(), *words])
     rank, several = launched()
+    leads = several and "mpi" in " ".join(words).replace("=", " ").partition("--executor ")[2].split()[:1]
     if several and rank != 0:
-        return SceneError.code  # the first of them says why
+        if not leads:
+            return SceneError.code  # the first of them says why
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):  # it tells the others when to stop
+            signal.signal(number, signal.SIG_IGN)
     try:
-        program.refuse_ranks()
+        if not leads:
+            program.refuse_ranks()
         # Options and scenes in any order.
         return _carry_out(commands[words[0]].parse_intermixed_args(_spelt_out(words[1:]), argparse.Namespace(command=words[0])))
     except Error as error:
+        if leads and rank != 0:
+            return error.code
         print(error, file=sys.stderr)
         if error.code == SceneError.code:
             n = error.problems

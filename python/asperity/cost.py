@@ -280,7 +280,7 @@ class Runs:
         outcomes = look_at_all(list(jobs.values()), print)
         there = sum(o.status != WAITING for o in outcomes)
         print(f"{len(jobs)} runs in {self.directory}" + (f"; {there} are there already" if there else ""), flush=True)
-        complete = Pool(list(jobs.values()), outcomes, self.options).run()
+        complete = Pool(list(jobs.values()), outcomes, self.options, self.directory).run()
         of_scene = dict(zip(jobs, outcomes))
         for row, point in zip(rows, points):
             row.outcome = of_scene[json.dumps(point["scene"])]

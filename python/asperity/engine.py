@@ -4,20 +4,25 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.machinery
 import importlib.util
 import os
 import sys
+import tomllib
+import warnings
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+import h5py
 import numpy
 
-from . import program
+from . import files, program
 from .errors import InputOutputError, SceneError
 from .scene import Overrides, SceneLike, assignments, scene_file
+from .terminal import Progress
 
 NAME = "asperity._engine"
 
@@ -50,7 +55,10 @@ def load() -> Any:
         "    fix: install pybind11-dev, python3-pybind11 and python3-dev, and build Asperity again", name=NAME)
 
 
-_engine = load()
+if TYPE_CHECKING:
+    from . import _engine
+else:
+    _engine = load()
 RestState, SiteMaps, Energies, Point = _engine.RestState, _engine.SiteMaps, _engine.Energies, _engine.Point
 
 
@@ -108,6 +116,58 @@ class Substrate:
         return self._simulation._substrate_edge
 
 
+SERIES: dict[str, tuple[str, Callable[[Simulation], float]]] = {
+    "step": ("1", lambda s: s.steps - 1), "time": ("ps", lambda s: s.time), "force": ("eV/Å", lambda s: s.force),
+    "top_force": ("eV/Å", lambda s: s.top_force), "mean_height": ("Å", lambda s: s.mean_height),
+    "contact_fraction": ("1", lambda s: s.contact), "repulsive_fraction": ("1", lambda s: s.repulsive_fraction),
+    "interface_energy": ("eV", lambda s: s.energy.interface), "elastic_energy": ("eV", lambda s: s.energy.elastic),
+    "kinetic_energy": ("eV", lambda s: s.energy.kinetic), "work": ("eV", lambda s: s.energy.work),
+    "damped": ("eV", lambda s: s.energy.damped)}
+"""The engine's columns of Simulation.series, as in run.h5: unit, value."""
+
+
+@contextlib.contextmanager
+def _bar(steps: int) -> Iterator[Callable[[Simulation, int], None]]:
+    """A bar of tqdm, in a notebook one of its own kind, or lines of text; to be told how many steps were made."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # a notebook without ipywidgets has bars of text
+            from tqdm.auto import tqdm
+
+            bar = tqdm(total=steps, unit="step")
+    except ImportError:
+        text = Progress()
+
+        def tell(simulation: Simulation, made: int) -> None:
+            if text.due() or made == steps:
+                text.update(f"{made} of {steps} steps, {simulation.time:.1f} ps, {simulation.force:.4g} eV/Å")
+
+        try:
+            yield tell
+        finally:
+            text.finish()
+    else:
+        def tell(simulation: Simulation, made: int) -> None:
+            bar.set_postfix_str(f"{simulation.time:.1f} ps, {simulation.force:.4g} eV/Å", refresh=False)
+            bar.update(made - bar.n)
+
+        with bar:
+            yield tell
+
+
+def _number(comm: Any) -> int | None:
+    """Of mpi4py's communicator, for the engine. Raises SceneError for one of another MPI than the engine's."""
+    if comm is None:
+        return None
+    from mpi4py import MPI
+
+    theirs, ours = MPI.Get_library_version().splitlines()[0], program.mpi()
+    if not set(ours.split()) <= set(theirs.replace(",", " ").split()):
+        raise SceneError("comm", f"is of {theirs}", f"the engine was built with {ours}",
+                         "install an mpi4py of the same MPI")
+    return comm.py2f()
+
+
 class Simulation(_engine.Simulation):
     """A scene's path in time, a step at a time.
 
@@ -124,22 +184,44 @@ class Simulation(_engine.Simulation):
     moved on by one step. Energies and contacts are summed in observed steps: the last of each step(), each
     output.series-th, and those of observers.
 
-    One process, on all its threads (OMP_NUM_THREADS). Raises SceneError for a scene that has no time, or that a
-    run would refuse.
+    comm       ranks to share it, mpi4py's MPI.COMM_WORLD; each has a `tile` of the sites. All of them make the
+               same calls with the same arguments, but for what is written to their own sites.
+
+    It takes all threads of its process, or rank (OMP_NUM_THREADS). Raises SceneError for a scene that has no time,
+    or that a run would refuse, and warns (SceneWarning) of what is worth knowing of a scene.
     """
 
-    def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
+    def __init__(self, scene: SceneLike, overrides: Overrides | None = None, comm: Any = None):
+        """A scene at the start of its path."""
         with scene_file(scene) as file:
-            super().__init__(file, assignments(overrides))
-        self._observers: list[Callable] = []
+            super().__init__(file, assignments(overrides), _number(comm))
+        self._begin()
+
+    def _begin(self) -> None:
+        self._observers: list[tuple[Callable, str]] = []
+        self._rows: list[dict[str, float]] = []
 
     @classmethod
-    def resume(cls, file: str | os.PathLike) -> Simulation:
+    def resume(cls, file: str | os.PathLike, comm: Any = None) -> Simulation:
         """The simulation that save() wrote, which goes on to the same bits. Observers are given anew."""
         simulation = cls.__new__(cls)
-        _engine.Simulation.__init__(simulation, os.fspath(file))
-        simulation._observers = []
+        _engine.Simulation.__init__(simulation, os.fspath(file), _number(comm))
+        simulation._begin()
         return simulation
+
+    def step(self, n: int = 1, progress: bool = False) -> int:
+        """Makes n steps, or fewer: none past the end of the scene's path (`done`). Returns how many.
+
+        Other Python threads run meanwhile; Ctrl-C ends it between two steps. progress: shows a bar (tqdm's, if it is
+        installed). Raises PhysicsError where the physics fails a guard; that simulation has then ended.
+        """
+        if not progress:
+            return self._step(n, None)
+        with _bar(n) as tell:
+            before = self.steps
+            made = self._step(n, lambda: tell(self, self.steps - before))
+            tell(self, made)
+        return made
 
     @property
     def top(self) -> Top:
@@ -151,18 +233,69 @@ class Simulation(_engine.Simulation):
         """The substrate: .height (Å, [y, x]) and .edge (Å)."""
         return Substrate(self)
 
-    def every(self, n: int, observer: Callable[[Simulation], Any]) -> None:
+    def every(self, n: int, observer: Callable[[Simulation], Any], name: str | None = None) -> None:
         """Calls observer(simulation) after each step whose number divides by n, the first one included.
 
         It looks and writes as a script does between two steps, but does not step. What it raises ends step().
+        A number that it returns goes to the column `name` of `series` (else that of the function's name), those of a
+        dictionary to the columns that its keys name.
         """
         if not callable(observer):
             raise SceneError("every", "is given no function", f"{observer!r} cannot be called",
                              "give a function of the simulation")
         # The engine must not keep alive what keeps the engine alive.
         itself, number = weakref.ref(self), len(self._observers)
-        self._every(n, lambda: itself()._observers[number](itself()))
-        self._observers.append(observer)
+        self._every(n, lambda: itself()._observe(number))
+        self._observers.append((observer, name or getattr(observer, "__name__", "value").replace("<lambda>", "value")))
+
+    def _observe(self, number: int) -> None:
+        observer, name = self._observers[number]
+        found = observer(self)
+        if found is None:
+            return
+        if not self._rows or self._rows[-1]["step"] != self.steps - 1:
+            self._rows.append({column: float(value(self)) for column, (_, value) in SERIES.items()})
+        for column, value in (found if isinstance(found, Mapping) else {name: found}).items():
+            if column in SERIES:
+                raise SceneError("every", f"an observer returned a column {column}", "the engine has one of that name",
+                                 "give it another name: every(n, observer, name)")
+            try:
+                self._rows[-1][column] = float(value)
+            except (TypeError, ValueError):
+                raise SceneError("every", f"an observer returned {value!r:.60} for the column {column}",
+                                 "columns are made of numbers", "return a number, a dictionary of numbers, or None"
+                                 ) from None
+
+    @property
+    def series(self) -> dict[str, numpy.ndarray]:
+        """What observers returned: columns by name, a row for each step at which one did, beside the engine's own
+        (step, time, force, ..., named and in units as in run.h5). nan: the row's step had no such value."""
+        names = dict.fromkeys([*SERIES, *(name for row in self._rows for name in row)])
+        return {name: numpy.array([row.get(name, numpy.nan) for row in self._rows]) for name in names}
+
+    def write(self, directory: str | os.PathLike) -> Path:
+        """Writes a result directory for asperity.load(): the scene, `series`, and the maps of the sites as they are,
+        as the state "now". Raises SceneError where there is a result already."""
+        place = files.chosen(os.fspath(directory), "")
+        maps, units = self.maps(), {name: unit for name, (unit, _) in SERIES.items()}
+        with files.in_use(place):
+            if (place / "result.json").exists():
+                raise SceneError(str(place), "already holds a result", "results are not written over",
+                                 "name another directory, or remove this one")
+            with files.replacing(place / "run.h5") as beside, h5py.File(beside, "w") as file:
+                for name, values in self.series.items():
+                    file[f"series/{name}"] = values
+                    if name in units:
+                        file[f"series/{name}"].attrs["unit"] = units[name]
+                for name, unit in (("gap", "Å"), ("contact", "1"), ("pressure", "GPa")):
+                    file[f"fields/now/{name}"] = getattr(maps, name)
+                    file[f"fields/now/{name}"].attrs["unit"] = unit
+                file["substrate/height"] = self.substrate.height
+                file["substrate/height"].attrs["unit"] = "Å"
+            files.write(place / "result.json", files.sealed_json({
+                "name": self._name, "run": {"version": _engine.version, "steps": self.steps},
+                "scene": tomllib.loads(self._scene)}))
+        return place
 
 
 class Statics(_engine.Statics):
@@ -181,6 +314,7 @@ class Statics(_engine.Statics):
     """
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
+        """The solids of a scene, out of reach of each other."""
         with scene_file(scene) as file:
             super().__init__(file, assignments(overrides))
 

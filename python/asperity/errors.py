@@ -37,6 +37,10 @@ class SceneError(Error):
         return error
 
 
+class SceneWarning(UserWarning):
+    """Worth knowing of a scene, not wrong."""
+
+
 class PhysicsError(Error):
     """A guard of the physics stopped the run (exit 3)."""
 

@@ -182,6 +182,17 @@ def in_use(place: Path) -> Iterator[None]:
                 path.rmdir()
 
 
+def kept(place: Path) -> bool:
+    """Whether another process has the directory in use."""
+    if not (place / LOCK).exists():
+        return False
+    try:
+        with in_use(place):
+            return False
+    except InputOutputError:
+        return True
+
+
 _JSON_END = re.compile(rb',\n  "digest": "crc32:([0-9a-f]{8})"\n}\n\Z')
 _HDF5_END = b"asperity digest\n"
 

@@ -1,23 +1,27 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Many runs of one scene, each a process of its own, as many side by side as asked for.
+"""Many runs on an executor of concurrent.futures, each a process of its own that a worker waits for.
 
 Each run has its own threads, signals and memory; one that fails or is killed does not touch the others,
-and it can be repeated by hand. A child is asked to stop with USR1, which mpirun passes on: it leaves a
-checkpoint and exits with 75. That happens when the pool is interrupted (INT, TERM, USR1), at its wall
-limit, and when its process dies. Started again, a run resumes from its checkpoint; one without a
-checkpoint starts from the beginning; a result of the same scene is taken as it is.
+and it can be repeated by hand. Workers may be on other machines that share the file system. A run is asked
+to stop with USR1, which mpirun passes on: it leaves a checkpoint and exits with 75. That happens when the
+pool is interrupted (INT, TERM, USR1), at its wall limit, and when its worker dies. Started again, a run
+resumes from its checkpoint; one without a checkpoint starts from the beginning; a result of the same scene
+is taken as it is.
 """
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
 import signal
 import subprocess
 import threading
 import time
-from collections.abc import Callable
+import uuid
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -25,7 +29,7 @@ from typing import Any
 from . import files, program
 from .errors import Error, InputOutputError, SceneError
 from .result import Values, read_json
-from .terminal import Progress, duration
+from .terminal import Progress, duration, environment_alone
 
 WAITING, DONE, FAILED = "waiting", "done", "failed"
 PHYSICS, STOPPED = 3, 75
@@ -70,14 +74,17 @@ class Outcome:
 @dataclass
 class PoolOptions:
     jobs: int = 1
-    """side by side"""
+    """side by side on this machine, where no executor is given"""
     threads: int = 0
-    """of each, whatever the environment says; 0: they share the processors unless OMP_NUM_THREADS is set"""
+    """of each, whatever the environment says; 0: those of OMP_NUM_THREADS, or else an equal share of the processors
+    of this machine, or one on the workers of an executor"""
     launch: list[str] = field(default_factory=list)
     """words before the program, "mpirun -n 2" """
     wall_limit: float | None = None
     """s"""
     progress: str = "auto"
+    executor: Executor | None = None
+    """whose workers run them"""
 
 
 def look_at(job: Job) -> Outcome:
@@ -123,6 +130,122 @@ def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
     return outcomes
 
 
+# What a worker does.
+
+@dataclass(frozen=True)
+class Task:
+    """A run, for a worker: it is pickled."""
+
+    words: list[str]
+    folder: str
+    """where the words are meant"""
+    directory: str
+    """of the result"""
+    threads: int
+    """if the worker's OMP_NUM_THREADS says nothing; 0: none is set"""
+    overrule: bool
+    """whatever it says"""
+    going: str
+    """a file: the run goes on while it exists; it is killed where "kill" is in it"""
+
+
+@dataclass(frozen=True)
+class Ended:
+    code: int
+    seconds: float = 0.0
+    reason: str = ""
+
+
+def _told(task: Task) -> str:
+    """"stop", "kill" or nothing."""
+    try:
+        return Path(task.going).read_text()
+    except FileNotFoundError:
+        return "stop"
+    except OSError:  # of a network's disk
+        return ""
+
+
+def run_task(task: Task) -> Ended:
+    """Runs a task to its end, or until it is told to stop."""
+    place, start = Path(task.directory), time.monotonic()
+    # A run whose worker was killed writes its checkpoint meanwhile.
+    while not (told := _told(task)) and time.monotonic() - start < 60 and files.kept(place):
+        time.sleep(0.1)
+    if told:
+        return Ended(STOPPED)
+    try:
+        files.directory(place)
+    except Error as error:
+        return Ended(error.code, 0.0, str(error).splitlines()[0])
+    environment = environment_alone()
+    if task.threads and (task.overrule or "OMP_NUM_THREADS" not in environment):
+        environment["OMP_NUM_THREADS"] = str(task.threads)
+    parent = os.getpid()
+
+    def prepare() -> None:  # in the child: a signal that comes early waits until the run can catch it
+        if task.words[1] == "run":  # not a launcher
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGUSR1, signal.SIGTERM, signal.SIGINT})
+        _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGUSR1)
+        if os.getppid() != parent:
+            os._exit(STOPPED)
+
+    start = time.monotonic()
+    try:
+        with open(place / "log.txt", "ab") as log:
+            # A session of its own: Ctrl-C goes to the pool, and from there on as USR1.
+            child = subprocess.Popen(task.words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd=task.folder,
+                                     env=environment, start_new_session=True, preexec_fn=prepare)
+    except FileNotFoundError:
+        launcher = "" if task.words[1] == "run" else " of --launch"
+        return Ended(127, 0.0, f"'{task.words[0]}'{launcher} cannot be started")
+    except OSError as error:
+        return Ended(InputOutputError.code, 0.0, f"cannot be run: {error.strerror}; start fewer points at once")
+    try:
+        while child.poll() is None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                child.wait(0.2)
+                break
+            last, told = told, _told(task)
+            if told == "kill":
+                os.killpg(child.pid, signal.SIGKILL)
+            elif told and not last:
+                child.send_signal(signal.SIGUSR1)
+    except KeyboardInterrupt:  # in a worker that has the terminal
+        child.send_signal(signal.SIGUSR1)
+        child.wait()
+    return Ended(child.returncode, time.monotonic() - start)
+
+
+@contextlib.contextmanager
+def executor_of(text: str) -> Iterator[Executor | None]:
+    """That of --executor: "mpi" or "dask:ADDRESS". None in a rank that has worked for the first one."""
+    kind, _, address = text.partition(":")
+    try:
+        if text == "mpi":
+            from mpi4py.futures import MPICommExecutor
+
+            with MPICommExecutor() as executor:
+                yield executor
+            return
+        if kind != "dask" or not address:
+            raise SceneError(f"--executor {text}", "is no executor", "it is mpi, in a command started by mpirun, or "
+                             "dask:ADDRESS of a scheduler", "for example --executor dask:tcp://localhost:8786")
+        from distributed import Client
+    except ImportError as error:
+        raise SceneError(f"--executor {text}", "needs a Python package", str(error), "apt-get install python3-"
+                         + ("mpi4py" if text == "mpi" else "distributed")) from None
+    try:
+        client = Client(address, timeout=5)
+    except (OSError, ValueError) as error:
+        raise InputOutputError(f"--executor {text}", "has no scheduler at this address", str(error).splitlines()[0],
+                               "start one: dask scheduler, and workers: dask worker ADDRESS") from None
+    with client:
+        yield client.get_executor(pure=False)
+
+
+# What the sweep does.
+
 class _Signals:
     """Counts INT, TERM and USR1 while it is entered."""
 
@@ -160,93 +283,94 @@ def _fraction(job: Job) -> float:
     return min(1.0, int(head) / 100) if head.isdigit() else 0.0
 
 
-class Pool:
-    """Runs the jobs whose outcome is "waiting" and fills in what came of them."""
+def _submitted(executor: Executor, task: Task) -> Future:
+    try:
+        return executor.submit(run_task, task)
+    except RuntimeError as error:  # all its workers were lost
+        future: Future = Future()
+        future.set_exception(error)
+        return future
 
-    def __init__(self, jobs: list[Job], outcomes: list[Outcome], options: PoolOptions):
+
+class Pool:
+    """Runs the jobs whose outcome is "waiting" and fills in what came of them. place: all of them are in there."""
+
+    def __init__(self, jobs: list[Job], outcomes: list[Outcome], options: PoolOptions, place: Path):
         self.jobs, self.outcomes, self.options = jobs, outcomes, options
         self.progress = Progress(options.progress)
         self.waiting = [i for i, outcome in enumerate(outcomes) if outcome.status == WAITING]
+        self.running: dict[int, float] = {}  # since when
         self.finished: dict[str, tuple[int, float]] = {}  # points of a scene and the seconds they took
-        self.children: dict[int, tuple[subprocess.Popen, float]] = {}
         self.stopping = self.killed = False
         self.start_time = time.monotonic()
+        self.place = place.resolve()
+        self.going = self.place / f"going-{uuid.uuid4().hex}"
 
     def run(self, done: Callable[[int], None] = lambda i: None) -> bool:
         """done(i) is called after each. False: stopped before all of them had run."""
-        with _Signals() as signals:
-            try:
-                while self.waiting or self.children:
-                    while not self.stopping and self.waiting and len(self.children) < self.options.jobs:
-                        self._start(self.waiting.pop(0))
-                    if self.stopping and not self.children:
-                        break
-                    for i in [i for i, (child, _) in self.children.items() if child.poll() is not None]:
-                        child, started = self.children.pop(i)
-                        self._conclude(i, child.returncode, started)
-                        done(i)
-                    self._stop_if_told(signals.count)
-                    if self.progress.due():
-                        self.progress.update(self._state())
-                    time.sleep(0.02)
-            finally:
-                for child, _ in self.children.values():  # an error of our own
-                    child.send_signal(signal.SIGUSR1)
-                self.progress.finish()
+        for old in self.place.glob("going-*"):  # of one that was killed, whose workers may live
+            old.unlink()
+        with contextlib.ExitStack() as stack:
+            signals = stack.enter_context(_Signals())
+            executor = self.options.executor or stack.enter_context(ThreadPoolExecutor(self.options.jobs))
+            self.going.touch()
+            stack.callback(self.going.unlink, missing_ok=True)  # also tells workers, if an error of our own ends this
+            stack.callback(self.progress.finish)
+            futures = {_submitted(executor, self._task(i)): i for i in list(self.waiting) if self._prepared(i)}
+            left = set(futures)
+            while left:
+                ended, left = wait(left, timeout=0.05, return_when=FIRST_COMPLETED)
+                for i, future in sorted((futures[f], f) for f in ended):
+                    self._conclude(i, future)
+                    done(i)
+                left -= self._stop_if_told(signals.count, {f: futures[f] for f in left})
+                if self.progress.due():
+                    self._look_for_running()
+                    self.progress.update(self._state())
         return not self.stopping and all(o.status != WAITING for o in self.outcomes)
 
-    def _start(self, i: int) -> None:
-        job = self.jobs[i]
+    def _prepared(self, i: int) -> bool:
+        """A damaged result is moved away, or its run would be refused."""
         try:
-            files.directory(job.directory)
-            if self.outcomes[i].damaged:  # a result that is there would be refused
-                files.set_aside(job.directory / RESULT)
+            if self.outcomes[i].damaged:
+                files.set_aside(self.jobs[i].directory / RESULT)
         except Error as error:
             self._fail(i, error.code, str(error).splitlines()[0])
+            return False
+        return True
+
+    def _task(self, i: int) -> Task:
+        job, options = self.jobs[i], self.options
+        directory = str(job.directory.resolve())
+        words = [*options.launch, program.path(), "run", job.file, "--out", directory, "--progress", "lines", "--resume",
+                 "auto", *program.sets(job.overrides)]
+        equal = 1 if options.executor else max(1, len(os.sched_getaffinity(0)) // options.jobs)
+        return Task(words, os.getcwd(), directory, options.threads or (0 if options.launch else equal),
+                    options.threads > 0, str(self.going))
+
+    def _conclude(self, i: int, future: Future) -> None:
+        self.running.pop(i, None)
+        if i in self.waiting:
+            self.waiting.remove(i)
+        if future.cancelled():
             return
-        words = [*self.options.launch, program.path(), "run", job.file, "--out", str(job.directory),
-                 "--progress", "lines", "--resume", "auto", *program.sets(job.overrides)]
-        environment = dict(os.environ)
-        threads = self.options.threads
-        if not threads and "OMP_NUM_THREADS" not in environment and not self.options.launch:
-            threads = max(1, len(os.sched_getaffinity(0)) // self.options.jobs)
-        if threads:
-            environment["OMP_NUM_THREADS"] = str(threads)
-        parent = os.getpid()
-
-        def prepare() -> None:  # in the child
-            if not self.options.launch:  # a signal that comes early waits until the run can catch it
-                signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGUSR1, signal.SIGTERM, signal.SIGINT})
-            _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGUSR1)
-            if os.getppid() != parent:
-                os._exit(STOPPED)
-
         try:
-            with open(job.directory / "log.txt", "ab") as log:
-                # A session of its own: Ctrl-C goes to the pool, and from there on as USR1.
-                child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=environment,
-                                         start_new_session=True, preexec_fn=prepare)
-        except FileNotFoundError:
-            self._fail(i, 127, f"'{words[0]}' of --launch cannot be started")
-            return
-        except OSError as error:
-            raise InputOutputError(str(job.directory), "cannot be run", error.strerror or str(error),
-                                   "start fewer points at once: --jobs") from None
-        self.children[i] = child, time.monotonic()
-
-    def _conclude(self, i: int, code: int, started: float) -> None:
+            ended = future.result()
+        except Exception as error:
+            ended = Ended(1, 0.0, f"its worker was lost: {type(error).__name__}: {error}".splitlines()[0])
+        code = ended.code
         outcome = self.outcomes[i] = look_at(self.jobs[i])
         died = code < 0
         if outcome.status == DONE:
-            seconds = time.monotonic() - started
             points, before = self.finished.get(self.jobs[i].file, (0, 0.0))
-            self.finished[self.jobs[i].file] = points + 1, before + seconds
-            self._say(i, "done in " + duration(seconds))
+            self.finished[self.jobs[i].file] = points + 1, before + ended.seconds
+            self._say(i, "done in " + duration(ended.seconds))
         elif code == STOPPED or (self.stopping and died):
-            saved = (self.jobs[i].directory / "checkpoint.h5").exists()
-            self._say(i, "stopped, with a checkpoint" if saved else "stopped before its first checkpoint")
+            if ended.seconds:
+                saved = (self.jobs[i].directory / "checkpoint.h5").exists()
+                self._say(i, "stopped, with a checkpoint" if saved else "stopped before its first checkpoint")
         else:
-            self._fail(i, code if code > 0 else 1, outcome.reason or outcome.damaged or (
+            self._fail(i, code if code > 0 else 1, ended.reason or outcome.reason or outcome.damaged or (
                 f"ended by signal {-code} ({signal.strsignal(-code)})" if died else _last_line(self.jobs[i])))
 
     def _fail(self, i: int, code: int, reason: str) -> None:
@@ -254,28 +378,42 @@ class Pool:
         outcome.status, outcome.exit_code, outcome.reason = FAILED, code, reason
         self._say(i, f"FAILED (exit {code}): {reason}")
 
-    def _stop_if_told(self, interruptions: int) -> None:
+    def _stop_if_told(self, interruptions: int, left: dict[Future, int]) -> set[Future]:
+        """Returns those that nothing will come of."""
         limit = self.options.wall_limit
         late = limit is not None and time.monotonic() - self.start_time >= limit
         if not self.stopping and (interruptions or late):
             self.stopping = True
-            for child, _ in self.children.values():
-                child.send_signal(signal.SIGUSR1)
-            n = len(self.children)
+            self.going.unlink(missing_ok=True)
+            self._look_for_running()
+            n = len(self.running)
             self.progress.say(f"stopping{' at the wall limit' if late else ''}: {n} point{'' if n == 1 else 's'} "
-                              f"running, {len(self.waiting)} not started")
-        if interruptions > 1 and not self.killed:  # told twice: without checkpoints
+                              f"running, {len(left) - n} not started")
+            # What a worker has taken meanwhile stops too: the file is gone.
+            return {future for future, i in left.items() if i not in self.running and future.cancel()}
+        if interruptions > 1 and not self.killed:  # told twice: without checkpoints, and lost workers are not waited for
             self.killed = True
-            for child, _ in self.children.values():
-                os.killpg(child.pid, signal.SIGKILL)
+            self.going.write_text("kill")
+            return {future for future in left if future.cancel()}
+        return set()
 
     def _say(self, i: int, what: str) -> None:
         over = sum(o.status != WAITING for o in self.outcomes)
         self.progress.say(f"[{over}/{len(self.jobs)}] {self.jobs[i].name}: {what}")
 
+    def _look_for_running(self) -> None:
+        """Executors start in order, and not all of them tell what they have started: runs lock their directories."""
+        idle = 0
+        for i in list(self.waiting):
+            if (self.jobs[i].directory / files.LOCK).exists():
+                self.waiting.remove(i)
+                self.running[i], idle = time.monotonic(), 0
+            elif (idle := idle + 1) > 64:
+                break
+
     def _state(self) -> str:
-        text = f"{len(self.jobs) - len(self.waiting) - len(self.children)} of {len(self.jobs)} points"
-        fractions = {i: _fraction(self.jobs[i]) for i in self.children}
+        text = f"{len(self.jobs) - len(self.waiting) - len(self.running)} of {len(self.jobs)} points"
+        fractions = {i: _fraction(self.jobs[i]) for i in self.running}
         for i, fraction in fractions.items():
             text += f" | {self.jobs[i].name} {100 * fraction:.0f} %"
         return text + self._left(fractions, time.monotonic())
@@ -287,7 +425,7 @@ class Pool:
         counted = True
         for i, fraction in fractions.items():
             points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
-            spent = now - self.children[i][1]
+            spent = now - self.running[i]
             if fraction > 0:
                 known[self.jobs[i].file] = points + fraction, seconds + spent
                 left = spent * (1 - fraction) / fraction
@@ -305,4 +443,5 @@ class Pool:
                 counted = False
         if work == 0.0:
             return ""
-        return f" | {'' if counted else 'at least '}{duration(max(work / self.options.jobs, longest))} left"
+        side = len(fractions) or 1 if self.options.executor else self.options.jobs
+        return f" | {'' if counted else 'at least '}{duration(max(work / side, longest))} left"

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import BY_CODE, InputOutputError, InternalError, SceneError
-from .terminal import launched
+from .terminal import environment_alone, launched
 
 
 @functools.lru_cache(maxsize=None)
@@ -51,19 +51,20 @@ def raise_for(code: int, text: str) -> None:
 
 
 def refuse_ranks() -> None:
-    """Raises SceneError in one of several ranks: programs started from it would take themselves for that rank."""
+    """Raises SceneError in one of several ranks, each of which would do the same."""
     if launched()[1]:
         raise SceneError("asperity", "this command is one process, not one of several ranks of mpirun or srun",
                          "it starts its runs itself, each as a program of its own",
-                         'start it alone (srun -n 1); for ranks of each point: asperity sweep SCENE --launch "mpirun -n 2"')
+                         'start it alone (srun -n 1); for ranks of each point: asperity sweep SCENE --launch "mpirun -n 2"; '
+                         "for points on the ranks: --executor mpi")
 
 
 def call(arguments: Iterable[str], *, text: str | None = None) -> str:
     """Runs the program to its end and returns what it printed."""
-    refuse_ranks()
     words = [path(), *arguments]
     try:
-        done = subprocess.run(words, input=text, capture_output=True, text=True, encoding="utf-8")
+        done = subprocess.run(words, input=text, capture_output=True, text=True, encoding="utf-8",
+                              env=environment_alone())
     except OSError as error:
         raise InputOutputError(words[0], "cannot be started", error.strerror or str(error),
                                "check that it is installed") from None

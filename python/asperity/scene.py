@@ -47,13 +47,13 @@ def assignments(overrides: Overrides | None) -> list[str]:
 
 
 @contextlib.contextmanager
-def scene_file(scene: SceneLike) -> Iterator[str]:
-    """The file of a scene; of a dictionary a temporary one, named by its entry "name"."""
+def scene_file(scene: SceneLike, folder: str = "") -> Iterator[str]:
+    """The file of a scene; of a dictionary a temporary one, named by its entry "name", in the folder if one is given."""
     if not isinstance(scene, Mapping):
         yield str(scene)
         return
     sections = {key: value for key, value in scene.items() if key != "name"}
-    with tempfile.TemporaryDirectory(prefix="asperity-") as directory:
+    with tempfile.TemporaryDirectory(prefix="asperity-", dir=folder or None) as directory:
         file = Path(directory) / f"{scene.get('name', 'scene')}.toml"
         file.write_text(toml_of(sections), encoding="utf-8")
         yield str(file)

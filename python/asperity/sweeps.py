@@ -16,6 +16,7 @@ import os
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -312,7 +313,7 @@ class Carried:
                 there, failed = (sum(o.status == s for o in self.outcomes) for s in (DONE, FAILED))
                 say(f"{len(self.jobs)} points in {self.place}" + (f"; {there} are there already" if there else "")
                     + (f"; {failed} failed before, and are left alone" if failed else ""))
-                self.complete = Pool(self.jobs, self.outcomes, options).run(self._write_sometimes)
+                self.complete = Pool(self.jobs, self.outcomes, options, self.place).run(self._write_sometimes)
             self._write()
 
     def _write_sometimes(self, _: int) -> None:
@@ -347,7 +348,7 @@ def _values(given: Any) -> str:
 
 
 def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | os.PathLike | None = None,
-          jobs: int = 1, theory_only: bool = False) -> Sweep:
+          jobs: int = 1, theory_only: bool = False, executor: Executor | None = None) -> Sweep:
     """Simulates a scene for every combination of the values; returns its Sweep, whose table has all points.
 
     values     {"surface.rms": np.linspace(0.5, 2, 4), "surface.seed": range(1, 4), "surface.hurst": [0.7, 0.8],
@@ -355,8 +356,13 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
     out        the directory; None: results/<scene>-sweep. Points that are there are not run again.
     jobs       points side by side; they share the processors
     theory_only   the theory alone, no simulation
+    executor   of concurrent.futures, whose workers run the points instead, one thread each unless their
+               OMP_NUM_THREADS says more: mpi4py.futures.MPIPoolExecutor(), Dask's client.get_executor(). They need
+               this package, the program and the same file system.
     """
+    if executor is None:
+        program.refuse_ranks()
     given = [f"{key}={_values(value)}" for key, value in (values or {}).items()]
-    with scene_file(scene) as file:
+    with scene_file(scene, "" if executor is None else ".") as file:  # workers elsewhere have no /tmp of ours
         return Carried([file], given, None if out is None else str(out), theory_only,
-                        PoolOptions(jobs=jobs, progress="off"), lambda text: None).sweeps[0]
+                        PoolOptions(jobs=jobs, progress="off", executor=executor), lambda text: None).sweeps[0]

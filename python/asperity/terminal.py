@@ -64,6 +64,14 @@ def launched() -> tuple[int, bool]:
     return int(os.environ.get("PMIX_RANK", "0")), "PMIX_RANK" in os.environ
 
 
+def environment_alone() -> dict[str, str]:
+    """The environment for a program that is one process, also where this one is a rank that a launcher has started."""
+    if not launched()[1]:
+        return dict(os.environ)
+    of_rank = re.compile(r"OMPI_(?!ALLOW|MCA)|OMPI_MCA_(orte|ess|pmix|plm|shmem)|PMI|HYDRA_|MPI_LOCAL|SLURM_(STEP|PROCID)")
+    return {name: value for name, value in os.environ.items() if not of_rank.match(name)}
+
+
 class Progress:
     """A bar that is drawn over (on a terminal) or lines that get rarer, to stderr."""
 

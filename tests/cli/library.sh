@@ -36,6 +36,14 @@ export PKG_CONFIG_PATH=$libraries/pkgconfig
 [ "$(pkg-config --modversion asperity)" = "$("$asperity" --version | cut -d ' ' -f 2)" ] || fail "the version of pkg-config"
 eval "g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror '$source/tests/library/consumer.cpp' -o consumer $(pkg-config --cflags --libs asperity)" ||
     fail "the consumer does not compile"
+# The engine in a loop of one's own.
+eval "g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror '$source/examples/stepping.cpp' -o stepping $(pkg-config --cflags --libs asperity)" ||
+    fail "examples/stepping.cpp does not compile"
+[ "$(wc -l <"$source/examples/stepping.cpp")" -le 40 ] || fail "examples/stepping.cpp is long"
+out=$(./stepping scene.toml) || fail "examples/stepping.cpp: exit code $?"
+printf '%s\n' "$out" | grep -qE '^parted after [0-9.]+ ps, largest attraction [0-9]{2,}' || fail "examples/stepping.cpp printed: $out"
+./stepping nothing.toml 2>/dev/null
+[ $? -eq 2 ] || fail "examples/stepping.cpp with a scene that is not there"
 out=$(./consumer scene.toml alone reference 2>&1) || fail "the consumer"
 [ -z "$out" ] || fail "the consumer, or the library, printed: $out"
 out=$(OMP_NUM_THREADS=1 "${mpirun[@]}" -n 2 ./consumer scene.toml ranks reference 2>&1) ||

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: MIT
 """asperity.Simulation and Statics: the numbers of a run, views, the drive by hand, fields, files, and bad use."""
 
+import ast
 import gc
 import os
 import signal
 import subprocess
 import sys
 import threading
+import warnings
 import weakref
 from pathlib import Path
 
@@ -212,6 +214,65 @@ def test_observers():
         nested.step()
 
 
+def test_what_observers_return_becomes_columns(tmp_path):
+    sim = tiny()
+    sim.every(10, lambda s: s.u.z.min(), "lowest")
+    sim.every(20, lambda s: {"twice": 2.0 * s.force, "half": s.energy.elastic / 2})
+
+    def gap(s):
+        return s.maps().gap.min() if s.steps - 1 >= 30 else None
+
+    sim.every(15, gap)
+    sim.step(65)
+    series = sim.series
+    assert series["step"].tolist() == [0, 10, 20, 30, 40, 45, 50, 60] and set(series["time"]) == {n * 0.02 for n in series["step"]}
+    assert numpy.isnan(series["lowest"]).tolist() == [False] * 5 + [True] + [False] * 2
+    twice = ~numpy.isnan(series["twice"])
+    assert twice.tolist() == [True, False, True, False, True, False, False, True]
+    assert (series["twice"][twice] == 2 * series["force"][twice]).all()
+    assert (series["half"][twice] == series["elastic_energy"][twice] / 2).all()
+    assert (~numpy.isnan(series["gap"])).tolist() == [False, False, False, True, False, True, False, True]
+    # As a result.
+    result = asperity.load(sim.write(tmp_path / "mine"))
+    assert set(result.series) == set(series)
+    for name, values in series.items():
+        assert numpy.array_equal(result.series[name], values, equal_nan=True)
+    assert result.series.unit("force") == "eV/Å" and result.key("surface.sites") == 16 and result.name == "tiny"
+    assert (result.fields["now"].gap == sim.maps().gap).all() and (result.substrate.height == sim.substrate.height).all()
+    assert result.run.steps == 65 and not result.notes
+    with pytest.raises(asperity.SceneError, match="already holds a result"):
+        sim.write(tmp_path / "mine")
+    for wrong, says in ((lambda s: "high", "columns are made of numbers"), (lambda s: {"force": 1.0}, "has one of that name")):
+        sim = tiny()
+        sim.every(1, wrong)
+        with pytest.raises(asperity.SceneError, match=says):
+            sim.step()
+
+
+def test_columns_are_those_of_a_run(path_run):
+    """By name, unit and value."""
+    sim = asperity.Simulation(SMALL)
+    sim.every(100, lambda s: s.steps, "count")
+    sim.step(10**9)
+    of_run = numpy.isin(path_run.series["step"], sim.series["step"])
+    for name in set(sim.series) - {"count"}:
+        assert (path_run.series[name][of_run] == sim.series[name]).all(), name
+        assert path_run.series.unit(name) == asperity.engine.SERIES[name][0], name
+
+
+def test_notes_on_a_scene_are_warnings():
+    thin = {**STATIC, "block": {"thickness": 8}}
+    for kind, scene in ((asperity.Simulation, {**TINY, "block": {"thickness": 8}}), (asperity.Statics, thin)):
+        with pytest.warns(asperity.SceneWarning, match="thinner .8 layers. than wide .16 sites.") as seen:
+            kind(scene)
+        assert [w.filename for w in seen] == [__file__]  # where a user's script called it
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tiny()
+        with pytest.raises(asperity.SceneWarning):
+            asperity.Statics(thin)
+
+
 def test_ctrl_c_ends_between_steps():
     sim = tiny()
     sim.top.velocity = 0.0
@@ -380,6 +441,23 @@ def test_without_the_module(tmp_path):
     assert "pybind11-dev" in done.stdout and not done.stderr, done.stdout + done.stderr
 
 
+def test_stub_names_what_the_module_has():
+    """And the other way round; of each class its public members, read-only ones without a setter."""
+    tree = ast.parse((ROOT / "python/asperity/_engine.pyi").read_text())
+    module = sys.modules["asperity._engine"]
+    stub = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef) and not node.name.startswith("_")}
+    assert stub.keys() == {name for name, value in vars(module).items() if isinstance(value, type)}
+    for name, node in stub.items():
+        kind = getattr(module, name)
+        there = {member for member in vars(kind) if not member.startswith("__") and member != "_pybind11_conduit_v1_"}
+        told = {n.name if isinstance(n, ast.FunctionDef) else n.target.id for n in node.body
+                if isinstance(n, (ast.FunctionDef, ast.AnnAssign))} - {"__init__"}
+        assert told == there, name
+        setters = {n.name for n in node.body if isinstance(n, ast.FunctionDef)
+                   and any(isinstance(d, ast.Attribute) and d.attr == "setter" for d in n.decorator_list)}
+        assert setters == {m for m in there if not m.startswith("_") and getattr(vars(kind)[m], "fset", None)}, name
+
+
 def test_help_says_units():
     names = [(kind, name) for kind in (asperity.Simulation, asperity.Statics) for name in dir(kind)
              if not name.startswith("_")]
@@ -402,7 +480,13 @@ def test_examples(name, tmp_path):
     script = ROOT / "examples" / f"{name}.py"
     lines = [line for line in script.read_text(encoding="utf-8").splitlines() if line.strip()]
     assert len(lines) < 40
-    done = subprocess.run([sys.executable, str(script), "16"], capture_output=True, text=True, cwd=tmp_path,
-                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+    done = subprocess.run([sys.executable, str(script), "16", "--plot", "picture.svg"], capture_output=True, text=True,
+                          cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
     assert done.returncode == 0 and done.stdout.strip(), done.stdout + done.stderr
-    assert not list(Path(tmp_path).iterdir())
+    assert [p.name for p in Path(tmp_path).iterdir()] == ["picture.svg"]
+    assert (tmp_path / "picture.svg").stat().st_size < 60_000
+    if name == "load_cycles":  # what the first cycle dissipates in snaps, the second does again
+        first, second = (float(line.split()[-2]) for line in done.stdout.splitlines() if "dissipates" in line)
+        assert first > 1.0 and second == pytest.approx(first, rel=0.02)
+        contact = numpy.array([float(line.split()[6]) for line in done.stdout.splitlines() if "GPa" in line]).reshape(4, 20)
+        assert (contact[::2, ::-1] >= contact[1::2] - 0.2).all() and (contact[::2, ::-1] > contact[1::2] + 20.0).any()

@@ -470,11 +470,11 @@ def test_a_directory_that_can_be_none_is_refused(place, out, says):
 
 def test_the_time_left_counts_each_scene_by_its_own_points(tmp_path):
     jobs = [pool.Job(str(i), tmp_path / str(i), file, [], {}) for i, file in enumerate(["slow"] * 3 + ["fast"] * 10)]
-    many = pool.Pool(jobs, [pool.Outcome() for _ in jobs], pool.PoolOptions(jobs=2, progress="off"))
+    many = pool.Pool(jobs, [pool.Outcome() for _ in jobs], pool.PoolOptions(jobs=2, progress="off"), tmp_path)
     now = 1000.0
 
     def left(running, finished):
-        many.children = {i: (None, now - 100.0) for i in running}
+        many.running = dict.fromkeys(running, now - 100.0)
         many.waiting = [i for i in range(len(jobs)) if i not in running][sum(points for points, _ in finished.values()):]
         many.finished = finished
         return many._left(running, now)

@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The notebooks among the examples, and the bar of steps in them and elsewhere. Exit code 77 without what runs them."""
+
+import sys
+
+import pytest
+from conftest import ROOT, SMALL
+
+import asperity
+
+try:
+    import ipykernel  # noqa: F401
+    import nbclient
+    import nbformat
+    import tqdm  # noqa: F401
+except ImportError as error:
+    pytest.exit(f"skipped: {error}; apt-get install python3-nbclient python3-ipykernel python3-nbformat python3-tqdm",
+                returncode=77)
+
+
+@pytest.mark.parametrize("with_tqdm", [True, False])
+def test_progress(with_tqdm, capfd, monkeypatch):
+    if not with_tqdm:
+        monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    plain, sim = asperity.Simulation(SMALL), asperity.Simulation(SMALL)
+    assert sim.step(300, progress=True) == plain.step(300) == 300
+    assert all((one == other).all() for one, other in zip(sim.u + sim.v, plain.u + plain.v))
+    said = capfd.readouterr().err
+    assert ("300/300" if with_tqdm else "300 of 300 steps") in said and "eV/Å" in said, said
+
+
+def test_notebooks(tmp_path):
+    """From top to bottom, without a display."""
+    notebooks = sorted((ROOT / "examples").glob("*.ipynb"))
+    assert notebooks
+    for file in notebooks:
+        notebook = nbformat.read(file, 4)
+        assert not any(cell.get("outputs") for cell in notebook.cells)  # as it is kept
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("PYTHONPATH", str(ROOT / "python"))
+            patch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")
+            nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
+        kinds = [kind for cell in notebook.cells for output in cell.get("outputs", []) for kind in output.get("data", {})]
+        assert kinds.count("image/png") == 2
+        said = "".join(output.get("text", "") for cell in notebook.cells for output in cell.get("outputs", []))
+        assert "400/400" in said, said  # the bar

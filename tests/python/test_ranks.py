@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""asperity.Simulation on ranks of mpi4py (ranks.py): the bits of a run, and of one rank. Exit code 77 without mpi4py."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy
+import pytest
+from conftest import ROOT
+
+import asperity
+import asperity.runs
+
+try:
+    import mpi4py  # noqa: F401
+except ImportError as error:
+    pytest.exit(f"skipped: {error}; apt-get install python3-mpi4py", returncode=77)
+
+
+def test_ranks_have_the_bits_of_a_run(path_run, tmp_path):
+    found = []
+    for ranks in (1, 2):
+        place = tmp_path / str(ranks)
+        place.mkdir()
+        words = [*asperity.runs.launcher(ranks), sys.executable, "-m", "mpi4py", str(ROOT / "tests/python/ranks.py"), place]
+        done = subprocess.run(words, capture_output=True, text=True, timeout=200,
+                              env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+        assert done.returncode == 0, done.stdout + done.stderr
+        found.append((json.loads((place / "found.json").read_text()), numpy.load(place / "fields.npy")))
+    one, two = found
+    gaps = [numbers.pop("gap") for numbers, _ in found]
+    assert one[0] == two[0] and (one[1] == two[1]).all()
+    assert gaps[0] == pytest.approx(gaps[1], rel=1e-12) == path_run.fields["zero-load"].gap.sum()
+    assert one[0]["refused"] and one[0]["work"] > 0 and abs(one[0]["balance"]) < 1e-3
+    assert one[0]["binding_energy"] == path_run.binding_energy
+    assert one[0]["contact_fraction"] == path_run.contact_fraction
+    assert one[0]["pull_off"] == path_run.work_of_adhesion.pull_off
+    series = one[0]["series"]
+    of_run = numpy.isin(path_run.series["step"], series["step"])
+    for name in set(series) - {"count"}:
+        assert (path_run.series[name][of_run] == series[name]).all(), name
