@@ -198,17 +198,28 @@ def json_is_whole(content: bytes) -> bool | None:
     return int(found[1], 16) == zlib.crc32(content[:found.start()]) if found else None
 
 
+def _digest(file, length: int) -> bytes:
+    """Of its first bytes: how many they are, and their CRC-32."""
+    file.seek(0)
+    value, left = 0, length
+    while left and (part := file.read(min(left, 1 << 20))):
+        value = zlib.crc32(part, value)
+        left -= len(part)
+    return length.to_bytes(8, "little") + value.to_bytes(8, "little")
+
+
+def seal_hdf5(path: Path) -> None:
+    """Appends the digest, which HDF5 ignores."""
+    with open(path, "r+b") as file:
+        end = _HDF5_END + _digest(file, file.seek(0, os.SEEK_END))
+        file.seek(0, os.SEEK_END)
+        file.write(end)
+
+
 def hdf5_is_whole(path: Path) -> bool | None:
     """Whether an HDF5 file is as its digest says; None: it does not end in one. Raises OSError."""
     with open(path, "rb") as file:
         length = max(0, file.seek(0, os.SEEK_END) - 32)
         file.seek(length)
         end = file.read(32)
-        if not end.startswith(_HDF5_END):
-            return None
-        file.seek(0)
-        value, left = 0, length
-        while left and (part := file.read(min(left, 1 << 20))):
-            value = zlib.crc32(part, value)
-            left -= len(part)
-    return end[16:] == length.to_bytes(8, "little") + value.to_bytes(8, "little")
+        return end[16:] == _digest(file, length) if end.startswith(_HDF5_END) else None
