@@ -215,9 +215,15 @@ def test_what_could_become_other_atoms_is_refused(tmp_path, old, new):
         convert(tmp_path / "solid.data", tmp_path / "atoms.h5")
 
 
+def test_an_atom_that_stands_twice_is_refused(tmp_path):
+    (tmp_path / "solid.data").write_text(lammps().replace("3 atoms", "2 atoms").replace("\n2 1 10.75", "\n1 1 10.75"))
+    with pytest.raises(InputOutputError, match="atom 1 "):
+        convert(tmp_path / "solid.data", tmp_path / "atoms.h5")
+
+
 def test_atoms_cut_anywhere_are_refused(tmp_path):
     text = lammps()
-    for end in range(10, text.index("\nVelocities") - 1, 7):
+    for end in range(10, text.index("\nVelocities")):
         (tmp_path / "cut.data").write_text(text[:end])
         with pytest.raises(InputOutputError):
             convert(tmp_path / "cut.data", tmp_path / "atoms.h5")
