@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import re
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import h5py
@@ -58,7 +59,8 @@ class _Text:
             return
         if not re.search(r"[\t;]", body) or "." in body:
             raise _refuse(self.path, "the commas may be decimal points or separate numbers",
-                          "there are blanks or points as well", "write decimal points, or separate the numbers by tabs or semicolons")
+                          "there are blanks or points as well",
+                          "write decimal points, or separate the numbers by tabs or semicolons")
         self.separators = str.maketrans(",;\t", ".  ")
 
     def rows(self) -> list[tuple[int, list[float]]]:
@@ -302,8 +304,10 @@ def _found(source: str) -> dict:
         return (_esri if first.lower().startswith("ncols") else _points if path.suffix == ".xyz" else _matrix)(text)
     except Error:
         raise
-    except Exception as error:  # every library has its own; one process less is a crash in it
-        raise _refuse(source, "cannot be read", f"{type(error).__name__}: {error}", "") from None
+    except BrokenProcessPool:
+        raise _refuse(source, "cannot be read", "the HDF5 library crashed on it: it is damaged") from None
+    except Exception as error:  # every library has its own
+        raise _refuse(source, "cannot be read", f"{type(error).__name__}: {error}") from None
 
 
 def convert(source: str | Path, target: str | Path) -> str:
@@ -323,8 +327,8 @@ def convert(source: str | Path, target: str | Path) -> str:
                 attributes.update(dict(zip(("size_x", "size_y"), map(float, size))))
                 unit = found.get("unit") or "? (surface.file_unit)"
                 said = " x ".join(f"{s:g}" for s in size) + " " + found.get("size_unit", unit)
-                text = (f"{heights.shape[1]} x {heights.shape[0]} points, {said if size else 'of unknown size'}, heights "
-                        f"in {unit}, {int(numpy.isnan(heights).sum())} without a height")
+                text = (f"{heights.shape[1]} x {heights.shape[0]} points, {said if size else 'of unknown size'}, "
+                        f"heights in {unit}, {int(numpy.isnan(heights).sum())} without a height")
             else:
                 for name, kind in (("position", "f8"), ("box", "f8"), ("type", "i4")):
                     file[name] = numpy.array(found[name], kind)
