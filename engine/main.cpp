@@ -113,6 +113,7 @@ std::vector<Command> all_commands() {
          {}},
         {"report", "a run or a sweep as one self-contained HTML page", {}},
         {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}},
+        {"convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names", {}},
         {"defaults",
          "every key of a scene with its default, as TOML",
          {{"--markdown", "", "as the reference page docs/reference/scene.md", &Arguments::markdown},

@@ -84,13 +84,6 @@ void Directory::sync() const {
                         "check the disk");
 }
 
-bool Directory::in_place() const {
-    struct stat mine {
-    }, there{};
-    return ::fstat(fd(), &mine) == 0 && mine.st_nlink > 0 && ::stat(path_.c_str(), &there) == 0 &&
-           there.st_dev == mine.st_dev && there.st_ino == mine.st_ino;
-}
-
 std::string FilePlace::name() const {
     return directory_ ? name_ : name_.substr(name_.rfind('/') + 1); // npos + 1 is 0
 }

@@ -50,9 +50,6 @@ public:
     /// Names in it on the disk (fsync). Throws FileError.
     void sync() const;
 
-    /// Whether path() still leads to it.
-    bool in_place() const;
-
 private:
     std::string path_;
     std::shared_ptr<const Descriptor> fd_; ///< shared by copies

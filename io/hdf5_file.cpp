@@ -66,17 +66,8 @@ public:
 
 namespace {
 
+/// Tells readers that the file ended in a digest when it was whole.
 constexpr const char* seal_attribute = "asperity_digest";
-
-/// Every HDF5 file has its signature at 0, 512, 1024, 2048, ...
-bool has_signature(int fd) {
-    constexpr unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-    std::byte found[8];
-    for (std::uint64_t at = 0; read_some(fd, found, at) == sizeof found;
-         at = at == 0 ? 512 : 2 * at)
-        if (std::memcmp(found, signature, sizeof found) == 0) return true;
-    return false;
-}
 
 } // namespace
 
@@ -99,29 +90,23 @@ Hdf5File::Hdf5File(const FilePlace& place, Mode mode) : path_(place.path()) {
         H5Fclose(std::exchange(id_, -1));
         throw;
     }
-    sealed_ = true;
 }
 
 void Hdf5File::open_to_read() {
     if (!storage_->input)
         throw FileError(path_, "cannot be opened", std::strerror(errno), "check the path");
-    const int fd = storage_->input.get();
-    const Seal seal = check_seal(fd);
+    const Seal seal = check_seal(storage_->input.get());
+    if (seal == Seal::none)
+        throw FileError(
+            path_, "cannot be opened",
+            "it has no digest at its end: it was cut short, or another program wrote it",
+            "take a copy that is whole");
     if (seal == Seal::broken)
         throw FileError(path_, "is damaged", "its bytes are not those its digest was made of",
                         "take a copy that is whole");
-    if (!has_signature(fd))
-        throw FileError(path_, "cannot be opened", "it is not an HDF5 file",
-                        "name another file, or remove this one if it was cut short");
     const Hdf5Handle access(hdf5_access(storage_->disk), H5Pclose);
     id_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);
     if (id_ < 0) throw FileError(path_, "cannot be opened", cause(), "check that it is whole");
-    sealed_ = seal == Seal::whole;
-    if (!sealed_ && has_attribute("/", seal_attribute)) {
-        H5Fclose(std::exchange(id_, -1)); // no destructor does it for a constructor that throws
-        throw FileError(path_, "is damaged", "the digest at its end is missing",
-                        "take a copy that is whole");
-    }
 }
 
 Hdf5File::~Hdf5File() {
@@ -129,7 +114,7 @@ Hdf5File::~Hdf5File() {
 }
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
-    : path_(std::move(other.path_)), storage_(std::move(other.storage_)), sealed_(other.sealed_),
+    : path_(std::move(other.path_)), storage_(std::move(other.storage_)),
       id_(std::exchange(other.id_, -1)) {}
 
 void Hdf5File::fail(const std::string& object, const std::string& what) const {
@@ -185,10 +170,6 @@ bool Hdf5File::holds_numbers(const std::string& dataset) const {
     const Hdf5Handle set = open(dataset), type(H5Dget_type(set), H5Tclose);
     const H5T_class_t kind = type.good() ? H5Tget_class(type) : H5T_NO_CLASS;
     return kind == H5T_INTEGER || kind == H5T_FLOAT;
-}
-
-std::uint64_t Hdf5File::stored_bytes(const std::string& dataset) const {
-    return H5Dget_storage_size(open(dataset));
 }
 
 void Hdf5File::make_group(const std::string& group) {

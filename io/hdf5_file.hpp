@@ -10,8 +10,8 @@
 //
 // A file is written like every other that matters (output_file.hpp): it appears in its place, whole
 // and on the disk, when close() returns; without a close it is dropped. It ends in a digest of all
-// its bytes, metadata included, which is checked when it is opened again. (HDF5 ignores what comes
-// after its own data.) A written file says in an attribute of its root that it has one.
+// its bytes, metadata included. (HDF5 ignores what comes after its own data.) Only files whose
+// digest is right are opened: libhdf5 crashes on some damaged ones.
 #pragma once
 
 #include "io/directory.hpp"
@@ -32,14 +32,12 @@ public:
 
     enum class Mode { create, read };
     /// create: a new file, which replaces an old one. read: throws FileError if the file is damaged
-    /// as far as its digest tells; files without one, of other programs, are read as they are.
+    /// as far as its digest tells, or has none.
     Hdf5File(const FilePlace& place, Mode mode);
     ~Hdf5File();
     Hdf5File(Hdf5File&& other) noexcept;
 
     const std::string& path() const { return path_; }
-    /// Whether the file ends in a digest (which was right, or the file would not be open).
-    bool sealed() const { return sealed_; }
     /// Puts a file that was created in its place. Throws FileError.
     void close();
 
@@ -52,8 +50,6 @@ public:
     bool is_group(const std::string& object) const;
     /// Of a data set: are its values plain integers or floats?
     bool holds_numbers(const std::string& dataset) const;
-    /// Bytes that a data set takes in the file, compressed as it is. 0: nothing was written.
-    std::uint64_t stored_bytes(const std::string& dataset) const;
 
     /// Attributes of a group or data set; written over if there.
     void write_attribute(const std::string& object, const std::string& name,
@@ -123,7 +119,6 @@ private:
 
     std::string path_;
     std::unique_ptr<Storage> storage_;
-    bool sealed_ = false;
     std::int64_t id_ = -1;
 };
 

@@ -4,7 +4,6 @@
 
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
-#include "io/map_file.hpp"
 #include "io/map_formats.hpp"
 
 #include <algorithm>

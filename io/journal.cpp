@@ -12,7 +12,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace asperity::io {
@@ -94,11 +93,6 @@ void Journal::replay(const std::function<void(std::uint64_t, Bytes)>& take) cons
         take(head.kind, payload);
         at += head.size;
     }
-}
-
-bool Journal::in_place() const {
-    struct stat status {};
-    return ::fstat(file_.get(), &status) == 0 && status.st_nlink > 0;
 }
 
 void PayloadReader::take(std::span<std::byte> to) {

@@ -47,9 +47,6 @@ public:
     /// All records from the first, one at a time. Throws FileError.
     void replay(const std::function<void(std::uint64_t kind, Bytes payload)>& take) const;
 
-    /// False: somebody has removed the file.
-    bool in_place() const;
-
 private:
     [[noreturn]] void fail(const char* what) const;
 

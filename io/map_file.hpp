@@ -4,21 +4,21 @@
 // What a file of heights holds, before a scene makes anything of it.
 //
 //     format       recognized by         size and unit
-//     text matrix  numbers               headers of Gwyddion and SPIP, "# edge: 41.6 Å"; else none
-//     XYZ          name ends in .xyz     size from the coordinates; the unit must be given
-//     ESRI grid    first word is ncols   size from cellsize; the unit must be given
+//     HDF5         its first bytes       attributes unit, scale, size_x, size_y, size_unit
 //     NumPy        its first bytes       none
-//     HDF5         its first bytes       attributes unit, size_x, size_y
+//     text matrix  numbers               none
 //
-// Text: one row of the map a line, numbers separated by blanks, tabs, commas or semicolons; #
-// starts a comment. Decimal commas are read where the separators are tabs or semicolons. Row r is
-// y = r, column c is x = c. HDF5: the two-dimensional data set of the file, or the one named after
-// a colon ("map.h5:/topography"); attribute origin says whose map it is. A map of n points is n
-// pixels wide.
+// HDF5: the data set /heights of a file that `asperity convert` or `asperity surface` wrote, or the
+// one named after a colon ("map.h5:/NAME"); attribute origin says whose map it is. Sizes are in
+// size_unit, else in the unit of the heights. Text: one row of the map a line, numbers separated by
+// blanks; # starts a comment. Row r is y = r, column c is x = c. A map of n points is n pixels
+// wide. Files of other formats, and HDF5 of other programs, are converted first
+// (python/asperity/convert.py).
 //
-// Files come from elsewhere and may be damaged or made to do harm: sizes are compared with the file
-// and with the memory there is before anything is allocated, and libhdf5 runs in a child process.
-// What is wrong is a mistake of the scene that names the file: io::SceneError.
+// Files come from elsewhere and may be damaged: sizes are compared with the file and with the
+// memory there is before anything is allocated, and libhdf5, which crashes on some damaged files,
+// opens those alone whose digest is right. What is wrong is a mistake of the scene that names the
+// file: io::SceneError.
 #pragma once
 
 #include <cstddef>

@@ -6,8 +6,6 @@
 #include "io/output_file.hpp"
 
 #include <cerrno>
-#include <chrono>
-#include <csignal>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
@@ -15,7 +13,6 @@
 #include <iterator>
 #include <map>
 #include <sstream>
-#include <thread>
 
 #include <fcntl.h>
 #include <fmt/chrono.h>
@@ -103,10 +100,7 @@ void judge(const ResultRequest& request, const std::string& path) {
                                  "or throw it away: --restart"});
 }
 
-/// Not the locks of others that are about to be taken.
-bool is_left_over(const std::string& name) {
-    return name.ends_with(OutputFile::suffix) && !name.starts_with(run_file::lock);
-}
+bool is_left_over(const std::string& name) { return name.ends_with(OutputFile::suffix); }
 
 bool is_of_run(const std::string& name) {
     return name == run_file::journal || name == run_file::checkpoint ||
@@ -132,72 +126,19 @@ std::string host_name() {
     return name;
 }
 
-std::string boot() {
-    std::string id = text_of("/proc/sys/kernel/random/boot_id");
-    return id.substr(0, id.find('\n'));
-}
-
-/// When the process was started, in the system's ticks since it was booted; empty: there is none.
-std::string start_of(const std::string& process) {
-    const std::string stat = text_of("/proc/" + process + "/stat");
-    const std::size_t name_end = stat.rfind(')');
-    if (name_end == std::string::npos) return "";
-    std::istringstream words(stat.substr(name_end + 1));
-    std::string word;
-    for (int i = 0; i < 20; ++i)
-        words >> word;
-    return word;
-}
-
-using Holder = std::map<std::string, std::string>;
-
-std::string lock_text() {
-    const std::string process = std::to_string(::getpid());
-    const std::time_t now = std::time(nullptr);
-    return fmt::format("host {}\nprocess {}\nstart {}\nboot {}\nsince {:%Y-%m-%d %H:%M:%S}\n",
-                       host_name(), process, start_of(process), boot(), fmt::localtime(now));
-}
-
-Holder read_lock(const Directory& directory) {
-    Holder holder;
-    const Descriptor file = directory.open(run_file::lock, O_RDONLY);
+/// Who has a lock, as its file says: host, process, since. Empty: it does not, or not to its end.
+std::map<std::string, std::string> read_lock(int fd) {
     std::string text(4096, '\0');
-    if (!file) return holder;
-    text.resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(
-        0, read_some(file.get(), std::as_writable_bytes(std::span(text)), 0))));
+    text.resize(static_cast<std::size_t>(
+        std::max<std::ptrdiff_t>(0, read_some(fd, std::as_writable_bytes(std::span(text)), 0))));
+    std::map<std::string, std::string> holder;
+    if (!text.ends_with('\n')) return holder;
     std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);)
-        if (const std::size_t space = line.find(' '); space != std::string::npos)
-            holder[line.substr(0, space)] = line.substr(space + 1);
+    for (std::string key, rest; lines >> key >> std::ws && std::getline(lines, rest);)
+        holder[key] = rest;
+    if (!holder.contains("since")) holder.clear();
     return holder;
 }
-
-/// Whether some process keeps a flock on it.
-bool is_kept(const Directory& directory) {
-    const Descriptor file = directory.open(run_file::lock, O_RDWR);
-    return file && ::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-}
-
-bool is_gone(const Directory& directory, Holder& holder) {
-    if (is_kept(directory) || holder["host"] != host_name()) return false;
-    return holder["boot"] != boot() || start_of(holder["process"]) != holder["start"];
-}
-
-/// Of the processes that take or break locks in this directory one at a time, where the file system
-/// can do that; a process that was stopped meanwhile is not waited for.
-class Turn {
-public:
-    explicit Turn(const Directory& directory) : fd_(directory.fd()) {
-        for (int i = 0; i < 50 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    ~Turn() { ::flock(fd_, LOCK_UN); }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
-
-private:
-    int fd_;
-};
 
 } // namespace
 
@@ -226,61 +167,61 @@ ResultDirectory::~ResultDirectory() {
 }
 
 void ResultDirectory::lock() {
-    const Turn turn(directory_);
-    // Of processes that died on the way; those that live wait for their turn.
-    remove_files(directory_, [](const std::string& name) {
-        return name.starts_with(run_file::lock) && name.ends_with(OutputFile::suffix);
-    });
-    const std::string temporary =
-        fmt::format("{}.{}{}", run_file::lock, ::getpid(), OutputFile::suffix);
-    const std::string text = lock_text();
+    const std::string file = directory_ / run_file::lock;
     const auto fail = [&] {
         const int cause = errno;
-        ::unlinkat(directory_.fd(), temporary.c_str(), 0);
-        throw FileError(directory_ / run_file::lock, "cannot be written", std::strerror(cause),
+        unlock();
+        throw FileError(file, "cannot be written", std::strerror(cause),
                         "check the permissions of its directory and the space on its disk");
     };
-    lock_ = directory_.open(temporary, O_RDWR | O_CREAT | O_TRUNC | O_NOFOLLOW);
-    if (!lock_) fail();
-    ::flock(lock_.get(), LOCK_EX | LOCK_NB); // some file systems cannot; then the rest must do
-    if (!write_all(lock_.get(), std::as_bytes(std::span(text)), 0) || ::fsync(lock_.get()) != 0)
-        fail();
-    for (int i = 0;
-         ::linkat(directory_.fd(), temporary.c_str(), directory_.fd(), run_file::lock, 0) != 0;
-         ++i) {
-        if (errno != EEXIST || i == 3) fail();
-        Holder holder = read_lock(directory_);
-        if (holder.empty() && !directory_.exists(run_file::lock)) continue; // given back just now
-        if (!is_gone(directory_, holder)) {
-            ::unlinkat(directory_.fd(), temporary.c_str(), 0);
-            const std::string file = directory_ / run_file::lock;
-            const bool known = holder.count("process") > 0;
-            throw FileError(
-                path(), "is in use by another process",
-                known ? fmt::format("process {} on host {} has had it since {} ({})",
-                                    holder["process"], holder["host"], holder["since"], file)
-                      : file + " does not say by whom",
-                holder["host"] == host_name()
-                    ? "wait for its end, stop it, or name another directory: --out"
-                    : "wait for its end, or name another directory (--out); where it is certain "
-                      "that no such process lives, remove " +
-                          file);
-        }
-        notes_.push_back(fmt::format("{}: process {} on {}, which has had it since {}, is gone; "
-                                     "its lock is broken",
-                                     path(), holder["process"], holder["host"], holder["since"]));
-        directory_.remove(run_file::lock);
+    std::map<std::string, std::string> holder;
+    for (bool mine = false; !mine;) {
+        lock_ = directory_.open(run_file::lock, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW);
+        const bool made = static_cast<bool>(lock_);
+        if (!made && errno == EEXIST) lock_ = directory_.open(run_file::lock, O_RDWR | O_NOFOLLOW);
+        if (!lock_ && errno == ENOENT) continue; // given back just now
+        if (!lock_) fail();
+        const bool kept = ::flock(lock_.get(), LOCK_EX | LOCK_NB) == 0;
+        const bool by_other = !kept && errno == EWOULDBLOCK;
+        if (kept && !is_lock_in_place()) continue; // given back just now
+        holder = read_lock(lock_.get());
+        const bool here = holder["host"] == host_name();
+        // Where the file system knows no such locks, whoever makes the file has it.
+        mine = made ? !by_other : kept && (holder["host"].empty() || here);
+        if (mine) break;
+        throw FileError(
+            path(), "is in use by another process",
+            holder["process"].empty()
+                ? file + " does not say by whom"
+                : fmt::format("process {} on host {} has had it since {} ({})", holder["process"],
+                              holder["host"], holder["since"], file),
+            by_other && here
+                ? "wait for its end, stop it, or name another directory: --out"
+                : "wait for its end, or name another directory (--out); where it is certain that "
+                  "no such process lives, remove " +
+                      file);
     }
-    ::unlinkat(directory_.fd(), temporary.c_str(), 0);
+    if (!holder["process"].empty())
+        notes_.push_back(fmt::format("{}: process {}, which has had it since {}, is gone", path(),
+                                     holder["process"], holder["since"]));
+    const std::time_t now = std::time(nullptr);
+    const std::string text = fmt::format("host {}\nprocess {}\nsince {:%Y-%m-%d %H:%M:%S}\n",
+                                         host_name(), ::getpid(), fmt::localtime(now));
+    if (::ftruncate(lock_.get(), 0) != 0 ||
+        !write_all(lock_.get(), std::as_bytes(std::span(text)), 0))
+        fail();
+}
+
+bool ResultDirectory::is_lock_in_place() const {
+    struct stat mine {
+    }, there{};
+    return ::fstat(lock_.get(), &mine) == 0 &&
+           ::fstatat(directory_.fd(), run_file::lock, &there, AT_SYMLINK_NOFOLLOW) == 0 &&
+           mine.st_ino == there.st_ino && mine.st_dev == there.st_dev;
 }
 
 void ResultDirectory::unlock() {
-    struct stat mine {
-    }, there{};
-    if (::fstat(lock_.get(), &mine) == 0 &&
-        ::fstatat(directory_.fd(), run_file::lock, &there, AT_SYMLINK_NOFOLLOW) == 0 &&
-        mine.st_ino == there.st_ino && mine.st_dev == there.st_dev)
-        ::unlinkat(directory_.fd(), run_file::lock, 0);
+    if (is_lock_in_place()) ::unlinkat(directory_.fd(), run_file::lock, 0);
     lock_ = Descriptor();
 }
 

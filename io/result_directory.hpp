@@ -7,11 +7,11 @@
 // there is never written over. A run that has not come to its end leaves run.journal; a directory
 // that holds one is refused unless the run goes on (--resume) or is thrown away (--restart).
 //
-// Whose: one process at a time, by the file run.lock, which names host, process and since when. It
-// appears whole (written beside its place and linked into it, which is atomic on NFS as well), and
-// its owner keeps a flock on it as long as it lives. A lock whose owner is gone is broken with a
-// note: no flock on it, same host, and no process of that number and start time (or another boot).
-// Of another host nothing can be known, so its lock is never broken.
+// Whose: one process at a time, by a flock on run.lock, which says host, process and since when.
+// The system takes the flock back when its owner ends, however it does. The lock of another host is
+// refused without a flock too: not every file system carries flocks from host to host. Where it
+// knows none, whoever makes the file has it, and a file that is there is refused.
+// python/asperity/files.py takes the same lock.
 #pragma once
 
 #include "io/directory.hpp"
@@ -40,11 +40,12 @@ public:
 
     const Directory& directory() const { return directory_; }
     const std::string& path() const { return directory_.path(); }
-    /// What its user should know: another name than expected, a lock that was broken.
+    /// What its user should know: another name than expected, a lock whose owner is gone.
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
     void lock();
+    bool is_lock_in_place() const;
     void unlock();
 
     std::vector<std::string> notes_;

@@ -356,8 +356,6 @@ void Recorder::build() {
     build_seconds_ = std::chrono::duration<double>(built_ - start).count();
 }
 
-bool Recorder::in_place() const { return !journal_ || journal_->in_place(); }
-
 std::map<std::string, std::vector<double>> Recorder::series() const {
     std::map<std::string, std::vector<double>> all;
     std::vector<std::vector<double>*> columns;

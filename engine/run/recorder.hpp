@@ -88,7 +88,6 @@ public:
     void write_on_root();
     /// The series so far: a column by its name in run.h5, a value a row.
     std::map<std::string, std::vector<double>> series() const;
-    bool in_place() const; ///< nobody has removed the journal
     void remove_journal(); ///< the run is over
 
 private:

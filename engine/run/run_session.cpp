@@ -137,7 +137,6 @@ Interruption RunSession::ask() {
 }
 
 bool RunSession::stop_here(const WriteState& write, const std::string& where) {
-    ranks.on_root([&] { storage_.require_in_place(*recorder_); });
     const Interruption now = ask();
     if (now > Interruption::checkpoint) {
         stop_now(write, where);
@@ -164,7 +163,6 @@ bool RunSession::stop_relaxation(const WriteState& write) {
 
 void RunSession::save(const WriteState& write) {
     const auto t = phases.time(Phase::checkpoint);
-    ranks.on_root([&] { storage_.require_in_place(*recorder_); });
     recorder_->synchronize();
     storage_.save(write);
     recorder_->write_if_cheap();

@@ -142,12 +142,4 @@ void RunStorage::remove_checkpoints() {
         directory().remove(name);
 }
 
-void RunStorage::require_in_place(const Recorder& recorder) const {
-    if (directory().in_place() && recorder.in_place()) return;
-    throw io::FileError(path(), "was moved or removed while the run was using it",
-                        "the run's records and checkpoints would not be found there",
-                        "if a checkpoint is left where it was moved to, go on from it: --resume "
-                        "auto --out DIR; else start again");
-}
-
 } // namespace asperity

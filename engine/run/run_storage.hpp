@@ -51,9 +51,6 @@ public:
     /// The run is over: what only serves to go on is removed.
     void remove_checkpoints();
 
-    /// Throws io::FileError where the directory or the journal is not where it was.
-    void require_in_place(const Recorder& recorder) const;
-
 private:
     std::optional<io::FilePlace> newest_whole();
     std::optional<io::FilePlace> named();

@@ -97,9 +97,11 @@ io::Schema bind(Scene& scene) {
     schema.number_or("radius", surface.radius, "none", "Å", positive(), "of a spherical cap");
     schema.text(
         "file", surface.file,
-        "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), text (matrix, .xyz, ESRI grid) or "
-        ".npy; for kind = \"atoms\": LAMMPS data or extended XYZ (.xyz, .extxyz), with the block's "
-        "periodic box; looked for beside the scene, then in the working directory");
+        "for kind = \"file\": HDF5 of Asperity (file.h5 or file.h5:/path), .npy or a plain matrix "
+        "of "
+        "numbers; for kind = \"atoms\": HDF5 of Asperity, with the block's periodic box; other "
+        "formats are converted first (asperity convert); looked for beside the scene, then in the "
+        "working directory");
     schema.number_or("file_size", surface.file_size, "auto", "Å", positive(),
                      "edge of the map; \"auto\": what the file says, else the box");
     schema.text("file_unit", surface.file_unit,

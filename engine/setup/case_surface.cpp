@@ -95,20 +95,15 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
     digest.update(std::as_bytes(std::span(std::as_const(type))));
     Surface surface = surface_from_atoms(
         options, {std::move(file.x), std::move(file.y), std::move(file.z), std::move(type)});
-    surface.notes.insert(surface.notes.begin(),
-                         fmt::format("{}: {} atoms{}, {}",
-                                     std::filesystem::path(s.file).filename().string(), count,
-                                     file.types.size() > 1   ? " of " + types_of(file)
-                                     : file.types[0].empty() ? ""
-                                                             : " of type " + shown(file.types[0]),
-                                     file.format));
-    surface.notes.insert(surface.notes.begin() + 1, file.notes.begin(), file.notes.end());
+    surface.notes.insert(
+        surface.notes.begin(),
+        fmt::format("{}: {} atoms of {}", std::filesystem::path(s.file).filename().string(), count,
+                    file.types.size() > 1 ? types_of(file) : "type " + shown(file.types[0])));
     surface.file_digest = digest.value();
     return surface;
 }
 
-/// The map of the scene's file, on every rank. The root alone reads it: in a process of its own,
-/// where the HDF5 library may crash, and of many ranks' processes only one is wanted.
+/// The map of the scene's file, on every rank. The root alone reads it.
 io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
     const auto& s = c.scene.surface;
     io::HeightMap map;

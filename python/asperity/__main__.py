@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The command line: `python3 -m asperity` is `asperity`.
 
-sweep, cost, report and export are carried out here; the program hands them over. Every other command is
+sweep, cost, report, export and convert are carried out here; the program hands them over. Every other command is
 handed to the program.
 """
 
@@ -82,6 +82,11 @@ def _parser() -> argparse.ArgumentParser:
     export = add("export", "maps and trajectory of a run for OVITO, ParaView, or as PNG")
     export.add_argument("directory", metavar="DIR", help="the result directory")
     export.add_argument("--to", required=True, metavar="FORMAT", dest="format", help="xyz, lammps, xdmf, vtk or png")
+    convert = add("convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names",
+                  "Maps: text with headers, ESRI grids, XYZ, HDF5 (FILE:/dataset), and by SurfaceTopography Gwyddion and\n"
+                  "instruments' files. Atoms: LAMMPS data, and by ASE extended XYZ.")
+    convert.add_argument("source", metavar="FILE", help="the file to convert")
+    convert.add_argument("target", metavar="OUT.h5", help="the file to write")
     return parser
 
 
@@ -119,6 +124,10 @@ def _carry_out(given: argparse.Namespace) -> int:
         from .export import export_command
 
         return export_command(given.directory, given.format)
+    if given.command == "convert":
+        from .convert import convert_command
+
+        return convert_command(given.source, given.target)
     from .pool import PoolOptions, executor_of
     from .terminal import PROGRESS_MODES, parse_duration
 

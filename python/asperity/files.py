@@ -97,66 +97,57 @@ def chosen(out: str | None, otherwise: str) -> Path:
 
 
 LOCK = "run.lock"
-"""The same file with the same content as in the directory of a run (io/result_directory.cpp), so that runs and
-sweeps keep each other out as well."""
+"""The same file, content and rules as of the directory of a run (io/result_directory.hpp), so that runs and sweeps
+keep each other out as well."""
 
 
-def _identity(process: int) -> dict[str, str]:
-    """A process of this machine: its number may be another's later, its start time not."""
-    def text(name: str) -> str:
-        with contextlib.suppress(OSError):
-            return Path(name).read_text()
-        return ""
-
-    after_name = text(f"/proc/{process}/stat").rpartition(")")[2].split()
-    return {"host": socket.gethostname(), "process": str(process), "start": "".join(after_name[19:20]),
-            "boot": text("/proc/sys/kernel/random/boot_id").strip()}
-
-
-@contextlib.contextmanager
-def _turn(place: Path) -> Iterator[None]:
-    """Of the processes that take or give back locks in a directory, one at a time (class Turn of the program)."""
-    handle = os.open(place, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        for _ in range(50):
-            with contextlib.suppress(OSError):
-                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                break
-            time.sleep(0.01)
-        yield
-    finally:
-        os.close(handle)
+def _in_place(handle: int, path: Path) -> bool:
+    with contextlib.suppress(FileNotFoundError):
+        return os.path.samestat(os.fstat(handle), os.lstat(path))
+    return False
 
 
 def _take(place: Path) -> int:
     """Opens the lock of a directory and keeps it; raises InputOutputError where another process has it."""
-    path = place / LOCK
-    handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o666)
-    kept = False
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        kept = True
-    except OSError:  # a file system without such locks: what stands in the file must do
-        pass
+    path, host = place / LOCK, socket.gethostname()
+    while True:
+        made = True
+        try:
+            handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666)
+        except FileExistsError:
+            made = False
+            try:
+                handle = os.open(path, os.O_RDWR | os.O_NOFOLLOW)
+            except FileNotFoundError:  # given back just now
+                continue
+        kept = by_other = False
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            kept = True
+        except BlockingIOError:
+            by_other = True
+        except OSError:  # a file system without such locks: whoever makes the file has it
+            pass
+        if not kept or _in_place(handle, path):
+            break
+        os.close(handle)  # given back just now
     lines = os.read(handle, 4096).decode("utf-8", "replace").splitlines()
     holder = {key: value for key, _, value in (line.partition(" ") for line in lines)}
-    mine = _identity(os.getpid())
-    number = holder.get("process", "")
-    # Of another machine nothing can be known.
-    if kept or (holder and holder.get("host") != mine["host"]) or (
-            number.isdigit() and _identity(int(number)).items() <= holder.items()):
+    if "since" not in holder:
+        holder = {}
+    here = holder.get("host") == host
+    if by_other if made else not kept or (holder and not here):
         os.close(handle)
         raise InputOutputError(
             str(place), "is in use by another process",
             f"process {holder['process']} on host {holder['host']} has had it since {holder['since']} ({path})"
-            if {"process", "host", "since"} <= set(holder) else f"{path} does not say by whom",
-            "wait for its end, stop it, or name another directory: --out" if holder.get("host") == mine["host"] else
+            if {"process", "host"} <= set(holder) else f"{path} does not say by whom",
+            "wait for its end, stop it, or name another directory: --out" if by_other and here else
             f"wait for its end, or name another directory (--out); where it is certain that no such process lives, "
             f"remove {path}")
     os.ftruncate(handle, 0)
-    since = {"since": time.strftime("%Y-%m-%d %H:%M:%S")}
-    os.pwrite(handle, "".join(f"{key} {value}\n" for key, value in {**mine, **since}.items()).encode(), 0)
+    since = time.strftime("%Y-%m-%d %H:%M:%S")
+    os.pwrite(handle, f"host {host}\nprocess {os.getpid()}\nsince {since}\n".encode(), 0)
     return handle
 
 
@@ -166,15 +157,14 @@ def in_use(place: Path) -> Iterator[None]:
     made = [path for path in (place, *place.parents) if not path.exists()]
     directory(place)
     try:
-        with _turn(place):
-            handle = _take(place)
+        handle = _take(place)
     except OSError as error:
         raise _refuse(place / LOCK, error) from None
     try:
         yield
     finally:
-        with contextlib.suppress(OSError), _turn(place):
-            if os.path.samestat(os.fstat(handle), os.lstat(place / LOCK)):  # else it is another's by now
+        with contextlib.suppress(OSError):
+            if _in_place(handle, place / LOCK):
                 os.unlink(place / LOCK)
         os.close(handle)
         with contextlib.suppress(OSError):  # something is in it
@@ -209,17 +199,28 @@ def json_is_whole(content: bytes) -> bool | None:
     return int(found[1], 16) == zlib.crc32(content[:found.start()]) if found else None
 
 
+def _digest(file, length: int) -> bytes:
+    """Of its first bytes: how many they are, and their CRC-32."""
+    file.seek(0)
+    value, left = 0, length
+    while left and (part := file.read(min(left, 1 << 20))):
+        value = zlib.crc32(part, value)
+        left -= len(part)
+    return length.to_bytes(8, "little") + value.to_bytes(8, "little")
+
+
+def seal_hdf5(path: Path) -> None:
+    """Appends the digest, which HDF5 ignores."""
+    with open(path, "r+b") as file:
+        end = _HDF5_END + _digest(file, file.seek(0, os.SEEK_END))
+        file.seek(0, os.SEEK_END)
+        file.write(end)
+
+
 def hdf5_is_whole(path: Path) -> bool | None:
     """Whether an HDF5 file is as its digest says; None: it does not end in one. Raises OSError."""
     with open(path, "rb") as file:
         length = max(0, file.seek(0, os.SEEK_END) - 32)
         file.seek(length)
         end = file.read(32)
-        if not end.startswith(_HDF5_END):
-            return None
-        file.seek(0)
-        value, left = 0, length
-        while left and (part := file.read(min(left, 1 << 20))):
-            value = zlib.crc32(part, value)
-            left -= len(part)
-    return end[16:] == length.to_bytes(8, "little") + value.to_bytes(8, "little")
+        return end[16:] == _digest(file, length) if end.startswith(_HDF5_END) else None

@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Writes stepped.data: two layers of an fcc (001) solid under a terrace of half the box, as a LAMMPS data file."""
+"""Prints two layers of an fcc (001) solid under a terrace of half the box, as a LAMMPS data file. stepped.h5 is made by
+
+    scenes/atoms/stepped.py > stepped.data
+    ./asperity convert stepped.data scenes/atoms/stepped.h5
+"""
 
 EDGE, ACROSS = 41.6, 15  # Å, the box of stepped.toml; atoms across: a spacing of 2.7733 Å
 

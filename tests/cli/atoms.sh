@@ -15,14 +15,17 @@ number() { sed -n "s/.*\"$2\": \([-0-9.e+]*\),\?$/\1/p" "$1/result.json" | head 
 # 16 x 16 atoms at height 57 Å, from the last to the first, some of them outside of the box.
 awk 'BEGIN { print "a flat layer, units = metal\n\n256 atoms\n1 atom types\n10 51.6 xlo xhi\n-5 36.6 ylo yhi\n50 60 zlo zhi\n\nAtoms\n"
     for (n = 255; n >= 0; --n) printf "%d 1 %.17g %.17g 57\n", n + 1, 10 + 2.6 * (n % 16) - (n % 5 ? 0 : 41.6), -5 + 2.6 * int(n / 16) }' >flat.data
-printf '[surface]\nkind = "atoms"\nfile = "flat.data"\nsites = 16\n[drive]\npath = ["zero-load"]\ntolerance = 1e-8\n' >atoms.toml
+expect 2 check "$source/scenes/atoms/stepped.toml" --set surface.file="$PWD/flat.data"
+says "convert it first: asperity convert '$PWD/flat.data' flat.h5"
+expect 0 convert flat.data flat.h5
+says "52 coordinates of atoms lay outside of the box"
+printf '[surface]\nkind = "atoms"\nfile = "flat.h5"\nsites = 16\n[drive]\npath = ["zero-load"]\ntolerance = 1e-8\n' >atoms.toml
 printf '[surface]\nkind = "flat"\nsites = 16\n[drive]\npath = ["zero-load"]\ntolerance = 1e-8\n' >flat.toml
 expect 0 run flat.toml --progress off --out flat
 expect 0 run atoms.toml --progress off --out atoms
 says "256 atoms"
 says "a unit of measure"
 says "over one flat layer (98.86)"
-says "coordinates of atoms lay outside of the box"
 for key in binding_energy contact_fraction mean_height; do
     awk -v a="$(number atoms $key)" -v b="$(number flat $key)" \
         'BEGIN { d = a - b; exit !(a != "" && b != "" && d * d <= 1e-16) }' ||
@@ -33,19 +36,24 @@ grep -q '"note": "the substrate.s atoms stand anywhere' atoms/result.json || fai
 ! grep -q gamma_eff atoms/result.json || fail "a theory that does not apply"
 
 # The scene that comes with Asperity, in time and without.
-ln -s "$source/scenes/atoms/stepped.data" stepped.data
+ln -s "$source/scenes/atoms/stepped.h5" stepped.h5
+"$source/scenes/atoms/stepped.py" >stepped.data
+expect 0 convert stepped.data again.h5
 cp "$source/scenes/atoms/stepped.toml" .
 expect 0 check stepped.toml
 says "a unit of measure"
 expect 0 plan stepped.toml
 says 'the theory is of one layer with heights'
+expect 0 surface stepped.toml --out again --set surface.file=again.h5
 expect 0 surface stepped.toml --out heights
+digest() { grep file_digest "$1/result.json"; }
+[ -n "$(digest heights)" ] && [ "$(digest heights)" = "$(digest again)" ] || fail "stepped.h5 is not what stepped.py writes"
 says "555"
 says "heights of the topmost atoms"
 expect 2 theory stepped.toml
 says "no theory applies"
 expect 2 check stepped.toml --set surface.sites=32
-says "the periodic box of the atoms in stepped.data is 41.6 x 41.6 Å"
+says "the periodic box of the atoms in stepped.h5 is 41.6 x 41.6 Å"
 expect 2 check stepped.toml --set interface.tail=true numerics.device=emulated
 says "interface.tail"
 says "numerics.device"
@@ -64,13 +72,16 @@ for mode in dynamic quasistatic; do
         fail "$mode: $(diff <(found whole-$mode) <(found parts-$mode))"
 done
 expect 0 run stepped.toml --out parts "${fast[@]}" drive.mode=dynamic drive.max_steps=25
-rm stepped.data
-sed '0,/^3 1 5.5467/s//3 1 5.5468/' "$source/scenes/atoms/stepped.data" >stepped.data
+converted() { # of standard input
+    cat >changed.data
+    rm -f stepped.h5
+    expect 0 convert changed.data stepped.h5
+}
+converted < <(sed '0,/^3 1 5.5467/s//3 1 5.5468/' stepped.data)
 expect 2 run stepped.toml --out parts --resume auto "${fast[@]}" drive.mode=dynamic
 
 # Nor over atoms of other types. Every other atom is of type 2.
-typed() { awk -v odd="$1" '/^[0-9]+ 1 / && NF == 5 { $2 = $1 % 2 == odd ? 2 : 1 } { sub("^1 atom types", "2 atom types"); print }' \
-    "$source/scenes/atoms/stepped.data" >stepped.data; }
+typed() { converted < <(awk -v odd="$1" '/^[0-9]+ 1 / && NF == 5 { $2 = $1 % 2 == odd ? 2 : 1 } { sub("^1 atom types", "2 atom types"); print }' stepped.data); }
 typed 1
 expect 2 check stepped.toml
 says "are of 2 types: 2 (278 atoms), 1 (277)"

@@ -7,7 +7,7 @@
 . "$(dirname "$0")/common.sh"
 
 expect 0 --help
-for command in run init plan check surface theory sweep report export defaults info; do
+for command in run init plan check surface theory sweep report export convert defaults info; do
     says "  $command"
     expect 0 "$command" --help
     expect 0 --help

@@ -9,6 +9,7 @@
 #include "io/error.hpp"
 #include "io/json.hpp"
 
+#include "support/atoms.hpp"
 #include "support/cases.hpp"
 #include "support/scratch.hpp"
 
@@ -38,15 +39,25 @@ Case case_over(const std::string& file, std::vector<std::string> overrides = {})
     return read_case_text(text, "test.toml", overrides);
 }
 
-/// The surface's atoms as extended XYZ, raised by `up`; in any order that does not matter.
-std::string as_xyz(const Surface& surface, double up = 0.0) {
+/// The surface's atoms, raised by `up`; from the last to the first, for their order does not
+/// matter.
+io::AtomsFile as_atoms(const Surface& surface, double up = 0.0) {
     const double b = surface.length / surface.sites;
-    std::string text = fmt::format("{}\nLattice=\"{} 0 0 0 {} 0 0 0 40\"\n", surface.height.size(),
-                                   surface.length, surface.length);
-    for (int i = surface.sites * surface.sites - 1; i >= 0; --i)
-        text += fmt::format("Au {} {} {}\n", b * (i % surface.sites), b * (i / surface.sites),
-                            surface.height[static_cast<std::size_t>(i)] + up);
-    return text;
+    io::AtomsFile atoms{{"Au"}, {}, surface.length, surface.length, {}, {}, {}};
+    for (int i = surface.sites * surface.sites - 1; i >= 0; --i) {
+        atoms.x.push_back(b * (i % surface.sites));
+        atoms.y.push_back(b * (i / surface.sites));
+        atoms.z.push_back(surface.height[static_cast<std::size_t>(i)] + up);
+        atoms.type.push_back(0);
+    }
+    return atoms;
+}
+
+void add(io::AtomsFile& atoms, double x, double y, double z) {
+    atoms.x.push_back(x);
+    atoms.y.push_back(y);
+    atoms.z.push_back(z);
+    atoms.type.push_back(0);
 }
 
 /// Force, energies and heights of every step of a fast approach that turns on contact.
@@ -70,7 +81,7 @@ TEST(AtomsScene, OfASurfaceWrittenOutIsTheRunOfThatSurface) {
     for (const char* ratio : {"surface.lattice_ratio=1", "surface.lattice_ratio=1.618"}) {
         const Case made = case_of({ratio});
         Surface surface = surface_of(made);
-        const Case read = case_over(scratch.write("rough.xyz", as_xyz(surface, 3.0)));
+        const Case read = case_over(write_atoms(scratch / "rough.h5", as_atoms(surface, 3.0)));
         const Surface atoms = surface_of(read);
         ASSERT_EQ(atoms.atoms.size(), surface.height.size());
         // The last atom of the file is the first height.
@@ -89,24 +100,23 @@ TEST(AtomsScene, OfASurfaceWrittenOutIsTheRunOfThatSurface) {
 TEST(AtomsScene, HasTheHeightsOfItsTopmostAtoms) {
     const io::Scratch scratch;
     const Surface surface = surface_of(case_of({}));
-    const std::string text = as_xyz(surface, 5.0);
-    const Surface found = surface_of(case_over(scratch.write("a.xyz", text)));
+    const io::AtomsFile atoms = as_atoms(surface, 5.0);
+    const Surface found = surface_of(case_over(write_atoms(scratch / "a.h5", atoms)));
     for (std::size_t i = 0; i < surface.height.size(); ++i)
         ASSERT_NEAR(found.height[i], surface.height[i], 1e-12);
     EXPECT_NEAR(found.statistics.rms, surface.statistics.rms, 1e-12);
     EXPECT_EQ(*std::max_element(found.height.begin(), found.height.end()),
               *std::max_element(found.atoms.z.begin(), found.atoms.z.end()));
     // An atom below another is no height; a site without one is filled.
-    std::string deeper = text;
-    deeper.replace(0, deeper.find('\n'), "257");
-    deeper += "Au 0.3 0.2 -4\n";
-    const Surface with_more = surface_of(case_over(scratch.write("b.xyz", deeper)));
+    io::AtomsFile deeper = atoms, fewer = atoms;
+    add(deeper, 0.3, 0.2, -4.0);
+    const Surface with_more = surface_of(case_over(write_atoms(scratch / "b.h5", deeper)));
     EXPECT_EQ(with_more.height, found.height);
     EXPECT_EQ(with_more.atoms.size(), 257u);
-    std::string fewer = text;
-    fewer.replace(0, fewer.find('\n'), "255");
-    fewer.erase(fewer.rfind("Au"));
-    const Surface with_hole = surface_of(case_over(scratch.write("c.xyz", fewer)));
+    for (auto* axis : {&fewer.x, &fewer.y, &fewer.z})
+        axis->pop_back();
+    fewer.type.pop_back();
+    const Surface with_hole = surface_of(case_over(write_atoms(scratch / "c.h5", fewer)));
     EXPECT_TRUE(std::isfinite(with_hole.height[0]));
     EXPECT_NE(with_hole.notes.back().find("1 of 256 sites"), std::string::npos)
         << with_hole.notes.back();
@@ -127,7 +137,7 @@ std::string refusal(const std::function<void()>& work) {
 
 TEST(AtomsScene, RefusesWhatDoesNotGoTogether) {
     const io::Scratch scratch;
-    const std::string file = scratch.write("a.xyz", as_xyz(surface_of(case_of({}))));
+    const std::string file = write_atoms(scratch / "a.h5", as_atoms(surface_of(case_of({}))));
     const std::vector<std::pair<std::string, std::string>> refused = {
         {"surface.rms=1", "surface.rms = 1"},
         {"surface.radius=1000", "surface.radius = 1000"},
@@ -146,7 +156,7 @@ TEST(AtomsScene, RefusesWhatDoesNotGoTogether) {
         case_over(file, {"interface.kind=wall", "drive.path=zero-load"});
     });
     EXPECT_NE(wall.find("interface.kind"), std::string::npos) << wall;
-    const std::string none = refusal([&] { case_over("no-such-file.xyz"); });
+    const std::string none = refusal([&] { case_over("no-such-file.h5"); });
     EXPECT_NE(none.find("there is no such file"), std::string::npos) << none;
     EXPECT_EQ(refusal([&] { examine(case_over(file)); }), "");
 }
@@ -154,36 +164,35 @@ TEST(AtomsScene, RefusesWhatDoesNotGoTogether) {
 TEST(AtomsScene, RefusesAnotherBoxAndAtomsThatStandTwice) {
     const io::Scratch scratch;
     const Surface surface = surface_of(case_of({}));
-    const std::string text = as_xyz(surface);
-    const std::string file = scratch.write("a.xyz", text);
+    const io::AtomsFile atoms = as_atoms(surface);
+    const std::string file = write_atoms(scratch / "a.h5", atoms);
     const std::string box = refusal([&] { examine(case_over(file, {"surface.sites=32"})); });
     EXPECT_NE(box.find("is 41.6 x 41.6 Å, and the block's 83.2 x 83.2 Å"), std::string::npos)
         << box;
     EXPECT_NE(box.find("surface.sites = 16"), std::string::npos) << box;
     // On the box's far edge, and a hundredth of an ångström from its twin across the corner.
-    for (const char* atom : {"Au 41.6 0 {}\n", "Au 41.595 41.595 {}\n", "Au -0.01 0.01 {}\n"}) {
-        std::string twice = text;
-        twice.replace(0, twice.find('\n'), "257");
-        twice += fmt::format(fmt::runtime(atom), surface.height[0]);
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {41.595, 41.595}, {41.59, 0.01}}) {
+        io::AtomsFile twice = atoms;
+        add(twice, x, y, surface.height[0]);
         const std::string what =
-            refusal([&] { examine(case_over(scratch.write("b.xyz", twice))); });
-        EXPECT_NE(what.find("atoms 256 and 257"), std::string::npos) << atom << what;
+            refusal([&] { examine(case_over(write_atoms(scratch / "b.h5", twice))); });
+        EXPECT_NE(what.find("atoms 256 and 257"), std::string::npos) << x << " " << y << what;
     }
 }
 
 /// The surface's atoms, those at even places of another type.
-std::string as_xyz_of_two(const Surface& surface) {
-    std::string text = as_xyz(surface);
-    std::size_t at = 0;
-    for (int i = 0; (at = text.find("Au", at)) != std::string::npos; ++i, ++at)
-        if (i % 2 == 0) text.replace(at, 2, "C");
-    return text;
+io::AtomsFile as_atoms_of_two(const Surface& surface) {
+    io::AtomsFile atoms = as_atoms(surface);
+    atoms.types = {"C", "Au"};
+    for (std::size_t i = 1; i < atoms.type.size(); i += 2)
+        atoms.type[i] = 1;
+    return atoms;
 }
 
 TEST(AtomsScene, HasPairsByType) {
     const io::Scratch scratch;
     const Surface made = surface_of(case_of({}));
-    const std::string two = scratch.write("two.xyz", as_xyz_of_two(made));
+    const std::string two = write_atoms(scratch / "two.h5", as_atoms_of_two(made));
     const auto over_two = [&](const std::string& pairs) {
         return case_over(two, {"interface.cutoff=12", "interface.pairs=" + pairs});
     };
@@ -236,7 +245,7 @@ TEST(AtomsScene, HasPairsByType) {
 
 TEST(AtomsScene, OfOneTypeWithItsPairIsTheSameRun) {
     const io::Scratch scratch;
-    const std::string file = scratch.write("a.xyz", as_xyz(surface_of(case_of({}))));
+    const std::string file = write_atoms(scratch / "a.h5", as_atoms(surface_of(case_of({}))));
     const Case keys = case_over(file, {"interface.epsilon=0.08", "interface.r0=3.1"});
     const Case pairs = case_over(
         file, {"interface.epsilon=0.08", "interface.r0=3.1", "interface.pairs=['Au 0.08 3.1']"});
@@ -244,7 +253,8 @@ TEST(AtomsScene, OfOneTypeWithItsPairIsTheSameRun) {
     // The type decides, not the keys.
     const Case others = case_over(file, {"interface.pairs=['Au 0.08 3.1']"});
     EXPECT_EQ(path_over(keys, surface_of(keys)), path_over(others, surface_of(others)));
-    const std::string two = scratch.write("two.xyz", as_xyz_of_two(surface_of(case_of({}))));
+    const std::string two =
+        write_atoms(scratch / "two.h5", as_atoms_of_two(surface_of(case_of({}))));
     const Case mixed = case_over(two, {"interface.pairs=['Au 0.08 3.1', 'C 0.02 3']"});
     EXPECT_NE(path_over(keys, surface_of(keys)), path_over(mixed, surface_of(mixed)));
 }
@@ -256,7 +266,7 @@ TEST(AtomsScene, CountsItsMemoryAndHasNoTheory) {
             const Surface made = surface_of(case_of({ratio, "surface.sites=48"}));
             const bool typed = precision == std::string("numerics.precision=mixed");
             const Case c = case_over(
-                scratch.write("a.xyz", typed ? as_xyz_of_two(made) : as_xyz(made)),
+                write_atoms(scratch / "a.h5", typed ? as_atoms_of_two(made) : as_atoms(made)),
                 {"surface.sites=48", precision,
                  typed ? "interface.pairs=['C 0.1 3.28', 'Au 0.1 3']" : "interface.pairs=[]"});
             const Surface surface = surface_of(c);

@@ -4,13 +4,14 @@
 // What the fuzz targets share.
 #pragma once
 
-#include "io/child_process.hpp"
 #include "io/error.hpp"
+#include "io/output_file.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,7 +26,7 @@ namespace asperity::fuzz {
 class MemoryFile {
 public:
     explicit MemoryFile(std::string_view bytes) : file_(::memfd_create("fuzz", 0)) {
-        if (file_ < 0 || !io::write_all(file_, bytes.data(), bytes.size())) std::abort();
+        if (file_ < 0 || !io::write_all(file_, std::as_bytes(std::span(bytes)), 0)) std::abort();
     }
     ~MemoryFile() { ::close(file_); }
     MemoryFile(const MemoryFile&) = delete;

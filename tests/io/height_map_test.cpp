@@ -27,7 +27,7 @@ Problem refused(const std::string& file, const std::string& unit = "auto") {
 
 TEST(HeightMap, RowsAreYAndColumnsAreX) {
     const Scratch scratch;
-    for (const char* text : {"1 2 3\n4 5 6\n7 8 9\n", "1,2,3\n4, 5, 6\n7;8;9",
+    for (const char* text : {"1 2 3\n4 5 6\n7 8 9\n", "1\t2  3\n4 5 6\n7 8 9",
                              "# a map\n\n1\t2 3 # first\r\n4 5 6\r\n+7 8.0 9e0\r\n"}) {
         const HeightMap map = read_height_map(scratch.write("m.txt", text));
         EXPECT_EQ(map.sites, 3);
@@ -40,7 +40,7 @@ TEST(HeightMap, RowsAreYAndColumnsAreX) {
 TEST(HeightMap, RoundTripsAreExact) {
     const Scratch scratch;
     HeightMap map{4, {}, 41.6, "Å", "somebody's, CC BY 4.0"};
-    std::string text = "# edge: 41.6 Å\n";
+    std::string text;
     for (int i = 0; i < 16; ++i) {
         map.heights.push_back(std::sin(1.0 + i) * 1e-3);
         text += fmt::format("{}{}", map.heights.back(), i % 4 < 3 ? ' ' : '\n');
@@ -50,8 +50,8 @@ TEST(HeightMap, RoundTripsAreExact) {
         const HeightMap back = read_height_map(file);
         EXPECT_EQ(back.sites, 4) << file;
         EXPECT_EQ(back.heights, map.heights) << file;
-        EXPECT_EQ(back.size, map.size) << file;
     }
+    EXPECT_EQ(read_height_map(scratch / "m.h5").size, map.size);
     EXPECT_EQ(read_height_map(scratch / "m.h5").origin, map.origin);
     EXPECT_FALSE(std::filesystem::exists(scratch / "m.h5.tmp"));
     EXPECT_THROW(write_height_map(scratch / "no/dir.h5", map), FileError);
@@ -61,10 +61,10 @@ TEST(HeightMap, Hdf5UnitsAndSizes) {
     const Scratch scratch;
     {
         Hdf5File file(scratch / "afm.h5", Hdf5File::Mode::create);
-        file.write<float>("/surface", {2, 2}, std::vector<float>{0.0f, 0.5f, 1.0f, -1.0f});
-        file.write_attribute("/surface", "unit", "nm");
-        file.write_attribute("/surface", "size_x", 100.0);
-        file.write_attribute("/surface", "size_y", 100.0);
+        file.write<float>("/heights", {2, 2}, std::vector<float>{0.0f, 0.5f, 1.0f, -1.0f});
+        file.write_attribute("/heights", "unit", "nm");
+        file.write_attribute("/heights", "size_x", 100.0);
+        file.write_attribute("/heights", "size_y", 100.0);
         file.write<double>("/line", {2}, std::vector<double>{1, 2}); // one dimension: no map
         file.close();
     }
@@ -82,10 +82,11 @@ TEST(HeightMap, Hdf5UnitsAndSizes) {
         file.write<double>("/line", {2}, std::vector<double>{1, 2}); // one dimension: no map
         file.close();
     }
-    EXPECT_EQ(refused(scratch / "two.h5").what, "holds more than one height map");
+    EXPECT_EQ(refused(scratch / "two.h5").what, "has no data set /heights");
     EXPECT_EQ(read_height_map((scratch / "two.h5") + ":/group/other").heights.back(), 4.0);
     EXPECT_EQ(refused((scratch / "two.h5") + ":/group").what, "has no data set /group");
-    EXPECT_EQ(refused((scratch / "two.h5") + ":/line").why, "it has 1 dimensions, a map has 2");
+    EXPECT_EQ(refused((scratch / "two.h5") + ":/line").why,
+              "a map is numbers of 2 dimensions, it has 1");
 }
 
 TEST(HeightMap, Hdf5Mistakes) {
@@ -94,21 +95,21 @@ TEST(HeightMap, Hdf5Mistakes) {
     const auto map = [&](const Hdf5File::Shape& shape, const std::vector<double>& data,
                          double y = 1.0, const char* unit = "nm") {
         Hdf5File file(scratch / "m.h5", Hdf5File::Mode::create);
-        file.write<double>("/h", shape, data);
-        file.write_attribute("/h", "size_x", 1.0);
-        file.write_attribute("/h", "size_y", y);
-        file.write_attribute("/h", "unit", unit);
+        file.write<double>("/heights", shape, data);
+        file.write_attribute("/heights", "size_x", 1.0);
+        file.write_attribute("/heights", "size_y", y);
+        file.write_attribute("/heights", "unit", unit);
         file.close();
         return scratch / "m.h5";
     };
     Problem p = refused(map({2, 2}, {0, 0, nan, 0}));
-    EXPECT_TRUE(p.where.ends_with("m.h5:/h[1, 0]")) << p.where;
+    EXPECT_TRUE(p.where.ends_with("m.h5:/heights[1, 0]")) << p.where;
     EXPECT_EQ(p.what, "the height in row 2, column 1 is nan");
     EXPECT_EQ(refused(map({1, 4}, {0, 0, 0, 0})).what, "the height map is not square");
     EXPECT_EQ(refused(map({2, 2}, {0, 0, 0, 0}, 2.0)).what, "is 10 x 20 Å wide");
     EXPECT_EQ(refused(map({2, 2}, {0, 0, 0, 0}, 1.0, "eV")).what, "heights in 'eV' cannot be read");
     Hdf5File(scratch / "empty.h5", Hdf5File::Mode::create).close();
-    EXPECT_EQ(refused(scratch / "empty.h5").what, "holds no height map");
+    EXPECT_EQ(refused(scratch / "empty.h5").what, "has no data set /heights");
     EXPECT_EQ(refused(scratch.write("text.h5", "1 2\n3 4\n")).why, "it is not an HDF5 file");
     // Cut short: the head is right, the rest is gone.
     const std::string whole = contents(map({2, 2}, {0, 0, 0, 0}));

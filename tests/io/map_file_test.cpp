@@ -3,7 +3,6 @@
 //
 // The formats of height maps: the same heights, size and unit from each, and what is refused.
 #include "io/available_memory.hpp"
-#include "io/child_process.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/height_map.hpp"
@@ -11,15 +10,14 @@
 
 #include "support/scratch.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <random>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 namespace asperity::io {
 namespace {
@@ -42,13 +40,6 @@ std::string matrix(const std::function<std::string(int, int)>& cell, const char*
     return text;
 }
 std::string nanometres(int x, int y) { return fmt::format("{}", height(x, y)); }
-std::string metres(int x, int y) { return fmt::format("{}e-9", height(x, y)); }
-std::string with_comma(int x, int y) {
-    std::string text = nanometres(x, y);
-    if (const std::size_t point = text.find('.'); point != std::string::npos) text[point] = ',';
-    return text;
-}
-
 template <class T>
 std::string numpy(const std::string& type, bool columns_first, double scale = 1.0) {
     std::string header = fmt::format("{{'descr': '{}', 'fortran_order': {}, 'shape': ({}, {}), }}",
@@ -93,52 +84,58 @@ Problem refused(const std::string& file, const MapOptions& options = {}) {
     return {};
 }
 
+/// The map as HDF5, times `scale`, with the attributes that fill() adds.
+std::string hdf5(const Scratch& scratch, double scale, const std::function<void(Hdf5File&)>& fill) {
+    std::vector<double> heights;
+    for (int i = 0; i < n * n; ++i)
+        heights.push_back(scale * height(i % n, i / n));
+    Hdf5File file(scratch / "map.h5", Hdf5File::Mode::create);
+    file.write<double>("/heights", {n, n}, heights);
+    fill(file);
+    file.close();
+    return scratch / "map.h5";
+}
+
 TEST(MapFile, SameMapInEveryFormat) {
     const Scratch scratch;
-    const auto expect_sized = [&](const std::string& file, const char* format,
-                                  const std::string& unit = "auto") {
+    const auto expect_sized = [&](const std::string& file, const std::string& unit = "auto") {
         const MapFile map = read_map_file(file, unit);
-        expect_the_map(map, format);
-        EXPECT_EQ(map.format, format);
-        ASSERT_TRUE(map.width && map.height) << format;
-        EXPECT_NEAR(*map.width, 10.0 * pixel_nm * n, 1e-6) << format;
-        EXPECT_NEAR(*map.height, 10.0 * pixel_nm * n, 1e-6) << format;
+        expect_the_map(map, "HDF5");
+        EXPECT_EQ(map.format, "HDF5");
+        EXPECT_NEAR(map.width.value_or(0.0), 10.0 * pixel_nm * n, 1e-9);
+        EXPECT_NEAR(map.height.value_or(0.0), 10.0 * pixel_nm * n, 1e-9);
         EXPECT_FALSE(map.unit_assumed);
+        return map;
     };
-    expect_sized(scratch.write("gwyddion.txt", "# Channel: Z\n# Width: 0.015 µm\n# Height: 15 nm\n"
-                                               "# Value units: m\n" +
-                                                   matrix(metres, "\t")),
-                 "Gwyddion text");
-    expect_sized(
-        scratch.write(
-            "spip.asc",
-            "# File Format = ASCII\n# Created by SPIP 6.7\n"
-            "# x-pixels = 6\n# y-pixels = 6\n# x-length = 15\n"
-            "# y-length = 15\n# Bit2nm = 0.5\n# Start of Data:\n" +
-                matrix([](int x, int y) { return fmt::format("{}", 2.0 * height(x, y)); }, "\t")),
-        "SPIP text");
-    expect_sized(scratch.write("esri.asc", "ncols 6\nnrows 6\nxllcorner 100\nyllcorner 7\n"
-                                           "cellsize 2.5\nNODATA_value -9999\n" +
-                                               matrix(nanometres, " ")),
-                 "ESRI grid", "nm");
-    std::string points; // columns from the right, so the order does not matter
-    for (int x = n - 1; x >= 0; --x)
-        for (int y = 0; y < n; ++y)
-            points += fmt::format("{} {} {}\n", 100.0 + pixel_nm * x, pixel_nm * y, height(x, y));
-    expect_sized(scratch.write("points.xyz", points), "XYZ", "nm");
-    {
-        Hdf5File file(scratch / "map.h5", Hdf5File::Mode::create);
-        std::vector<double> heights;
-        for (int i = 0; i < n * n; ++i)
-            heights.push_back(height(i % n, i / n));
-        file.write<double>("/h", {n, n}, heights);
-        file.write_attribute("/h", "unit", "nm");
-        file.write_attribute("/h", "size_x", pixel_nm * n);
-        file.close();
-    }
-    expect_sized(scratch / "map.h5", "HDF5");
+    const auto set = [](Hdf5File& file, const char* name, auto value) {
+        file.write_attribute("/heights", name, value);
+    };
+    // Size in the unit of the heights, or in one of its own.
+    expect_sized(hdf5(scratch, 1.0, [&](Hdf5File& file) {
+        set(file, "unit", "nm");
+        set(file, "size_x", pixel_nm * n);
+    }));
+    const MapFile scaled = expect_sized(hdf5(scratch, 2.0, [&](Hdf5File& file) {
+        set(file, "unit", "nm");
+        set(file, "scale", 0.5);
+        set(file, "size_x", 10.0 * pixel_nm * n);
+        set(file, "size_y", 10.0 * pixel_nm * n);
+        set(file, "size_unit", "Å");
+    }));
+    EXPECT_EQ(scaled.unit, "0.5 nm");
+    // The scene knows better, for the heights: of a size in their unit as well, where they have
+    // none.
+    const std::string bare =
+        hdf5(scratch, 1.0, [&](Hdf5File& file) { set(file, "size_x", pixel_nm * n); });
+    expect_sized(bare, "nm");
+    EXPECT_EQ(refused(bare).fix, "say which it is: surface.file_unit = \"nm\"");
+    EXPECT_EQ(
+        read_map_file(hdf5(scratch, 1.0, [&](Hdf5File& file) { set(file, "unit", "m"); }), "nm")
+            .heights[0],
+        10.0 * height(0, 0));
+    EXPECT_EQ(refused(hdf5(scratch, 1.0, [&](Hdf5File& file) { set(file, "unit", "V"); })).what,
+              "heights in 'V' cannot be read");
 
-    // Without sizes.
     for (const char* type : {"<f8", ">f8"})
         for (const bool columns_first : {false, true})
             expect_the_map(
@@ -149,60 +146,40 @@ TEST(MapFile, SameMapInEveryFormat) {
     expect_the_map(
         read_map_file(scratch.write("m.npy", numpy<std::int32_t>("<i4", true, 1e6)), "fm"), "i4",
         1e-4);
-    for (const char* separator : {"\t", ";", " ; ", "\t "})
-        expect_the_map(
-            read_map_file(scratch.write("comma.txt", matrix(with_comma, separator)), "nm"),
-            separator);
-    expect_the_map(
-        read_map_file(scratch.write("bom.txt", "\xef\xbb\xbf" + matrix(nanometres, ", ")), "nm"),
-        "byte order mark");
-}
-
-TEST(MapFile, HeadersThatCannotBeMeant) {
-    const Scratch scratch;
-    const std::string data = matrix(nanometres, " ");
-    // A bare size is in the unit of the heights, and in no unit if those have none.
-    EXPECT_EQ(
-        read_map_file(scratch.write("m.txt", "# Width: 15\n# Value units: nm\n" + data)).width,
-        150.0);
-    EXPECT_EQ(refused(scratch.write("m.txt", "# Width: 15\n" + data)).what,
-              "the header 'width: 15' has no unit");
-    EXPECT_EQ(refused(scratch.write("m.txt", "# Width: 15 nM\n" + data)).what,
-              "heights in 'nM' cannot be read");
-    EXPECT_EQ(refused(scratch.write("m.txt", "# Width: -1 nm\n" + data)).why,
-              "it is not above zero");
-    EXPECT_EQ(refused(scratch.write("m.txt", "# Value units: V\n" + data)).what,
-              "heights in 'V' cannot be read");
-    EXPECT_EQ(refused(scratch.write("m.txt", "# x-pixels = 7\n" + data)).what,
-              "the height map is not whole");
-    EXPECT_EQ(refused(scratch.write("m.txt", "# Bit2nm = 0\n" + data)).what,
-              "the header 'Bit2nm = 0' is no factor");
-    EXPECT_FALSE(read_map_file(scratch.write("m.txt", "# Width: see the paper\n" + data)).width);
-    // The scene knows better, for the heights.
-    EXPECT_NEAR(read_map_file(scratch.write("m.txt", "# Bit2nm = 0.5\n" + data), "nm").heights[0],
-                10.0 * height(0, 0), 1e-9);
-    // Assumptions are told.
-    const HeightMap map = read_height_map(scratch.write("m.txt", data));
+    for (const char* separator : {" ", "\t", " \t "})
+        expect_the_map(read_map_file(scratch.write("m.txt", "\xef\xbb\xbf# rms: 3\n" +
+                                                                matrix(nanometres, separator)),
+                                     "nm"),
+                       separator);
+    const HeightMap map = read_height_map(scratch / "m.txt");
     ASSERT_EQ(map.notes.size(), 1u);
     EXPECT_EQ(map.notes[0], "the file does not say the unit of its heights: taken as Å");
-    for (const char* name : {"m.xyz", "m.asc"})
-        EXPECT_EQ(
-            refused(scratch.write(name, name[2] == 'x' ? "0 0 1\n0 1 2\n1 0 3\n1 1 4\n"
-                                                       : "ncols 2\nnrows 1\ncellsize 1\n1 2\n"))
-                .fix,
-            "say which it is: surface.file_unit = \"nm\"");
 }
 
-TEST(MapFile, Commas) {
+TEST(MapFile, OtherFormatsAreToldTheCommandThatConvertsThem) {
     const Scratch scratch;
-    EXPECT_EQ(refused(scratch.write("m.txt", "1,5 2,5\n3,5 4,5\n")).what,
-              "the commas may be decimal points or separate numbers");
-    EXPECT_EQ(refused(scratch.write("m.txt", "1.5\t2,5\n3,5\t4,5\n")).what,
-              "the commas may be decimal points or separate numbers");
-    EXPECT_EQ(read_map_file(scratch.write("m.csv", "1,2\n3,4\n")).heights,
-              (std::vector<double>{1, 2, 3, 4}));
-    EXPECT_EQ(read_map_file(scratch.write("m.csv", "1,5\t-2\n3\t4,25\n")).heights,
-              (std::vector<double>{1.5, -2, 3, 4.25}));
+    const std::string data = matrix(nanometres, " ");
+    const std::pair<const char*, std::string> files[] = {
+        {"gwyddion.txt", "# Width: 15 nm\n" + data},
+        {"gwyddion2.txt", "# Value units: m\n" + data},
+        {"spip.asc", "# Bit2nm = 0.5\n" + data},
+        {"spip2.asc", "# x-pixels = 6\n" + data},
+        {"edge.txt", data + "#  Edge : 41.6 Å\n"},
+        {"esri.asc", "ncols 6\nnrows 6\ncellsize 2.5\n" + data},
+        {"m.xyz", "0 0 1\n0 1 2\n1 0 3\n1 1 4\n"},
+        {"comma.csv", matrix(nanometres, ",")},
+        {"semicolon.csv", matrix(nanometres, ";")},
+        {"m.gwy", std::string("GWYP\0\0\0", 7)},
+        {"m.sdf", "aISO-1.0\nManufacID = test\n"},
+        {"m.x3p", "PK\x03\x04"},
+        {"void.txt", "1 2\n3 void\n"}};
+    for (const auto& [name, text] : files)
+        EXPECT_EQ(refused(scratch.write(name, text)).fix,
+                  fmt::format("convert it first: asperity convert {} {}.h5", scratch / name,
+                              std::string(name).substr(0, std::string(name).find('.'))));
+    // Names that a shell would take apart.
+    EXPECT_TRUE(
+        refused(scratch.write("my map.gwy", "GWYP")).fix.ends_with("my map.gwy' 'my map.h5'"));
 }
 
 TEST(MapFile, MissingPoints) {
@@ -217,7 +194,7 @@ TEST(MapFile, MissingPoints) {
             },
             " ");
     };
-    for (const char* hole : {"nan", "NaN", "inf", "bad", "1e999"}) {
+    for (const char* hole : {"nan", "NaN", "inf", "1e999"}) {
         const std::string file = scratch.write("m.txt", holed(hole));
         const Problem p = refused(file);
         EXPECT_TRUE(p.where.ends_with("m.txt:3:4")) << p.where;
@@ -229,12 +206,6 @@ TEST(MapFile, MissingPoints) {
         EXPECT_EQ(map.notes.back(),
                   "3 points of the map (8.3 %) had no height: filled by Laplace's equation");
     }
-    const std::string esri = "ncols 6\nnrows 6\ncellsize 1\nNODATA_value -9999\n" + holed("-9999");
-    EXPECT_EQ(refused(scratch.write("m.asc", esri), {"Å"}).what,
-              "the height in row 3, column 2 is nodata (-9999)");
-    EXPECT_NEAR(read_height_map(scratch / "m.asc", {"Å", true}).heights[14], plane(2, 2), 1e-7);
-    EXPECT_EQ(refused(scratch.write("m.xyz", "0 0 1\n0 1 2\n1 0 3\n"), {"nm"}).what,
-              "the height in row 2, column 2 is not given (x = 1, y = 1)");
     EXPECT_EQ(refused(scratch.write("m.txt", "1 nan\nnan nan\n"), {"Å", true}).what,
               "most of the height map is missing");
     // A hole at the edge has fewer neighbours.
@@ -246,16 +217,23 @@ TEST(MapFile, MissingPoints) {
 
 TEST(MapFile, MapsThatAreNotSquare) {
     const Scratch scratch;
-    const std::string wide =
-        "# Width: 8 nm\n# Height: 2 nm\n0 1 2 3 4 5 6 7\n8 9 10 11 12 13 14 15\n";
-    EXPECT_EQ(refused(scratch.write("m.txt", wide)).what, "the height map is not square");
-    const HeightMap map = read_height_map(scratch / "m.txt", {"Å", false, true});
+    const std::vector<double> counted = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const auto wide = [&](double size_y) {
+        Hdf5File file(scratch / "m.h5", Hdf5File::Mode::create);
+        file.write<double>("/heights", {2, 8}, counted);
+        file.write_attribute("/heights", "unit", "nm");
+        file.write_attribute("/heights", "size_x", 8.0);
+        file.write_attribute("/heights", "size_y", size_y);
+        file.close();
+        return scratch / "m.h5";
+    };
+    EXPECT_EQ(refused(wide(2.0)).what, "the height map is not square");
+    const HeightMap map = read_height_map(scratch / "m.h5", {"Å", false, true});
     EXPECT_EQ(map.sites, 2);
     EXPECT_EQ(map.heights, (std::vector<double>{3, 4, 11, 12}));
     EXPECT_EQ(map.size, 20.0);
-    EXPECT_EQ(
-        refused(scratch.write("m.txt", "# Width: 8 nm\n# Height: 1 nm\n1 2\n3 4\n"), {"Å"}).why,
-        "its pixels of 40 x 5 Å are not square, and the periodic box is");
+    EXPECT_EQ(refused(wide(1.0), {"Å", false, true}).why,
+              "its pixels of 10 x 5 Å are not square, and the periodic box is");
 }
 
 TEST(MapFile, HeightsThatNoSurfaceHas) {
@@ -266,17 +244,6 @@ TEST(MapFile, HeightsThatNoSurfaceHas) {
               "a height of the map is 1e+15 Å");
     EXPECT_EQ(refused(scratch.write("m.txt", std::string("1 2\n3\0 4\n", 9))).what,
               "the height map is no text");
-    EXPECT_EQ(refused(scratch.write("m.gwy", "GWYP....")).why, "it is a Gwyddion file (.gwy)");
-    EXPECT_EQ(
-        refused(scratch.write("m.xyz", "0 0 1\n1 0 2\n3 0 4\n0 1 1\n1 1 1\n3 1 1\n"), {"nm"}).what,
-        "the points of the map are on no grid");
-    std::string cloud;
-    for (int i = 0; i < 3000; ++i) // would be a grid of 9 million
-        cloud += fmt::format("{} {} 1\n", i, i);
-    EXPECT_EQ(refused(scratch.write("m.xyz", cloud), {"nm"}).what,
-              "the points of the map are on no grid");
-    EXPECT_EQ(refused(scratch.write("m.xyz", "0 0 1\n0 1 2\n1 0 3\n1 1 4\n1 1 5\n"), {"nm"}).what,
-              "the point is in the map already");
 }
 
 TEST(MapFile, NumpyThatIsDamaged) {
@@ -300,68 +267,57 @@ TEST(MapFile, NumpyThatIsDamaged) {
 
 TEST(MapFile, Hdf5ThatIsHostile) {
     const Scratch scratch;
+    const auto nothing = [](Hdf5File&) {};
+    const std::string whole = contents(hdf5(scratch, 1.0, nothing));
+    // libhdf5 sees no file that is not as it was written: other bytes, cut short, of another
+    // program.
+    std::mt19937_64 random(36);
+    for (int i = 0; i < 300; ++i) {
+        std::string bytes = whole;
+        bytes[8 + random() % (bytes.size() - 8)] ^= static_cast<char>(1 + random() % 255);
+        const Problem p = refused(scratch.write("map.h5", bytes));
+        EXPECT_TRUE(p.what == "is damaged" || p.what == "cannot be opened") << p.what;
+    }
+    for (std::size_t size = 8; size < whole.size(); size += 37)
+        EXPECT_EQ(refused(scratch.write("map.h5", whole.substr(0, size))).fix,
+                  fmt::format("convert it first: asperity convert {} map-converted.h5",
+                              scratch / "map.h5"));
+    EXPECT_EQ(refused(scratch.write("map.h5", whole.substr(0, whole.size() - 32))).why,
+              "it has no digest at its end: it was cut short, or another program wrote it");
+    // Written by us, and no map.
     const auto made = [&](const std::function<void(Hdf5File&)>& fill) {
         Hdf5File file(scratch / "m.h5", Hdf5File::Mode::create);
         fill(file);
         file.close();
         return refused(scratch / "m.h5");
     };
-    // Declared and never written: no bytes in the file, 80 GB in memory.
-    EXPECT_EQ(made([](Hdf5File& f) { f.make_series<double>("/h", {100000}); }).what,
+    EXPECT_EQ(made(nothing).what, "has no data set /heights");
+    EXPECT_EQ(made([](Hdf5File& f) { f.make_series<double>("/heights", {100000}); }).what,
               "the height map is empty");
+    // Declared and never written: no bytes in the file, 40 TB in memory.
     EXPECT_EQ(made([](Hdf5File& f) {
-                  f.make_dataset<float>("/h", {100000, 100000});
-              }).why,
-              "100000 x 100000 values are declared, and 0 bytes are stored");
-    EXPECT_EQ(made([](Hdf5File& f) { f.make_dataset<double>("/h", {}); }).what,
-              "holds no height map");
+                  f.make_dataset<float>("/heights", {1000000, 5000000});
+              }).what,
+              "the height map is larger than the memory");
+    EXPECT_EQ(made([](Hdf5File& f) { f.make_dataset<double>("/heights", {}); }).what,
+              "is no height map");
     // Sizes that are no numbers, units that are no text.
     EXPECT_EQ(made([](Hdf5File& f) {
-                  f.write<double>("/h", {1, 1}, std::vector<double>{1.0});
-                  f.write_attribute("/h", "size_x", std::nan(""));
-              }).why,
-              "a size is a number above zero");
+                  f.write<double>("/heights", {1, 1}, std::vector<double>{1.0});
+                  f.write_attribute("/heights", "size_x", std::nan(""));
+              }).what,
+              "the file does not say the unit of its sizes and heights");
+    EXPECT_EQ(made([](Hdf5File& f) {
+                  f.write<double>("/heights", {1, 1}, std::vector<double>{1.0});
+                  f.write_attribute("/heights", "size_x", std::nan(""));
+                  f.write_attribute("/heights", "unit", "nm");
+              }).what,
+              "the map has no size");
     EXPECT_NE(made([](Hdf5File& f) {
-                  f.write<double>("/h", {1, 1}, std::vector<double>{1.0});
-                  f.write_attribute("/h", "unit", 1.0);
+                  f.write<double>("/heights", {1, 1}, std::vector<double>{1.0});
+                  f.write_attribute("/heights", "unit", 1.0);
               }).what.find("unit that is not one string"),
               std::string::npos);
-}
-
-TEST(ChildProcess, CrashesAndHangsAreTold) {
-    const auto nothing = [](int) {};
-    EXPECT_EQ(in_child_process(10, nothing, nothing), "");
-    EXPECT_EQ(in_child_process(
-                  10, [](int) { std::raise(SIGSEGV); }, nothing),
-              "by signal 11 (Segmentation fault)");
-    EXPECT_EQ(in_child_process(
-                  10, [](int) { throw 1; }, nothing),
-              "with code 111");
-    // A hang ends by the limit of processor time.
-    const auto limited = [](int pipe) {
-        rlimit time{};
-        ::getrlimit(RLIMIT_CPU, &time);
-        const std::uint64_t seconds = time.rlim_cur;
-        write_all(pipe, &seconds, sizeof seconds);
-        std::raise(SIGXCPU);
-    };
-    std::uint64_t seconds = 0;
-    EXPECT_TRUE(in_child_process(7, limited, [&](int pipe) {
-                    read_all(pipe, &seconds, sizeof seconds);
-                }).starts_with("after 7 s"));
-    EXPECT_EQ(seconds, 7u);
-    // A reader that stops early, and one that throws, leave no child behind.
-    const auto talk = [](int pipe) {
-        const std::string text(1 << 20, 'x');
-        write_all(pipe, text.data(), text.size());
-    };
-    EXPECT_EQ(in_child_process(10, talk, nothing), "by signal 13 (Broken pipe)");
-    EXPECT_THROW(in_child_process(10, talk, [](int) { throw std::runtime_error("no"); }),
-                 std::runtime_error);
-    std::string got(1 << 20, ' ');
-    EXPECT_EQ(in_child_process(10, talk, [&](int pipe) { read_all(pipe, got.data(), got.size()); }),
-              "");
-    EXPECT_EQ(got, std::string(1 << 20, 'x'));
 }
 
 TEST(AvailableMemory, IsLessThanTheMachineHas) {

@@ -9,8 +9,12 @@
 #include "support/scratch.hpp"
 
 #include <optional>
+#include <vector>
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace asperity::io {
 namespace {
@@ -64,19 +68,52 @@ TEST(ResultDirectory, BreaksTheLockOfTheDeadAndOfNobodyElse) {
     const std::size_t name = left.find(' ') + 1;
     scratch.write("a/run.lock", left.substr(0, name) + "elsewhere" + left.substr(left.find('\n')));
     EXPECT_TRUE(holds(refusal({path, "x"}), "on host elsewhere"));
-    scratch.write("a/run.lock", "");
-    EXPECT_TRUE(holds(refusal({path, "x"}), "does not say by whom"));
-    // A number that another process has by now, and an earlier boot.
-    const auto with = [&](const std::string& key, const std::string& value) {
-        const std::size_t from = left.find(key + " ") + key.size() + 1;
-        return left.substr(0, from) + value + left.substr(left.find('\n', from));
-    };
-    std::string mine = with("process", std::to_string(::getpid()));
-    scratch.write("a/run.lock", mine);
-    EXPECT_EQ(refusal({path, "x"}), "");
+    EXPECT_EQ(contents(file).substr(0, 14), "host elsewhere") << "it is still theirs";
+    // What its owner did not come to write to the end is nobody's; nor is a number of a process,
+    // that another has by now.
+    for (const std::string& text :
+         {std::string(), left.substr(0, name), left.substr(0, left.size() - 1),
+          left.substr(0, left.find("since")),
+          fmt::format("host {}process {}\nsince then\n",
+                      left.substr(name, left.find('\n') + 1 - name), ::getpid())}) {
+        std::filesystem::create_directories(path);
+        scratch.write("a/run.lock", text);
+        EXPECT_EQ(refusal({path, "x"}), "") << text;
+        EXPECT_FALSE(std::filesystem::exists(file));
+    }
+}
+
+TEST(ResultDirectory, IsOfOneOfManyThatTakeItAtOnce) {
+    const Scratch scratch;
+    const std::string path = scratch / "a", taken = scratch / "taken";
     std::filesystem::create_directories(path);
-    scratch.write("a/run.lock", with("boot", "another"));
-    EXPECT_EQ(refusal({path, "x"}), "");
+    std::vector<pid_t> children;
+    for (int i = 0; i < 8; ++i) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            int own = 0;
+            for (int round = 0; round < 200; ++round) {
+                try {
+                    const ResultDirectory directory({path, "x"});
+                    // Two at once would meet here.
+                    const int alone = ::open(taken.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0644);
+                    if (alone < 0) ::_exit(2);
+                    ++own;
+                    ::close(alone);
+                    ::unlink(taken.c_str());
+                } catch (const FileError&) { // it is another's
+                }
+            }
+            ::_exit(own > 0 ? 0 : 1);
+        }
+        children.push_back(child);
+    }
+    for (const pid_t child : children) {
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        EXPECT_NE(WEXITSTATUS(status), 2) << "two had it";
+    }
+    EXPECT_FALSE(std::filesystem::exists(path + "/run.lock"));
 }
 
 TEST(ResultDirectory, RefusesResultsAndUnfinishedRuns) {

@@ -21,4 +21,4 @@ if [ ! -x "$place/bin/pytest" ]; then
 fi
 export ASPERITY_PROGRAM=$1 ASPERITY_PYTHON=$place/bin/python3 OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE=1
 unset PYTHONPATH VIRTUAL_ENV
-"$place/bin/pytest" -q -p no:cacheprovider -W ignore::DeprecationWarning "$here/test_maps.py" "$here/test_viewers.py"
+"$place/bin/pytest" -q -p no:cacheprovider -W ignore::DeprecationWarning "$here/test_convert.py" "$here/test_viewers.py"

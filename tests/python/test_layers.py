@@ -9,7 +9,7 @@ import asperity
 
 # From the bottom to the top: text, files and program, data, execution, drawing, pages, the user's forms.
 ORDER = """errors units terminal
-    files program scene maps
+    files program scene convert
     result grid
     pool runs tables sweeps cost_knobs cost
     plots.__init__ plots.style plots.files plots.run plots.sweep plots.cost

@@ -18,7 +18,7 @@ import pytest
 
 import asperity
 import asperity.runs
-from asperity import files, grid, pool
+from asperity import convert, files, grid, pool
 from asperity.plots import sweep as plots
 from asperity.plots.style import drawn
 from asperity.sweeps import load_sweep, load_sweeps
@@ -384,16 +384,17 @@ def test_points_over_another_content_of_a_file_are_refused(place):
 def test_points_over_other_atoms_of_a_file_are_refused(place):
     def write(height):
         grid = 2.6 * np.arange(12)
-        lines = [f"Au {x:.6f} {y:.6f} {height * ((i + j) % 2):.6f}" for i, x in enumerate(grid) for j, y in enumerate(grid)]
-        Path("atoms.xyz").write_text(f'144\nLattice="31.2 0 0 0 31.2 0 0 0 60" Properties=species:S:1:pos:R:3\n' +
-                                     "\n".join(lines) + "\n")
+        lines = [f"{12 * i + j + 1} 1 {x:.6f} {y:.6f} {height * ((i + j) % 2):.6f}" for i, x in enumerate(grid) for j, y in enumerate(grid)]
+        Path("atoms.data").write_text("checkered\n\n144 atoms\n0 31.2 xlo xhi\n0 31.2 ylo yhi\n\nAtoms # atomic\n\n" + "\n".join(lines) + "\n")
+        Path("atoms.h5").unlink(missing_ok=True)
+        convert.convert("atoms.data", "atoms.h5")
     write(0.2)
-    scene = {"name": "atoms", "surface": {"sites": 12, "kind": "atoms", "file": str(place / "atoms.xyz")},
+    scene = {"name": "atoms", "surface": {"sites": 12, "kind": "atoms", "file": str(place / "atoms.h5")},
              "block": {"thickness": 12}, "drive": {"path": ["zero-load"]}}
     first = asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms")
     assert (asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms").table["binding_energy"] == first.table["binding_energy"]).all()
     write(0.4)
-    with pytest.raises(asperity.SceneError, match="holds the result of another content of .*atoms.xyz"):
+    with pytest.raises(asperity.SceneError, match="holds the result of another content of .*atoms.h5"):
         asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms")
 
 

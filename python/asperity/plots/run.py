@@ -8,7 +8,6 @@ import tempfile
 from pathlib import Path
 from typing import Callable
 
-import h5py
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -205,12 +204,10 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
                 # As run.h5 holds it: the map that it was made from may be gone.
                 if not run.substrate or run.curved:
                     return []
-                map_file = Path(place) / "heights.h5"
-                with h5py.File(map_file, "w") as made:
-                    made["heights"] = run.substrate.height
-                    made["heights"].attrs["unit"] = "Å"
+                map_file = Path(place) / "heights.npy"
+                np.save(map_file, run.substrate.height)
                 overrides = [f"surface.file={map_file}", f"surface.file_size={run.edge!r}", "surface.detrend=none",
-                             "surface.resample=none", "surface.file_unit=auto"]
+                             "surface.resample=none", "surface.file_unit=Å"]
             points = program.theory_points(file, [[*overrides, f"surface.rms={v!r}"] for v in values])
     except Error:  # a scene that this version refuses, or no program beside the package
         return []

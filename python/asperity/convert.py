@@ -1,0 +1,345 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity convert IN OUT.h5`: a map of heights or the atoms of a substrate, as the HDF5 that a scene names.
+
+    text, HDF5       a matrix with the headers of Gwyddion or SPIP, ESRI grid, XYZ (three columns), map.h5:/dataset
+    LAMMPS data      read here: ASE 3.22 and 3.29 leave out xlo and ylo, and make up or drop atoms that are not counted
+    extended XYZ     by ASE (python3-ase)
+    all others       maps, by SurfaceTopography (PyPI): Gwyddion .gwy, SDF, X3P, netCDF and those of many instruments
+
+OUT of a map: /heights [y][x], numbers and unit as IN has them (attributes unit, scale; size_x, size_y in
+size_unit or else in unit), NaN where a height is missing. OUT of atoms: /position [atom][3] from the box's lower
+corner along x and y, /type [atom] (attribute names), /box [2]; in Å. Both end in a digest: the program opens no
+HDF5 without one, for the HDF5 library may crash on a damaged file.
+"""
+
+from __future__ import annotations
+
+import re
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+
+import h5py
+import numpy
+
+from . import files
+from .errors import Error, InputOutputError
+
+LENGTHS = {"Å": 0, "\u212b": 0, "A": 0, "Ang": 0, "angstrom": 0, "Angstrom": 0, "fm": -5, "pm": -2, "nm": 1, "um": 4,
+           "\u00b5m": 4, "\u03bcm": 4, "mm": 7, "cm": 8, "m": 10, "km": 13}
+"""Powers of ten of units of length, in Å."""
+STYLES = {"atomic": (1, 2, 5), "charge": (1, 3, 6), "bond": (2, 3, 6), "angle": (2, 3, 6), "molecular": (2, 3, 6),
+          "full": (2, 4, 7)}
+"""LAMMPS' atom styles: the column of the type, that of x, and how many there are without image flags."""
+FARTHEST = 1e7
+"""Å; coordinates beyond (1 mm) lose the digits that forces need."""
+
+
+def _refuse(where, what: str, why: object = "", fix: str = "correct it, or write it again") -> InputOutputError:
+    return InputOutputError(str(where), what, str(why), fix)
+
+
+class _Text:
+    """A map as text: (number of the line, line) without comments, and what those say: "# name: value"."""
+
+    def __init__(self, path: Path, content: str):
+        self.path, self.header, self.lines, self.separators = path, {}, [], str.maketrans(",;\t", "   ")
+        for number, line in enumerate(content.split("\n"), 1):
+            line, _, comment = line.partition("#")
+            if said := re.match(r"([^:=]*)[:=](.*)", comment):
+                self.header.setdefault(said[1].strip().lower(), said[2].strip())
+            if line.strip():
+                self.lines.append((number, line.strip()))
+
+    def take_commas(self) -> None:
+        """As decimal points, where all of them can be and tabs or semicolons separate the numbers."""
+        body = "\n".join(line for _, line in self.lines)
+        if "," not in body or re.search(r"(?<!\d),|,(?!\d)|,[^\s;,]*,", body) or not re.search(r"[ \t;]", body):
+            return
+        if not re.search(r"[\t;]", body) or "." in body:
+            raise _refuse(self.path, "the commas may be decimal points or separate numbers",
+                          "there are blanks or points as well",
+                          "write decimal points, or separate the numbers by tabs or semicolons")
+        self.separators = str.maketrans(",;\t", ".  ")
+
+    def rows(self) -> list[tuple[int, list[float]]]:
+        found = []
+        for number, line in self.lines:
+            words = line.translate(self.separators).split()
+            try:
+                found.append((number, [numpy.nan if w.lower() in ("bad", "void") else float(w) for w in words]))
+            except ValueError as error:
+                raise _refuse(f"{self.path}:{number}", "the line is no row of numbers", error,
+                              "take headings out of the file, or put a # before them") from None
+        return [(number, row) for number, row in found if row]
+
+    def matrix(self, said: dict, counts: tuple[str, str]) -> numpy.ndarray:
+        rows = self.rows()
+        for number, row in rows:
+            if len(row) != len(rows[0][1]):
+                raise _refuse(f"{self.path}:{number}", "the rows of the map are not of one length",
+                              f"this line has {len(row)} numbers, line {rows[0][0]} has {len(rows[0][1])}")
+        heights = numpy.array([row for _, row in rows], ndmin=2)
+        for key, there in zip(counts, heights.shape[::-1]):
+            if re.fullmatch(r"\d+(\.0)?", str(said.get(key, ""))) and float(said[key]) != there:
+                raise _refuse(self.path, "the height map is not whole",
+                              f"its header says {key} = {said[key]}, and {there} are there", "export it again")
+        return heights
+
+    def size(self, keys: tuple[str, ...], unit: str | None) -> float | None:
+        """Å, by the first header that gives a number: with its unit, or in this one."""
+        for key in keys:
+            if found := re.fullmatch(r"([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)", self.header.get(key, "")):
+                value, unit = float(found[1].replace(",", ".")), found[2] or unit
+                if unit not in LENGTHS or not 0.0 < value < numpy.inf:
+                    raise _refuse(self.path, f"the header '{key}: {self.header[key]}' is no size",
+                                  f"unit: {unit}" if value > 0.0 else "it is not above zero", "correct the header")
+                return value * 10.0 ** LENGTHS[unit]
+        return None
+
+
+def _matrix(text: _Text) -> dict:
+    """With the headers of Gwyddion ("# Value units: nm") and SPIP ("# Bit2nm = 0.03"), or without."""
+    text.take_commas()
+    said = {key: value for key, value in text.header.items() if value}
+    spip = "x-pixels" in said or "bit2nm" in said or said.get("file format", "").lower() == "ascii"
+    found = {"heights": text.matrix(said, ("x-pixels", "y-pixels")),
+             "unit": said.get("value units", said.get("z-unit"))}
+    if "bit2nm" in said and not found["unit"]:
+        if not re.fullmatch(r"[-+]?[\d.]*[1-9][\d.]*([eE][-+]?\d+)?", said["bit2nm"]):
+            raise _refuse(text.path, f"the header 'Bit2nm = {said['bit2nm']}' is no factor", "", "correct the header")
+        found |= {"unit": "nm", "scale": float(said["bit2nm"])}
+    lateral = said.get("x-unit", "nm" if spip else found["unit"])
+    size = (text.size(("width", "x-length", "edge"), lateral),
+            text.size(("height", "y-length", "edge"), said.get("y-unit", lateral)))
+    return found | ({"size": size, "size_unit": "Å"} if all(size) else {})
+
+
+def _esri(text: _Text) -> dict:
+    header = {}
+    while text.lines and text.lines[0][1][0] not in "+-.0123456789":
+        number, line = text.lines.pop(0)
+        try:
+            name, value = line.split()
+            header[name.lower()] = float(value)
+        except ValueError as error:
+            raise _refuse(f"{text.path}:{number}", "the line is no header of a grid", error) from None
+    heights = text.matrix(header, ("ncols", "nrows"))
+    heights[heights == header.get("nodata_value")] = numpy.nan
+    pixel = [header.get(own, header.get("cellsize", 0.0)) for own in ("dx", "dy")]
+    if not min(pixel) > 0.0:
+        raise _refuse(text.path, "the grid has no pixel size", "cellsize is not above zero", "export the grid again")
+    return {"heights": heights, "size": tuple(p * n for p, n in zip(pixel, heights.shape[::-1]))}
+
+
+def _points(text: _Text) -> dict:
+    """XYZ: the points of a grid in any order; those that are not given are missing."""
+    def refuse(why: str) -> InputOutputError:
+        return _refuse(text.path, "the points of the map are on no grid", why, "interpolate them onto a grid before")
+
+    text.take_commas()
+    rows = text.rows()
+    for number, row in rows:
+        if len(row) != 3 or not numpy.isfinite(row[:2]).all():
+            raise _refuse(f"{text.path}:{number}", "the line is no point of a map", f"{row}: x, y and z are needed",
+                          "a matrix of heights must not be called .xyz")
+    x, y, z = numpy.array([row for _, row in rows]).reshape(-1, 3).T
+    axes = []
+    for name, places in (("x", x), ("y", y)):
+        span = numpy.ptp(places) if len(places) else 0.0
+        gaps = numpy.diff(numpy.sort(places))
+        steps = numpy.rint(span / gaps[gaps > 1e-6 * span].min()) if span > 0.0 else 0.0
+        pixel = span / max(1.0, steps)
+        index = numpy.rint((places - places.min()) / pixel) if span > 0.0 else places
+        if not span > 0.0 or (abs(places - (places.min() + index * pixel)) > 0.01 * pixel).any():
+            raise refuse(f"their {name} are not evenly spaced")
+        axes.append((index.astype(int), pixel, int(steps) + 1))
+    (across, dx, columns), (along, dy, lines) = axes
+    if columns * lines > 4 * len(z):
+        raise refuse(f"{len(z)} points for {columns} different x and {lines} different y")
+    place = along * columns + across
+    if len(numpy.unique(place)) != len(place):
+        raise refuse("a point stands twice")
+    heights = numpy.full(columns * lines, numpy.nan)
+    heights[place] = z
+    return {"heights": heights.reshape(lines, columns), "size": (dx * columns, dy * lines)}
+
+
+def _hdf5(path: str, named: str) -> dict:
+    """The data set named, or the only one with two dimensions. Runs in a process of its own: HDF5 may crash."""
+    with h5py.File(path) as file:
+        maps = {}
+        file.visititems(lambda name, item: maps.update({name: item}) if getattr(item, "ndim", 0) == 2 else None)
+        if not named and len(maps) > 1:
+            raise ValueError("it holds more than one map: say which, " + " or ".join(f"{path}:/{n}" for n in maps))
+        data = file.get(named) if named else next(iter(maps.values()), None)
+        if getattr(data, "ndim", 0) != 2 or data.dtype.kind not in "iuf":
+            raise ValueError(f"it holds no map {named}")
+        if data.id.get_storage_size() < data.size / 1100:  # no filter of HDF5 makes a map smaller
+            raise ValueError(f"{data.shape} values are declared, and {data.id.get_storage_size()} bytes are stored")
+        said = {**file.attrs, **data.attrs}
+        x = said.get("size_x")
+        return {"heights": data[()] if data.dtype in ("f4", "f8") else data[()].astype(float),
+                "size": None if x is None else (float(x), float(said.get("size_y", x))),
+                "scale": said.get("scale", 1.0),
+                **{key: str(said[key]) for key in ("unit", "size_unit", "origin") if key in said}}
+
+
+def _instrument(path: Path) -> dict:
+    try:
+        from SurfaceTopography import open_topography
+    except ImportError as error:
+        raise _refuse(path, "is in no format that is read without SurfaceTopography", error,
+                      "python3 -m pip install SurfaceTopography, or export it as text with a header") from None
+    topography = open_topography(str(path)).topography()
+    if topography.dim != 2 or topography.unit is None:
+        raise ValueError(f"it has {topography.dim} dimensions and the unit {topography.unit}")
+    # heights() is [x, y]; masked where there is no height.
+    heights = numpy.ma.filled(numpy.ma.asarray(topography.heights(), dtype=float), numpy.nan).T
+    return {"heights": heights, "unit": topography.unit, "size": topography.physical_sizes}
+
+
+def _lammps(path: Path, content: str) -> dict:
+    lines = content.split("\n")
+    units = re.search(r"units = (\w*)", lines[0])
+    if lines[0].startswith("ITEM:") or (units and units[1] not in ("metal", "real")):
+        raise _refuse(path, "is no LAMMPS data file in Å", lines[0][:80], "write_data, in units of style metal")
+    header, section, style, columns, atoms = {}, "", None, 0, {}
+    for number, line in enumerate(lines[1:], 2):
+        text, _, comment = (part.strip() for part in line.partition("#"))
+        words = text.split()
+        try:
+            if text[:1].isalpha():
+                if text == "Atoms" and style is not None:
+                    raise ValueError("a second section Atoms")
+                section, style = text, comment if text == "Atoms" else style
+            elif words and not section:
+                name = " ".join(w for w in words if w[0].isalpha())
+                header[name] = [float(w) for w in words[:len(words) - len(name.split())]]
+            elif words and section == "Atoms":
+                columns = columns or len(words)
+                style = style or {5: "atomic", 8: "atomic", 7: "full", 10: "full"}.get(columns, "")
+                kind, x, plain = STYLES[style]
+                if len(words) != columns or columns not in (plain, plain + 3) or int(words[0]) in atoms:
+                    raise ValueError(f"atom {words[0]} with {len(words)} columns, of style {style} with {plain}")
+                if not words[kind][0].isalpha():
+                    int(words[kind])  # a type is a whole number, or a label
+                atoms[int(words[0])] = words[kind], [float(w) for w in words[x:x + 3]]
+                _ = [int(w) for w in words[plain:]]  # image flags
+        except (ValueError, KeyError) as error:
+            raise _refuse(f"{path}:{number}", "the line cannot be read", error, "atom styles are " + ", ".join(STYLES)
+                          + "; write it behind the section's name: Atoms # molecular") from None
+    box = [header.get(f"{a}lo {a}hi", []) for a in "xyz"]
+    if [len(side) for side in box[:2]] != [2, 2] or header.get("atoms") != [len(atoms)] or not content.endswith("\n"):
+        raise _refuse(path, "the file of atoms is not whole", f"{len(atoms)} atoms are there, its header: {header}")
+    if any(header.get("xy xz yz", [])) or {"avec", "bvec", "cvec"} & header.keys():
+        raise _refuse(path, "the box of the atoms is not orthogonal", "", "repeat or cut the atoms to a square box")
+    return {"types": [atom[0] for atom in atoms.values()], "position": [atom[1] for atom in atoms.values()],
+            "low": [side[0] if side else 0.0 for side in box],
+            "width": [side[1] - side[0] if side else 0.0 for side in box]}
+
+
+def _extended_xyz(path: Path) -> dict:
+    try:
+        from ase.io import read
+    except ImportError as error:
+        raise _refuse(path, "needs ASE", error, "apt-get install python3-ase, or python3 -m pip install ase") from None
+    frames = read(str(path), index=":", format="extxyz")
+    cell = numpy.array(frames[0].cell)
+    if len(frames) > 1 or not all(frames[0].pbc[:2]) or abs(cell - numpy.diag(numpy.diag(cell))).max() > 1e-9:
+        raise ValueError(f"{len(frames)} frames, pbc {frames[0].pbc}, Lattice {cell.tolist()}; one frame, periodic "
+                         "along x and y, in an orthogonal box is needed")
+    return {"types": frames[0].get_chemical_symbols(), "position": frames[0].positions,
+            "low": frames[0].info.get("Origin", (0.0, 0.0, 0.0)), "width": numpy.diag(cell)}
+
+
+def _folded(path: Path, atoms: dict) -> dict:
+    """Positions from the box's lower corner, folded into it, along x and y."""
+    place, width = numpy.array(atoms["position"], dtype=float), atoms["width"]
+    if not (abs(place) <= FARTHEST).all() or not 0.0 < min(width[:2]) <= max(width) <= FARTHEST:
+        raise _refuse(path, "the atoms or their box have no size", f"coordinates up to {abs(place).max():g} Å in a box "
+                      f"of {width[0]:g} x {width[1]:g} Å, and {FARTHEST:g} Å are the limit")
+    place[:, :2] -= atoms["low"][:2]
+    outside = 0
+    for k in range(3):
+        from_side = place[:, k] - (atoms["low"][2] if k == 2 else 0.0)
+        if width[k] > 0.0 and ((from_side < -width[k]) | (from_side > 2.0 * width[k])).any():
+            raise _refuse(path, "an atom is more than a box away from the box",
+                          f"along {'xyz'[k]}, where it is {width[k]:g} Å wide")
+        if k < 2:
+            outside += int(((place[:, k] < 0.0) | (place[:, k] > width[k])).sum())
+            place[:, k] -= width[k] * numpy.floor(place[:, k] / width[k])
+            place[place[:, k] >= width[k], k] = 0.0  # of a negative number next to zero
+    names = list(dict.fromkeys(atoms["types"]))
+    return {"position": place, "names": names, "type": [names.index(t) for t in atoms["types"]], "box": width[:2],
+            "outside": outside}
+
+
+def _found(source: str) -> dict:
+    """What the file holds: "heights", or "position" of atoms."""
+    name, _, dataset = source.partition(":/")
+    path = Path(name)
+    try:
+        with path.open("rb") as file:
+            head = file.read(8)
+        if head == b"\x89HDF\r\n\x1a\n":
+            with ProcessPoolExecutor(1) as process:
+                return process.submit(_hdf5, name, dataset).result()
+        if head.startswith(b"\x93NUMPY"):
+            raise _refuse(path, "needs no conversion", "the program reads .npy", "name it in the scene")
+        raw = path.read_bytes()
+        try:
+            content = raw.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            content = raw.decode("latin-1")
+        if re.search(r"^\s*(\d+\s+atoms|Atoms\s*(#.*)?)\s*$", content[:1 << 16], re.M) or content.startswith("ITEM:"):
+            return _folded(path, _lammps(path, content))
+        if path.suffix.lower() in (".xyz", ".extxyz") and re.match(r"\s*\d+\s*\n", content):
+            return _folded(path, _extended_xyz(path))
+        text = _Text(path, content)
+        first = text.lines[0][1] if text.lines and "\0" not in content else "no text"
+        if not re.match(r"[-+.\d]|nan|inf|bad|void|ncols", first, re.I):
+            return _instrument(path)
+        return (_esri if first.lower().startswith("ncols") else _points if path.suffix == ".xyz" else _matrix)(text)
+    except Error:
+        raise
+    except BrokenProcessPool:
+        raise _refuse(source, "cannot be read", "the HDF5 library crashed on it: it is damaged") from None
+    except Exception as error:  # every library has its own
+        raise _refuse(source, "cannot be read", f"{type(error).__name__}: {error}") from None
+
+
+def convert(source: str | Path, target: str | Path) -> str:
+    """Writes the map or the atoms of `source` to `target`. Returns what was found, as a line of text."""
+    source, target = str(source), Path(target)
+    if target.exists():
+        raise _refuse(target, "is there already", "", "name another file, or remove it")
+    found = _found(source)
+    with files.replacing(target) as beside:
+        with h5py.File(beside, "w", libver="earliest") as file:
+            file.attrs["origin"] = found.get("origin", Path(source).name)
+            if "heights" in found:
+                heights = numpy.where(numpy.isfinite(found["heights"]), found["heights"], numpy.nan)
+                attributes = file.create_dataset("heights", data=heights).attrs
+                attributes.update({k: found[k] for k in ("unit", "scale", "size_unit") if found.get(k) is not None})
+                size = found.get("size") or ()
+                attributes.update(dict(zip(("size_x", "size_y"), map(float, size))))
+                unit = found.get("unit") or "? (surface.file_unit)"
+                said = " x ".join(f"{s:g}" for s in size) + " " + found.get("size_unit", unit)
+                text = (f"{heights.shape[1]} x {heights.shape[0]} points, {said if size else 'of unknown size'}, "
+                        f"heights in {unit}, {int(numpy.isnan(heights).sum())} without a height")
+            else:
+                for name, kind in (("position", "f8"), ("box", "f8"), ("type", "i4")):
+                    file[name] = numpy.array(found[name], kind)
+                    file[name].attrs.update({"names": " ".join(found["names"])} if name == "type" else {"unit": "Å"})
+                text = (f"{len(found['position'])} atoms of type {', '.join(found['names'][:20])}, in a box of "
+                        f"{found['box'][0]:.8g} x {found['box'][1]:.8g} Å; {found['outside']} coordinates of atoms lay "
+                        "outside of the box and were folded back")
+        files.seal_hdf5(beside)
+    return text
+
+
+def convert_command(source: str, target: str) -> int:
+    print(convert(source, target))
+    return 0
