@@ -10,7 +10,7 @@
     result.plot.separation()                            # draws into a matplotlib axes
     sweep = asperity.sweep("scene.toml", {"surface.rms": [0.5, 1, 2]}, jobs=2)
     sweep.table["binding_energy"]                       # numpy array, a value a point
-    sim = asperity.Simulation("scene.toml")             # the engine in a loop of your own (docs/python-engine.md)
+    sim = asperity.Simulation("scene.toml")             # the engine in a loop of your own (docs/howto/python-engine.md)
     sim.step(500); sim.force; sim.u.z                   # eV/Å; a view of the displacements, Å
 
 The program does the physics, reads scenes and checks them; this package starts it, reads what it wrote,
