@@ -74,7 +74,8 @@ inline constexpr Quantity result_quantities[] = {
     {"contact_fraction", "1", per::sites,
      "sites closer to an atom than the inflection of the pair potential, at zero load; over a wall "
      "those that touch it, or nearer than its largest tension (smeared)"},
-    {"repulsive_fraction", "1", per::sites, "sites whose net normal force is repulsive, at zero load"},
+    {"repulsive_fraction", "1", per::sites,
+     "sites whose net normal force is repulsive, at zero load"},
     {"approach_force", "eV/Å", per::block, "largest attraction during the approach"},
     {"pull_off_force", "eV/Å", per::block, "largest attraction during the pull-off"},
     {"jkr.in", "meV/Å^2", per::area,

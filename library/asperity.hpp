@@ -245,8 +245,8 @@ public:
     double mean_height() const; ///< of the lowest layer above the substrate's zero, Å
     // Of the last observed step.
     Energies energy() const;
-    double contact_fraction() const; ///< sites whose nearest atom is in contact, over all
-    double repulsive_fraction() const;  ///< sites that are pushed away
+    double contact_fraction() const;   ///< sites whose nearest atom is in contact, over all
+    double repulsive_fraction() const; ///< sites that are pushed away
 
     // Of the ways of the scene's path, as in result.json.
     std::string segment() const; ///< of drive.path, as the scene has it; "done" after the last

@@ -240,8 +240,9 @@ PYBIND11_MODULE(_engine, m) {
         .def_property_readonly(
             "contact", &Simulation::contact_fraction,
             "fraction of the sites whose nearest atom is in contact, at the last observed step")
-        .def_property_readonly("repulsive_fraction", &Simulation::repulsive_fraction,
-                               "fraction of the sites that are pushed away, at the last observed step")
+        .def_property_readonly(
+            "repulsive_fraction", &Simulation::repulsive_fraction,
+            "fraction of the sites that are pushed away, at the last observed step")
         .def_property_readonly("segment", &Simulation::segment,
                                "where the scene's path is: 'approach', 'pull-off' or 'done'")
         .def_property_readonly(
@@ -314,7 +315,8 @@ PYBIND11_MODULE(_engine, m) {
         .def_readonly("instabilities", &Point::instabilities, "how many points of the path had one")
         .def_readonly("contact", &Point::contact_fraction,
                       "fraction of the sites whose nearest atom is in contact")
-        .def_readonly("repulsive_fraction", &Point::repulsive_fraction, "fraction of the sites that are pushed away")
+        .def_readonly("repulsive_fraction", &Point::repulsive_fraction,
+                      "fraction of the sites that are pushed away")
         .def_readonly("number", &Point::number, "points of the path since the start")
         .def("__repr__", shown);
 

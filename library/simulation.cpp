@@ -555,9 +555,7 @@ BothWays Simulation::work_of_drive() const {
     const asperity::PathResults& found = inside_->results();
     return {found.approach.drive_work, found.pull_off.drive_work};
 }
-std::optional<double> Simulation::lost_in_cycle() const {
-    return inside_->results().lost_in_cycle;
-}
+std::optional<double> Simulation::lost_in_cycle() const { return inside_->results().lost_in_cycle; }
 
 double Simulation::top_position() const { return std::as_const(inside_->engine()).block().top(); }
 void Simulation::set_top_position(double z) {

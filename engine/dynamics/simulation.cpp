@@ -182,8 +182,7 @@ void Simulation::advance_block(bool observe) {
 void Simulation::slide() {
     const double middle = (static_cast<double>(step_) + 0.5) * options_.dt;
     for (int axis : {0, 1})
-        slide_[static_cast<std::size_t>(axis)] +=
-            options_.dt * drive_.slide_velocity(axis, middle);
+        slide_[static_cast<std::size_t>(axis)] += options_.dt * drive_.slide_velocity(axis, middle);
 }
 
 /// Sums over u(n), before it moves on.
@@ -204,11 +203,10 @@ void Simulation::begin_record(bool observe) {
 void Simulation::update_energy_balance() {
     // One reduction a step (and one for the counts of an observed one).
     const auto sums =
-        global_sums(communicator(),
-                    std::array{interface_sums_.force_z, lowest_z_, top_force_,
-                               kick_sums_.dissipated, kick_sums_.dragged, heat_,
-                               interface_sums_.energy, elastic_, kick_sums_.kinetic, radiated_,
-                               lateral_[0], lateral_[1]});
+        global_sums(communicator(), std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                                               kick_sums_.dissipated, kick_sums_.dragged, heat_,
+                                               interface_sums_.energy, elastic_, kick_sums_.kinetic,
+                                               radiated_, lateral_[0], lateral_[1]});
     const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic, radiated,
                 lateral_x, lateral_y] = sums;
     const std::array lateral{lateral_x, lateral_y};

@@ -108,7 +108,7 @@ private:
     Along along_ = Along::z;
     double normal_ = 0.0;           ///< of the last point along z, Å
     std::array<double, 2> place_{}; ///< of the block over the substrate at the last point, Å
-    double moved_ = 0.0; ///< from before_ to last_, the site that moved most, Å
+    double moved_ = 0.0;            ///< from before_ to last_, the site that moved most, Å
     long long iterations_ = 0;
 };
 

@@ -17,7 +17,7 @@
 namespace asperity {
 
 struct Instability {
-    double energy = 0.0; ///< dissipated, eV
+    double energy = 0.0;                                ///< dissipated, eV
     std::size_t segment = 0;                            ///< of the path
     double top = 0.0;                                   ///< displacement of what is held, Å
     double height_before = 0.0, height_after = 0.0;     ///< mean height of the lowest layer, Å
@@ -47,9 +47,9 @@ struct Instability {
 
 /// All so far.
 struct Dissipation {
-    double in_segment = 0.0;       ///< in the segment under way, eV
-    double before = 0.0;           ///< in the segments before it, eV
-    long long events = 0;          ///< points of the path at which some was counted
+    double in_segment = 0.0;        ///< in the segment under way, eV
+    double before = 0.0;            ///< in the segments before it, eV
+    long long events = 0;           ///< points of the path at which some was counted
     std::vector<Instability> jumps; ///< the strongest, in the order of the path
 
     double total() const { return before + in_segment; }

@@ -128,9 +128,9 @@ struct SegmentResults {
 };
 
 struct PathResults {
-    std::optional<ZeroLoad> zero_load; ///< where there are several: the first
-    std::optional<StateList> states;   ///< where all were asked for
-    WayEnergies approach, pull_off;    ///< the last of each
+    std::optional<ZeroLoad> zero_load;     ///< where there are several: the first
+    std::optional<StateList> states;       ///< where all were asked for
+    WayEnergies approach, pull_off;        ///< the last of each
     std::optional<double> lost_in_cycle;   ///< from out of reach to out of reach, meV/Å^2
     double attraction_in = 0.0;            ///< largest attraction of the last approach, eV/Å
     double attraction_out = 0.0;           ///< of the last pull-off

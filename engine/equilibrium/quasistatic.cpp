@@ -75,7 +75,9 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
     kind_ = segment.kind;
     end_.reset();
     load_.reset();
-    const Along along = kind_ != Segment::slide ? Along::z : segment.axis == 0 ? Along::x : Along::y;
+    const Along along = kind_ != Segment::slide ? Along::z
+                        : segment.axis == 0     ? Along::x
+                                                : Along::y;
     const double from = points_.lead(along);
     double direction = 0.0;
     switch (kind_) {
@@ -135,9 +137,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
         const long long iterations = points_.iterations();
         const bool last_try = length_ <= smallest_step();
         const bool any_force = all_the_way || last_try || along_ != Along::z;
-        const RelaxedState state =
-            points_.relax_at(there, predicts_, options_.report,
-                             any_force ? ForceWindow{} : acceptable_force(there));
+        const RelaxedState state = points_.relax_at(
+            there, predicts_, options_.report, any_force ? ForceWindow{} : acceptable_force(there));
         if (state.interrupted) { // resumed, the same step is made
             ahead_ = ahead;
             length_ = planned;
@@ -148,7 +149,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
         if (!state.converged && !predicts_ && last_try)
             throw io::PhysicsError(
                 fmt::format("no equilibrium was found with the {} {:.6g} Å",
-                            along_ != Along::z                     ? "block moved sideways by"
+                            along_ != Along::z                      ? "block moved sideways by"
                             : options_.along == Constraint::Of::top ? "top plane displaced by"
                                                                     : "mean height displaced by",
                             there),

@@ -10,8 +10,8 @@
 // spring is stable then; only patches of the surface can still be unstable. Below, "top" is then
 // that mean height, as a displacement.
 //
-// A slide changes the place of the block over the substrate, at the same height of what is held. Then
-// the force below is that of the substrate along the slide, and "top" is that place.
+// A slide changes the place of the block over the substrate, at the same height of what is held.
+// Then the force below is that of the substrate along the slide, and "top" is that place.
 //
 // Between two points, the work of the top plane -int F dz_top is the change of the energy
 // U_LJ + U_el, unless the block became unstable in between and went over to another state: the
@@ -161,18 +161,18 @@ private:
     StepRecord record_;
     bool reversible_ = false; ///< the last step was: good for a prediction
     bool predicts_ = false;   ///< the next relaxation starts from a prediction
-    bool bracketed_ = false; ///< the load at which the segment ends
+    bool bracketed_ = false;  ///< the load at which the segment ends
     double length_ = 0.0;     ///< of the next step, Å
     Ahead ahead_;
     Segment::Kind kind_ = Segment::approach; ///< of the segment under way
     std::size_t segment_ = 0;                ///< its number
     Along along_ = Along::z;                 ///< what it leads
-    double direction_ = 0.0;  ///< of that; 0: the segment ends where it began
+    double direction_ = 0.0;                 ///< of that; 0: the segment ends where it began
     std::optional<double> end_, load_; ///< where it ends, Å or eV/Å; none: an approach's, or apart
     ForceTrail trail_;
     bool attracted_ = false;
     double strongest_ = 0.0; ///< attraction so far, eV/Å
-    double work_ = 0.0; ///< of the segment, eV
+    double work_ = 0.0;      ///< of the segment, eV
     SegmentError error_;
     double energy_at_start_ = 0.0;
     double scale_ = 0.0;   ///< largest energy seen, for the residual, eV

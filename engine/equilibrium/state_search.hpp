@@ -40,8 +40,8 @@
 #pragma once
 
 #include "engine/equilibrium/continuation.hpp"
-#include "engine/equilibrium/path_results.hpp"
 #include "engine/equilibrium/force_trail.hpp"
+#include "engine/equilibrium/path_results.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -154,9 +154,9 @@ InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
                                const VectorPlane<double>& force, double reference_height,
                                SweepOptions how) const {
     how.mixed = options_.mixed || (how.mixed && options_.single_too);
-    return sweep_sites({over_substrate(displacement), force, spacing_, reference_height, tile_.x0,
-                        tile_.y0, {}},
-                       how);
+    return sweep_sites(
+        {over_substrate(displacement), force, spacing_, reference_height, tile_.x0, tile_.y0, {}},
+        how);
 }
 
 InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, SweepOptions how) const {
@@ -203,11 +203,14 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
         static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
     maps.contact.resize(count);
     const VectorPlane<const double> u = over_substrate(displacement);
-    const InterfaceSites sites{
-        u,                force.plane(0),
-        spacing_,         reference_height,
-        tile_.x0,         tile_.y0,
-        nearest.plane(0), {maps.contact.data(), tile_.nx, tile_.nx, tile_.ny}};
+    const InterfaceSites sites{u,
+                               force.plane(0),
+                               spacing_,
+                               reference_height,
+                               tile_.x0,
+                               tile_.y0,
+                               nearest.plane(0),
+                               {maps.contact.data(), tile_.nx, tile_.nx, tile_.ny}};
     sweep_sites(sites, {.observe = true, .mixed = options_.mixed});
     maps.distance.reserve(count);
     maps.gap.reserve(count);
@@ -219,10 +222,9 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
             maps.distance.push_back(r2 < no_pair ? std::sqrt(r2)
                                                  : std::numeric_limits<double>::infinity());
             maps.pressure.push_back(sites.force.z(x, y) * to_gpa);
-            const double below =
-                wall() ? wall()->height()(x, y)
-                       : map_.between((tile_.x0 + x + 0.5) * spacing_ + u.x(x, y),
-                                      (tile_.y0 + y + 0.5) * spacing_ + u.y(x, y));
+            const double below = wall() ? wall()->height()(x, y)
+                                        : map_.between((tile_.x0 + x + 0.5) * spacing_ + u.x(x, y),
+                                                       (tile_.y0 + y + 0.5) * spacing_ + u.y(x, y));
             maps.gap.push_back(reference_height + displacement.z(x, y) - below);
         }
     return maps;

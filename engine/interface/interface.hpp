@@ -65,9 +65,9 @@ public:
                         const VectorPlane<double>& force, double reference_height,
                         SweepOptions how = {}) const;
 
-    /// The block stands at (x, y) over the substrate from now on, Å: (0, 0) at first. Whole spacings
-    /// move the substrate and make its tables anew; what is left is added to the displacements of
-    /// each sweep. Only with options.slides.
+    /// The block stands at (x, y) over the substrate from now on, Å: (0, 0) at first. Whole
+    /// spacings move the substrate and make its tables anew; what is left is added to the
+    /// displacements of each sweep. Only with options.slides.
     void slide_to(double x, double y);
     const std::array<double, 2>& place() const { return place_; }
 

@@ -20,7 +20,8 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
                                           std::size_t to) {
     constexpr double window = 2.0; // ps
     if (path.time.empty() || to - from < 3) return std::nullopt;
-    // A segment's first row is that of the step after the last one's end, between two of the series.
+    // A segment's first row is that of the step after the last one's end, between two of the
+    // series.
     const double spacing = path.time[from + 2] - path.time[from + 1];
     const auto rows = static_cast<std::size_t>(std::lround(window / spacing));
     if (rows < 4 || to - from < rows) return std::nullopt;
@@ -43,7 +44,8 @@ void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segment
         double number = -1.0;
         for (std::size_t i = 0; i < segments.size(); ++i)
             if (segments[i].kind == kind) number = static_cast<double>(i);
-        const auto [first, end] = std::equal_range(path.segment.begin(), path.segment.end(), number);
+        const auto [first, end] =
+            std::equal_range(path.segment.begin(), path.segment.end(), number);
         return std::pair{static_cast<std::size_t>(first - path.segment.begin()),
                          static_cast<std::size_t>(end - path.segment.begin())};
     };

@@ -15,8 +15,8 @@ namespace asperity {
 /// The series of a run, a value a row.
 struct PathSeries {
     std::vector<double> segment; ///< number of it
-    std::vector<double> time;  ///< ps; empty for a quasi-static path
-    std::vector<double> force; ///< eV/Å, positive pushes
+    std::vector<double> time;    ///< ps; empty for a quasi-static path
+    std::vector<double> force;   ///< eV/Å, positive pushes
     std::vector<double> contact_fraction;
 };
 /// What the last approach and pull-off of a whole path over a sphere add to a result:

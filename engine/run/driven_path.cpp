@@ -78,10 +78,9 @@ void DrivenPath::conclude_approach(const Account& now) {
 void DrivenPath::conclude_pull_off(const Account& now, std::size_t number) {
     WayEnergies& out = results_.pull_off;
     const double interface_work = simulation_.ledger().interface; // to where it is bound so much
-    out.interface_work =
-        -per_area_ * (interface_work - segment_start_.interface_work + now.bound);
-    out.drive_work = per_area_ * (now.drive_work - segment_start_.drive_work - now.bound -
-                                  kinetic_at_start_);
+    out.interface_work = -per_area_ * (interface_work - segment_start_.interface_work + now.bound);
+    out.drive_work =
+        per_area_ * (now.drive_work - segment_start_.drive_work - now.bound - kinetic_at_start_);
     if (scene_.drive.temperature == 0.0) { // else heat goes both ways
         results_.lost_in_cycle =
             per_area_ * (lost_since_apart(now) + now.energy - now.bound - kinetic_at_start_);

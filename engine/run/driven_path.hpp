@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A path in time as its scene's drive takes it: where it starts, what the drive is told after each
-// step, and the works of a segment that has ended. It steps nothing and writes nothing: a run does that
-// (dynamic_run.cpp), or a program with a loop of its own (library/asperity.hpp).
+// step, and the works of a segment that has ended. It steps nothing and writes nothing: a run does
+// that (dynamic_run.cpp), or a program with a loop of its own (library/asperity.hpp).
 //
 //     path.start();
 //     while (!path.over()) {
@@ -36,8 +36,8 @@ public:
     void start();
     /// No step is left to be made.
     bool over() const { return !ended_ && !concluding_ && simulation_.drive().done(); }
-    /// The step after a segment is to be observed, so that a guard has seen the energy balance before
-    /// anything is concluded.
+    /// The step after a segment is to be observed, so that a guard has seen the energy balance
+    /// before anything is concluded.
     bool must_observe() const { return ended_.has_value(); }
     /// Tells the drive what this step felt. Throws io::PhysicsError where an approach or a load
     /// that was to end under a pull ended without.
@@ -62,10 +62,10 @@ public:
 private:
     /// At an observed step, eV.
     struct Account {
-        double drive_work = 0.0; ///< of the top plane and the damping medium, which move alike
-        double lost = 0.0;       ///< damped, or taken by absorbing seams
-        double energy = 0.0;     ///< kinetic, elastic and of the interface
-        double bound = 0.0;      ///< of the interface alone
+        double drive_work = 0.0;     ///< of the top plane and the damping medium, which move alike
+        double lost = 0.0;           ///< damped, or taken by absorbing seams
+        double energy = 0.0;         ///< kinetic, elastic and of the interface
+        double bound = 0.0;          ///< of the interface alone
         double interface_work = 0.0; ///< int F dz of the mean height
 
         template <class Visitor>
@@ -90,10 +90,10 @@ private:
     PathResults& results_;
     const double per_area_ = units::milli_per_unit / (case_.area());
     ApproachStart start_;
-    double kinetic_at_start_ = 0.0; ///< of the block moving with the drive, eV
-    Account apart_;                 ///< where the solids were last out of reach
-    Account segment_start_;         ///< where the segment under way began
-    double interface_work_ = 0.0;   ///< int F dz to where the last segment ended, eV
+    double kinetic_at_start_ = 0.0;         ///< of the block moving with the drive, eV
+    Account apart_;                         ///< where the solids were last out of reach
+    Account segment_start_;                 ///< where the segment under way began
+    double interface_work_ = 0.0;           ///< int F dz to where the last segment ended, eV
     std::optional<std::size_t> ended_;      ///< the segment that the last step ended
     std::optional<std::size_t> concluding_; ///< the segment that ended the step before
 };

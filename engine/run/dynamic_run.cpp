@@ -46,8 +46,8 @@ public:
     }
 
 private:
-    /// The loop over time: step, guard, record, tell the drive; a segment that has ended is concluded
-    /// one step later.
+    /// The loop over time: step, guard, record, tell the drive; a segment that has ended is
+    /// concluded one step later.
     void integrate() {
         for (;;) {
             if (path_.to_conclude() && !conclude(*path_.to_conclude())) return;
@@ -60,8 +60,8 @@ private:
             }
             if (run_.look_is_due() && run_.stop_here(state_writer(), position())) return;
             const auto frame = begin_frame();
-            // The step after a segment and the last of all are observed, so that the guard has seen the
-            // energy balance before anything is concluded.
+            // The step after a segment and the last of all are observed, so that the guard has seen
+            // the energy balance before anything is concluded.
             const bool due = simulation_.steps() % scene_.output.series == 0;
             const StepRecord& now =
                 simulation_.step(due || path_.must_observe() || next_step_is_last());
@@ -132,13 +132,13 @@ private:
     bool find_state() {
         const auto t = run_.phases.time(Phase::relax);
         const double height = simulation_.reference_height();
-        const LayerAtRest found =
-            bring_to_rest(simulation_.block(), run_.surface, height, case_,
-                          [&](long long iteration, double residual) {
-                              show_relaxation(run_.progress, iteration, residual);
-                              return run_.stop_relaxation();
-                          },
-                          simulation_.now().slide);
+        const LayerAtRest found = bring_to_rest(
+            simulation_.block(), run_.surface, height, case_,
+            [&](long long iteration, double residual) {
+                show_relaxation(run_.progress, iteration, residual);
+                return run_.stop_relaxation();
+            },
+            simulation_.now().slide);
         if (!found.numbers) return false;
         run_.results.zero_load = found.numbers;
         if (case_.maps.zero_load)
@@ -171,8 +171,7 @@ private:
     void record_row() {
         const auto t = run_.phases.time(Phase::output);
         const bool keep = run_.recorder().rows() % rows_between_snapshots == 0;
-        run_.recorder().row(simulation_.now(), simulation_.drive().segment(),
-                            scene_.surface.sites);
+        run_.recorder().row(simulation_.now(), simulation_.drive().segment(), scene_.surface.sites);
         if (!keep) return;
         snapshot_.take(simulation_);
         snapshot_numbers_ = {};

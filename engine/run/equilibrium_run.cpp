@@ -270,7 +270,7 @@ private:
     }
     void write_state(const io::FilePlace& file) {
         CollectNumbers collect;
-        Place place{block_.top(), segment_,      at_end_,
+        Place place{block_.top(), segment_,   at_end_,
                     points(),     searching_, run_.results.states && !searching_};
         collect("place", place);
         if (place.on_path) collect("path", path_);
@@ -342,9 +342,9 @@ private:
     QuasistaticPath path_;
     StateSearch search_;
     std::size_t segment_ = 0; ///< number of the one under way
-    bool at_end_ = false;    ///< it has come to its end and is to be concluded
-    bool resumed_ = false;   ///< it goes on from a checkpoint
-    bool searching_ = false; ///< for all states, the first being found
+    bool at_end_ = false;     ///< it has come to its end and is to be concluded
+    bool resumed_ = false;    ///< it goes on from a checkpoint
+    bool searching_ = false;  ///< for all states, the first being found
 };
 
 } // namespace

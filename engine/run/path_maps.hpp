@@ -21,8 +21,9 @@ public:
     bool any() const { return times_.every || times_.pull_off; }
     bool due(long long step) const { return times_.every && step % *times_.every == 0; }
     /// Collective.
-    void watch(long long step, Segment::Kind kind, double attraction, const VectorPlane<const double>& layer,
-               const Interface& interface, double reference_height, Recorder& recorder);
+    void watch(long long step, Segment::Kind kind, double attraction,
+               const VectorPlane<const double>& layer, const Interface& interface,
+               double reference_height, Recorder& recorder);
     /// At the end of the work. Collective.
     void write_kept(const Interface& interface, Recorder& recorder);
 

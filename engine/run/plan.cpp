@@ -166,8 +166,7 @@ Plan make_plan(const Case& c, int threads) {
         plan.state_ended = rehearsal.state_ended();
         plan.iterations = rehearsal.iterations();
         if (plan.typical)
-            plan.iterations += std::llround(iterations_of_point * points_over_steps *
-                                            path.way() /
+            plan.iterations += std::llround(iterations_of_point * points_over_steps * path.way() /
                                             std::min(c.scene.drive.step, c.longest_step));
         plan.state.seconds = share * static_cast<double>(plan.iterations) * rehearsal.iteration();
     }

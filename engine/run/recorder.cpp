@@ -20,7 +20,7 @@ namespace {
 struct Row {
     const StepRecord& r;
     double segment; ///< its number
-    double sites; ///< N^2
+    double sites;   ///< N^2
 };
 
 /// absorbing: in time, where seams absorb; sliding: where the path slides.

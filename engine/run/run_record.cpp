@@ -92,7 +92,8 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].mean_height", i, s.mean_height);
         result.set("segments[].top_displacement", i, s.top);
         result.set("segments[].contact_fraction", i, static_cast<double>(s.in_contact) / sites);
-        if (c.on(Effect::sliding)) result.set("segments[].slide", i, std::vector{s.slide[0], s.slide[1]});
+        if (c.on(Effect::sliding))
+            result.set("segments[].slide", i, std::vector{s.slide[0], s.slide[1]});
     }
 }
 

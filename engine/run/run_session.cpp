@@ -190,8 +190,8 @@ void RunSession::open_recorder() {
         write_sphere_curves(file, case_, rough);
     };
     recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
-                      case_.in_time ? DriveMode::dynamic : DriveMode::quasistatic,
-                      case_.effects, resumed_at_, add);
+                      case_.in_time ? DriveMode::dynamic : DriveMode::quasistatic, case_.effects,
+                      resumed_at_, add);
 }
 
 void RunSession::collect(CollectNumbers& numbers) {
@@ -223,9 +223,8 @@ double RunSession::processor_seconds() const {
 
 double RunSession::way_done(std::size_t segment, double top, double start_height) const {
     const ExpectedPath path = expected_path(case_, start_height);
-    const double ended = std::accumulate(path.ways.begin(),
-                                         path.ways.begin() + static_cast<std::ptrdiff_t>(segment),
-                                         0.0);
+    const double ended = std::accumulate(
+        path.ways.begin(), path.ways.begin() + static_cast<std::ptrdiff_t>(segment), 0.0);
     const double all = std::accumulate(path.ways.begin(), path.ways.end(), 0.0);
     const double depth = path.deepest + top; // of an approach still to come, of a pull-off done
     double here = 0.0;

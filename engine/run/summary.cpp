@@ -68,7 +68,8 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
     }
     if (c.guided()) {
         if (const Number lost = of("lost.cycle"))
-            fmt::print(to, "  From the approach to the end of the pull-off {:.2f} meV/Å² are lost.\n",
+            fmt::print(to,
+                       "  From the approach to the end of the pull-off {:.2f} meV/Å² are lost.\n",
                        *lost);
         return;
     }
@@ -104,17 +105,16 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
                                      named("work of the drive", "segments[].work_of_drive"),
                                      named("lost", "segments[].lost"),
                                      named("ends at", "segments[].pressure"),
-                                     named("mean height", "segments[].mean_height"), "contact"};
+                                     named("mean height", "segments[].mean_height"),
+                                     "contact"};
     if (slides) head.push_back(named("friction", "segments[].friction"));
     io::Table table(head);
     const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     for (const SegmentResults& s : results.segments) {
-        std::vector<std::string> row = {c.path[s.number].text,
-                                        number(s.drive_work, 2),
-                                        number(s.lost, 2),
-                                        number(s.force / (c.area() * units::megapascal), 1),
-                                        number(s.mean_height, 2),
-                                        number(static_cast<double>(s.in_contact) / sites, 4)};
+        std::vector<std::string> row = {
+            c.path[s.number].text,    number(s.drive_work, 2),
+            number(s.lost, 2),        number(s.force / (c.area() * units::megapascal), 1),
+            number(s.mean_height, 2), number(static_cast<double>(s.in_contact) / sites, 4)};
         if (slides) row.push_back(number(s.lateral_mean, 2));
         table.row(row);
     }

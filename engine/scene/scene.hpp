@@ -107,19 +107,19 @@ struct Scene {
     struct Drive {
         DriveMode mode = DriveMode::dynamic;
         std::vector<std::string> path = {"approach", "pull-off"}; ///< segments (segment.hpp)
-        double velocity = 5.0;         ///< m/s
-        double step = 0.25;            ///< Å
-        Hold hold = Hold::top;         ///< of a quasi-static path
-        States states = States::first; ///< to be found at zero load
-        double timestep = 10.0;        ///< fs
-        double damping = 0.05;         ///< 1/ps
-        double damping_from = 0.0;     ///< fraction of the thickness above which damping acts
-        std::optional<double> ramp;    ///< ps; empty: one sound transit of the block
-        double load = 0.0;             ///< MPa
-        double temperature = 0.0;      ///< K
-        long long seed = 1;            ///< of the thermal noise
-        long long max_steps = 0;       ///< 0: no limit
-        double tolerance = 1e-4;       ///< eV/Å
+        double velocity = 5.0;                                    ///< m/s
+        double step = 0.25;                                       ///< Å
+        Hold hold = Hold::top;                                    ///< of a quasi-static path
+        States states = States::first;                            ///< to be found at zero load
+        double timestep = 10.0;                                   ///< fs
+        double damping = 0.05;                                    ///< 1/ps
+        double damping_from = 0.0;  ///< fraction of the thickness above which damping acts
+        std::optional<double> ramp; ///< ps; empty: one sound transit of the block
+        double load = 0.0;          ///< MPa
+        double temperature = 0.0;   ///< K
+        long long seed = 1;         ///< of the thermal noise
+        long long max_steps = 0;    ///< 0: no limit
+        double tolerance = 1e-4;    ///< eV/Å
     } drive;
 
     struct Theory {

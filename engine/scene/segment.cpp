@@ -73,7 +73,8 @@ std::vector<Segment> parse_path(const std::vector<std::string>& path, io::Proble
         if (segment.kind == Segment::slide) {
             const std::string axis = amount.substr(0, amount.find(' '));
             if (axis != "x" && axis != "y") {
-                refuse("a slide goes along x or y", fmt::format("for example \"{}\"", found->example));
+                refuse("a slide goes along x or y",
+                       fmt::format("for example \"{}\"", found->example));
                 continue;
             }
             segment.axis = axis == "y";

@@ -16,11 +16,12 @@ using Switch = Effects::Switch;
 
 /// What several rules ask of a case.
 bool follows_path(const Case& c) {
-    return std::any_of(c.path.begin(), c.path.end(), [](const Segment& s) { return s.kind != Segment::zero_load; });
+    return std::any_of(c.path.begin(), c.path.end(),
+                       [](const Segment& s) { return s.kind != Segment::zero_load; });
 }
 std::string equilibria(const Case& c) {
     return c.has(Segment::zero_load) ? "drive.path = [\"zero-load\"]"
-                                            : "drive.mode = \"quasistatic\"";
+                                     : "drive.mode = \"quasistatic\"";
 }
 Switch off_without_time(const Case& c) { return {false, "no time passes: " + equilibria(c)}; }
 
@@ -67,7 +68,8 @@ Switch observation(const Case& c) {
 
 Switch maps(const Case& c) {
     const MapTimes& m = c.maps;
-    if (m.zero_load || m.pull_off || m.segments || (follows_path(c) && m.every) || !m.after_zero_load.empty())
+    if (m.zero_load || m.pull_off || m.segments || (follows_path(c) && m.every) ||
+        !m.after_zero_load.empty())
         return {true, "output.fields asks for them"};
     return {false, "output.fields asks for no state of this path"};
 }

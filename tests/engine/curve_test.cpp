@@ -31,7 +31,8 @@ TEST(Paths, OfASphereTellItsRadiusAndItsMeanForce) {
     for (int i = 0; i < 40; ++i) {
         const bool out = i >= 15;
         path.segment.push_back(out ? 1.0 : 0.0);
-        // Eight rows in 2 ps. The first row of a segment may lie anywhere between two of the series.
+        // Eight rows in 2 ps. The first row of a segment may lie anywhere between two of the
+        // series.
         path.time.push_back(i == 15 ? 0.25 * 16 - 0.1 : 0.25 * i);
         path.force.push_back(i == 20 ? -90.0 : i >= 25 && i < 33 ? -50.0 : 0.0);
         path.contact_fraction.push_back(i == 20 ? 0.04 : 0.01);

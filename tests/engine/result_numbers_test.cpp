@@ -73,8 +73,8 @@ TEST(ResultNumbers, AreTheSameAfterAResume) {
         const io::Scratch scratch;
         const Json whole = test::run_scene(read_scene_text(text, "s.toml"), scratch / "whole");
         const auto steps = io::find(whole, "run.steps")->get<long long>();
-        // Stopped late on the pull-off: both segments' instabilities are behind, some of their work to
-        // come.
+        // Stopped late on the pull-off: both segments' instabilities are behind, some of their work
+        // to come.
         const Json parts = run_in_two_parts(text, steps - steps / 20, scratch / "parts");
         if (&text == &unstable) {
             EXPECT_GT(io::find(whole, listed_instabilities)->size(), 1u);
@@ -96,9 +96,9 @@ TEST(ResultNumbers, AnInstabilityLiesBetweenTwoRowsOfTheSeries) {
     const auto column = [&](const char* name) {
         return file.read<double>(std::string("/series/") + name);
     };
-    const auto top = column("top_displacement"), lost = column("dissipated"), segment = column("segment"),
-               force = column("top_force"), height = column("mean_height"),
-               contact = column("contact_fraction");
+    const auto top = column("top_displacement"), lost = column("dissipated"),
+               segment = column("segment"), force = column("top_force"),
+               height = column("mean_height"), contact = column("contact_fraction");
     const Json& jumps = *io::find(result, listed_instabilities);
     ASSERT_GT(jumps.size(), 1u);
     double strongest = 0.0;

@@ -144,7 +144,8 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
                 energy("work_of_adhesion.pairwise") - energy("zero_load.elastic_energy"), 1e-9);
 
     // The series.
-    const auto force = run.data("/series/force", "eV/Å"), segment = run.data("/series/segment", "1"),
+    const auto force = run.data("/series/force", "eV/Å"),
+               segment = run.data("/series/segment", "1"),
                top = run.data("/series/top_displacement", "Å");
     double strongest[2] = {0.0, 0.0}, work[2] = {0.0, 0.0};
     for (std::size_t i = 0; i < force.size(); ++i) {

@@ -29,7 +29,8 @@ TEST(Drive, ApproachEndsWhereTheForceComesBackToZero) {
     EXPECT_EQ(drive.velocity(0.0), -5e-5);
     EXPECT_FALSE(drive.observe({0.0, 0.0, 0.0, false})) << "out of reach is not contact";
     EXPECT_FALSE(drive.observe({10.0, -1.0, 0.0, false}));
-    EXPECT_FALSE(drive.observe({20.0, -9.0, 0.0, true})) << "nothing ends an approach but the force";
+    EXPECT_FALSE(drive.observe({20.0, -9.0, 0.0, true}))
+        << "nothing ends an approach but the force";
     EXPECT_FALSE(drive.observe({30.0, -0.01, 0.0, false}));
     EXPECT_TRUE(drive.observe({40.0, 0.02, 0.0, false}));
     EXPECT_EQ(drive.now().kind, Segment::pull_off);

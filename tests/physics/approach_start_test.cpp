@@ -91,8 +91,8 @@ TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
         const StepRecord& now = s.step(true);
         strongest = std::max(strongest, -now.force);
         const std::size_t segment = s.drive().segment();
-        if (s.drive().observe({now.time, now.force, now.top,
-                               out_of_reach(now.top, now.force, strongest)}) &&
+        if (s.drive().observe(
+                {now.time, now.force, now.top, out_of_reach(now.top, now.force, strongest)}) &&
             segment == 0)
             turn = s.ledger().interface;
         ASSERT_LT(s.steps(), 100000);

@@ -392,8 +392,10 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
         const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
         EXPECT_GE(lost.total(), m.least * state);
         const double allowed = 0.2 * tolerance * c.sites();
-        EXPECT_NEAR(-path.work(Segment::approach) + path.lost(Segment::approach), state, allowed * way);
-        EXPECT_NEAR(path.work(Segment::pull_off) - path.lost(Segment::pull_off), state, allowed * back);
+        EXPECT_NEAR(-path.work(Segment::approach) + path.lost(Segment::approach), state,
+                    allowed * way);
+        EXPECT_NEAR(path.work(Segment::pull_off) - path.lost(Segment::pull_off), state,
+                    allowed * back);
         EXPECT_NEAR(path.work(Segment::approach) - -path.work(Segment::pull_off), lost.total(),
                     allowed * (way + back));
         EXPECT_LT(std::abs(path.now().residual), 1e-3);

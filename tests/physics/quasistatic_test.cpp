@@ -182,7 +182,8 @@ TEST(Quasistatic, WorkUnderLoadIsTheEnergyGained) {
         EXPECT_EQ(path.dissipation().total(), 0.0);
         const double allowed = tolerance * c.sites() * 13.0;
         ASSERT_GT(path.now().elastic_energy, 20.0 * allowed) << "the case must tell it";
-        EXPECT_NEAR(-path.work(Segment::approach), before - energy(path.now()), allowed) << pressure;
+        EXPECT_NEAR(-path.work(Segment::approach), before - energy(path.now()), allowed)
+            << pressure;
     }
 }
 

@@ -30,8 +30,8 @@ enum class Friction { with, without };
 /// A path that keeps the numbers of the last segment of each kind.
 class KeptPath : public QuasistaticPath {
 public:
-    using QuasistaticPath::QuasistaticPath;
     using QuasistaticPath::advance;
+    using QuasistaticPath::QuasistaticPath;
 
     /// A new segment.
     void lead(const Segment& segment) {
@@ -81,7 +81,7 @@ struct PathCase {
           interface(surface, grid.tile(0), o.spacing, over(wall)), block(o, Communicator(), true) {}
 
     KeptPath path(double tolerance, double step = 0.25, double load = 0.0,
-                         Constraint::Of along = Constraint::Of::top) {
+                  Constraint::Of along = Constraint::Of::top) {
         PathOptions p;
         p.along = along;
         p.step = step;
