@@ -175,12 +175,13 @@ public:
         take_in_writes();
         Looking looking(look);
         const double height = simulation_.reference_height();
-        const asperity::LayerAtRest found =
-            asperity::bring_to_rest(simulation_.block(), surface_, height, case_,
-                                    [&](long long, double) { // what it throws ends the search
-                                        looking.now_and_then();
-                                        return false;
-                                    });
+        const asperity::LayerAtRest found = asperity::bring_to_rest(
+            simulation_.block(), surface_, height, case_,
+            [&](long long, double) { // what it throws ends the search
+                looking.now_and_then();
+                return false;
+            },
+            simulation_.now().slide);
         const asperity::ZeroLoad& z = *found.numbers;
         RestState state;
         state.binding_energy = z.binding_energy;

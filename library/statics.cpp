@@ -67,14 +67,15 @@ public:
         Looking looking(look);
         looking_ = &looking;
         using Outcome = asperity::QuasistaticPath::Outcome;
-        if (const auto goal = std::exchange(goal_, {})) {
-            path_->begin(*goal);
+        if (goal_) {
+            path_->begin(*goal_);
             for (auto outcome = Outcome::point; outcome == Outcome::point;) {
                 outcome = path_->advance();
                 if (outcome == Outcome::interrupted)
                     std::rethrow_exception(std::exchange(thrown_, nullptr));
                 guard();
             }
+            goal_.reset();
         }
         return now();
     }

@@ -85,8 +85,9 @@ public:
     /// segment leads to is not there.
     bool observe(const Felt& felt);
 
-    /// By hand: from now on the top plane moves at this velocity, Å/fs, and no segment ends; none:
-    /// the drive goes on where it was. Not in checkpoints.
+    /// By hand: from now on the top plane moves at this velocity, Å/fs, nothing slides, and no
+    /// segment ends; none: the segment goes on, and a height, a hold or a slide ends when it would
+    /// have, wherever it is. Not in checkpoints.
     void take_over(std::optional<double> velocity) { by_hand_ = velocity; }
     const std::optional<double>& by_hand() const { return by_hand_; }
 

@@ -178,6 +178,21 @@ void Simulation::advance_block(bool observe) {
     if (slides()) slide();
 }
 
+/// Force and work of the step sideways: a trapezium, as along z. Before the next step has come.
+void Simulation::update_slide() {
+    const std::array<double, 2> force = global_sums(communicator(), lateral_);
+    const std::array<double, 2>& place = interface_.place();
+    double work = 0.0;
+    if (has_previous_)
+        for (std::size_t axis : {0u, 1u})
+            work -= 0.5 * (force[axis] + record_.lateral_force[axis]) *
+                    (place[axis] - record_.slide[axis]);
+    ledger_.top_work += work;
+    ledger_.lateral += work;
+    record_.slide = place;
+    record_.lateral_force = force;
+}
+
 /// To where the block stands over the substrate at the next step.
 void Simulation::slide() {
     const double middle = (static_cast<double>(step_) + 0.5) * options_.dt;
@@ -203,14 +218,12 @@ void Simulation::begin_record(bool observe) {
 void Simulation::update_energy_balance() {
     // One reduction a step (and one for the counts of an observed one).
     const auto sums =
-        global_sums(communicator(), std::array{interface_sums_.force_z, lowest_z_, top_force_,
-                                               kick_sums_.dissipated, kick_sums_.dragged, heat_,
-                                               interface_sums_.energy, elastic_, kick_sums_.kinetic,
-                                               radiated_, lateral_[0], lateral_[1]});
-    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic, radiated,
-                lateral_x, lateral_y] = sums;
-    const std::array lateral{lateral_x, lateral_y};
-    const auto& here = interface_.place();
+        global_sums(communicator(),
+                    std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                               kick_sums_.dissipated, kick_sums_.dragged, heat_,
+                               interface_sums_.energy, elastic_, kick_sums_.kinetic, radiated_});
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic,
+                radiated] = sums;
 
     const double sites = static_cast<double>(options_.block.sites);
     const double mean_height = reference_height_ + lowest / (sites * sites);
@@ -219,10 +232,6 @@ void Simulation::update_energy_balance() {
     if (has_previous_) {
         // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
         ledger_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
-        if (slides())
-            for (std::size_t axis : {0u, 1u})
-                ledger_.top_work -= 0.5 * (lateral[axis] + record_.lateral_force[axis]) *
-                                    (here[axis] - record_.slide[axis]);
         ledger_.interface += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
         // What the medium takes and gives likewise, half of it at each end; noise given after n-1
         // was observed is part of n's energy, that of n is not yet.
@@ -231,6 +240,7 @@ void Simulation::update_energy_balance() {
         ledger_.heat += pending_.heat;
     }
 
+    if (slides()) update_slide();
     if (external_ || external_pending_ != 0.0) book_external();
 
     // Taken at the start of the step, before its energies.
@@ -244,8 +254,6 @@ void Simulation::update_energy_balance() {
     record_.mean_height = mean_height;
     record_.force = force;
     record_.top_force = top_force;
-    record_.slide = here;
-    record_.lateral_force = lateral;
     if (!record_.observed) return;
 
     const ContactCount contacts = count_contacts(interface_sums_, communicator());

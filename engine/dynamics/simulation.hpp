@@ -63,6 +63,7 @@ struct StepRecord {
 /// Work and dissipation since the start, eV.
 struct Ledger {
     double top_work = 0.0;  ///< done on the block by the top plane, sideways too
+    double lateral = 0.0;   ///< of this, by what moves the block sideways
     double drag_work = 0.0; ///< done on the block by the moving damping medium
     double damped = 0.0;    ///< dissipated against the medium
     double radiated = 0.0;  ///< taken by absorbing seams
@@ -87,6 +88,8 @@ public:
     const Ledger& ledger() const { return ledger_; }
     const SimulationOptions& options() const { return options_; }
     double reference_height() const { return reference_height_; }
+    /// Of the block over the substrate at the next step, Å.
+    const std::array<double, 2>& place() const { return slide_; }
     long long steps() const { return step_; }
     double time() const { return static_cast<double>(step_) * options_.dt; }
     Drive& drive() { return drive_; }
@@ -137,6 +140,7 @@ private:
     double velocity_of_top() const;
     bool slides() const { return options_.interface.slides; }
     void slide();
+    void update_slide();
     bool next_is_observed(bool observe);
     void begin_record(bool observe);
     bool absorbs() const { return absorbs_every_ > 0; }
@@ -228,6 +232,8 @@ void Simulation::visit(Visitor& v) {
         v("slide", slide_);
         v("record.slide", record_.slide);
         v("record.lateral_force", record_.lateral_force);
+        v("ledger.lateral", ledger_.lateral);
+        interface_.slide_to(record_.slide[0], record_.slide[1]); // where the record is of
     }
 }
 

@@ -9,6 +9,7 @@
 #include "engine/scene/segment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -21,6 +22,7 @@ struct Instability {
     std::size_t segment = 0;                            ///< of the path
     double top = 0.0;                                   ///< displacement of what is held, Å
     double height_before = 0.0, height_after = 0.0;     ///< mean height of the lowest layer, Å
+    std::array<double, 2> slide{};                      ///< place over the substrate, Å
     double force_before = 0.0, force_after = 0.0;       ///< that holding it takes, eV/Å
     std::int64_t contact_before = 0, contact_after = 0; ///< sites
     int site_x = 0, site_y = 0;   ///< the site of the lowest layer that moved most
@@ -34,6 +36,7 @@ struct Instability {
         v("top", top);
         v("height_before", height_before);
         v("height_after", height_after);
+        v("slide", slide);
         v("force_before", force_before);
         v("force_after", force_after);
         v("contact_before", contact_before);

@@ -157,14 +157,15 @@ struct PathResults {
         return slide.amount > 0.0 ? -force : force;
     }
     /// Where the segment under way has ended: what of it follows from the last step or point.
+    /// drive_work: meV/Å^2; lateral_work: of what moves the block sideways, eV.
     SegmentResults ended(std::size_t number, const Segment& segment, const StepRecord& now,
-                         double drive_work, double area) const {
+                         double drive_work, double lateral_work) const {
         SegmentResults r;
         r.number = number;
         r.drive_work = drive_work;
         r.attraction = attraction;
         if (segment.kind == Segment::slide) {
-            r.lateral_mean = drive_work * area / units::milli_per_unit / std::abs(segment.amount);
+            r.lateral_mean = lateral_work / std::abs(segment.amount);
             r.lateral_most = lateral_most;
         }
         r.force = now.force;

@@ -199,11 +199,14 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
         return Outcome::at_load;
     const bool apart = options_.reference_height + record_.top >= interface_.start_height() &&
                        std::abs(record_.force) <= 1e-6 * strongest_;
-    if (apart && load_)
-        throw io::PhysicsError(
-            fmt::format("the solids parted before the pull of {:.4g} eV/Å was reached", -load),
-            "the attraction is nowhere that large on this way", "take a smaller pull");
-    return apart ? Outcome::apart : Outcome::point;
+    if (!apart) return Outcome::point;
+    if (!load_) return Outcome::apart;
+    if (load >= -slack) return Outcome::at_load; // an attraction too weak to be told from none
+    const double a = block_.options().spacing;
+    throw io::PhysicsError(
+        fmt::format("the solids parted before the pull of {:.4g} MPa was reached",
+                    -load / (sites_ * a * a * units::megapascal)),
+        "the attraction is nowhere that large on this way", "take a smaller pull");
 }
 
 /// Of the substrate on the lowest layer, by the forces of the last relaxation. Collective.
@@ -356,8 +359,9 @@ Instability QuasistaticPath::describe(const RelaxedState& state, double energy) 
     instability.top = record_.top;
     instability.height_before = record_.mean_height;
     instability.height_after = options_.reference_height + state.mean_height;
-    instability.force_before = record_.top_force;
-    instability.force_after = state.top_force;
+    instability.slide = record_.slide;
+    instability.force_before = force();
+    instability.force_after = along_ == Along::z ? state.top_force : lateral_force()[axis()];
     instability.contact_before = record_.in_contact;
     instability.contact_after = state.in_contact;
     const LargestSite most = points_.largest_move();

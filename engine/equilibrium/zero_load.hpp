@@ -38,7 +38,7 @@ struct LayerAtRest {
 /// if stop asked for an end.
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
                           const Case& c, const std::function<bool(long long, double)>& stop,
-                          const std::array<double, 2>& place = {});
+                          const std::array<double, 2>& place);
 
 /// "relaxing, largest force 1e-3 eV/Å"
 void show_relaxation(io::Progress& progress, long long iteration, double residual);

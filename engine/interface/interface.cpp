@@ -310,7 +310,8 @@ Interface::TableSizes Interface::tables_for(const InterfaceOptions& options, con
 }
 
 std::size_t Interface::bytes() const {
-    std::size_t all = map_.heights().size() * sizeof(double) + tail_bytes();
+    std::size_t all = map_.heights().size() * sizeof(double) + tail_bytes() +
+                      3 * atoms_.size() * sizeof(double) + (slid_.empty() ? 0 : slid_.bytes());
     std::visit(
         [&](const auto& substrate) {
             using Kind = std::decay_t<decltype(substrate)>;

@@ -4,14 +4,14 @@
 // The interface: one tile of the block's lowest layer over the rigid substrate
 // (docs/explanation/model.md), whose atoms it meets, or a wall in their place.
 //
-// Built once per run. Every rank knows the whole height map, so nothing is communicated here: the
-// sweep is local to the tile, and its sums are exact (ExactSum), to be merged over ranks in any
-// order.
+// Built once per run, and anew for each spacing that the block slides. Every rank knows the whole
+// height map, so nothing is communicated here: the sweep is local to the tile, and its sums are
+// exact (ExactSum), to be merged over ranks in any order.
 //
 // The kinds of substrate are small classes: OverLattice, OverRows, OverAtoms, OverWall. Each keeps
 // what its sweep reads around the tile, and hands rows of sites to its kernel. substrate_of() says
 // which one is taken. Tables allow for sideways displacements up to two spacings; sites that go
-// beyond are summed by the reference loop, so no pair is ever missed and no table is rebuilt.
+// beyond are summed by the reference loop, so no pair is ever missed.
 #pragma once
 
 #include "decomposition/communicator.hpp"

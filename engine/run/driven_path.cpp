@@ -17,8 +17,16 @@ void DrivenPath::start() {
 
 void DrivenPath::follow(const StepRecord& now) {
     if (now.step == 0) {
-        kinetic_at_start_ = now.kinetic_energy;
-        apart_ = segment_start_ = {0.0, 0.0, start_.energy + kinetic_at_start_, start_.energy, 0.0};
+        const BlockOptions& block = case_.simulation.block;
+        const double v = case_.simulation.drive.velocity, sites = block.sites;
+        // What the block has that starts at full speed; of one that starts at rest, by its mass.
+        kinetic_at_full_speed_ =
+            simulation_.drive().velocity(0.0) != 0.0
+                ? now.kinetic_energy
+                : 0.5 * block.atom_mass * sites * sites * block.thickness * v * v;
+        const double moving = kinetic_as_top(0.0);
+        apart_ =
+            segment_start_ = {0.0, 0.0, start_.energy + moving, start_.energy, 0.0, moving, 0.0};
     }
     if (ended_)
         concluding_ = std::exchange(ended_, std::nullopt);
@@ -29,10 +37,11 @@ void DrivenPath::follow(const StepRecord& now) {
 /// The segment that ended with this step, if one did.
 std::optional<std::size_t> DrivenPath::tell_drive(const StepRecord& now) {
     Drive& drive = simulation_.drive();
-    if (drive.by_hand() || drive.done()) return std::nullopt;
+    if (drive.done()) return std::nullopt;
     const std::size_t number = drive.segment();
     const Segment& segment = case_.path[number];
     results_.feel(segment, now);
+    if (drive.by_hand()) return std::nullopt;
     const bool gone = out_of_reach(now.top, now.force, results_.strongest, start_.force);
     if (!drive.observe({now.time, now.force, now.top, gone})) return std::nullopt;
     interface_work_ = simulation_.ledger().interface;
@@ -48,9 +57,9 @@ void DrivenPath::conclude(std::size_t number) {
     concluding_.reset();
     const Segment& segment = case_.path[number];
     const Account now = account();
-    SegmentResults ended =
-        results_.ended(number, segment, simulation_.now(),
-                       per_area_ * (now.drive_work - segment_start_.drive_work), case_.area());
+    SegmentResults ended = results_.ended(number, segment, simulation_.now(),
+                                          per_area_ * (now.drive_work - segment_start_.drive_work),
+                                          now.lateral_work - segment_start_.lateral_work);
     ended.interface_work = per_area_ * (now.interface_work - segment_start_.interface_work);
     ended.lost = per_area_ * (now.lost - segment_start_.lost);
     results_.segments.push_back(ended);
@@ -68,7 +77,7 @@ void DrivenPath::conclude_approach(const Account& now) {
     WayEnergies& in = results_.approach;
     in.interface_work = per_area_ * (now.interface_work - apart_.interface_work - apart_.bound);
     in.drive_work =
-        -per_area_ * (now.drive_work - apart_.drive_work + apart_.bound + kinetic_at_start_);
+        -per_area_ * (now.drive_work - apart_.drive_work + apart_.bound + apart_.moving);
     in.lost.reset();
     if (reaches_the_state())
         in.lost =
@@ -80,10 +89,10 @@ void DrivenPath::conclude_pull_off(const Account& now, std::size_t number) {
     const double interface_work = simulation_.ledger().interface; // to where it is bound so much
     out.interface_work = -per_area_ * (interface_work - segment_start_.interface_work + now.bound);
     out.drive_work =
-        per_area_ * (now.drive_work - segment_start_.drive_work - now.bound - kinetic_at_start_);
+        per_area_ * (now.drive_work - segment_start_.drive_work - now.bound - now.moving);
     if (scene_.drive.temperature == 0.0) { // else heat goes both ways
         results_.lost_in_cycle =
-            per_area_ * (lost_since_apart(now) + now.energy - now.bound - kinetic_at_start_);
+            per_area_ * (lost_since_apart(now) + now.energy - now.bound - now.moving);
         const bool straight = number > 0 && case_.path[number - 1].kind == Segment::approach;
         out.lost.reset();
         if (straight && reaches_the_state())
@@ -94,7 +103,7 @@ void DrivenPath::conclude_pull_off(const Account& now, std::size_t number) {
 
 /// Damped or radiated since the solids were last apart, less what vibrated there, eV.
 double DrivenPath::lost_since_apart(const Account& now) const {
-    return now.lost - apart_.lost - (apart_.energy - apart_.bound - kinetic_at_start_);
+    return now.lost - apart_.lost - (apart_.energy - apart_.bound - apart_.moving);
 }
 
 /// The approach ends, but for vibrations, in the state at zero load.
@@ -105,9 +114,19 @@ bool DrivenPath::reaches_the_state() const {
 DrivenPath::Account DrivenPath::account() const {
     const StepRecord& now = simulation_.now();
     const Ledger& ledger = simulation_.ledger();
-    return {ledger.top_work + ledger.drag_work, ledger.lost(),
-            now.interface_energy + now.elastic_energy + now.kinetic_energy, now.interface_energy,
-            interface_work_};
+    return {ledger.top_work + ledger.drag_work,
+            ledger.lost(),
+            now.interface_energy + now.elastic_energy + now.kinetic_energy,
+            now.interface_energy,
+            interface_work_,
+            kinetic_as_top(now.time),
+            ledger.lateral};
+}
+
+/// Of the block moving as the top plane does at that time, eV.
+double DrivenPath::kinetic_as_top(double time) const {
+    const double part = simulation_.drive().velocity(time) / case_.simulation.drive.velocity;
+    return kinetic_at_full_speed_ * part * part;
 }
 
 } // namespace asperity

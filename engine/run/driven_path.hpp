@@ -53,7 +53,7 @@ public:
         v("ended", ended_);
         v("concluding", concluding_);
         v("start", start_);
-        v("kinetic_at_start", kinetic_at_start_);
+        v("kinetic_at_full_speed", kinetic_at_full_speed_);
         v("apart", apart_);
         v("segment_start", segment_start_);
         v("interface_work", interface_work_);
@@ -67,6 +67,8 @@ private:
         double energy = 0.0;         ///< kinetic, elastic and of the interface
         double bound = 0.0;          ///< of the interface alone
         double interface_work = 0.0; ///< int F dz of the mean height
+        double moving = 0.0;         ///< kinetic energy of the block moving as the top plane does
+        double lateral_work = 0.0;   ///< of what moves the block sideways
 
         template <class Visitor>
         void visit(Visitor& v) {
@@ -75,6 +77,8 @@ private:
             v("energy", energy);
             v("bound", bound);
             v("interface_work", interface_work);
+            v("moving", moving);
+            v("lateral_work", lateral_work);
         }
     };
     std::optional<std::size_t> tell_drive(const StepRecord& now);
@@ -83,6 +87,7 @@ private:
     double lost_since_apart(const Account& now) const;
     bool reaches_the_state() const;
     Account account() const;
+    double kinetic_as_top(double time) const;
 
     const Case& case_;
     const Scene& scene_ = case_.scene;
@@ -90,7 +95,7 @@ private:
     PathResults& results_;
     const double per_area_ = units::milli_per_unit / (case_.area());
     ApproachStart start_;
-    double kinetic_at_start_ = 0.0;         ///< of the block moving with the drive, eV
+    double kinetic_at_full_speed_ = 0.0;    ///< of the whole block at the drive's velocity, eV
     Account apart_;                         ///< where the solids were last out of reach
     Account segment_start_;                 ///< where the segment under way began
     double interface_work_ = 0.0;           ///< int F dz to where the last segment ended, eV

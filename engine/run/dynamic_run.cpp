@@ -90,6 +90,7 @@ private:
                                    simulation_.block().lowest_layer(), run_.grid,
                                    simulation_.interface(), simulation_.reference_height());
             delayed_fields_.erase(delayed_fields_.begin());
+            ++delayed_written_;
         }
     }
     /// The path can end before they are due.
@@ -210,11 +211,12 @@ private:
             read_checkpoint(*place, simulation_, run_.fingerprint(), run_.maps.arrays());
         RestoreNumbers restore(numbers);
         restore("loop", path_);
+        restore("delayed_written", delayed_written_);
         run_.restore(restore);
         run_.open_recorder();
-        std::erase_if(delayed_fields_, [&](const auto& field) { // written before it stopped
-            return is_due(field.first, simulation_.now().time);
-        });
+        const auto written = std::min(delayed_written_, delayed_fields_.size());
+        delayed_fields_.erase(delayed_fields_.begin(),
+                              delayed_fields_.begin() + static_cast<std::ptrdiff_t>(written));
         run_.progress.say(
             fmt::format("going on from step {} of {}", simulation_.steps(), place->path()));
         return true;
@@ -224,6 +226,7 @@ private:
         return [&](const io::FilePlace& place) {
             CollectNumbers collect;
             collect("loop", path_);
+            collect("delayed_written", delayed_written_);
             run_.collect(collect);
             write_checkpoint(place, simulation_, collect, run_.fingerprint(), run_.maps.arrays());
         };
@@ -255,6 +258,7 @@ private:
     DrivenPath path_;
     std::optional<StepRecord> failed_; ///< the step that a guard ended the run at
     std::vector<std::pair<double, std::string>> delayed_fields_ = case_.maps.after_zero_load;
+    std::size_t delayed_written_ = 0; ///< of these, the first
     Snapshot snapshot_;
     CollectNumbers snapshot_numbers_;
 };

@@ -159,7 +159,7 @@ private:
         const double lost = per_area * path_.dissipation().in_segment;
         const double uncertainty = per_area * path_.uncertainty();
         PathResults& results = run_.results;
-        SegmentResults ended = results.ended(segment_, now(), path_.now(), work, case_.area());
+        SegmentResults ended = results.ended(segment_, now(), path_.now(), work, path_.work());
         ended.lost = lost;
         ended.uncertainty = uncertainty;
         if (scene_.drive.hold == Hold::mean_height)

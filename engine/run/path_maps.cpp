@@ -18,8 +18,10 @@ void PathMaps::watch(long long step, Segment::Kind kind, double attraction,
                      double reference_height, Recorder& recorder) {
     if (due(step))
         recorder.fields(fmt::format("step-{}", step), layer, grid_, interface, reference_height);
+    if (kind != Segment::pull_off) attraction_ = 0.0; // the next pull-off begins anew
     if (kind != Segment::pull_off || attraction <= attraction_ || !times_.pull_off) return;
     attraction_ = attraction;
+    place_ = interface.place();
     reference_height_ = reference_height;
     kept_ = true;
     const VectorPlane<double> to = layer_.plane(0);
@@ -30,8 +32,9 @@ void PathMaps::watch(long long step, Segment::Kind kind, double attraction,
     }
 }
 
-void PathMaps::write_kept(const Interface& interface, Recorder& recorder) {
+void PathMaps::write_kept(Interface& interface, Recorder& recorder) {
     if (!std::exchange(kept_, false)) return;
+    interface.slide_to(place_[0], place_[1]);
     recorder.fields("pull-off", std::as_const(layer_).plane(0), grid_, interface,
                     reference_height_);
 }

@@ -143,6 +143,7 @@ void write_fields(io::Hdf5File& file, io::PayloadReader record) {
         group = first + "-" + std::to_string(n);
     const auto n = record.get<std::uint64_t>();
     const auto reference_height = record.get<double>();
+    const auto slide_x = record.get<double>(), slide_y = record.get<double>();
     std::vector<double> gap;
     for (const char* map : map_columns) {
         const std::vector<double> values = record.get<double>(n * n);
@@ -151,6 +152,10 @@ void write_fields(io::Hdf5File& file, io::PayloadReader record) {
     }
     io::write_described(file, group + "/contact", {n, n}, record.get<std::uint8_t>(n * n));
     io::write_described_attribute(file, group, "reference_height", reference_height);
+    if (slide_x != 0.0 || slide_y != 0.0) {
+        io::write_described_attribute(file, group, "slide_x", slide_x);
+        io::write_described_attribute(file, group, "slide_y", slide_y);
+    }
     write_gap_density(file, group, gap);
 }
 
@@ -228,6 +233,8 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
         record.put(std::span<const char>(state));
         record.put(static_cast<std::uint64_t>(sites));
         record.put(reference_height);
+        for (const double at : interface.place())
+            record.put(at);
     });
     const auto put = [&](const std::vector<double>& column) { // one at a time: they are large
         ranks.on_root([&] { record.put(column); });
@@ -256,6 +263,10 @@ Recorder::Frame Recorder::begin_frame(const Simulation& simulation, bool velocit
     const Block::Level& level = block.levels().front();
     Frame frame{simulation.steps(), simulation.time(), velocities, {}, {}};
     frame.u = whole_layer(communicator_, block.grid(), level.u.view()[0]);
+    for (std::size_t axis : {0u, 1u}) // positions are over the substrate
+        if (const double place = simulation.place()[axis]; place != 0.0)
+            for (double& u : frame.u[axis])
+                u += place;
     if (velocities) frame.v_before = whole_layer(communicator_, block.grid(), level.v.view()[0]);
     return frame;
 }

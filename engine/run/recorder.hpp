@@ -44,8 +44,7 @@ public:
     using AddToFile = std::function<void(io::Hdf5File&)>;
 
     /// A new journal, or one that goes on from a position which it holds (Journal::holds). The
-    /// surface must outlive the recorder. They and the effects must outlive
-    /// it.
+    /// surface and the effects must outlive the recorder.
     Recorder(const io::Directory& directory, const Surface& surface,
              const Communicator& communicator, DriveMode mode, const Effects& effects,
              const std::optional<Position>& resume, AddToFile add);

@@ -356,7 +356,7 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
     if (piece.on(Effect::relaxation))
         part(Part::state, [&] {
             relax([&](const auto& stop) {
-                rest = bring_to_rest(simulation->block(), surface, height, piece, stop);
+                rest = bring_to_rest(simulation->block(), surface, height, piece, stop, {});
                 return rest.numbers;
             });
         });

@@ -97,7 +97,8 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
     }
 }
 
-void add_dissipation(const PathResults& results, const Scene& scene, io::Result& result) {
+void add_dissipation(const PathResults& results, const Case& c, io::Result& result) {
+    const Scene& scene = c.scene;
     const Dissipation& lost = *results.dissipated;
     const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
     result.set("dissipated.energy", lost.total());
@@ -109,6 +110,8 @@ void add_dissipation(const PathResults& results, const Scene& scene, io::Result&
         result.set("dissipated.jumps[].segment", i, static_cast<long long>(jump.segment));
         result.set("dissipated.jumps[].energy", i, jump.energy);
         result.set("dissipated.jumps[].top_displacement", i, jump.top);
+        if (c.on(Effect::sliding))
+            result.set("dissipated.jumps[].slide", i, std::vector{jump.slide[0], jump.slide[1]});
         result.set("dissipated.jumps[].mean_height", i,
                    both(jump.height_before, jump.height_after));
         result.set("dissipated.jumps[].force", i, both(jump.force_before, jump.force_after));
@@ -197,7 +200,7 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     if (results.zero_load) add_zero_load(*results.zero_load, result);
     if (!results.segments.empty()) add_segments(results, c, result);
     if (results.states) add_states(*results.states, result);
-    if (results.dissipated) add_dissipation(results, c.scene, result);
+    if (results.dissipated) add_dissipation(results, c, result);
     add_theory(c, surface, result);
     add_sphere(c, result);
     result.set("run.ranks", c.ranks);

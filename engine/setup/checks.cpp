@@ -66,6 +66,9 @@ void check_path(const Case& c, io::Problems& problems) {
         case Segment::slide:
             if (after_all)
                 refuse("out of reach", "nothing slides there", "put an \"approach\" before it");
+            if (c.scene.interface.tail)
+                refuse("with interface.tail = true", "the tail has no lateral forces",
+                       "take a larger interface.cutoff and tail = false");
             if (frictionless)
                 refuse("without lateral forces",
                        "over a wall, or with interface.frictionless, nothing resists a slide",

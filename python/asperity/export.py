@@ -204,7 +204,7 @@ class Export:
         n = self._sites(state)
         u = np.column_stack([state[name].ravel() for name in ("u_x", "u_y", "u_z")])
         y, x = np.divmod(np.arange(n * n), n)
-        rest = np.column_stack([self.spacing * (x + 0.5), self.spacing * (y + 0.5),
+        rest = np.column_stack([self.spacing * (x + 0.5) + state.slide[0], self.spacing * (y + 0.5) + state.slide[1],
                                 np.full(n * n, state.reference_height)])
         rigid = len(self.rigid)
         columns = {"displacement": np.vstack([np.zeros((rigid, 3)), u])}

@@ -298,6 +298,13 @@ class State(Group):
         self.name = name
 
     @functools.cached_property
+    def slide(self) -> tuple[float, float]:
+        """Place of the block over the substrate along x and y, Å; 0 where it was not slid."""
+        found = (self._file.attribute(self._path, "slide_" + axis) for axis in "xy")
+        x, y = (float(v) if isinstance(v, (float, int, np.number)) else 0.0 for v in found)
+        return x, y
+
+    @functools.cached_property
     def reference_height(self) -> float:
         """z of undisplaced sites, Å."""
         value = self._file.attribute(self._path, "reference_height")

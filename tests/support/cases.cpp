@@ -130,7 +130,7 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     scene.drive.tolerance = tolerance;
     Case c = resolve(scene);
     c.simulation = options;
-    return asperity::bring_to_rest(moving, surface, reference_height, c, {});
+    return asperity::bring_to_rest(moving, surface, reference_height, c, {}, {});
 }
 
 SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt19937_64& random,
