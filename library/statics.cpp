@@ -51,12 +51,11 @@ public:
     void go_to(Held held, double at) {
         if (!std::isfinite(at)) refuse_number(at);
         hold(held);
-        const double height = held == Held::top ? at + interface_.start_height() : at;
-        goal_ = {asperity::Segment::height, height, 0, ""};
+        goal_ = {.at = held == Held::top ? at : at - interface_.start_height()};
     }
     void go_to_load(double pressure) {
         if (!std::isfinite(pressure)) refuse_number(pressure);
-        goal_ = {asperity::Segment::load, pressure * units::megapascal * case_.area(), 0, ""};
+        goal_ = {.load = pressure * units::megapascal * case_.area()};
     }
 
     Point relax(const Simulation::Look& look) {
@@ -66,17 +65,14 @@ public:
         started_ = true;
         Looking looking(look);
         looking_ = &looking;
-        using Outcome = asperity::QuasistaticPath::Outcome;
-        if (goal_) {
-            path_->begin(*goal_);
-            for (auto outcome = Outcome::point; outcome == Outcome::point;) {
-                outcome = path_->advance();
-                if (outcome == Outcome::interrupted)
-                    std::rethrow_exception(std::exchange(thrown_, nullptr));
-                guard();
-            }
-            goal_.reset();
+        if (!goal_.at && !goal_.load) return now();
+        try {
+            lead();
+        } catch (const io::PhysicsError&) { // it cannot be reached
+            goal_ = {};
+            throw;
         }
+        goal_ = {};
         return now();
     }
 
@@ -107,6 +103,20 @@ public:
     }
 
 private:
+    /// To the goal, which is kept where it was interrupted.
+    void lead() {
+        using Outcome = asperity::QuasistaticPath::Outcome;
+        if (goal_.at)
+            path_->begin_to(*goal_.at);
+        else
+            path_->begin({asperity::Segment::load, *goal_.load});
+        for (auto outcome = Outcome::point; outcome == Outcome::point;) {
+            outcome = path_->advance();
+            if (outcome == Outcome::interrupted)
+                std::rethrow_exception(std::exchange(thrown_, nullptr));
+            guard();
+        }
+    }
     asperity::Surface checked_surface() const {
         case_.require_runnable();
         asperity::require_memory(case_, asperity::Communicator());
@@ -153,7 +163,10 @@ private:
     std::optional<Held> held_;
     std::optional<asperity::QuasistaticPath> path_;
     bool started_ = false;
-    std::optional<asperity::Segment> goal_; ///< where the next relaxation leads it
+    struct Goal {
+        std::optional<double> at{}, load{}; ///< Å, eV/Å
+    };
+    Goal goal_; ///< where the next relaxation leads it
     Looking* looking_ = nullptr;
     std::exception_ptr thrown_;
 };

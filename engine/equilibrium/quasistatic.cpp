@@ -103,6 +103,18 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
     default: // a pull-off
         direction = 1.0;
     }
+    begin(along, direction);
+}
+
+void QuasistaticPath::begin_to(double at) {
+    kind_ = Segment::height;
+    load_.reset();
+    end_ = at;
+    const double from = points_.lead(Along::z);
+    begin(Along::z, at == from ? 0.0 : at < from ? -1.0 : 1.0);
+}
+
+void QuasistaticPath::begin(Along along, double direction) {
     if (along != along_ || direction != direction_) {
         // No points of the segment before for the integral.
         along_ = along;

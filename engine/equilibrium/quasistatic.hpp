@@ -71,6 +71,8 @@ public:
     /// A segment of the path, and its number for what is recorded; amounts in the engine's units (a
     /// load in eV/Å).
     void begin(const Segment& segment, std::size_t number = 0);
+    /// A segment to a displacement of what is held, Å; exactly there.
+    void begin_to(double at);
     enum class Outcome { point, at_load, apart, there, interrupted };
     /// The next point of the segment. at_load: an approach or a load has come to its load (the path
     /// stands there exactly); apart: nothing is left of the force on a pull-off; there: a height or
@@ -137,6 +139,7 @@ private:
     }
     std::size_t axis() const { return static_cast<std::size_t>(along_); }
     std::array<double, 2> lateral_force() const;
+    void begin(Along along, double direction);
     Outcome outcome();
     StepCheck check(const Trial& to) const;
     double slack(std::int64_t in_contact) const;

@@ -51,10 +51,10 @@ def main():
         for hold in ("top", "mean-height"):
             r = asperity.run({}, {**keys, "drive.hold": hold}, out=given.out / f"{n}-{hold}")
             row = f"{n:2d} {'wall ' if n % 2 else 'atoms'} {hold:11s} {r.binding_energy:8.3f}"
-            for leg, sign in (("approach", 1), ("pull_off", -1)):
-                work, lost = r.number(f"work_of_drive.{leg}"), r.number(f"lost.{leg}")
+            for way, sign in (("approach", 1), ("pull_off", -1)):
+                work, lost = r.number(f"work_of_drive.{way}"), r.number(f"lost.{way}")
                 error = work + sign * lost - r.binding_energy
-                stated = r.number(f"work_of_drive.uncertainty.{leg}") + r.binding_energy_uncertainty
+                stated = r.number(f"work_of_drive.uncertainty.{way}") + r.binding_energy_uncertainty
                 scaled.append(error / stated)
                 row += f" {work:9.3f} {lost:8.3f} {error:8.4f} {scaled[-1]:6.2f}"
             print(row, flush=True)
