@@ -200,3 +200,23 @@ def test_damaged_files_are_a_message(path_run, tmp_path, name, shape, kind):
         file[name] = np.zeros(shape)
     said = command("export", copy, "--to", kind, expect=4)
     assert "Traceback" not in said
+
+
+def test_a_slid_block_is_exported_where_it_stands(tmp_path):
+    """Over the substrate: the distances of the positions are those of the map, and frames go along."""
+    run = asperity.run({"surface": {"sites": 16, "rms": 0.5}, "block": {"thickness": 4}, "theory": {"renormalised": False},
+                        "drive": {"path": ["approach", "slide x 3.1 Å"], "velocity": 60.0, "timestep": 20.0, "ramp": 1.0},
+                        "output": {"fields": ["segments"], "trajectory": 20}}, out=tmp_path / "slid")
+    state = run.fields["segment-1"]
+    assert state.slide == pytest.approx((3.1, 0.0), abs=0.02) and run.fields["segment-0"].slide == (0.0, 0.0)
+    command("export", run.directory, "--to", "xyz")
+    (_, rows), = frames_of_xyz(run.directory / "export/segment-1.xyz")
+    block = rows[:, 3] == 2
+    for site in (5, 90, 200):
+        d = rows[block][site, :3] - rows[~block, :3]
+        d[:, :2] -= run.edge * np.round(d[:, :2] / run.edge)
+        assert np.sqrt((d**2).sum(1)).min() == pytest.approx(state.distance.ravel()[site], abs=1e-5)
+    frames = frames_of_xyz(run.directory / "export/trajectory.xyz")
+    first, last = (f[1][f[1][:, 3] == 2][:, 0] for f in (frames[0], frames[-1]))
+    # The lowest layer sticks to the substrate and lags behind the top plane.
+    assert 0.0 < np.mean(last - first) < run.series["slide_x"][-1]
