@@ -13,6 +13,7 @@ import contextlib
 import os
 import signal
 import sys
+import time
 
 from . import program
 from .errors import Error, SceneError
@@ -155,6 +156,12 @@ def _carry_out(given: argparse.Namespace) -> int:
         return sweep_command(scenes, given.sets, given.out, given.theory_only, options)
 
 
+def _after_the_first(code: int) -> int:
+    """The first rank says what is wrong. A launcher ends all ranks with the first one that ends."""
+    time.sleep(5)
+    return code
+
+
 def main(words: list[str]) -> int:
     parser = _parser()
     commands = next(a for a in parser._actions if isinstance(a, argparse._SubParsersAction)).choices
@@ -164,7 +171,7 @@ def main(words: list[str]) -> int:
     leads = several and "mpi" in " ".join(words).replace("=", " ").partition("--executor ")[2].split()[:1]
     if several and rank != 0:
         if not leads:
-            return SceneError.code  # the first of them says why
+            return _after_the_first(SceneError.code)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):  # it tells the others when to stop
             signal.signal(number, signal.SIG_IGN)
     try:
@@ -174,7 +181,7 @@ def main(words: list[str]) -> int:
         return _carry_out(commands[words[0]].parse_intermixed_args(_spelt_out(words[1:]), argparse.Namespace(command=words[0])))
     except Error as error:
         if leads and rank != 0:
-            return error.code
+            return _after_the_first(error.code)
         print(error, file=sys.stderr)
         if error.code == SceneError.code:
             n = error.problems
