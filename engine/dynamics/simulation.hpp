@@ -207,6 +207,8 @@ void Simulation::visit(Visitor& v) {
     v("record.interface_energy", record_.interface_energy);
     v("record.elastic_energy", record_.elastic_energy);
     v("record.kinetic_energy", record_.kinetic_energy);
+    v("record.in_contact", record_.in_contact);
+    v("record.repulsive", record_.repulsive);
     v("record.work", record_.work);
     v("record.interface_work", record_.interface_work);
     v("record.damped", record_.damped);
