@@ -128,7 +128,7 @@ struct SegmentResults {
 };
 
 struct PathResults {
-    std::optional<ZeroLoad> zero_load;     ///< where there are several: the first
+    std::optional<ZeroLoad> zero_load;     ///< of the last approach, or of the path's start
     std::optional<StateList> states;       ///< where all were asked for
     WayEnergies approach, pull_off;        ///< the last of each
     std::optional<double> lost_in_cycle;   ///< from out of reach to out of reach, meV/Å^2
