@@ -83,9 +83,9 @@ find_path(RANDOM123_INCLUDE_DIR Random123/philox.h DOC "The folder that holds Ra
 asperity_need(RANDOM123_INCLUDE_DIR "Random123")
 find_package(Python3 QUIET COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)
 asperity_need(Python3_Interpreter_FOUND "Python 3")
-# Of asperity.Simulation, which is built where they are. The tests, when they are asked for, need it.
+# Of asperity.Simulation, which is built where they are. pip and the tests, when they are asked for, need it.
 find_package(pybind11 QUIET)
-if(ASPERITY_TESTS STREQUAL "ON")
+if(ASPERITY_TESTS STREQUAL "ON" OR SKBUILD)
     asperity_need(Python3_Development.Module_FOUND "headers of Python 3")
     asperity_need(pybind11_FOUND "pybind11")
 endif()

@@ -3,10 +3,10 @@
 //
 // The program: a table of commands, each with its description, its options and its function.
 // The main loop of a simulation is DynamicRun::integrate() in engine/run/dynamic_run.cpp.
-// Every rank of mpirun runs this; how they end together is in engine/commands/ending.hpp.
+// Every rank of mpirun runs this; how they end together is in engine/commands/exit_code.hpp.
 #include "engine/commands/command_line.hpp"
 #include "engine/commands/commands.hpp"
-#include "engine/commands/ending.hpp"
+#include "engine/commands/exit_code.hpp"
 #include "engine/commit.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/stop_signals.hpp"
@@ -176,7 +176,7 @@ int main(int argc, char** argv) {
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
     choose_threads(world);
-    return ended_in_order(world, [&] {
+    return exit_code_of(world, [&] {
         if (session.unconnected() > 0) return refuse_unconnected(session);
         return carry_out(commands, argc, argv, world);
     });

@@ -11,7 +11,7 @@
 namespace asperity {
 
 enum class Phase {
-    interpolate, ///< hanging planes follow the coarse planes
+    interpolate, ///< constrained planes follow the coarse planes
     absorb,      ///< seams take what the next level cannot carry, every so many steps
     interface,   ///< forces of the substrate
     advance,     ///< elastic forces, kick and drift, level by level

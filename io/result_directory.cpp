@@ -87,7 +87,7 @@ std::string choose(const ResultRequest& request, std::vector<std::string>& notes
 }
 
 /// Throws where the request does not fit what is there.
-void judge(const ResultRequest& request, const std::string& path) {
+void check(const ResultRequest& request, const std::string& path) {
     const Holds found = holds(path);
     if (found == Holds::result && !request.resume)
         throw SceneError(Problem{path, "already holds a result", "results are not written over",
@@ -151,7 +151,7 @@ ResultDirectory::ResultDirectory(const ResultRequest& request)
       }()) {
     lock();
     try {
-        judge(request, path());
+        check(request, path());
         remove_files(directory_, is_left_over);
         if (request.restart) remove_files(directory_, is_of_run);
     } catch (...) {

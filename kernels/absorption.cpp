@@ -39,7 +39,7 @@ ASPERITY_INLINE V half_change(V half_share, V own, V other, V v) {
 }
 
 void component_changes(const AbsorbingCells& c, const VolumeView<const double>& v,
-                       const PlaneView<const double>& hanging, const PlaneView<double>& impulse,
+                       const PlaneView<const double>& constrained, const PlaneView<double>& impulse,
                        int y, double* smooth, double* out) {
     const int nx = v.nx, planes = c.planes();
     const std::ptrdiff_t row = c.row();
@@ -47,13 +47,13 @@ void component_changes(const AbsorbingCells& c, const VolumeView<const double>& 
     const bool inside = y >= 0 && y < v.ny;
     for (int n = inside ? 0 : planes - 1; n < planes; ++n)
         smooth_row(v[c.first + n].line(y), v.row, nx, q(n));
-    smooth_row(hanging.line(y), hanging.row, nx, q(planes));
+    smooth_row(constrained.line(y), constrained.row, nx, q(planes));
     for (int n = 0; n < planes && inside; ++n) {
         const double* const speed = v[c.first + n].line(y);
         const double *const own = q(n), *const above = q(n + 1);
         double* const change = out + n * row;
         const int z = c.first + n;
-        const V half_above(0.5 * c.share[z] * (z == 0 ? c.mass / c.lowest : 1.0));
+        const V half_above(0.5 * c.fraction[z] * (z == 0 ? c.mass / c.lowest : 1.0));
         if (n == 0) {
             for (int x = 0; x < nx; x += V::width)
                 half_change(half_above, V::load(own + x), V::load(above + x), V::load(speed + x))
@@ -61,7 +61,7 @@ void component_changes(const AbsorbingCells& c, const VolumeView<const double>& 
             continue;
         }
         const double* const below = q(n - 1);
-        const V half_below(0.5 * c.share[z - 1]);
+        const V half_below(0.5 * c.fraction[z - 1]);
         for (int x = 0; x < nx; x += V::width) {
             const V own_x = V::load(own + x), v_x = V::load(speed + x);
             (half_change(half_above, own_x, V::load(above + x), v_x) +
@@ -69,10 +69,10 @@ void component_changes(const AbsorbingCells& c, const VolumeView<const double>& 
                 .store(change + x);
         }
     }
-    const double* const speed = hanging.line(y);
+    const double* const speed = constrained.line(y);
     const double *const own = q(planes), *const below = q(planes - 1);
     double* const to = impulse.line(y);
-    const V half_below(0.5 * c.share[c.cells - 1]);
+    const V half_below(0.5 * c.fraction[c.cells - 1]);
     for (int x = -V::width; x < nx + 1; x += V::width)
         half_change(half_below, V::load(own + x), V::load(below + x), V::load(speed + x))
             .store_lanes(to + x, -1 - x, nx + 1 - x);
@@ -80,9 +80,9 @@ void component_changes(const AbsorbingCells& c, const VolumeView<const double>& 
 
 void changes(const AbsorbingCells& c, int y, double* smooth, double* out) {
     const std::ptrdiff_t next = c.planes() * c.row();
-    component_changes(c, c.v.x, c.hanging.x, c.impulse.x, y, smooth, out);
-    component_changes(c, c.v.y, c.hanging.y, c.impulse.y, y, smooth, out + next);
-    component_changes(c, c.v.z, c.hanging.z, c.impulse.z, y, smooth, out + 2 * next);
+    component_changes(c, c.v.x, c.constrained.x, c.impulse.x, y, smooth, out);
+    component_changes(c, c.v.y, c.constrained.y, c.impulse.y, y, smooth, out + next);
+    component_changes(c, c.v.z, c.constrained.z, c.impulse.z, y, smooth, out + 2 * next);
 }
 
 /// Adds a change to the velocities at v: mass times change times the mean of before and after, on

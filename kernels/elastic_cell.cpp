@@ -84,9 +84,9 @@ private:
     bool lowest_;
 };
 
-template <Face face, bool with_incoming, bool damped, bool observed>
+template <Face face, bool with_transferred, bool damped, bool observed>
 void kick_rows(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,
-               VectorPlane<const double> incoming, const Kick& plan, Following next,
+               VectorPlane<const double> transferred, const Kick& plan, Following next,
                const VectorVolume<double>& v, KickSums& sums) {
     const int nx = u.x.nx;
     const auto place = [&](int plane, int y) { return plane * u.x.plane + y * u.x.row; };
@@ -98,10 +98,10 @@ void kick_rows(VectorVolume<const double> u, int z, const Stencil& s, int y0, in
         sweep_row<face>(u, line, 0, nx, weights, [&](int x, PackVector f) {
             const auto at = line + x;
             fetch(at);
-            if constexpr (with_incoming) {
-                f.x = f.x + V::load(incoming.x.line(y) + x);
-                f.y = f.y + V::load(incoming.y.line(y) + x);
-                f.z = f.z + V::load(incoming.z.line(y) + x);
+            if constexpr (with_transferred) {
+                f.x = f.x + V::load(transferred.x.line(y) + x);
+                f.y = f.y + V::load(transferred.y.line(y) + x);
+                f.z = f.z + V::load(transferred.z.line(y) + x);
             }
             kicker(at, nx - x, f);
         });
@@ -109,15 +109,16 @@ void kick_rows(VectorVolume<const double> u, int z, const Stencil& s, int y0, in
     kicker.add_to(sums);
 }
 
-template <Face face, bool with_incoming>
+template <Face face, bool with_transferred>
 void kick_as(VectorVolume<const double> u, int z, const Stencil& s, int y0, int y1,
-             VectorPlane<const double> incoming, const Kick& plan, Following next,
+             VectorPlane<const double> transferred, const Kick& plan, Following next,
              const VectorVolume<double>& v, KickSums& sums) {
-    const auto rows = plan.damped ? (plan.observed ? kick_rows<face, with_incoming, true, true>
-                                                   : kick_rows<face, with_incoming, true, false>)
-                                  : (plan.observed ? kick_rows<face, with_incoming, false, true>
-                                                   : kick_rows<face, with_incoming, false, false>);
-    rows(u, z, s, y0, y1, incoming, plan, next, v, sums);
+    const auto rows = plan.damped
+                          ? (plan.observed ? kick_rows<face, with_transferred, true, true>
+                                           : kick_rows<face, with_transferred, true, false>)
+                          : (plan.observed ? kick_rows<face, with_transferred, false, true>
+                                           : kick_rows<face, with_transferred, false, false>);
+    rows(u, z, s, y0, y1, transferred, plan, next, v, sums);
 }
 
 void forces(const ElasticLevel& level, int y0, int y1, VectorVolume<double> out) {
@@ -128,9 +129,9 @@ void forces(const ElasticLevel& level, int y0, int y1, VectorVolume<double> out)
     force_patch<Face::lower>(u, 0, level.lower, nodes, lowest);
     for (int y = y0; y < y1; ++y)
         for (int x = 0; x < nx; ++x) {
-            lowest.x(x, y) += level.incoming.x(x, y);
-            lowest.y(x, y) += level.incoming.y(x, y);
-            lowest.z(x, y) += level.incoming.z(x, y);
+            lowest.x(x, y) += level.transferred.x(x, y);
+            lowest.y(x, y) += level.transferred.y(x, y);
+            lowest.z(x, y) += level.transferred.z(x, y);
         }
     for (int z = 1; z < level.cells; ++z)
         force_patch<Face::inner>(u, z, level.inner, nodes, out[z]);
@@ -149,10 +150,10 @@ void advance(const ElasticLevel& level, const LevelKicks& kicks, double dt, Band
                                : band.end < band.last ? Following{0, band.end}
                                                       : Following{z, band.begin};
         if (z == 0)
-            kick_as<Face::lower, true>(u, z, level.lower, band.begin, band.end, level.incoming,
+            kick_as<Face::lower, true>(u, z, level.lower, band.begin, band.end, level.transferred,
                                        kicks(z), next, level.v, sums);
         else
-            kick_as<Face::inner, false>(u, z, level.inner, band.begin, band.end, level.incoming,
+            kick_as<Face::inner, false>(u, z, level.inner, band.begin, band.end, level.transferred,
                                         kicks(z), next, level.v, sums);
         if (z > 0) drift_rows(level, z - 1, dt, from, band.end - 1);
     }

@@ -146,9 +146,9 @@ void sweep_planes(const ElasticLevel& level, int y0, int y1, const Place& place,
     const auto layer = level.cell.elasticity.kappa != 0.0 ? cell_layer<true> : cell_layer<false>;
     VectorPlane<double> lower = place(0);
     for (int y = y0; y < y1; ++y) {
-        std::copy_n(level.incoming.x.line(y), nx, lower.x.line(y));
-        std::copy_n(level.incoming.y.line(y), nx, lower.y.line(y));
-        std::copy_n(level.incoming.z.line(y), nx, lower.z.line(y));
+        std::copy_n(level.transferred.x.line(y), nx, lower.x.line(y));
+        std::copy_n(level.transferred.y.line(y), nx, lower.y.line(y));
+        std::copy_n(level.transferred.z.line(y), nx, lower.z.line(y));
     }
     for (int z = 0; z < cells; ++z) {
         const bool last = z + 1 == cells;

@@ -20,7 +20,7 @@
 // cell owns the nine springs that leave its lower corner and cross the three faces there, so the
 // work goes cell row by cell row: of one row of cells, the forces on the four rows of nodes
 // around it, added to what the rows before gave. A node's force is therefore a sum in one order:
-// incoming force; cells below, then above; in each of these, cells at smaller y, then larger y.
+// transferred force; cells below, then above; in each of these, cells at smaller y, then larger y.
 //
 // Forces on a plane are complete when the cells above it are done: the work goes plane by plane up
 // through a band of rows, and hands the forces begun on the plane above from one to the next. Rows

@@ -24,7 +24,7 @@ struct ElasticLevel {
     int cells = 0;                     ///< moving planes; plane `cells` is prescribed
     VectorVolume<double> u;            ///< displacement of planes 0 .. cells, Å
     VectorVolume<double> v;            ///< velocity of planes 0 .. cells - 1, Å/fs
-    VectorPlane<double> incoming;      ///< forces handed to plane 0 from below, eV/Å
+    VectorPlane<double> transferred;   ///< forces handed to plane 0 from below, eV/Å
     VectorPlane<double> upper_force;   ///< on plane `cells`, one node beyond the tile, eV/Å
     Stencil lower{}, inner{}, upper{}; ///< small strain
     LevelCell cell;
@@ -55,8 +55,8 @@ inline Patch upper_patch(const ElasticLevel& level, int y0, int y1) {
 
 /// The functions compiled for one processor level.
 struct ElasticKernels {
-    /// Forces on rows [y0, y1): on moving planes, incoming ones included, into out (overwritten);
-    /// on the upper plane into level.upper_force.
+    /// Forces on rows [y0, y1): on moving planes, transferred ones included, into out
+    /// (overwritten); on the upper plane into level.upper_force.
     void (*forces)(const ElasticLevel& level, int y0, int y1, VectorVolume<double> out);
     /// Forces and kick of a band; force on its upper plane; drift of those of its rows that no
     /// other band needs: all but the first and the last of the thread's share. scratch: two planes

@@ -113,14 +113,14 @@ struct Totals {
 };
 
 /// Replaces the sites that the tables do not cover by the reference loop.
-template <class Judge, class Potential>
-void sum_beyond(const InterfaceSites& sites, const Judge& judge, const Potential& potential,
+template <class Exact, class Potential>
+void sum_beyond(const InterfaceSites& sites, const Exact& exact, const Potential& potential,
                 unsigned beyond, int x, int y, int count, SiteTerms& s) {
     const auto& u = sites.displacement;
     for (int i = 0; i < count; ++i) {
         if (!(beyond >> i & 1u)) continue;
         const PairSum p =
-            pair_sum(judge, potential, (sites.x0 + x + i + 0.5) * sites.spacing + u.x(x + i, y),
+            pair_sum(exact, potential, (sites.x0 + x + i + 0.5) * sites.spacing + u.x(x + i, y),
                      (sites.y0 + y + 0.5) * sites.spacing + u.y(x + i, y),
                      sites.reference_height + u.z(x + i, y));
         s.x[i] = p.force[0];
@@ -142,7 +142,7 @@ struct Ground {
     const Heights& from;
     double datum() const { return from.heights.datum; }
     double margin() const { return from.reach.offset_margin; }
-    const SubstrateMap& judge() const { return from.map; }
+    const SubstrateMap& exact() const { return from.map; }
     template <class Pair>
     ASPERITY_INLINE Reach reach(int x, int y, const BlockOfSites& site, const Pair& pair) const {
         return Reach(from.reach, x, y, from.heights.datum, site, pair.cutoff, pair.closest);
@@ -182,7 +182,7 @@ ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& 
                 terms.clear();
             }
             if (site.beyond)
-                sum_beyond(sites, ground.judge(), potential, site.beyond, x, y, count, terms);
+                sum_beyond(sites, ground.exact(), potential, site.beyond, x, y, count, terms);
             totals.take<observe>(sites, terms, x, y, count);
         }
     totals.give(sums);

@@ -26,7 +26,7 @@ struct Ground<CellSubstrate> {
     const CellSubstrate& from;
     double datum() const { return from.datum; }
     double margin() const { return from.offset_margin; }
-    const SubstrateAtoms& judge() const { return from.atoms; }
+    const SubstrateAtoms& exact() const { return from.atoms; }
     struct Some {
         double from_rest; ///< negative: nothing is in reach
         bool close;       ///< a pair may be nearer than it can be

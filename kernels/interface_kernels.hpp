@@ -61,7 +61,7 @@ void tail_sweep(const InterfaceSites& sites, const PairPotential& potential, dou
                 InterfaceSums& sums);
 
 /// A row of sites over a wall, each of which comes to rest under its own force while the elastic
-/// ones stay as they are (engine/equilibrium/wall_descent.hpp).
+/// ones stay as they are (engine/equilibrium/wall_minimiser.hpp).
 template <class T>
 struct WallRow {
     const double* below; ///< the wall's height, Å
@@ -102,8 +102,8 @@ struct InterfaceKernels {
     /// negative.
     struct WallKernels {
         Sweep<PlaneView<const double>, WallLaw> sweep[2];
-        WallSums (*settle_double)(const WallLaw&, const WallRow<double>&, const WallRule&, int);
-        WallSums (*settle_single)(const WallLaw&, const WallRow<float>&, const WallRule&, int);
+        WallSums (*rest_double)(const WallLaw&, const WallRow<double>&, const WallRule&, int);
+        WallSums (*rest_single)(const WallLaw&, const WallRow<float>&, const WallRule&, int);
     };
     WallKernels wall;
 };

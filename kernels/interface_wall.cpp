@@ -60,7 +60,7 @@ void wall_sweep(const InterfaceSites& sites, const PlaneView<const double>& heig
 }
 
 template <class Law, class T>
-WallSums settle_over(const Law& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
+WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
     const typename Law::template In<Real> law(wall);
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
     const Real compliance(1.0 / rule.spring), load(rule.load), norm(rule.norm);
@@ -78,11 +78,11 @@ WallSums settle_over(const Law& wall, const WallRow<T>& row, const WallRule& rul
             const Real base = reference - Real::load_first(row.below + x + lane, here);
             const Real z = u + momentum * Real::load(step + lane);
             const Real force = norm * Real::load(elastic + lane) + load;
-            const Real goal = z + base - compliance * force;
-            const Real gap = law.settle(z + base, goal, spring);
+            const Real target = z + base - compliance * force;
+            const Real gap = law.rest(z + base, target, spring);
             const Real next = gap - base, way = next - z;
             next.store_first(row.next + x + lane, here);
-            const Real left = goal - gap + compliance * law.force(gap);
+            const Real left = target - gap + compliance * law.force(gap);
             furthest = max(furthest, first_lanes(max(way, -way) + max(left, -left), here));
             turn = turn - first_lanes(way * (next - u), here);
             height = height + first_lanes(next, here);
@@ -92,14 +92,14 @@ WallSums settle_over(const Law& wall, const WallRow<T>& row, const WallRule& rul
 }
 
 template <class T>
-WallSums settle_row(const WallLaw& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
-    return std::visit([&](const auto& law) { return settle_over(law, row, rule, sites); }, wall);
+WallSums rest_row(const WallLaw& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
+    return std::visit([&](const auto& law) { return rest_over(law, row, rule, sites); }, wall);
 }
 
 } // namespace
 
 extern const InterfaceKernels::WallKernels wall_kernels;
 const InterfaceKernels::WallKernels wall_kernels = {
-    {wall_sweep<false>, wall_sweep<true>}, settle_row<double>, settle_row<float>};
+    {wall_sweep<false>, wall_sweep<true>}, rest_row<double>, rest_row<float>};
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -391,7 +391,7 @@ struct Simd {
     using Int32 = PackInt32;
 };
 
-/// Fused multiplication and addition of one lane, for scalar twins of a kernel: same bits as the
+/// Fused multiplication and addition of one lane, for scalar forms of a kernel: same bits as the
 /// pack's lane.
 ASPERITY_INLINE double fma(double a, double b, double c) {
 #if defined(__FMA__) || defined(__aarch64__)

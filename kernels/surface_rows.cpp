@@ -155,21 +155,21 @@ float move(const BallRow& row, const BallRule& rule, int n) {
     for (int i = 0; i < n; ++i) {
         float way[components], along = 0.0f, away2 = 0.0f, speed2 = 0.0f;
         for (int c = 0; c < components; ++c) {
-            way[c] = static_cast<float>(static_cast<double>(row.goal[c][i]) - row.u[c][i]);
+            way[c] = static_cast<float>(static_cast<double>(row.target[c][i]) - row.u[c][i]);
             along += way[c] * row.momentum[c][i];
             away2 += way[c] * way[c];
         }
-        const float raised = rule.raise * row.gain[i];
-        const float gain = along < 0.0f         ? rule.cut * row.gain[i]
-                           : raised < rule.most ? raised
-                                                : rule.most;
+        const float raised = rule.raise * row.step_size[i];
+        const float step_size = along < 0.0f         ? rule.cut * row.step_size[i]
+                                : raised < rule.most ? raised
+                                                     : rule.most;
         const float keep = along < 0.0f ? 0.0f : rule.keep;
         for (int c = 0; c < components; ++c) {
-            const float m = gain * way[c] + keep * row.momentum[c][i];
+            const float m = step_size * way[c] + keep * row.momentum[c][i];
             row.momentum[c][i] = m;
             speed2 += m * m;
         }
-        row.gain[i] = gain;
+        row.step_size[i] = step_size;
         most = away2 > most ? away2 : most;
         fastest = speed2 > fastest ? speed2 : fastest;
     }

@@ -22,16 +22,16 @@ struct MatrixRow {
 
 /// A row of sites on their way downhill (engine/equilibrium/heavy_ball.hpp), by components.
 struct BallRow {
-    const float* goal[3]; ///< where each would go, Å
-    double* u[3];         ///< where it is
-    float* momentum[3];   ///< how far it went last
-    float* gain;          ///< how much of its way to the goal it takes
+    const float* target[3]; ///< where each would go, Å
+    double* u[3];           ///< where it is
+    float* momentum[3];     ///< how far it went last
+    float* step_size;       ///< fraction of the distance to the target that it goes
 };
-/// How momentum and gain are kept.
+/// How the momentum and the step size are kept.
 struct BallRule {
     float keep;       ///< of the momentum
-    float cut, raise; ///< of the gain: where the goal lies back, and elsewhere
-    float most;       ///< of the gain
+    float cut, raise; ///< of the step size: where the target lies back, and elsewhere
+    float most;       ///< of the step size
     float bound;      ///< of a move, Å
 };
 
@@ -109,7 +109,7 @@ inline float longest_squared(const float* const* v, int components, int n) {
 inline void tie_row(double k, double norm, const double* u, const double* f, float* to, int n) {
     row_kernels().tie(k, norm, u, f, to, n);
 }
-/// Moves the sites. Returns the greatest squared distance from a goal.
+/// Moves the sites. Returns the greatest squared distance from a target.
 inline float move_row(const BallRow& row, const BallRule& rule, int components, int n) {
     return row_kernels().ball(row, rule, components, n);
 }

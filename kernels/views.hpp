@@ -18,7 +18,7 @@
 
 namespace asperity {
 
-/// Halo width of every tile. Two, because the force on a hanging node one site outside the tile
+/// Halo width of every tile. Two, because the force on a constrained node one site outside the tile
 /// (which its coarse neighbour inside needs) reaches one site further.
 inline constexpr int halo_width = 2;
 

@@ -34,7 +34,7 @@
 namespace asperity {
 
 /// Of a site that comes to rest under its own law and a spring.
-struct SiteDescent {
+struct SiteMinimiser {
     /// Newton's steps, from where the site was an iteration before.
     static constexpr int steps = 3;
 };
@@ -85,20 +85,20 @@ public:
             const V deeper = below * (force(g) + same<V>(0.5) * stiffness * below);
             return select(gap > reach, same<V>(0.0), of_plane + deeper);
         }
-        /// Where a spring to the gap `goal` lets a site come to rest: spring (goal - g) + force(g)
-        /// = 0, the attraction's decay beyond its steepest place taken as it is at `gap`. By
-        /// Newton's method, of which a few steps are taken.
-        ASPERITY_INLINE V settle(V gap, V goal, V spring) const {
+        /// Where a spring to the gap `target` lets a site come to rest: spring (target - g) +
+        /// force(g) = 0, the attraction's decay beyond its steepest place taken as it is at `gap`.
+        /// By Newton's method, of which a few steps are taken.
+        ASPERITY_INLINE V rest(V gap, V target, V spring) const {
             const V from = max(steepest, gap);
-            const V outside = goal + force(from) / spring; // if the site ends in the decay
+            const V outside = target + force(from) / spring; // if the site ends in the decay
             const V pull = force(from) - force_there;
             V g = max(floor, min(steepest, gap));
-            for (int i = 0; i < SiteDescent::steps; ++i) {
-                const V way = (spring * (goal - g) + force(g) + pull) / (spring + slope(g));
+            for (int i = 0; i < SiteMinimiser::steps; ++i) {
+                const V way = (spring * (target - g) + force(g) + pull) / (spring + slope(g));
                 g = max(floor, min(steepest, g + way));
             }
             // Below the floor the law is linear.
-            const V push = spring * (goal - floor) + force(floor) + pull;
+            const V push = spring * (target - floor) + force(floor) + pull;
             const V inside = select(push < same<V>(0.0), floor + push / (spring + stiffness), g);
             return select(outside > steepest, outside, inside);
         }
@@ -183,8 +183,8 @@ public:
             return into * (tension + same<V>(0.5) * stiffness * into) - adhesion * decay(gap);
         }
         /// As above, exactly.
-        ASPERITY_INLINE V settle(V gap, V goal, V spring) const {
-            const V pull = spring * goal - tension * decay(gap);
+        ASPERITY_INLINE V rest(V gap, V target, V spring) const {
+            const V pull = spring * target - tension * decay(gap);
             return select(pull > same<V>(0.0), pull / spring, pull / (spring + stiffness));
         }
 

@@ -3,7 +3,7 @@
 #include "library/inside.hpp"
 
 #include "decomposition/communicator.hpp"
-#include "engine/commands/ending.hpp"
+#include "engine/commands/exit_code.hpp"
 #include "engine/commit.hpp"
 #include "engine/run/run.hpp"
 #include "io/build_info.hpp"
@@ -82,7 +82,7 @@ constexpr double patience = 10.0;
 
 /// Of several ranks: an error that all meet, or the root for all of them, is thrown on all of them.
 /// Any other ends them all at once, for the others may be waiting for this one
-/// (engine/commands/ending.hpp); so does one that not all meet.
+/// (engine/commands/exit_code.hpp); so does one that not all meet.
 template <class Work>
 auto agreed(const asperity::Communicator& world, const Work& work) {
     if (world.size() == 1) return translated(work);

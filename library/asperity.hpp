@@ -334,8 +334,8 @@ public:
     void set_load(double pressure);
     /// "100 MPa"
     void set_load(const std::string& pressure);
-    /// Goes there, point by point, and returns the point there (without a goal: where it is). look:
-    /// as of Simulation; after what it throws, the same call goes on. Throws Error 3 where no
+    /// Goes there, point by point, and returns the point there (without a target: where it is).
+    /// look: as of Simulation; after what it throws, the same call goes on. Throws Error 3 where no
     /// equilibrium is found, or where the solids part before a pull is reached.
     Point relax(const Simulation::Look& look = {});
     Point now() const;     ///< of the last relax()

@@ -333,7 +333,7 @@ PYBIND11_MODULE(_engine, m) {
                 return statics.relax(look_for_signals);
             },
             "Goes where mean_height, top or load was set, point by point; the Point there.\n\n"
-            "Without a new goal: the point where it is. Ctrl-C ends it at a point; the next "
+            "Without a new target: the point where it is. Ctrl-C ends it at a point; the next "
             "relax() goes on.\n"
             "Raises PhysicsError where no equilibrium is found, or the solids part before a pull "
             "is reached.")

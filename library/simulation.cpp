@@ -217,7 +217,7 @@ public:
     VectorView forces() {
         require_processor("f");
         const asperity::Block::Level& level = simulation_.block().levels().front();
-        return view(const_cast<asperity::VectorField<double>&>(level.incoming));
+        return view(const_cast<asperity::VectorField<double>&>(level.transferred));
     }
     View heights() const {
         const auto n = static_cast<std::size_t>(surface_.sites);
@@ -467,8 +467,8 @@ private:
     std::vector<asperity::StateArray> arrays() {
         std::vector<asperity::StateArray> list;
         const asperity::Block::Level& level = simulation_.block().levels().front();
-        asperity::add_arrays(0, "force", const_cast<asperity::VectorField<double>&>(level.incoming),
-                             1, list);
+        asperity::add_arrays(
+            0, "force", const_cast<asperity::VectorField<double>&>(level.transferred), 1, list);
         if (external_) asperity::add_arrays(0, "external", *external_, 1, list);
         return list;
     }
@@ -597,7 +597,7 @@ void Simulation::set_external(const Map& x, const Map& y, const Map& z) {
 }
 VectorView Simulation::external() { return inside_->external(); }
 void Simulation::clear_external() { inside_->clear_external(); }
-double Simulation::external_work() const { return inside_->engine().ledger().external; }
+double Simulation::external_work() const { return inside_->engine().balance().external; }
 
 RestState Simulation::relax(const Look& look) {
     return at_work_on([&] { return inside_->relax(look); });

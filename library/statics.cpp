@@ -51,11 +51,11 @@ public:
     void go_to(Held held, double at) {
         if (!std::isfinite(at)) refuse_number(at);
         hold(held);
-        goal_ = {.at = held == Held::top ? at : at - interface_.start_height()};
+        target_ = {.at = held == Held::top ? at : at - interface_.start_height()};
     }
     void go_to_load(double pressure) {
         if (!std::isfinite(pressure)) refuse_number(pressure);
-        goal_ = {.load = pressure * units::megapascal * case_.area()};
+        target_ = {.load = pressure * units::megapascal * case_.area()};
     }
 
     Point relax(const Simulation::Look& look) {
@@ -65,14 +65,14 @@ public:
         started_ = true;
         Looking looking(look);
         looking_ = &looking;
-        if (!goal_.at && !goal_.load) return now();
+        if (!target_.at && !target_.load) return now();
         try {
             lead();
         } catch (const io::PhysicsError&) { // it cannot be reached
-            goal_ = {};
+            target_ = {};
             throw;
         }
-        goal_ = {};
+        target_ = {};
         return now();
     }
 
@@ -103,13 +103,13 @@ public:
     }
 
 private:
-    /// To the goal, which is kept where it was interrupted.
+    /// To the target, which is kept where it was interrupted.
     void lead() {
         using Outcome = asperity::QuasistaticPath::Outcome;
-        if (goal_.at)
-            path_->begin_to(*goal_.at);
+        if (target_.at)
+            path_->begin_to(*target_.at);
         else
-            path_->begin({asperity::Segment::load, *goal_.load});
+            path_->begin({asperity::Segment::load, *target_.load});
         for (auto outcome = Outcome::point; outcome == Outcome::point;) {
             outcome = path_->advance();
             if (outcome == Outcome::interrupted)
@@ -166,7 +166,7 @@ private:
     struct Goal {
         std::optional<double> at{}, load{}; ///< Å, eV/Å
     };
-    Goal goal_; ///< where the next relaxation leads it
+    Goal target_; ///< where the next relaxation leads it
     Looking* looking_ = nullptr;
     std::exception_ptr thrown_;
 };

@@ -9,7 +9,7 @@
 // numerics.device is "emulated" unless given. Prints JSON: the limits of memory (GB/s of a triad)
 // and arithmetic (GFLOP/s of fused multiplications), measured on the device in the same run; the
 // fastest stretch of steps, and for each launch its time by the device's clock, the bytes and
-// operations counted for it (docs/explanation/device.md), and the share of the limit that it
+// operations counted for it (docs/explanation/device.md), and the fraction of the limit that it
 // reaches.
 #include "engine/scene/scene.hpp"
 #include "engine/setup/case.hpp"
@@ -34,7 +34,7 @@ namespace {
 // least, and operations, a fused one as two.
 constexpr double moved_node = 96.0, operations_node = 159.0;
 constexpr double moved_site = 56.0, operations_pair = 15.5;
-constexpr double moved_face = 72.0, moved_hanging = 30.0;
+constexpr double moved_face = 72.0, moved_constrained = 30.0;
 
 void check(const char* error) {
     if (error) throw std::runtime_error(error);
@@ -149,7 +149,7 @@ nlohmann::json measure(double seconds, std::vector<std::string> settings) {
                               {"operations", operations},
                               {"bound_by_memory", by_memory},
                               {"bound_by_arithmetic", by_arithmetic},
-                              {"share", std::max(by_memory, by_arithmetic) / took}};
+                              {"fraction", std::max(by_memory, by_arithmetic) / took}};
     };
     return {
         {"device", describe_device(choice)},
@@ -164,7 +164,7 @@ nlohmann::json measure(double seconds, std::vector<std::string> settings) {
         {"step", best},
         {"waits_for_host", launch[3]},
         {"launches",
-         {row("follow", launch[0], planes * moved_hanging, 0.0, limits.fused),
+         {row("follow", launch[0], planes * moved_constrained, 0.0, limits.fused),
           row("forces", launch[1], sites * moved_site + planes * moved_face,
               pairs * operations_pair, mixed ? limits.fused_single : limits.fused),
           row("advance", launch[2], nodes * moved_node, nodes * operations_node, limits.fused)}}};

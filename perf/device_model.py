@@ -24,10 +24,10 @@ MEMORY, FIRST_CACHE, INSTRUCTIONS = 3.35e12, 128 * CLOCKS, 64 * CLOCKS
 SECOND_CACHE = 5.5e12
 LAUNCH, COPY, COPY_BYTES, MESSAGE, MESSAGE_BYTES = 3e-6, 10e-6, 50e9, 3e-6, 25e9
 
-# Counted from the texts (docs/explanation/device.md), a node, site, pair, node of an upper or a hanging plane.
+# Counted from the texts (docs/explanation/device.md), a node, site, pair, node of an upper or a constrained plane.
 # (All upper planes but the top hang, and that has a few nodes.)
 NODE_MEMORY, NODE_SECOND, NODE_FIRST, NODE_OPERATIONS = 96, 27 * 8 + 72, 81 * 8 + 72, 159
-SITE_MEMORY, FACE_MEMORY, HANGING_MEMORY = 56, 72, 30
+SITE_MEMORY, FACE_MEMORY, CONSTRAINED_MEMORY = 56, 72, 30
 PAIR_INSTRUCTIONS = (31 + 16) / 4 + 0.5 * 10  # half a division, of ten instructions (assumed)
 
 SPACING, CUTOFF, SEPARATION = 2.6, 13.12, 3.11  # the paper's block on a flat substrate, Å
@@ -46,8 +46,8 @@ def terms(v):
          "advance: first cache": v["nodes"] * NODE_FIRST / FIRST_CACHE,
          "advance: arithmetic": v["nodes"] * NODE_OPERATIONS / INSTRUCTIONS,
          "forces: pairs": v["sites"] * pairs_of_site() * PAIR_INSTRUCTIONS / INSTRUCTIONS,
-         "forces: memory": (v["sites"] * SITE_MEMORY + v["hanging"] * FACE_MEMORY) / MEMORY,
-         "follow: memory": v["hanging"] * HANGING_MEMORY / MEMORY,
+         "forces: memory": (v["sites"] * SITE_MEMORY + v["constrained"] * FACE_MEMORY) / MEMORY,
+         "follow: memory": v["constrained"] * CONSTRAINED_MEMORY / MEMORY,
          "launches": 3 * LAUNCH}
     if v["ranks"] > 1:
         sent = 2 * (v["x"] + v["y"])

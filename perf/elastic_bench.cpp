@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// How long does a node's step take, in cache and out of it, and what share of the memory's speed is
-// that? The memory's speed is measured in the same run, by a stream triad on as many threads, and
-// the processor's by a loop of fused multiply-adds (limits.hpp).
+// How long does a node's step take, in cache and out of it, and what fraction of the memory's speed
+// is that? The memory's speed is measured in the same run, by a stream triad on as many threads,
+// and the processor's by a loop of fused multiply-adds (limits.hpp).
 #include "engine/block/block.hpp"
 #include "limits.hpp"
 
@@ -39,12 +39,12 @@ void count(benchmark::State& state, double nodes, int threads) {
 void advance(benchmark::State& state, CellStrain strain, const LevelCell& cell, bool damped) {
     const int n = static_cast<int>(state.range(0)), layers = 4, band = Block::band;
     const Tile tile{0, 0, n, n, n};
-    VectorField<double> u(tile, layers + 1), v(tile, layers), incoming(tile, 1), upper(tile, 1),
+    VectorField<double> u(tile, layers + 1), v(tile, layers), transferred(tile, 1), upper(tile, 1),
         scratch({0, 0, n, band, n}, 2);
     const ElasticLevel level = {layers,
                                 u.view(),
                                 v.view(),
-                                incoming.plane(0),
+                                transferred.plane(0),
                                 upper.plane(0),
                                 make_stencil(cell.elasticity, Face::lower),
                                 make_stencil(cell.elasticity, Face::inner),
@@ -116,7 +116,7 @@ BENCHMARK(level_transfer)
     ->ArgsProduct({{128, 512}, {0, 1}})
     ->UseRealTime();
 
-/// The paper's block: hanging planes, all levels, halos.
+/// The paper's block: constrained planes, all levels, halos.
 void block_step(benchmark::State& state) {
     const int n = static_cast<int>(state.range(0)), threads = static_cast<int>(state.range(1));
     omp_set_num_threads(threads);

@@ -291,7 +291,7 @@ def write(results, baseline, baselines, phases, folder):
     c = scaling["coefficients"]
     costs = _table("Costs in the model", "By the number of nodes of a rank, ns.", ["item", *map(str, c["nodes"])],
                    [[name, *map(_number, c["ns"][key])] for key, name in
-                    (("node", "node"), ("site", "site in contact"), ("hanging", "constrained node"), ("byte", "byte copied"))])
+                    (("node", "node"), ("site", "site in contact"), ("constrained", "constrained node"), ("byte", "byte copied"))])
     def parts(some):
         return "\n".join(published(t, folder) for t in some)
     text = f"""# Performance

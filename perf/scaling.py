@@ -4,7 +4,7 @@
 
 The model of a step, for the most loaded rank (volumes.cpp says what it holds and sends):
 
-    nodes x t_node + sites x t_site + hanging x t_hanging              work
+    nodes x t_node + sites x t_site + constrained x t_constrained              work
     (wrapped + 2 x sent) x t_byte                                      copies into and out of halos
     swap(x) + swap(y)                                                  messages to neighbours, in two goes
     log2(ranks) x t_sum                                                the step's one reduction
@@ -78,12 +78,12 @@ class Model:
 
     def __init__(self, singles, volume_of, messages):
         """singles: measured steps in contact on one core, by sites."""
-        self.cost = {"node": [], "site": [], "hanging": [], "byte": []}
+        self.cost = {"node": [], "site": [], "constrained": [], "byte": []}
         for n, s in sorted(singles.items()):
             v, p = volume_of(n), s["phases"]
             for name, seconds, many in (("node", p["advance"], v["nodes"]), ("byte", p["exchange"], v["wrapped"]),
                                         ("site", p["interface"] + p["observe"], v["sites"]),
-                                        ("hanging", p.get("interpolate", 0.0), max(v["hanging"], 1.0))):
+                                        ("constrained", p.get("interpolate", 0.0), max(v["constrained"], 1.0))):
                 self.cost[name].append((math.log(v["nodes"]), seconds / many))
         self.swap = [(m["bytes"], m["seconds"]) for m in messages["swap"]]
         ping = messages["ping"]
@@ -117,7 +117,7 @@ class Model:
         nodes = v["nodes"] - v["held"] * (1.0 - 1.0 / among)
         if among > 1 and v["held"] > 0.0:
             messages += 2.0 * _between(self.swap, v["held_side"] / math.sqrt(among))
-        return {"work": nodes * t["node"] + v["sites"] * t["site"] + v["hanging"] * t["hanging"],
+        return {"work": nodes * t["node"] + v["sites"] * t["site"] + v["constrained"] * t["constrained"],
                 "copies": (v["wrapped"] + 2.0 * sent) * t["byte"], "messages": messages,
                 "sums": doublings * self.sum}
 

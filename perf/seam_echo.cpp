@@ -9,7 +9,8 @@
 // SPAN: time between two absorptions, fs; 0: seams reflect. Then a line of the input for each
 // packet, "P|SV|SH ACROSS RISE WAVES DEPTH": periods over the box along x, vertical wavelength (a),
 // its number in a standard deviation of the envelope, and how deep (a) the block is listened to.
-// A line of the output each: angle to the vertical, wavelength (a), share of the energy returned.
+// A line of the output each: angle to the vertical, wavelength (a), fraction of the energy
+// returned.
 #include "support/cases.hpp"
 #include "support/echo.hpp"
 

@@ -8,14 +8,14 @@
 //
 // Prints a JSON list; the rank with the most nodes speaks for all.
 //
-//   nodes      moving nodes worked on in a step
-//   held       those of them on levels that every rank holds whole
-//   sites      of the interface
-//   hanging    nodes that follow a coarser level
-//   x, y       bytes of a message to each of the two neighbours (0: no neighbour)
-//   wrapped    bytes of halo copied within the rank
-//   gathered   bytes of the plane that is put together where the levels held whole begin
-//   held_side  bytes of the halo along one whole side of the levels held whole
+//   nodes        moving nodes worked on in a step
+//   held         those of them on levels that every rank holds whole
+//   sites        of the interface
+//   constrained  nodes that follow a coarser level
+//   x, y         bytes of a message to each of the two neighbours (0: no neighbour)
+//   wrapped      bytes of halo copied within the rank
+//   gathered     bytes of the plane that is put together where the levels held whole begin
+//   held_side    bytes of the halo along one whole side of the levels held whole
 #include "decomposition/process_grid.hpp"
 #include "engine/block/block.hpp"
 
@@ -41,8 +41,8 @@ nlohmann::json volumes(int sites, int thickness, int ranks) {
         const Tile a = grid.tile(0, r), b = grid.tile(0, fullest);
         if (static_cast<double>(a.nx) * a.ny > static_cast<double>(b.nx) * b.ny) fullest = r;
     }
-    double nodes = 0.0, held = 0.0, hanging = 0.0, x = 0.0, y = 0.0, wrapped = 0.0, gathered = 0.0,
-           held_side = 0.0;
+    double nodes = 0.0, held = 0.0, constrained = 0.0, x = 0.0, y = 0.0, wrapped = 0.0,
+           gathered = 0.0, held_side = 0.0;
     for (const LevelShape& plan : levels) {
         const Tile tile = grid.tile(plan.level, fullest);
         const bool tiled = grid.tiled(plan.level), last = plan.level + 1 == std::ssize(levels);
@@ -54,7 +54,7 @@ nlohmann::json volumes(int sites, int thickness, int ranks) {
             held += plane * plan.cells;
             held_side += columns;
         }
-        if (!last) hanging += plane;
+        if (!last) constrained += plane;
         (tiled && grid.px() > 1 ? x : wrapped) += columns * (tiled && grid.px() > 1 ? 1.0 : 2.0);
         (tiled && grid.py() > 1 ? y : wrapped) += rows * (tiled && grid.py() > 1 ? 1.0 : 2.0);
         if (!last && tiled && !grid.tiled(plan.level + 1))
@@ -68,7 +68,7 @@ nlohmann::json volumes(int sites, int thickness, int ranks) {
             {"held", held},
             {"held_side", held_side},
             {"sites", static_cast<double>(lowest.nx) * lowest.ny},
-            {"hanging", hanging},
+            {"constrained", constrained},
             {"x", x},
             {"y", y},
             {"wrapped", wrapped},

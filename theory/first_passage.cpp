@@ -19,7 +19,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "theory/march.hpp"
+#include "theory/integration.hpp"
 
 namespace asperity::theory {
 namespace {
@@ -35,7 +35,7 @@ struct Crossing {
     double value, slope;
 };
 
-/// Absorbed so far: intervals with their middle boundary, middle clock and absorbed fraction.
+/// Absorbed so far: intervals with their middle boundary, middle variance and absorbed fraction.
 struct History {
     std::vector<double> b, T, dF;
 
@@ -60,9 +60,9 @@ struct StepEnd {
 
 } // namespace
 
-MarchPath first_passage(const MarchGrid& grid, const MarchInput& in) {
+IntegrationPath first_passage(const IntegrationGrid& grid, const IntegrationInput& in) {
     const std::size_t n = grid.q.size();
-    MarchPath path;
+    IntegrationPath path;
     path.area.reserve(n);
     path.energy.reserve(n);
     path.gamma.reserve(n);
@@ -74,7 +74,7 @@ MarchPath first_passage(const MarchGrid& grid, const MarchInput& in) {
         const double d_energy = i == 0 ? 0 : grid.energy[i] - grid.energy[i - 1];
         StepEnd s{};
         s.area = a;
-        s.energy = energy_before + d_energy * (share_before + energy_share(a, in.beta)) / 2;
+        s.energy = energy_before + d_energy * (share_before + energy_fraction(a, in.beta)) / 2;
         s.gamma = (in.g0 + s.energy) / (a * grid.stretch[i]);
         if (s.gamma > 0) {
             s.b = std::sqrt(s.gamma * in.contact_modulus * grid.q[i]);
@@ -100,17 +100,17 @@ MarchPath first_passage(const MarchGrid& grid, const MarchInput& in) {
 
     for (std::size_t i = 1; i < n; ++i) {
         const double T = grid.T[i], dT = T - grid.T[i - 1];
-        const double share = energy_share(now.area, in.beta);
+        const double fraction = energy_fraction(now.area, in.beta);
         const StepEnd before = now;
         if (!grid.ever_detaches || !(dT > 0)) { // full contact throughout, or a gap
-            now = end_of_step(i, before.area, before.energy, share, 0);
+            now = end_of_step(i, before.area, before.energy, fraction, 0);
             record(now);
             continue;
         }
         const double root_T = std::sqrt(T), root_half = std::sqrt(dT / 2);
         // Excess of paths below the boundary over those accounted for; falls as x grows.
         const auto excess = [&](double x, StepEnd& s, double& slope) {
-            s = end_of_step(i, before.area, before.energy, share, x);
+            s = end_of_step(i, before.area, before.energy, fraction, x);
             const double y = -(s.b + in.pressure) / root_T;
             const double z = (before.b - s.b) / (2 * root_half);
             const Crossing past = history.below(s.b, T);
@@ -125,9 +125,10 @@ MarchPath first_passage(const MarchGrid& grid, const MarchInput& in) {
         // A boundary that runs away far faster than paths can follow (a gap of the spectrum, or
         // nearly one) absorbs nothing, and the equation would say so only as 0 = 0 x.
         const double receding =
-            (before.b - end_of_step(i, before.area, before.energy, share, 0).b) / (2 * root_half);
+            (before.b - end_of_step(i, before.area, before.energy, fraction, 0).b) /
+            (2 * root_half);
         if (receding < -3) {
-            now = end_of_step(i, before.area, before.energy, share, 0);
+            now = end_of_step(i, before.area, before.energy, fraction, 0);
             record(now);
             rate = rate_before = 0;
             continue;
@@ -148,7 +149,7 @@ MarchPath first_passage(const MarchGrid& grid, const MarchInput& in) {
             // Newton squares the error, so the step after one this small would not be seen.
             if (moved < 1e-7 * before.area) break;
         }
-        now = end_of_step(i, before.area, before.energy, share, x);
+        now = end_of_step(i, before.area, before.energy, fraction, x);
         record(now);
         history.b.push_back((before.b + now.b) / 2);
         history.T.push_back(grid.T[i - 1] + dT / 2);

@@ -67,7 +67,7 @@ public:
     [[nodiscard]] double closest() const { return closest_; } ///< smallest u worth looking at
     [[nodiscard]] double reach() const { return reach_; }     ///< φ = 0 beyond
 
-    /// Share of sites in contact at the separation u of a surface whose slopes are Gaussian with
+    /// Fraction of sites in contact at the separation u of a surface whose slopes are Gaussian with
     /// the mean square `slope_variance`: over atoms, the nearest of the four corners below a site
     /// is closer by (a/2)(|∂h/∂x| + |∂h/∂y|) than on the flat.
     [[nodiscard]] double contact(double u, double slope_variance) const;

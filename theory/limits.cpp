@@ -3,9 +3,9 @@
 //
 // Where adhesive contact ends: the critical roughness.
 //
-// The march at the lower end of g0 (shooting.hpp) has to reach γ_eff(ζ_1) = Δγ, which is one more
-// scalar root, in ln h, and far better conditioned than watching γ_eff go to zero: with the area
-// factor off the function is exactly a straight line in ln h. On three grids, extrapolated.
+// The integration at the lower end of g0 (shooting.hpp) has to reach γ_eff(ζ_1) = Δγ, which is one
+// more scalar root, in ln h, and far better conditioned than watching γ_eff go to zero: with the
+// area factor off the function is exactly a straight line in ln h. On three grids, extrapolated.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -39,7 +39,7 @@ SphereState consistent(const PeriodicSphere& p, const Rule& rule) {
         state = rule(sphere);
         if (std::abs(state.force - before) <= 1e-13 * p.sphere.force_unit()) return state;
     }
-    throw NoSolution(message("periodic sphere: the images do not settle at period ", p.period,
+    throw NoSolution(message("periodic sphere: the images do not converge at period ", p.period,
                              "; the contact is as large as the box, use a larger one"));
 }
 

@@ -19,8 +19,8 @@
 
 namespace asperity::theory {
 
-constinit const March March::first_passage{
-    [](const MarchGrid& grid, const MarchInput& input, double) {
+constinit const Integration Integration::first_passage{
+    [](const IntegrationGrid& grid, const IntegrationInput& input, double) {
         return asperity::theory::first_passage(grid, input);
     },
     1.5};
@@ -33,12 +33,12 @@ ContactState come_apart(std::string reason) {
     return s;
 }
 
-/// Values at the end of a march that are worth extrapolating.
+/// Values at the end of an integration that are worth extrapolating.
 struct Ends {
     double gamma, area, energy, contact_stress;
 };
 
-Ends ends_of(const MarchPath& path, double pressure, double g0) {
+Ends ends_of(const IntegrationPath& path, double pressure, double g0) {
     Ends e{g0, path.area.back(), path.energy.back(), pressure};
     // Each path absorbed takes -σ_a away with it, so what stays in contact gains it.
     for (std::size_t i = 1; i < path.area.size(); ++i)
@@ -47,8 +47,8 @@ Ends ends_of(const MarchPath& path, double pressure, double g0) {
     return e;
 }
 
-void fill_profile(ContactState& s, const AdhesiveContact& c, const MarchGrid& grid,
-                  const MarchPath& path, double g0) {
+void fill_profile(ContactState& s, const AdhesiveContact& c, const IntegrationGrid& grid,
+                  const IntegrationPath& path, double g0) {
     const double q_L = c.spectrum.q_L(), total = path.energy.back();
     s.profile.clear();
     s.profile.reserve(grid.q.size() + 1);
@@ -97,8 +97,8 @@ ContactState conforming(const AdhesiveContact& c, const FullContactState& full) 
     s.real_area = full.real_area;
     s.elastic_energy = full.elastic_energy;
     s.contact_stress = c.pressure;
-    const MarchInput in{c.contact_modulus, c.pressure, c.beta, full.gamma};
-    MarchGrid grid; // for the profile only
+    const IntegrationInput in{c.contact_modulus, c.pressure, c.beta, full.gamma};
+    IntegrationGrid grid; // for the profile only
     constexpr int points = 128;
     const double ratio = std::log(c.spectrum.q1() / c.spectrum.q_L());
     for (int k = 0; k <= points; ++k) {
@@ -121,12 +121,13 @@ ContactState without_adhesion(const AdhesiveContact& c, const SolverOptions& opt
     if (!(c.pressure > 0))
         return come_apart(message("no contact: without adhesion (work_of_adhesion = 0) a load p = ",
                                   c.pressure, " <= 0 holds nothing together"));
-    const MarchInput in{c.contact_modulus, c.pressure, c.beta, 0};
+    const IntegrationInput in{c.contact_modulus, c.pressure, c.beta, 0};
     // g0 far below zero keeps the boundary at zero while the grid is laid out.
-    MarchInput never = in;
+    IntegrationInput never = in;
     never.g0 = -full_contact(c).elastic_energy;
-    const MarchGrid grid = make_grid(c.spectrum, c.area_reading(), never, options.spacing / 4, 0);
-    MarchPath path;
+    const IntegrationGrid grid =
+        make_grid(c.spectrum, c.area_reading(), never, options.spacing / 4, 0);
+    IntegrationPath path;
     path.energy.push_back(grid.energy.front());
     for (std::size_t i = 0; i < grid.q.size(); ++i) {
         path.area.push_back(nonadhesive_area(c.pressure, grid.T[i]));
@@ -136,7 +137,7 @@ ContactState without_adhesion(const AdhesiveContact& c, const SolverOptions& opt
             const double q = std::exp(log_q);
             const double a = nonadhesive_area(c.pressure, stress_variance(c, q));
             return std::numbers::pi / 2 * c.contact_modulus * q * q * q * c.spectrum(q) *
-                   energy_share(a, c.beta);
+                   energy_fraction(a, c.beta);
         };
         using Rule = boost::math::quadrature::gauss<double, 7>;
         const double step =
@@ -180,7 +181,7 @@ ContactState solve(const AdhesiveContact& c, const SolverOptions& options) {
         return conforming(c, full);
     }
     if (full.gamma > least_g0 || c.pressure > 0) {
-        const MarchInput in{c.contact_modulus, c.pressure, c.beta, full.gamma};
+        const IntegrationInput in{c.contact_modulus, c.pressure, c.beta, full.gamma};
         if (!make_grid(c.spectrum, c.area_reading(), in, options.spacing, 0).ever_detaches)
             return conforming(c, full);
     }
@@ -198,15 +199,15 @@ ContactState solve(const AdhesiveContact& c, const SolverOptions& options) {
 
     ContactState s;
     std::vector<Ends> ends;
-    MarchGrid grid;
-    MarchPath path;
+    IntegrationGrid grid;
+    IntegrationPath path;
     for (int refinement = 0;; ++refinement) {
         const Shooting::Outcome here = shooting.follow(at, refinement);
         if (here.found) {
             // Always the grid laid out for the first g0, or the grids would not be nested.
             const double g0 = shooting.g0(here.x);
             grid = shooting.grid_for(at.x, refinement);
-            path = shooting.march(grid, g0, refinement);
+            path = shooting.integration(grid, g0, refinement);
             ends.push_back(ends_of(path, c.pressure, g0));
         } else if (refinement >= base && ends.empty()) {
             return come_apart(message("no contact: h_rms = ", c.spectrum.rms_height(), " at p = ",
@@ -305,7 +306,7 @@ void check(const AdhesiveContact& c) {
                                    " is outside 0..1, where W(1) = 1 and W >= 0; the usual value "
                                    "is 0.45"));
     if (!(c.spectrum.q_L() > 0))
-        throw InvalidInput("the contact has no spectrum, so there are no wavevectors to march "
+        throw InvalidInput("the contact has no spectrum, so there are no wavevectors to integrate "
                            "over; build one with Spectrum::self_affine or Spectrum::tabulated");
 }
 

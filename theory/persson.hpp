@@ -13,8 +13,8 @@
 //
 // Equations as read: σ_a² = γ_eff E* q with γ_eff < 0 counted as zero; U_el(ζ) in Eq. (3) is the
 // energy of roughness shorter than L/ζ; A* = A S with S named in area_factor.hpp. How they are
-// solved is in march.hpp; in short, one scalar root of a causal march, on three nested grids,
-// extrapolated; the distance between extrapolations is the error reported.
+// solved is in integration.hpp; in short, one scalar root of a causal integration, on three nested
+// grids, extrapolated; the distance between extrapolations is the error reported.
 //
 // Cost: ~30 ms a state at the default tolerance.
 #pragma once
@@ -29,9 +29,9 @@
 
 namespace asperity::theory {
 
-struct MarchGrid;
-struct MarchInput;
-struct MarchPath;
+struct IntegrationGrid;
+struct IntegrationInput;
+struct IntegrationPath;
 
 /// What is pressed (or pulled) against what. Units: any consistent set.
 struct AdhesiveContact {
@@ -46,14 +46,15 @@ struct AdhesiveContact {
 };
 
 /// How Eq. (2) is solved on a grid of the given spacing, and the power of the spacing in its error.
-struct March {
-    MarchPath (*follow)(const MarchGrid& grid, const MarchInput& input, double spacing);
+struct Integration {
+    IntegrationPath (*follow)(const IntegrationGrid& grid, const IntegrationInput& input,
+                              double spacing);
     double order;
-    static const March first_passage; ///< Volterra equation
+    static const Integration first_passage; ///< Volterra equation
 };
 
 struct SolverOptions {
-    March march = March::first_passage;
+    Integration integration = Integration::first_passage;
     double spacing = 0.4;    ///< of the coarsest grid, in ln T + ln q
     double tolerance = 1e-5; ///< on γ_eff/Δγ (relative above 1) and A/A0; grids are added until met
     int max_refinement = 5; ///< the finest grid has spacing / 2^max_refinement

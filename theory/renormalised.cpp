@@ -61,14 +61,15 @@ Shells cut_shells(const Spectrum& spectrum, int steps, double length, int refine
     const double q1 = spectrum.q1(), width = std::log(q1 / spectrum.q_L());
     const double rms = spectrum.rms_height();
     const double more = std::min(rms / length, 1e4);
-    const double share = steps / (steps + more);
+    const double fraction = steps / (steps + more);
     steps = static_cast<int>(std::ceil(steps + more)) << refinement;
     const int table = std::max(20000, 20 * steps);
     std::vector<double> mark(static_cast<std::size_t>(table) + 1), variance(mark.size());
     for (int i = 0; i <= table; ++i) {
         const auto k = static_cast<std::size_t>(i);
         variance[k] = spectrum.height_variance_above(q1 * std::exp(-width * i / table));
-        mark[k] = share * i / table + (1 - share) * std::sqrt(std::max(0.0, variance[k])) / rms;
+        mark[k] =
+            fraction * i / table + (1 - fraction) * std::sqrt(std::max(0.0, variance[k])) / rms;
     }
     Shells shells{{q1}, {0}};
     for (int s = 1; s <= steps; ++s) {
@@ -330,9 +331,9 @@ void Flow::run() {
         // on by the rate it would fall below, and nothing would bring it back.
         for (std::size_t i = 0; i < points_; ++i) {
             const bool inner = i > 0 && i + 1 < points_;
-            const double share =
+            const double fraction =
                 inner ? std::clamp(4 * (1 + curvature(stage, i) / stiffness_[i]), 0.0, 1.0) : 1;
-            from[i] = stage[i] + share * (ratio - 1) * (stage[i] - phi[i]);
+            from[i] = stage[i] + fraction * (ratio - 1) * (stage[i] - phi[i]);
         }
         expect(1);
         set_coefficients(shells_.q[s + 1], stage_observed);

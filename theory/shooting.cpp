@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Bracketing and root finding; the reasons are in the header. Roots by Boost's TOMS 748.
-// Cost: a search is ~15 coarse marches, a follow-up on a finer grid ~4.
+// Cost: a search is ~15 coarse integrations, a follow-up on a finer grid ~4.
 #include "theory/shooting.hpp"
 
 #include <algorithm>
@@ -47,44 +47,46 @@ double Shooting::g0(double x) const {
     return pressing_ ? x * scale_ : lowest_ + contact_.work_of_adhesion * std::exp(x);
 }
 
-MarchInput Shooting::input(double g0) const {
+IntegrationInput Shooting::input(double g0) const {
     return {contact_.contact_modulus, contact_.pressure, contact_.beta, g0};
 }
 
-MarchGrid Shooting::grid_for(double x, int refinement) const {
+IntegrationGrid Shooting::grid_for(double x, int refinement) const {
     if (!pressing_) {
         // A grid meant to stay starts a little early, so that a neighbouring g0 may use it too.
         const double early = x - std::log(4.0);
         return make_grid(contact_.spectrum, contact_.area_reading(), input(g0(early)),
                          options_.spacing, refinement);
     }
-    std::optional<double> knee;
+    std::optional<double> onset;
     const auto grid = [&](int r) {
         return make_grid(contact_.spectrum, contact_.area_reading(), input(g0(x)), options_.spacing,
-                         r, knee);
+                         r, onset);
     };
     // Where γ_eff leaves zero, found on a coarse grid, then on one refined there.
     for (int pass = 0; pass < 3 && g0(x) < 0; ++pass) {
-        const MarchGrid coarse = grid(pass > 0 ? 1 : 0);
-        const MarchPath path = first_passage(coarse, input(g0(x)));
+        const IntegrationGrid coarse = grid(pass > 0 ? 1 : 0);
+        const IntegrationPath path = first_passage(coarse, input(g0(x)));
         const auto up = std::find_if(path.gamma.begin(), path.gamma.end(),
                                      [](double gamma) { return gamma > 0; });
         if (up == path.gamma.begin() || up == path.gamma.end()) break;
         const auto i = static_cast<std::size_t>(up - path.gamma.begin());
         const auto y = [&](std::size_t k) { return std::log(coarse.T[k]) + std::log(coarse.q[k]); };
         const double part = -path.gamma[i - 1] / (path.gamma[i] - path.gamma[i - 1]);
-        // M3 = T/(π/2 E*²) is what the spectrum's clock is made of.
-        knee = y(i - 1) + part * (y(i) - y(i - 1)) -
-               std::log(std::numbers::pi / 2 * contact_.contact_modulus * contact_.contact_modulus);
+        // M3 = T/(π/2 E*²) is what the spectrum's coordinate is made of.
+        onset =
+            y(i - 1) + part * (y(i) - y(i - 1)) -
+            std::log(std::numbers::pi / 2 * contact_.contact_modulus * contact_.contact_modulus);
     }
     return grid(refinement);
 }
 
-MarchPath Shooting::march(const MarchGrid& grid, double g0, int refinement) const {
-    return options_.march.follow(grid, input(g0), options_.spacing / (1 << refinement));
+IntegrationPath Shooting::integration(const IntegrationGrid& grid, double g0,
+                                      int refinement) const {
+    return options_.integration.follow(grid, input(g0), options_.spacing / (1 << refinement));
 }
 
-double Shooting::excess(const MarchGrid& grid, const MarchPath& path) const {
+double Shooting::excess(const IntegrationGrid& grid, const IntegrationPath& path) const {
     const double a = path.area.back(), S = grid.stretch.back();
     if (pressing_) // g0 + u - Δγ A*, Eq. (3) at ζ = 1
         return (path.gamma.back() - contact_.work_of_adhesion) * a * S / scale_;
@@ -92,9 +94,9 @@ double Shooting::excess(const MarchGrid& grid, const MarchPath& path) const {
 }
 
 double Shooting::excess_at(double x, int refinement, double* area) const {
-    const MarchGrid grid = make_grid(contact_.spectrum, contact_.area_reading(), input(g0(x)),
-                                     options_.spacing, refinement);
-    const MarchPath path = march(grid, g0(x), refinement);
+    const IntegrationGrid grid = make_grid(contact_.spectrum, contact_.area_reading(), input(g0(x)),
+                                           options_.spacing, refinement);
+    const IntegrationPath path = integration(grid, g0(x), refinement);
     if (area != nullptr) *area = path.area.back();
     return excess(grid, path);
 }
@@ -131,8 +133,8 @@ Shooting::Outcome Shooting::search(int refinement) const {
 }
 
 Shooting::Outcome Shooting::follow(const Outcome& near, int refinement) const {
-    const MarchGrid grid = grid_for(near.x, refinement);
-    const auto f = [&](double x) { return excess(grid, march(grid, g0(x), refinement)); };
+    const IntegrationGrid grid = grid_for(near.x, refinement);
+    const auto f = [&](double x) { return excess(grid, integration(grid, g0(x), refinement)); };
     const double far = pressing_ ? std::numeric_limits<double>::infinity() : std::log(2.0);
     double x0 = near.x, f0 = f(x0);
     double x1 = x0 + (pressing_ ? 1e-4 : 1e-2) * (f0 > 0 ? -1 : 1);
@@ -172,16 +174,16 @@ Shooting::Limit Shooting::extrapolate(std::span<const double> values) const {
     const auto eliminate = [](double coarse, double fine, double ratio) {
         return fine + (fine - coarse) / (ratio - 1);
     };
-    const double ratio = std::pow(2, options_.march.order);
+    const double ratio = std::pow(2, options_.integration.order);
     const auto once = [&](std::span<const double> v) {
         return eliminate(v[v.size() - 2], v[v.size() - 1], ratio);
     };
     const auto best = [&](std::span<const double> v) {
-        if (options_.march.order == 2) return once(v);
+        if (options_.integration.order == 2) return once(v);
         return eliminate(once(v.first(v.size() - 1)), once(v), 4);
     };
     const double value = best(values);
-    if (values.size() > 3 || options_.march.order == 2)
+    if (values.size() > 3 || options_.integration.order == 2)
         return {value, std::abs(value - best(values.first(values.size() - 1)))};
     return {value, std::abs(value - once(values))};
 }

@@ -13,7 +13,7 @@
 
 #include <span>
 
-#include "theory/march.hpp"
+#include "theory/integration.hpp"
 #include "theory/persson.hpp"
 
 namespace asperity::theory {
@@ -33,13 +33,14 @@ public:
     /// From a neighbour, on a grid that stays; falls back to search.
     [[nodiscard]] Outcome follow(const Outcome& near, int refinement) const;
 
-    /// The limiting march where the adhesive branch ends: g0 at its lower end.
+    /// The limiting integration where the adhesive branch ends: g0 at its lower end.
     [[nodiscard]] double excess_at_edge(int refinement) const;
 
     [[nodiscard]] double g0(double x) const;
     [[nodiscard]] double lowest_g0() const { return lowest_; }
-    [[nodiscard]] MarchGrid grid_for(double x, int refinement) const;
-    [[nodiscard]] MarchPath march(const MarchGrid& grid, double g0, int refinement) const;
+    [[nodiscard]] IntegrationGrid grid_for(double x, int refinement) const;
+    [[nodiscard]] IntegrationPath integration(const IntegrationGrid& grid, double g0,
+                                              int refinement) const;
 
     /// The value at spacing zero from values on nested grids, coarse to fine, three at least. The
     /// error is the distance to what one grid fewer gave, or, with only three, one elimination
@@ -50,8 +51,8 @@ public:
     [[nodiscard]] Limit extrapolate(std::span<const double> values) const;
 
 private:
-    [[nodiscard]] MarchInput input(double g0) const;
-    [[nodiscard]] double excess(const MarchGrid& grid, const MarchPath& path) const;
+    [[nodiscard]] IntegrationInput input(double g0) const;
+    [[nodiscard]] double excess(const IntegrationGrid& grid, const IntegrationPath& path) const;
     [[nodiscard]] double excess_at(double x, int refinement, double* area = nullptr) const;
 
     const AdhesiveContact& contact_;

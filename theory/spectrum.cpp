@@ -180,7 +180,7 @@ Magnification Spectrum::at(double q) const {
             slope > 0 ? std::log(slope) + std::log(q) : -infinity};
 }
 
-Magnification Spectrum::at_log_clock(double y) const {
+Magnification Spectrum::at_coordinate(double y) const {
     if (flat_) return last();
     const auto found =
         std::lower_bound(segments_.begin(), segments_.end(), y,
@@ -223,7 +223,8 @@ Magnification Spectrum::at_log_clock(double y) const {
 }
 
 std::vector<Spectrum::Band> Spectrum::bands() const {
-    constexpr std::size_t few = 32; // above this a table's kinks are small and left to the march
+    constexpr std::size_t few =
+        32; // above this a table's kinks are small and left to the integration
     std::vector<Band> result;
     if (flat_) return result;
     for (std::size_t i = 0; i < segments_.size(); ++i) {

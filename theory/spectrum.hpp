@@ -10,9 +10,9 @@
 // lost to quadrature however wide (q1/q0 = 10⁶) or narrow the spectrum. Gaps are simply wavevectors
 // that no segment covers.
 //
-// The theory's clock is the slope moment, M3(q) = ∫ q³ C dq from q_L to q: T = (π/2) E*² M3.
-// `Magnification` is a point on that clock. It carries M3 beside q because near q_L the
-// clock starts at M3 = 0 and steps of 10⁻³⁰ in M3 do not move q in double precision.
+// The coordinate of the theory is the slope moment, M3(q) = ∫ q³ C dq from q_L to q: T = (π/2) E*²
+// M3. `Magnification` is a point along it. It carries M3 beside q because near q_L the moment
+// starts at M3 = 0 and steps of 10⁻³⁰ in M3 do not move q in double precision.
 //
 // Units: any consistent set; q in 1/length, C in length⁴ (e.g. Å and Å⁴).
 // Cost: O(log segments) a look-up, no allocation after construction.
@@ -33,12 +33,12 @@ struct SelfAffine {
     double h_rms = 0; ///< rms roughness [length]
 };
 
-/// A point of the spectrum: the wavevector and its place on the clock.
+/// A point of the spectrum: the wavevector and its slope moment.
 struct Magnification {
-    double q = 0;       ///< [1/length]
-    double slope = 0;   ///< M3(q) = ∫ q³ C dq from the smallest wavevector [1]
-    double energy = 0;  ///< M2(q) = ∫ q² C dq [length]
-    double log_clock{}; ///< y = ln M3 + ln q, the coordinate in which marches step
+    double q = 0;        ///< [1/length]
+    double slope = 0;    ///< M3(q) = ∫ q³ C dq from the smallest wavevector [1]
+    double energy = 0;   ///< M2(q) = ∫ q² C dq [length]
+    double coordinate{}; ///< y = ln M3 + ln q, the coordinate in which the integration steps
 };
 
 class Spectrum {
@@ -74,7 +74,7 @@ public:
     [[nodiscard]] Magnification last() const { return at(q_largest_); }
 
     /// The point where ln M3 + ln q = y. In a gap: the gap's upper edge.
-    [[nodiscard]] Magnification at_log_clock(double y) const;
+    [[nodiscard]] Magnification at_coordinate(double y) const;
 
     /// Marks in y between which C is smooth: gap edges, always in pairs (a gap is one interval of
     /// no roughness); kinks too while the segments are few. First -infinity, last y(q1).

@@ -19,7 +19,7 @@ CellElasticity BlockOptions::elasticity(int level) const {
     return {shear_modulus() * s, (lame() - shear_modulus()) * s / 16.0};
 }
 
-double BlockOptions::absorbed_share(int level, int cells, int z) const {
+double BlockOptions::absorbed_fraction(int level, int cells, int z) const {
     const int from = absorbs_from(level, cells);
     if (z < from) return 0.0;
     // Rates over c_P / s, found by the search of docs/explanation/seams.md.
@@ -67,17 +67,17 @@ std::vector<LevelShape> level_shapes(const BlockOptions& options) {
 }
 
 std::size_t Block::Level::bytes() const {
-    return u.bytes() + v.bytes() + incoming.bytes() + upper_force.bytes();
+    return u.bytes() + v.bytes() + transferred.bytes() + upper_force.bytes();
 }
 
 double Block::Level::mass(int z) const {
     if (z > 0 || shape.level == 0) return node_mass; // the lowest layer's atoms are full atoms
-    // Half a coarse cell above, and from below the hanging plane's half cells: 4 (m/8)/2 = m/4.
+    // Half a coarse cell above, and from below the constrained plane's half cells: 4 (m/8)/2 = m/4.
     return 0.75 * node_mass;
 }
 
 ElasticLevel Block::Level::view(double a) {
-    return {shape.cells, u.view(), v.view(), incoming.plane(0), upper_force.plane(0), lower,
+    return {shape.cells, u.view(), v.view(), transferred.plane(0), upper_force.plane(0), lower,
             inner,       upper,    cell(a)};
 }
 
@@ -97,15 +97,15 @@ Block::Block(const BlockOptions& options, const Communicator& communicator, cons
         level.inner = make_stencil(level.elasticity, Face::inner);
         level.upper = make_stencil(level.elasticity, Face::upper);
         level.u = VectorField<double>(level.tile, shape.cells + 1);
-        level.incoming = VectorField<double>(level.tile, 1);
+        level.transferred = VectorField<double>(level.tile, 1);
         level.upper_force = VectorField<double>(level.tile, 1);
         level.v = VectorField<double>(level.tile, shape.cells);
         level.absorbs_from = shape.cells;
         if (options.absorption_span > 0.0 && shape.level < shapes.back().level) {
             level.absorbs_from = options.absorbs_from(shape.level, shape.cells);
             for (int z = 0; z < shape.cells; ++z)
-                level.share.push_back(options.absorbed_share(shape.level, shape.cells, z));
-            level.hanging_v = VectorField<double>(level.tile, 1);
+                level.fraction.push_back(options.absorbed_fraction(shape.level, shape.cells, z));
+            level.constrained_v = VectorField<double>(level.tile, 1);
         }
         depth += shape.cells * static_cast<double>(1 << shape.level);
         levels_.push_back(std::move(level));
@@ -222,7 +222,7 @@ std::size_t Block::finite_bytes() const {
 std::size_t Block::absorption_bytes() const {
     std::size_t total = 0;
     for (const Level& level : levels_)
-        total += level.hanging_v.bytes();
+        total += level.constrained_v.bytes();
     for (const std::vector<double>& rows : absorption_rows_)
         total += rows.size() * sizeof(double);
     return total;

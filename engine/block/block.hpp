@@ -9,11 +9,11 @@
 // top. A block of one level is the plain lattice.
 //
 // Data of a level: u (displacement) and v (velocity at the half step), three arrays each; and
-// `incoming`, the forces handed to its lowest plane from below: by the interface on level 0, by the
-// hanging plane of the level below on the others. A step goes
+// `transferred`, the forces handed to its lowest plane from below: by the interface on level 0, by
+// the constrained plane of the level below on the others. A step goes
 //
-//   interpolate()  hanging planes follow          needs u with halos
-//   (interface)    fills incoming of level 0      needs u of the lowest plane
+//   interpolate()  constrained planes follow     needs u with halos
+//   (interface)    fills transferred of level 0  needs u of the lowest plane
 //   advance()      level by level from below: forces and kick; force on the upper plane, handed to
 //                  the level above; drift of u in place, row after row behind the forces
 //   exchange()     halos of u
@@ -57,9 +57,9 @@ struct BlockOptions {
     /// Speed of longitudinal waves, Å/fs.
     double sound_speed() const;
     CellElasticity elasticity(int level) const;
-    /// Share of the velocities' differences in cell z of a level of so many cells that an
+    /// Fraction of the velocities' differences in cell z of a level of so many cells that an
     /// absorption takes (kernels/absorption.hpp).
-    double absorbed_share(int level, int cells, int z) const;
+    double absorbed_fraction(int level, int cells, int z) const;
     /// The first such cell.
     int absorbs_from(int level, int cells) const;
     /// Largest angular frequency of the bulk lattice with the interface's stiffness per site
@@ -101,12 +101,13 @@ public:
         double depth = 0.0;     ///< of its lowest plane, in cells of edge a
         CellElasticity elasticity;
         Stencil lower, inner, upper;
-        VectorField<double> u, incoming;
+        VectorField<double> u, transferred;
         VectorField<double> v;
         VectorField<double> upper_force; ///< on the prescribed plane; one plane
-        std::vector<double> share;       ///< of each cell that an absorption takes; empty: no cell
+        std::vector<double> fraction;    ///< of each cell that an absorption takes; empty: no cell
         int absorbs_from = 0;            ///< first cell that absorbs; shape.cells if none does
-        VectorField<double> hanging_v;   ///< velocity of the hanging plane of a level that absorbs
+        VectorField<double>
+            constrained_v; ///< velocity of the constrained plane of a level that absorbs
 
         std::size_t bytes() const;
         bool absorbs() const { return absorbs_from < shape.cells; }
@@ -115,8 +116,8 @@ public:
         double mass(int z) const;
         /// Nodes of this tile that move.
         long long nodes() const { return static_cast<long long>(tile.nx) * tile.ny * shape.cells; }
-        /// The first plane at this share of the block's thickness or above it; shape.cells if none
-        /// is. Decides which nodes are damped, and which feel noise.
+        /// The first plane at this fraction of the block's thickness or above it; shape.cells if
+        /// none is. Decides which nodes are damped, and which feel noise.
         int first_plane_from(double share_of_thickness, int thickness) const;
         /// For the kernels; a: the spacing of atoms, Å.
         LevelCell cell(double a) const { return {edge(a), elasticity}; }
@@ -131,15 +132,15 @@ public:
     const std::vector<Level>& levels() const { return levels_; }
     /// Of a level of this block, to be written to.
     struct Fields {
-        VectorField<double>&u, &v, &incoming;
+        VectorField<double>&u, &v, &transferred;
     };
     Fields fields(const Level& level) {
         Level& own = levels_[static_cast<std::size_t>(level.shape.level)];
-        return {own.u, own.v, own.incoming};
+        return {own.u, own.v, own.transferred};
     }
 
     VectorPlane<const double> lowest_layer() const { return levels_.front().u.view()[0]; }
-    VectorPlane<double> interface_force() { return levels_.front().incoming.plane(0); }
+    VectorPlane<double> interface_force() { return levels_.front().transferred.plane(0); }
 
     /// Everything displaced (0, 0, z) and moving with velocity (0, 0, w).
     void set_uniform(double z, double w);
@@ -155,7 +156,7 @@ public:
     /// What a step does with the force on each plane of a level.
     LevelKicks kicks(const Level& level, const StepParameters& step) const;
 
-    /// Only where there are hanging planes: nothing to do for a block of one level.
+    /// Only where there are constrained planes: nothing to do for a block of one level.
     bool hangs() const { return levels_.size() > 1; }
     void interpolate();
     void advance(const StepParameters& step, KickSums& sums);
@@ -164,7 +165,8 @@ public:
     /// taken: this rank's share of the kinetic energy that is lost is added, eV.
     void absorb(long long number, ExactSum& taken);
     void exchange();
-    /// In place of advance: forces on all moving planes (incoming ones included) into out[level].
+    /// In place of advance: forces on all moving planes (transferred ones included) into
+    /// out[level].
     void forces(std::vector<VectorField<double>>& out);
 
     // Global values: collective, the same bits on every rank.

@@ -53,7 +53,7 @@ void Block::absorb(long long number, ExactSum& taken) {
     exchange_absorbing(absorbing);
 #pragma omp parallel if (levels_.front().nodes() > worth_threads)
     for (std::size_t l = 0; l < absorbing; ++l)
-        follow(l, std::as_const(levels_[l + 1].v).plane(0), levels_[l].hanging_v.plane(0));
+        follow(l, std::as_const(levels_[l + 1].v).plane(0), levels_[l].constrained_v.plane(0));
     for (std::size_t l = 0; l <= absorbing; ++l) {
         if (l < absorbing) {
             absorb_in_cells(l, taken);
@@ -73,11 +73,11 @@ void Block::absorb_in_cells(std::size_t l, ExactSum& taken) {
     if (absorption_rows_.size() < threads) absorption_rows_.resize(threads);
     const AbsorbingCells cells{level.absorbs_from,
                                level.shape.cells,
-                               level.share.data(),
+                               level.fraction.data(),
                                level.node_mass,
                                level.mass(0),
                                level.v.view(),
-                               std::as_const(level.hanging_v).plane(0),
+                               std::as_const(level.constrained_v).plane(0),
                                level.upper_force.plane(0)};
     ExactSum sum;
 #pragma omp parallel if (level.nodes() > worth_threads)
@@ -111,12 +111,12 @@ void Block::absorb_in_cells(std::size_t l, ExactSum& taken) {
     if (counts(level)) taken.merge(sum);
 }
 
-/// The lowest plane takes the impulse of the hanging plane below.
+/// The lowest plane takes the impulse of the constrained plane below.
 void Block::absorb_from_below(std::size_t l, ExactSum& taken) {
     Level& level = levels_[l];
     ExactSum sum;
     for (int y = 0; y < level.tile.ny; ++y)
-        absorption_kernels().take(level.v.plane(0), std::as_const(level.incoming).plane(0),
+        absorption_kernels().take(level.v.plane(0), std::as_const(level.transferred).plane(0),
                                   levels_[l - 1].node_mass, level.mass(0), y, sum);
     if (counts(level)) taken.merge(sum);
 }

@@ -41,7 +41,7 @@ LevelKicks Block::kicks(const Level& level, const StepParameters& step) const {
     return {make(0, from == 0), make(1, false), make(1, true), from};
 }
 
-/// Level by level from below, for the upper plane's forces are the incoming forces of the level
+/// Level by level from below, for the upper plane's forces are the transferred forces of the level
 /// above. Each thread advances its share of the rows band by band; a row drifts as soon as no force
 /// needs its old place, and the outermost rows of a share, which the neighbouring threads need,
 /// when all forces of the level are done.
@@ -104,14 +104,14 @@ void Block::restrict_forces(std::size_t fine) {
     const Tile nodes =
         levels_[fine].tiled ? grid_.footprint(coarse.shape.level, grid_.rank()) : coarse.tile;
     const auto force = std::as_const(levels_[fine].upper_force).plane(0);
-    const auto incoming = coarse.incoming.plane(0);
+    const auto transferred = coarse.transferred.plane(0);
     const int x0 = nodes.x0 - coarse.tile.x0, y0 = nodes.y0 - coarse.tile.y0;
 #pragma omp for schedule(static)
     for (int y = y0; y < y0 + nodes.ny; ++y) {
         const auto& restrict_forces = transfer_kernels().restrict_forces;
-        restrict_forces(seam(fine), force.x, incoming.x, y, x0, nodes.nx);
-        restrict_forces(seam(fine), force.y, incoming.y, y, x0, nodes.nx);
-        restrict_forces(seam(fine), force.z, incoming.z, y, x0, nodes.nx);
+        restrict_forces(seam(fine), force.x, transferred.x, y, x0, nodes.nx);
+        restrict_forces(seam(fine), force.y, transferred.y, y, x0, nodes.nx);
+        restrict_forces(seam(fine), force.z, transferred.z, y, x0, nodes.nx);
     }
 }
 
@@ -120,7 +120,7 @@ void Block::share_restricted_forces(std::size_t fine) {
     if (fine + 1 >= levels_.size()) return;
     const Level& coarse = levels_[fine + 1];
     if (!levels_[fine].tiled || coarse.tiled) return;
-    const auto in = levels_[fine + 1].incoming.plane(0);
+    const auto in = levels_[fine + 1].transferred.plane(0);
     const std::array planes = {in.x, in.y, in.z};
     gather_footprints(communicator_, grid_, coarse.shape.level, planes);
 }

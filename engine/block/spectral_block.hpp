@@ -63,14 +63,16 @@ public:
     }
 
     VectorPlane<const double> lowest_layer() const { return layer_.plane(0); }
-    /// The displacement at the sites, to be written from outside; settle() makes the waves follow.
+    /// The displacement at the sites, to be written from outside; apply_constraint() makes the
+    /// waves follow.
     VectorField<double>& layer() { return layer_; }
     VectorPlane<double> interface_force() { return force_.plane(0); }
     VectorPlane<const double> interface_force() const { return force_.plane(0); }
 
     /// The whole block displaced by (0, 0, z).
     void set_uniform(double z);
-    /// What is prescribed from now on (at first, no load); settle() brings the block there.
+    /// What is prescribed from now on (at first, no load); apply_constraint() brings the block
+    /// there.
     void constrain(const Constraint& constraint);
     const Constraint& constraint() const { return constraint_; }
     /// Displacement of the top plane along z, Å. Collective, as are the next two.
@@ -90,10 +92,10 @@ public:
     /// U_el, eV. Collective.
     double elastic_energy() const;
     /// Where the sites would come to rest under the forces of gradient(), did a spring k tie each
-    /// to where it is: goal <- (S + k)^-1 (k u + F + load). The waves are room for work; those of
+    /// to where it is: target <- (S + k)^-1 (k u + F + load). The waves are room for work; those of
     /// the displacement are not looked at. Collective.
     void respond(const Preconditioner& preconditioner, Waves<float>& waves,
-                 SiteField<float>& goal) const;
+                 SiteField<float>& target) const;
 
     /// The field of some waves, which are lost. Collective.
     template <class T>
@@ -103,18 +105,19 @@ public:
     void to_waves(const SiteField<T>& field, Waves<T>& waves) const;
     /// u <- u + t d, given both as waves and at the sites.
     void displace(double t, const Waves<float>& d, const SiteField<float>& at_sites);
-    /// Component c of those that move, at the sites, to be moved from outside (settle() as above).
+    /// Component c of those that move, at the sites, to be moved from outside (apply_constraint()
+    /// as above).
     PlaneView<double> moving_layer(int c) { return moving(layer_.plane(0), c); }
     /// Puts the sites, moved from outside, back to a prescribed mean height. Collective.
     void restore_mean_height();
     /// Makes the waves those of the sites: after these were moved from outside, or after many
     /// displacements, which in single precision leave 1e-7 of what has been moved between them. A
     /// prescribed mean height is then what it should be. Collective.
-    void settle();
+    void apply_constraint();
     /// The same under another constraint.
-    void settle(const Constraint& constraint) {
+    void apply_constraint(const Constraint& constraint) {
         constrain(constraint);
-        settle();
+        apply_constraint();
     }
 
     /// S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2. Frictionless: its one number, as zz.

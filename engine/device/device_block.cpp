@@ -168,7 +168,7 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
         const Block::Level& from = host[l];
         LevelMemory memory = {{place(from.u), place(from.u)},
                               place(from.v),
-                              place(from.incoming)[0],
+                              place(from.transferred)[0],
                               place(from.upper_force)[0]};
         const bool coarser = l + 1 < host.size();
         DeviceLevel level;
@@ -181,7 +181,7 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
         level.u[0] = memory.u[0];
         level.u[1] = memory.u[1];
         level.v = memory.v;
-        level.incoming = memory.incoming;
+        level.transferred = memory.transferred;
         level.upper_force = memory.upper_force;
         level.lower = from.lower;
         level.inner = from.inner;
@@ -209,13 +209,13 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
         };
         count(step_.moving, from.nodes());
         count(step_.faces, frame(1));
-        count(step_.hanging, frame(halo_width));
+        count(step_.constrained, frame(halo_width));
     }
     step_.levels = copy_of(std::span<const DeviceLevel>(levels));
     step_.kicks = kicks_ = place<LevelKicks>(levels.size());
     step_.sums = all_sums_ = place<PassSums>(4);
     take_tables(interface);
-    step_.sites.force = levels_[0].incoming;
+    step_.sites.force = levels_[0].transferred;
     step_.sites.spacing = block.options().spacing;
     step_.sites.x0 = interface.tile().x0;
     step_.sites.y0 = interface.tile().y0;
@@ -328,7 +328,7 @@ void DeviceBlock::forces(const At& at) {
     step_.sites.displacement = VectorVolume<const double>(levels_[0].u[step_.now])[0];
     step_.sites.reference_height = at.reference_height;
     mark(begun);
-    check(device_.follow(step_), "the launch of hanging planes");
+    check(device_.follow(step_), "the launch of constrained planes");
     mark(followed);
     check(device_.forces(step_, potential_), "the launch of forces");
     mark(pushed);
@@ -386,7 +386,7 @@ DeviceSums DeviceBlock::sums() {
 }
 
 /// A mark of the step under way. Three steps have marks: the one launched ahead, the one whose sums
-/// are waited for, and the one before, which is booked.
+/// are waited for, and the one before, which is recorded.
 int DeviceBlock::number_of(StepMark mark, long long step) {
     return static_cast<int>(step % 3) * marks_of_step + mark;
 }
@@ -395,12 +395,12 @@ void DeviceBlock::mark(StepMark mark) {
 }
 
 void DeviceBlock::book(Phases& phases, bool all) {
-    if (all && booked_ < steps_) check(device_.wait(number_of(exchanged, steps_ - 1)), "a step");
+    if (all && recorded_ < steps_) check(device_.wait(number_of(exchanged, steps_ - 1)), "a step");
     // The sums of the last step say that the one before it has ended.
-    for (; booked_ < steps_ - (all ? 0 : 1); ++booked_) {
+    for (; recorded_ < steps_ - (all ? 0 : 1); ++recorded_) {
         const auto add = [&](Phase phase, StepMark first, StepMark second) {
             double seconds = 0.0;
-            check(device_.seconds_between(number_of(first, booked_), number_of(second, booked_),
+            check(device_.seconds_between(number_of(first, recorded_), number_of(second, recorded_),
                                           seconds),
                   "its clock");
             phases.add(phase, seconds);
@@ -421,11 +421,14 @@ void DeviceBlock::share_restricted_forces(const Block& block) {
     check(device_.restrict_to_shared(
               step_, shared_level_, {nodes.x0, nodes.x0 + nodes.nx, nodes.y0, nodes.y0 + nodes.ny}),
           "the launch of a restriction");
-    const VectorPlane<double>& incoming = levels_[static_cast<std::size_t>(shared_level_)].incoming;
+    const VectorPlane<double>& transferred =
+        levels_[static_cast<std::size_t>(shared_level_)].transferred;
     Field<double>* const host[] = {&shared_.x, &shared_.y, &shared_.z};
     double* device[3];
     for (int c = 0; c < 3; ++c) {
-        const PlaneView<double>& plane = c == 0 ? incoming.x : c == 1 ? incoming.y : incoming.z;
+        const PlaneView<double>& plane = c == 0   ? transferred.x
+                                         : c == 1 ? transferred.y
+                                                  : transferred.z;
         device[c] = plane.origin - (host[c]->view().origin - host[c]->storage().data());
         check(device_.fetch(pinned_.shared[c], device[c], shared_bytes_), "a copy from it");
     }

@@ -60,7 +60,8 @@ public:
         bool operator==(const At&) const = default;
     };
     // One step in time. block: whose constants and ranks these are.
-    /// Hanging planes and forces. Launched already if the last call since advance() was the same.
+    /// Constrained planes and forces. Launched already if the last call since advance() was the
+    /// same.
     void forces(const At& at);
     /// Everything else of the step, halos included. noise: in a scene with a temperature.
     void advance(const Block& block, const StepParameters& step,
@@ -80,7 +81,7 @@ public:
 private:
     struct LevelMemory {
         VectorVolume<double> u[2], v;
-        VectorPlane<double> incoming, upper_force;
+        VectorPlane<double> transferred, upper_force;
     };
     /// Places in the queue.
     enum StepMark { begun, followed, pushed, resumed, advanced, exchanged, marks_of_step };
@@ -122,7 +123,7 @@ private:
     /// Halos on their way, in device memory: to and from the neighbours before and after.
     double *to_before_ = nullptr, *to_after_ = nullptr, *from_before_ = nullptr,
            *from_after_ = nullptr;
-    int shared_level_ = -1; ///< whose incoming forces are put together over the ranks
+    int shared_level_ = -1; ///< whose transferred forces are put together over the ranks
     VectorField<double> shared_;
     std::size_t shared_bytes_ = 0; ///< of a component
 
@@ -140,7 +141,7 @@ private:
     bool kicks_known_ = false;
     std::optional<At> launched_; ///< forces, since the last advance()
     long long steps_ = 0;        ///< advanced
-    long long booked_ = 0;
+    long long recorded_ = 0;
 };
 
 } // namespace asperity

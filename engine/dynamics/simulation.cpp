@@ -36,8 +36,8 @@ void Simulation::start(double height) {
 
 // A step, and what must be current when:
 //   absorb        every so many steps, where seams absorb: v(n-1/2) of the cells that do
-//   interpolate   hanging planes of u(n), from coarse planes with current halos, if there are any
-//   interface     forces of the substrate at u(n)          -> incoming of level 0
+//   interpolate   constrained planes of u(n), from coarse planes with current halos
+//   interface     forces of the substrate at u(n)          -> transferred of level 0
 //   observe       energies of u(n), if this step is observed
 //   advance       all forces at u(n), level by level; v(n-1/2) -> v(n+1/2); u(n) -> u(n+1)
 //   thermostat    noise on v(n+1/2) and u(n+1), if the scene has a temperature
@@ -149,10 +149,10 @@ ExactSum Simulation::power_of_external() const {
 }
 
 /// A trapezium from n-1 to n, like the works above: half with the forces at each end.
-void Simulation::book_external() {
+void Simulation::integrate_external_work() {
     const auto [before, after] =
         global_sums(communicator(), std::array{external_before_, external_after_});
-    if (has_previous_) ledger_.external += 0.5 * options_.dt * (before + external_pending_);
+    if (has_previous_) balance_.external += 0.5 * options_.dt * (before + external_pending_);
     external_pending_ = after;
     external_before_ = external_after_ = {};
 }
@@ -187,8 +187,8 @@ void Simulation::update_slide() {
         for (std::size_t axis : {0u, 1u})
             work -= 0.5 * (force[axis] + record_.lateral_force[axis]) *
                     (place[axis] - record_.slide[axis]);
-    ledger_.top_work += work;
-    ledger_.lateral += work;
+    balance_.top_work += work;
+    balance_.lateral += work;
     record_.slide = place;
     record_.lateral_force = force;
 }
@@ -231,20 +231,20 @@ void Simulation::update_energy_balance() {
     const double top = block_.top() - options_.dt * velocity; // at n; the block is at n + 1 already
     if (has_previous_) {
         // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
-        ledger_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
-        ledger_.interface += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
+        balance_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
+        balance_.interface += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
         // What the medium takes and gives likewise, half of it at each end; noise given after n-1
         // was observed is part of n's energy, that of n is not yet.
-        ledger_.damped += 0.5 * (dissipated + pending_.dissipated);
-        ledger_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
-        ledger_.heat += pending_.heat;
+        balance_.damped += 0.5 * (dissipated + pending_.dissipated);
+        balance_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
+        balance_.heat += pending_.heat;
     }
 
     if (slides()) update_slide();
-    if (external_ || external_pending_ != 0.0) book_external();
+    if (external_ || external_pending_ != 0.0) integrate_external_work();
 
     // Taken at the start of the step, before its energies.
-    ledger_.radiated += radiated;
+    balance_.radiated += radiated;
     radiated_ = {};
 
     has_previous_ = true;
@@ -265,17 +265,17 @@ void Simulation::update_energy_balance() {
     record_.closest = contacts.closest;
     if (!energy_at_start_) {
         energy_at_start_ = lj + elastic + kinetic;
-        work_at_start_ = ledger_.work();
-        lost_at_start_ = ledger_.lost();
+        work_at_start_ = balance_.work();
+        lost_at_start_ = balance_.lost();
     }
-    scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(ledger_.work())});
+    scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(balance_.work())});
     const double change = lj + elastic + kinetic - *energy_at_start_;
-    record_.work = ledger_.work();
-    record_.interface_work = ledger_.interface;
-    record_.damped = ledger_.damped;
-    record_.radiated = ledger_.radiated;
+    record_.work = balance_.work();
+    record_.interface_work = balance_.interface;
+    record_.damped = balance_.damped;
+    record_.radiated = balance_.radiated;
     const double balance =
-        (record_.work - work_at_start_) - change - (ledger_.lost() - lost_at_start_);
+        (record_.work - work_at_start_) - change - (balance_.lost() - lost_at_start_);
     record_.residual = scale_ > 0.0 ? balance / scale_ : 0.0;
 }
 

@@ -61,7 +61,7 @@ struct StepRecord {
 };
 
 /// Work and dissipation since the start, eV.
-struct Ledger {
+struct EnergyBalance {
     double top_work = 0.0;  ///< done on the block by the top plane, sideways too
     double lateral = 0.0;   ///< of this, by what moves the block sideways
     double drag_work = 0.0; ///< done on the block by the moving damping medium
@@ -85,7 +85,7 @@ public:
     const StepRecord& step(bool observe);
 
     const StepRecord& now() const { return record_; }
-    const Ledger& ledger() const { return ledger_; }
+    const EnergyBalance& balance() const { return balance_; }
     const SimulationOptions& options() const { return options_; }
     double reference_height() const { return reference_height_; }
     /// Of the block over the substrate at the next step, Å.
@@ -105,7 +105,7 @@ public:
         return block_;
     }
     /// Forces on the sites of this rank's tile beside the substrate's, eV/Å, at each step from the
-    /// next one on; null: none. The field is read where it is. Its work is booked, but for that on
+    /// next one on; null: none. The field is read where it is. Its work is counted, but for that on
     /// displacements by a thermostat's noise. Not with a device.
     void push(const VectorField<double>* external) { external_ = external; }
     /// After fields were written to from outside, which is no work: the energy balance starts anew
@@ -129,7 +129,7 @@ public:
     /// The same of forces from outside.
     template <class Visitor>
     void visit_external(Visitor& v) {
-        v("work", ledger_.external);
+        v("work", balance_.external);
         v("pending", external_pending_);
     }
 
@@ -148,7 +148,7 @@ private:
     void sweep_interface(bool observe);
     void add_external();
     ExactSum power_of_external() const;
-    void book_external();
+    void integrate_external_work();
     void advance_block(bool observe);
     void add_noise();
     void collect(bool observe);
@@ -171,7 +171,7 @@ private:
     std::array<double, 2> slide_{}; ///< of the block over the substrate, Å
     long long step_ = 0;
     StepRecord record_;
-    Ledger ledger_;
+    EnergyBalance balance_;
     std::optional<double> energy_at_start_; ///< set by the first observed step
     double work_at_start_ = 0.0, lost_at_start_ = 0.0;
     double scale_ = 0.0;        ///< largest energy seen, for the residual
@@ -213,11 +213,11 @@ void Simulation::visit(Visitor& v) {
     v("record.interface_work", record_.interface_work);
     v("record.damped", record_.damped);
     v("record.residual", record_.residual);
-    v("ledger.top_work", ledger_.top_work);
-    v("ledger.drag_work", ledger_.drag_work);
-    v("ledger.damped", ledger_.damped);
-    v("ledger.heat", ledger_.heat);
-    v("ledger.interface", ledger_.interface);
+    v("balance.top_work", balance_.top_work);
+    v("balance.drag_work", balance_.drag_work);
+    v("balance.damped", balance_.damped);
+    v("balance.heat", balance_.heat);
+    v("balance.interface", balance_.interface);
     v("energy.at_start", energy_at_start_);
     v("energy.work_at_start", work_at_start_);
     v("energy.damped_at_start", lost_at_start_);
@@ -228,13 +228,13 @@ void Simulation::visit(Visitor& v) {
     v("pending.heat", pending_.heat);
     if (absorbs()) {
         v("record.radiated", record_.radiated);
-        v("ledger.radiated", ledger_.radiated);
+        v("balance.radiated", balance_.radiated);
     }
     if (slides()) {
         v("slide", slide_);
         v("record.slide", record_.slide);
         v("record.lateral_force", record_.lateral_force);
-        v("ledger.lateral", ledger_.lateral);
+        v("balance.lateral", balance_.lateral);
         interface_.slide_to(record_.slide[0], record_.slide[1]); // where the record is of
     }
 }

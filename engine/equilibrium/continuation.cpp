@@ -51,7 +51,7 @@ void Continuation::accept(double at) {
 
 void Continuation::put_back() {
     last_.restore(state_of(block_));
-    block_.settle(constraint(at_));
+    block_.apply_constraint(constraint(at_));
     place_block(at_);
 }
 

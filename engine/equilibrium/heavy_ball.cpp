@@ -10,34 +10,35 @@
 namespace asperity {
 
 HeavyBall::HeavyBall(SpectralBlock& block)
-    : block_(block), waves_(block.new_waves<float>()), goal_(block.new_field<float>()),
-      momentum_(block.new_field<float>()), gain_(block.tile(), 1, 0) {
-    const PlaneView<float> gain = gain_.plane(0);
-    for (int y = 0; y < gain.ny; ++y)
-        std::fill(gain.line(y), gain.line(y) + gain.nx, 1.0f);
+    : block_(block), waves_(block.new_waves<float>()), target_(block.new_field<float>()),
+      momentum_(block.new_field<float>()), step_sizes_(block.tile(), 1, 0) {
+    const PlaneView<float> step_size = step_sizes_.plane(0);
+    for (int y = 0; y < step_size.ny; ++y)
+        std::fill(step_size.line(y), step_size.line(y) + step_size.nx, 1.0f);
 }
 
 double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
-    block_.respond(preconditioner, waves_, goal_);
+    block_.respond(preconditioner, waves_, target_);
     using Constants = RelaxationConstants;
     const BallRule rule{.keep = Constants::keep,
                         .cut = Constants::cut,
                         .raise = Constants::raise,
-                        .most = Constants::most_gain,
+                        .most = Constants::largest_step_size,
                         .bound = static_cast<float>(bound)};
     const int components = block_.components();
-    const PlaneView<float> gain = gain_.plane(0);
+    const PlaneView<float> step_size = step_sizes_.plane(0);
     double longest = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : longest)
-    for (int y = 0; y < gain.ny; ++y) {
+    for (int y = 0; y < step_size.ny; ++y) {
         BallRow row{};
         for (int c = 0; c < components; ++c) {
-            row.goal[c] = goal_[static_cast<std::size_t>(c)].plane(0).line(y);
+            row.target[c] = target_[static_cast<std::size_t>(c)].plane(0).line(y);
             row.momentum[c] = momentum_[static_cast<std::size_t>(c)].plane(0).line(y);
             row.u[c] = block_.moving_layer(c).line(y);
         }
-        row.gain = gain.line(y);
-        longest = std::max(longest, static_cast<double>(move_row(row, rule, components, gain.nx)));
+        row.step_size = step_size.line(y);
+        longest =
+            std::max(longest, static_cast<double>(move_row(row, rule, components, step_size.nx)));
     }
     block_.restore_mean_height();
     return std::sqrt(block_.communicator().max(longest));

@@ -7,18 +7,18 @@
 // If the interface's forces stayed as they are and a spring k (about what the interface is to a
 // site) tied each site to where it is, the sites would come to rest at
 //
-//     goal = (S + k)^-1 (k u + F + load),
+//     target = (S + k)^-1 (k u + F + load),
 //
-// one transform there and one back for each component; goal - u is the negative gradient in the
+// one transform there and one back for each component; target - u is the negative gradient in the
 // metric S + k, in which long and short waves relax alike. A site moves by
 //
-//     m <- gain (goal - u) + keep m,      |m| at most bound.
+//     m <- step_size (target - u) + keep m,      |m| at most bound.
 //
 // While contact spreads, some site snaps into contact in nearly every iteration. A common momentum,
 // set to zero whenever the energy rises, would always be near zero; so each site has its own. Where
-// the goal lies behind the last move, the site has gone too far: its momentum is set to zero and
-// its gain is cut, which elsewhere recovers slowly. So the gains of sites with stiff contacts (up
-// to 9 eV/Å^2, k being less than 1) adapt by themselves, whatever k is.
+// the target lies behind the last move, the site has gone too far: its momentum is set to zero and
+// its step size is cut, which elsewhere recovers slowly. So the step sizes of sites with stiff
+// contacts (up to 9 eV/Å^2, k being less than 1) adapt by themselves, whatever k is.
 #pragma once
 
 #include "engine/block/spectral_block.hpp"
@@ -31,16 +31,17 @@ public:
 
     /// Moves the sites, interface_force() being up to date, none further than bound (Å) but for
     /// the shift that keeps a prescribed mean height; their waves do not follow
-    /// (SpectralBlock::settle()). Returns the longest way to a goal, Å. Collective.
+    /// (SpectralBlock::apply_constraint()). Returns the largest distance to a target, Å.
+    /// Collective.
     double move(const Preconditioner& preconditioner, double bound);
-    /// From rest again; the gains are kept.
+    /// From rest again; the step sizes are kept.
     void stop();
 
 private:
     SpectralBlock& block_;
     Waves<float> waves_;
-    SiteField<float> goal_, momentum_;
-    Field<float> gain_;
+    SiteField<float> target_, momentum_;
+    Field<float> step_sizes_;
 };
 
 } // namespace asperity

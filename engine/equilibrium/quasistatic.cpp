@@ -120,7 +120,7 @@ void QuasistaticPath::begin(Along along, double direction) {
         along_ = along;
         direction_ = direction;
         trail_.begin(at(), force());
-        ahead_.known = false;
+        bracket_.known = false;
         predicts_ = reversible_;
     }
     attracted_ = bracketed_ = false;
@@ -138,8 +138,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
     const bool to_load = !end_ && kind_ != Segment::pull_off;
     const double aim = !down || attracted_ ? load : std::max(load, 0.0); // through attraction
     for (;;) {
-        const Ahead ahead = ahead_;
-        const bool all_the_way = close_in();
+        const Bracket bracket = bracket_;
+        const bool all_the_way = bisect();
         const double left = end_ ? direction_ * (*end_ - at()) : HUGE_VAL;
         const double planned = length_;
         const bool arrives = left <= length_;
@@ -152,7 +152,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
         const RelaxedState state = points_.relax_at(
             there, predicts_, options_.report, any_force ? ForceWindow{} : acceptable_force(there));
         if (state.interrupted) { // resumed, the same step is made
-            ahead_ = ahead;
+            bracket_ = bracket;
             length_ = planned;
             put_back();
             points_.set_iterations(iterations);
@@ -187,8 +187,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
         }
         // What looks like an instability after a prediction is looked at again without.
         if (std::exchange(predicts_, false) && !state.jumped) continue;
-        if (state.jumped) ahead_ = {true, there, state.force};
-        if (state.converged && !step.excess) ahead_ = {true, there, trial.force};
+        if (state.jumped) bracket_ = {true, there, state.force};
+        if (state.converged && !step.excess) bracket_ = {true, there, trial.force};
         length_ *= 0.5;
         predicts_ = reversible_;
     }
@@ -248,18 +248,18 @@ bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
     return record_.force <= aim + slack && state.force > aim + slack;
 }
 
-/// The next step goes half of the way to the place ahead; or all of it, once the work of such a
-/// step is known well enough: then true.
-bool QuasistaticPath::close_in() {
-    if (!ahead_.known) return false;
-    const double way = std::abs(ahead_.at - at());
-    if (way > smallest_step() && !work_is_known(ahead_.at, ahead_.force)) {
+/// The next step goes half of the way to the far end of the bracket; or all of it, once the work of
+/// such a step is known well enough: then true.
+bool QuasistaticPath::bisect() {
+    if (!bracket_.known) return false;
+    const double way = std::abs(bracket_.at - at());
+    if (way > smallest_step() && !work_is_known(bracket_.at, bracket_.force)) {
         length_ = std::min(length_, 0.5 * way);
         return false;
     }
     length_ = way;
     predicts_ = false;
-    ahead_.known = false;
+    bracket_.known = false;
     return true;
 }
 
@@ -326,7 +326,7 @@ void QuasistaticPath::accept(const Trial& to, const StepCheck& step) {
         trail_.begin(to.at, to.force);
     points_.accept(to.at);
     predicts_ = reversible_ = step.dissipated == 0.0;
-    if (ahead_.known && direction_ * (ahead_.at - to.at) <= 0.0) ahead_.known = false;
+    if (bracket_.known && direction_ * (bracket_.at - to.at) <= 0.0) bracket_.known = false;
     ++record_.step;
     allowed_ += options_.tolerance * sites_ * std::abs(to.at - at());
     set_record(to.state, to.at);

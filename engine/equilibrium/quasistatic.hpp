@@ -121,9 +121,9 @@ private:
     struct SegmentError {
         double gap = 0.0, squares = 0.0; ///< eV, eV^2
     };
-    /// A place further on, and the force there, by which steps close in on it. Between the last
-    /// point and it the block becomes unstable, or the force is not smooth enough to tell.
-    struct Ahead {
+    /// The far end of an interval that is bisected, and the force there. Between the last point and
+    /// it the block becomes unstable, or the force is not smooth enough to tell.
+    struct Bracket {
         bool known = false;
         double at = 0.0, force = 0.0;
     };
@@ -144,7 +144,7 @@ private:
     StepCheck check(const Trial& to) const;
     double slack(std::int64_t in_contact) const;
     bool passes_load(const RelaxedState& state, double aim) const;
-    bool close_in();
+    bool bisect();
     bool work_is_known(double at, double force) const;
     ForceWindow acceptable_force(double at) const;
     void accept(const Trial& to, const StepCheck& step);
@@ -166,7 +166,7 @@ private:
     bool predicts_ = false;   ///< the next relaxation starts from a prediction
     bool bracketed_ = false;  ///< the load at which the segment ends
     double length_ = 0.0;     ///< of the next step, Å
-    Ahead ahead_;
+    Bracket bracket_;
     Segment::Kind kind_ = Segment::approach; ///< of the segment under way
     std::size_t segment_ = 0;                ///< its number
     Along along_ = Along::z;                 ///< what it leads
@@ -203,9 +203,9 @@ void QuasistaticPath::visit(Visitor& v) {
     v("predicts", predicts_);
     v("bracketed", bracketed_);
     v("length", length_);
-    v("ahead.known", ahead_.known);
-    v("ahead.top", ahead_.at);
-    v("ahead.force", ahead_.force);
+    v("bracket.known", bracket_.known);
+    v("bracket.top", bracket_.at);
+    v("bracket.force", bracket_.force);
     v("kind", kind_);
     v("segment", segment_);
     v("along", along_);

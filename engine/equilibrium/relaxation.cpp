@@ -5,7 +5,7 @@
 #include "decomposition/global_sum.hpp"
 #include "engine/equilibrium/heavy_ball.hpp"
 #include "engine/equilibrium/newton.hpp"
-#include "engine/equilibrium/wall_descent.hpp"
+#include "engine/equilibrium/wall_minimiser.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,15 +18,15 @@ namespace {
 
 using Constants = RelaxationConstants;
 
-/// Whether a relaxation has come to a standstill.
-class Standstill {
+/// Whether a relaxation has stagnated.
+class StagnationTest {
 public:
     bool operator()(long long iteration, double residual) {
         if (residual < 0.5 * smallest_) {
             smallest_ = residual;
             found_at_ = iteration;
         }
-        return iteration > found_at_ + Constants::standstill;
+        return iteration > found_at_ + Constants::stagnation;
     }
 
 private:
@@ -50,10 +50,10 @@ double largest(const Communicator& ranks, SiteField<float>& field) {
 }
 
 /// The relaxation: where it is, what is left, and how it goes on.
-class Descent {
+class Minimiser {
 public:
-    Descent(SpectralBlock& block, const Interface& interface, double reference_height,
-            const RelaxOptions& options, Phases& phases)
+    Minimiser(SpectralBlock& block, const Interface& interface, double reference_height,
+              const RelaxOptions& options, Phases& phases)
         : block_(block), interface_(interface), height_(reference_height), options_(options),
           phases_(phases), preconditioner_(block, options.site_stiffness), ball_(block),
           newton_(block, preconditioner_), g_(block.new_waves<double>()),
@@ -63,7 +63,7 @@ public:
         tune();
         spreading_ = !(rms_ < (options.start == Start::anywhere ? Constants::close_by
                                                                 : Constants::close_enough));
-        way_ = rms_ / preconditioner_.k();
+        distance_ = rms_ / preconditioner_.k();
     }
 
     /// Forces where the sites are now, and what they leave.
@@ -72,15 +72,15 @@ public:
         if (!spreading_) measure();
     }
     /// The mean residual, or, where that is below the tolerance, the largest of a site, eV/Å. In
-    /// the first stage only the distances of the sites from their goals are known.
+    /// the first stage only the distances of the sites from their targets are known.
     double residual() {
-        if (spreading_) return options_.site_stiffness * way_;
+        if (spreading_) return options_.site_stiffness * distance_;
         return rms_ <= options_.tolerance ? largest_residual() : rms_;
     }
     /// The residual of the state as it is reported; energies in sums().
     double conclude() {
         rough_ = false;
-        block_.settle();
+        block_.apply_constraint();
         sweep(true);
         measure();
         return largest_residual();
@@ -130,13 +130,13 @@ private:
         if (++iterations_ % Constants::tuned_every == 0) tune();
         {
             const auto t = phases_.time(Phase::advance);
-            way_ = ball_.move(preconditioner_, Constants::max_move);
+            distance_ = ball_.move(preconditioner_, Constants::max_move);
         }
-        if (way_ > Constants::near || iterations_ < Constants::patience) return;
+        if (distance_ > Constants::near || iterations_ < Constants::patience) return;
         spreading_ = false;
         expected_ = std::numeric_limits<double>::infinity();
         ball_.stop();
-        block_.settle();
+        block_.apply_constraint();
     }
     /// False, and no step, where Newton's method does not help: its last step has not taken half
     /// of what it should have off the residual, the curvature is negative, or a site would move
@@ -150,10 +150,10 @@ private:
         block_.at_sites(work_, at_sites_);
         const double most = largest(block_.communicator(), at_sites_);
         const double shortest = options_.start == Start::anywhere ? 1.0 : Constants::shortest;
-        const double share = most > Constants::max_move ? Constants::max_move / most : 1.0;
-        if (!(share >= shortest)) return false;
-        expected_ = (1.0 - 0.5 * share) * rms_;
-        block_.displace(share, d_, at_sites_);
+        const double fraction = most > Constants::max_move ? Constants::max_move / most : 1.0;
+        if (!(fraction >= shortest)) return false;
+        expected_ = (1.0 - 0.5 * fraction) * rms_;
+        block_.displace(fraction, d_, at_sites_);
         return true;
     }
 
@@ -171,43 +171,43 @@ private:
     InterfaceSums sums_;
     bool spreading_ = false;
     long long iterations_ = 0; ///< iterations of this stage
-    double way_ = 0.0;         ///< the longest to a goal, Å
+    double distance_ = 0.0;    ///< the largest to a target, Å
     double rms_ = 0.0;         ///< mean residual, eV/Å
     /// Newton's last step should have left less than this, eV/Å.
     double expected_ = std::numeric_limits<double>::infinity();
     bool rough_ = true;
 };
 
-/// The loop of both descents.
-template <class Descent>
-RelaxedState follow(Descent& descent, SpectralBlock& block, const RelaxOptions& options) {
+/// The loop of both minimisers.
+template <class Minimiser>
+RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptions& options) {
     RelaxedState state;
-    Standstill standstill;
+    StagnationTest stagnates;
     // The first moves take the force out of its window too, but not for long.
     const ForceWindow& window = options.force_window;
     bool outside = false;
     for (;; ++state.iterations) {
-        state.residual = descent.residual();
+        state.residual = minimiser.residual();
         const bool over = !std::isfinite(state.residual) ||
                           state.iterations >= options.max_iterations ||
-                          standstill(state.iterations, state.residual);
+                          stagnates(state.iterations, state.residual);
         state.interrupted = options.report && state.iterations % 10 == 0 &&
                             options.report(state.iterations, state.residual);
         if (over || state.interrupted || state.residual <= options.tolerance) {
-            state.residual = descent.conclude();
+            state.residual = minimiser.conclude();
             state.converged = state.residual <= options.tolerance;
             if (over || state.interrupted || state.converged) break;
         }
-        if (!descent.step()) return state;
-        if (!std::isfinite(window.furthest) || state.iterations < Constants::settled ||
+        if (!minimiser.step()) return state;
+        if (!std::isfinite(window.furthest) || state.iterations < Constants::first_look ||
             state.iterations % Constants::look != 0)
             continue;
-        state.force = global_sum(block.communicator(), descent.sums().force_z);
+        state.force = global_sum(block.communicator(), minimiser.sums().force_z);
         const bool still = outside;
         outside = std::abs(state.force - window.expected) > window.furthest;
         if ((state.jumped = still && outside)) return state;
     }
-    const InterfaceSums& sums = descent.sums();
+    const InterfaceSums& sums = minimiser.sums();
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
     state.interface_energy = values[0];
     state.force = values[1];
@@ -227,15 +227,15 @@ RelaxedState follow(Descent& descent, SpectralBlock& block, const RelaxOptions& 
 
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const Constraint& constraint, const RelaxOptions& options, Phases& phases) {
-    block.settle(constraint);
+    block.apply_constraint(constraint);
     if (interface.options().wall) {
         RelaxOptions whole = options;
         whole.force_window = {}; // its steps do not add up the force
-        WallDescent descent(block, interface, reference_height, whole, phases);
-        return follow(descent, block, whole);
+        WallMinimiser minimiser(block, interface, reference_height, whole, phases);
+        return follow(minimiser, block, whole);
     }
-    Descent descent(block, interface, reference_height, options, phases);
-    return follow(descent, block, options);
+    Minimiser minimiser(block, interface, reference_height, options, phases);
+    return follow(minimiser, block, options);
 }
 
 } // namespace asperity

@@ -26,10 +26,10 @@
 // Newton's until the forces are near their error; the last ones, and the state that is reported,
 // are in the interface's own.
 //
-// Over a wall each site's own law is solved exactly instead (wall_descent.hpp).
+// Over a wall each site's own law is solved exactly instead (wall_minimiser.hpp).
 //
 // The minimum that is found is the one downhill: no site moves further than max_move in an
-// iteration, and one that has passed its goal stops. A state whose forces cannot be brought below
+// iteration, and one that has passed its target stops. A state whose forces cannot be brought below
 // the tolerance is reported as not converged.
 #pragma once
 
@@ -70,17 +70,17 @@ struct RelaxOptions {
 /// as was measured; iterations do.
 struct RelaxationConstants {
     // The loop: over when the residual has not halved in so many iterations.
-    static constexpr long long standstill = 3000;
+    static constexpr long long stagnation = 3000;
     // The force is compared with its window after so many iterations, and every so many.
-    static constexpr long long settled = 20, look = 5;
+    static constexpr long long first_look = 20, look = 5;
 
-    // Heavy balls (heavy_ball.hpp): of the momentum kept; a gain is cut where a site has passed its
-    // goal, and is raised elsewhere, to this at most.
-    static constexpr float keep = 0.7f, cut = 0.7f, raise = 1.06f, most_gain = 2.0f;
+    // Heavy balls (heavy_ball.hpp): of the momentum kept; a step size is cut where a site has
+    // passed its target, and is raised elsewhere, to this at most.
+    static constexpr float keep = 0.7f, cut = 0.7f, raise = 1.06f, largest_step_size = 2.0f;
     /// Å in an iteration: well below the range of the potential, so that no site passes a barrier.
     static constexpr double max_move = 0.3;
     /// k of the preconditioner over the interface's mean stiffness; measured anew every so many
-    /// iterations, taken over where it has changed by this share.
+    /// iterations, taken over where it has changed by this fraction.
     static constexpr double softer = 0.35, changed = 0.2;
     static constexpr long long tuned_every = 8;
     static constexpr double least_stiffness = 2e-4; ///< eV/Å^2: where hardly a site is in contact
@@ -88,15 +88,15 @@ struct RelaxationConstants {
     // Newton's method (newton.hpp).
     static constexpr double close_by = 3e-3;    ///< eV/Å: of an equilibrium, to try it at once
     static constexpr double close_enough = 0.3; ///< eV/Å: the same from near an equilibrium
-    static constexpr double near = 0.002;       ///< Å: the longest way to a goal, to try it
+    static constexpr double near = 0.002;       ///< Å: the largest distance to a target, to try it
     static constexpr long long patience = 10;   ///< iterations of heavy balls before that
     static constexpr double forcing = 0.1;      ///< what conjugate gradients leave of the residual
     static constexpr int most_products = 100;   ///< of conjugate gradients
-    static constexpr double shortest = 0.1;     ///< share of a step near an equilibrium
+    static constexpr double shortest = 0.1;     ///< fraction of a step near an equilibrium
     /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
     static constexpr double rough_enough = 1e-5;
 
-    // Over a wall (wall_descent.hpp): what may be left of the mean force, in tolerances (steps of
+    // Over a wall (wall_minimiser.hpp): what may be left of the mean force, in tolerances (steps of
     // the secant more than this asks for are few: it converges faster than linearly), and how much
     // elastic forces of single precision let sites rest off, Å.
     static constexpr double closure = 1e-3, rounding = 2e-5;

@@ -26,8 +26,8 @@ struct StateArray {
 void add_arrays(int level, const char* what, VectorField<double>& field, int planes,
                 std::vector<StateArray>& list);
 
-/// The displacements of a block's lowest layer: its whole state. settle() is to follow what is
-/// written to them.
+/// The displacements of a block's lowest layer: its whole state. apply_constraint() is to follow
+/// what is written to them.
 std::vector<StateArray> state_of(SpectralBlock& block);
 
 /// A copy of all arrays of a list, to go back to.

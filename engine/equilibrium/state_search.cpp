@@ -102,7 +102,7 @@ StateSearch::Outcome StateSearch::advance() {
         here.take(state_of(block_));
         if (!relax_state(to, smooth)) return interrupted();
         here.restore(state_of(block_));
-        block_.settle(points_.constraint(height));
+        block_.apply_constraint(points_.constraint(height));
     }
     if (!outwards_) {
         const double error = trail_.to(height, to.force).error / (now_.height - height);
@@ -264,7 +264,7 @@ void StateSearch::turn_inwards() {
         passed_.pop_back();
     }
     turn_.restore(state_of(block_));
-    block_.settle(points_.constraint(turned_at_.height));
+    block_.apply_constraint(points_.constraint(turned_at_.height));
     points_.begin(turned_at_.height);
     now_ = turned_at_;
     trail_.begin(now_.height, now_.force);
@@ -309,7 +309,7 @@ std::optional<double> StateSearch::largest_force(const Found& from, const Found&
 
 void StateSearch::restore_first() {
     first_.restore(state_of(block_));
-    block_.settle(Constraint::top(first_top_));
+    block_.apply_constraint(Constraint::top(first_top_));
 }
 
 std::vector<StateArray> StateSearch::states() {

@@ -18,11 +18,11 @@ public:
     void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
 
     /// Brings a row of sites to rest, each under its own force.
-    WallSums settle_row(const WallRow<double>& row, const WallRule& rule, int sites) const {
-        return interface_kernels().wall.settle_double(law_, row, rule, sites);
+    WallSums rest_row(const WallRow<double>& row, const WallRule& rule, int sites) const {
+        return interface_kernels().wall.rest_double(law_, row, rule, sites);
     }
-    WallSums settle_row(const WallRow<float>& row, const WallRule& rule, int sites) const {
-        return interface_kernels().wall.settle_single(law_, row, rule, sites);
+    WallSums rest_row(const WallRow<float>& row, const WallRule& rule, int sites) const {
+        return interface_kernels().wall.rest_single(law_, row, rule, sites);
     }
 
     /// Its height below each site of the tile, Å.

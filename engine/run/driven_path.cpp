@@ -44,7 +44,7 @@ std::optional<std::size_t> DrivenPath::tell_drive(const StepRecord& now) {
     if (drive.by_hand()) return std::nullopt;
     const bool gone = out_of_reach(now.top, now.force, results_.strongest, start_.force);
     if (!drive.observe({now.time, now.force, now.top, gone})) return std::nullopt;
-    interface_work_ = simulation_.ledger().interface;
+    interface_work_ = simulation_.balance().interface;
     if (segment.kind == Segment::approach) {
         require_load_reached(simulation_.options().drive.load_force, results_.attraction_in, 0.0,
                              case_.area());
@@ -86,7 +86,7 @@ void DrivenPath::conclude_approach(const Account& now) {
 
 void DrivenPath::conclude_pull_off(const Account& now, std::size_t number) {
     WayEnergies& out = results_.pull_off;
-    const double interface_work = simulation_.ledger().interface; // to where it is bound so much
+    const double interface_work = simulation_.balance().interface; // to where it is bound so much
     out.interface_work = -per_area_ * (interface_work - segment_start_.interface_work + now.bound);
     out.drive_work =
         per_area_ * (now.drive_work - segment_start_.drive_work - now.bound - now.moving);
@@ -113,14 +113,14 @@ bool DrivenPath::reaches_the_state() const {
 
 DrivenPath::Account DrivenPath::account() const {
     const StepRecord& now = simulation_.now();
-    const Ledger& ledger = simulation_.ledger();
-    return {ledger.top_work + ledger.drag_work,
-            ledger.lost(),
+    const EnergyBalance& balance = simulation_.balance();
+    return {balance.top_work + balance.drag_work,
+            balance.lost(),
             now.interface_energy + now.elastic_energy + now.kinetic_energy,
             now.interface_energy,
             interface_work_,
             kinetic_as_top(now.time),
-            ledger.lateral};
+            balance.lateral};
 }
 
 /// Of the block moving as the top plane does at that time, eV.

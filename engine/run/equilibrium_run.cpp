@@ -311,7 +311,7 @@ private:
             search_.resume();
             searching_ = true;
         } else if (!place.on_path) {
-            block_.settle(Constraint::top(place.top));
+            block_.apply_constraint(Constraint::top(place.top));
         }
         run_.restore(restore);
         resumed_ = true;

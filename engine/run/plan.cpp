@@ -143,7 +143,7 @@ Plan make_plan(const Case& c, int threads) {
         plan.whole.bytes += rehearsal.most_bytes(rank);
     // The slowest rank's share of the work, with its threads over those of the rehearsal.
     const double alone = static_cast<double>(omp_get_max_threads()) / threads;
-    const double share = alone * (1.0 + c.grid(0).imbalance()) / c.ranks;
+    const double fraction = alone * (1.0 + c.grid(0).imbalance()) / c.ranks;
 
     plan.making = {bytes(Part::surface) + bytes(Part::interface), alone * rehearsal.making()};
     plan.steps = expected_steps(c, start);
@@ -155,9 +155,9 @@ Plan make_plan(const Case& c, int threads) {
     const double near =
         steps > 0.0 ? 1.0 - 0.5 * std::min(1.0, free / (steps * c.simulation.dt)) : 1.0;
     plan.block = {bytes(Part::block),
-                  share * steps *
+                  fraction * steps *
                       ((1.0 - near) * rehearsal.far_step() + near * rehearsal.near_step())};
-    plan.snapshots = {bytes(Part::snapshots), share * steps /
+    plan.snapshots = {bytes(Part::snapshots), fraction * steps /
                                                   static_cast<double>(c.scene.output.series) *
                                                   rehearsal.observing()};
     plan.state.bytes = bytes(Part::state);
@@ -168,7 +168,8 @@ Plan make_plan(const Case& c, int threads) {
         if (plan.typical)
             plan.iterations += std::llround(iterations_of_point * points_over_steps * path.way() /
                                             std::min(c.scene.drive.step, c.longest_step));
-        plan.state.seconds = share * static_cast<double>(plan.iterations) * rehearsal.iteration();
+        plan.state.seconds =
+            fraction * static_cast<double>(plan.iterations) * rehearsal.iteration();
     }
     plan.maps = {bytes(Part::maps), bytes(Part::maps) / disk};
     for (const Cost* cost : {&plan.making, &plan.block, &plan.snapshots, &plan.state, &plan.maps})

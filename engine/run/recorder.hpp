@@ -6,7 +6,7 @@
 //
 // Records are appended to run.journal (io/journal.hpp), which a checkpoint refers to. run.h5 is
 // made of them: at the start, at the end, and at checkpoints as long as that takes less than a
-// small share of the time. It is always whole.
+// small fraction of the time. It is always whole.
 #pragma once
 
 #include "engine/dynamics/simulation.hpp"

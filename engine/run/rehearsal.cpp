@@ -38,8 +38,8 @@ constexpr double small_nodes = 2e5, small_sites = 65536.0;
 constexpr double relaxation_seconds = 1.0;
 constexpr long long few_iterations = 3;
 
-/// Those waves of a self-affine surface that fit into a box that is this share as wide.
-void keep_short_waves(Scene::Surface& s, double share) {
+/// Those waves of a self-affine surface that fit into a box that is this fraction as wide.
+void keep_short_waves(Scene::Surface& s, double fraction) {
     // Of the variance, 2 pi int q C dq with C flat to the roll-off and then q^(-2(1+H)), what lies
     // above the new q_L. q in q_L of the scene.
     const double top = std::min(s.cutoff, 0.5 * s.sites);
@@ -52,9 +52,9 @@ void keep_short_waves(Scene::Surface& s, double share) {
         }
         return sum * std::log(top / from) / steps;
     };
-    s.rms *= top > 1.0 / share ? std::sqrt(variance(1.0 / share) / variance(1.0)) : 0.0;
-    s.rolloff = std::max(1.0, s.rolloff * share);
-    s.cutoff = std::max(s.rolloff, s.cutoff * share);
+    s.rms *= top > 1.0 / fraction ? std::sqrt(variance(1.0 / fraction) / variance(1.0)) : 0.0;
+    s.rolloff = std::max(1.0, s.rolloff * fraction);
+    s.cutoff = std::max(s.rolloff, s.cutoff * fraction);
 }
 
 /// The case on fewer sites, on one rank and on the processor.
@@ -64,15 +64,16 @@ Case piece_of(const Case& c, int sites) {
     piece.simulation.device = {};
     BlockOptions& block = piece.simulation.block;
     Scene::Surface& surface = piece.scene.surface;
-    const double share = static_cast<double>(sites) / surface.sites;
+    const double fraction = static_cast<double>(sites) / surface.sites;
     const bool levels = c.levels.size() > 1;
-    if (c.in_time && (share < 1.0 || c.levels.front().cells > most_layers_of_lattice))
+    if (c.in_time && (fraction < 1.0 || c.levels.front().cells > most_layers_of_lattice))
         block.thickness = std::min(block.thickness, levels ? most_layers : most_layers_of_lattice);
-    if (share < 1.0 && surface.kind == SurfaceKind::self_affine) keep_short_waves(surface, share);
+    if (fraction < 1.0 && surface.kind == SurfaceKind::self_affine)
+        keep_short_waves(surface, fraction);
     surface.sites = block.sites = sites;
     piece.scene.block.thickness = block.thickness;
     piece.levels = level_shapes(block);
-    piece.simulation.drive.load_force *= share * share;
+    piece.simulation.drive.load_force *= fraction * fraction;
     return piece;
 }
 
@@ -366,7 +367,7 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
     return done;
 }
 
-double Rehearsal::share(Part part, const Measure& m, bool in_time) {
+double Rehearsal::fraction(Part part, const Measure& m, bool in_time) {
     switch (part) {
     case Part::surface:
         return m.atoms;
@@ -401,9 +402,9 @@ double Rehearsal::bytes(Part part, int rank) const {
     };
     const auto [part1, whole1] = at(small_);
     const auto [part2, whole2] = at(large_);
-    const double own =
-        line(share(part, small_.measure, case_.in_time), part1,
-             share(part, large_.measure, case_.in_time), part2, share(part, to, case_.in_time));
+    const double own = line(fraction(part, small_.measure, case_.in_time), part1,
+                            fraction(part, large_.measure, case_.in_time), part2,
+                            fraction(part, to, case_.in_time));
     return own + line(small_.measure.whole, whole1, large_.measure.whole, whole2, to.whole);
 }
 

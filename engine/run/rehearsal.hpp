@@ -74,7 +74,7 @@ private:
 
     static Measure measure(const Case& c, int rank, double atoms);
     static Piece rehearse(const Case& c, int sites, Kind kind, const Surface* of_file);
-    static double share(Part part, const Measure& m, bool in_time);
+    static double fraction(Part part, const Measure& m, bool in_time);
     double over_nodes(double seconds) const;
 
     const Case& case_;

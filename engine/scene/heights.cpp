@@ -137,13 +137,13 @@ std::vector<double> resample(const std::vector<double>& h, int nx, int ny, int n
     transform(from, nx, ny, FFTW_FORWARD);
     std::vector<Complex> to(cells(n));
     // A wave at the Nyquist limit of the coarser grid stands for both signs: half for each.
-    const auto share = [](int k, int m) { return 2 * std::abs(k) == m ? 0.5 : 1.0; };
+    const auto fraction = [](int k, int m) { return 2 * std::abs(k) == m ? 0.5 : 1.0; };
     const int mx = std::min(nx, n), my = std::min(ny, n);
     for (int ky = -(my / 2); ky <= my / 2; ++ky)
         for (int kx = -(mx / 2); kx <= mx / 2; ++kx)
             to[static_cast<std::size_t>(periodic(ky, n)) * static_cast<std::size_t>(n) +
                static_cast<std::size_t>(periodic(kx, n))] +=
-                share(kx, mx) * share(ky, my) *
+                fraction(kx, mx) * fraction(ky, my) *
                 from[static_cast<std::size_t>(periodic(ky, ny)) * static_cast<std::size_t>(nx) +
                      static_cast<std::size_t>(periodic(kx, nx))];
     transform(to, n, n, FFTW_BACKWARD);

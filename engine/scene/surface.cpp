@@ -133,12 +133,13 @@ double target_spectrum(const SurfaceOptions& o, double q) {
     if (o.kind != SurfaceKind::self_affine || !(o.rms > 0.0)) return 0.0;
     const double q_unit = 2.0 * pi / o.length;
     // 2 pi int q C dq = rms^2 with C = C0 shape(q): the integral in q_L, in closed form.
-    const double top = clipped_cutoff(o), knee = std::clamp(o.rolloff, 1.0, std::max(1.0, top));
-    const double flat = 0.5 * (knee * knee - 1.0);
-    const double ratio = top / knee, h = o.hurst;
+    const double top = clipped_cutoff(o), corner = std::clamp(o.rolloff, 1.0, std::max(1.0, top));
+    const double flat = 0.5 * (corner * corner - 1.0);
+    const double ratio = top / corner, h = o.hurst;
     // If the roll-off lies below q_L the power law has fallen already where the spectrum begins.
-    const double at_knee = std::pow(knee / o.rolloff, o.rolloff < knee ? -2.0 * (1.0 + h) : 0.0);
-    const double tail = at_knee * knee * knee *
+    const double at_corner =
+        std::pow(corner / o.rolloff, o.rolloff < corner ? -2.0 * (1.0 + h) : 0.0);
+    const double tail = at_corner * corner * corner *
                         (h > 0.0 ? (1.0 - std::pow(ratio, -2.0 * h)) / (2.0 * h) : std::log(ratio));
     const double integral = 2.0 * pi * (flat + std::max(0.0, tail)) * q_unit * q_unit;
     return integral > 0.0 ? o.rms * o.rms * shape(o, q / q_unit) / integral : 0.0;

@@ -171,14 +171,14 @@ void note_coarse_tolerance(Case& c) {
     const double tolerance = c.scene.drive.tolerance, area = block.spacing * block.spacing;
     const double energy =
         units::milli_per_unit * 0.5 * tolerance * tolerance / (block.softest_wave() * area * area);
-    const double share = energy / c.flat.work_of_adhesion;
-    if (!(share > coarse) || !std::isfinite(share)) return;
+    const double fraction = energy / c.flat.work_of_adhesion;
+    if (!(fraction > coarse) || !std::isfinite(fraction)) return;
     c.notes.push_back(fmt::format(
         "drive.tolerance = {:.2g} eV/Å, {:.2g} MPa on a site, is coarse for this block: in its "
         "longest wave such forces stand for {:.2g} meV/Å², {:.2g} of the work of adhesion; take "
         "{:.1g} or less",
-        tolerance, tolerance / area / units::megapascal, energy, share,
-        tolerance * std::sqrt(coarse / share)));
+        tolerance, tolerance / area / units::megapascal, energy, fraction,
+        tolerance * std::sqrt(coarse / fraction)));
 }
 
 /// No step may jump over the potential, and no pull can be larger than what binds most.
@@ -262,7 +262,7 @@ void fill_motion(Case& c, io::Problems& refused) {
     const double period = std::numbers::pi * c.longest_timestep; // of the fastest vibration
     if (c.on(Effect::seams)) {
         // Every 0.7 of the limit of a step, or as often as there are steps. That of a single step
-        // is stable where (omega dt/2)² + share/2 < 1, and a share is 1 at most.
+        // is stable where (omega dt/2)² + fraction/2 < 1, and a fraction is 1 at most.
         const double rare = std::floor(0.7 * c.longest_timestep / scene.drive.timestep);
         c.simulation.block.absorption_span = std::max(1.0, rare) * scene.drive.timestep;
         c.longest_timestep *= std::numbers::sqrt2 / 2.0;

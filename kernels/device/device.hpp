@@ -6,7 +6,7 @@
 // emulated device (emulated.cpp, always). Both are made of one text (passes.hpp).
 //
 // A step from u(n), v(n - 1/2) to u(n + 1), v(n + 1/2) over all levels takes three launches:
-//   follow   hanging planes follow the coarse planes; the top plane is where the drive has it
+//   follow   constrained planes follow the coarse planes; the top plane is where the drive has it
 //   forces   sites of the interface, and the upper faces of all levels
 //   advance  restriction, elastic forces, kick, and drift into the other displacement array, with
 //            the periodic images of every node
@@ -39,11 +39,11 @@ struct DeviceLevel {
     int number = 0, x0 = 0, y0 = 0; ///< which level; the tile's first node
     VectorVolume<double> u[2];      ///< displacement at the present step and at the next, in turn
     VectorVolume<double> v;
-    VectorPlane<double> incoming, upper_force;
+    VectorPlane<double> transferred, upper_force;
     Stencil lower{}, inner{}, upper{};
     LevelCell cell;
     LevelSeam seam;       ///< to the coarser level
-    bool in_line = false; ///< incoming forces are restricted from the level below where needed
+    bool in_line = false; ///< transferred forces are restricted from the level below where needed
     bool counted = false; ///< in global sums
     bool wraps_x = false, wraps_y = false; ///< periodic images lie in this tile
 };
@@ -76,7 +76,7 @@ struct DeviceStep {
     const LevelKicks* kicks = nullptr;   ///< likewise, of each level
     NodeRanges moving;                   ///< nodes that move
     NodeRanges faces;                    ///< nodes of upper planes and one beyond
-    NodeRanges hanging;                  ///< nodes of upper planes and their halo
+    NodeRanges constrained;              ///< nodes of upper planes and their halo
     int now = 0;                         ///< which displacement array is that of the present step
     bool observe = false;
     bool damped = false; ///< some nodes are

@@ -30,18 +30,18 @@ ASPERITY_INLINE int locate(const NodeRanges& ranges, long long& i) {
     return level;
 }
 
-/// Hanging planes, halo included, and the top plane.
+/// Constrained planes, halo included, and the top plane.
 struct Follow {
     DeviceStep s;
     ASPERITY_HOST_DEVICE void operator()(long long i, PassSums&) const {
         if (i == 0) s.sums[0] = s.sums[1] = PassSums{}; // for the launches behind this one
-        const int l = locate(s.hanging, i);
+        const int l = locate(s.constrained, i);
         const DeviceLevel& level = s.levels[l];
         constexpr int h = halo_width;
         const int width = level.nx + 2 * h;
         const int x = static_cast<int>(i % width) - h, y = static_cast<int>(i / width) - h;
         const VectorPlane<double> fine = level.u[s.now][level.cells];
-        if (l + 1 == s.hanging.levels) {
+        if (l + 1 == s.constrained.levels) {
             fine.z(x, y) = s.top;
             return;
         }
@@ -94,18 +94,18 @@ ASPERITY_INLINE Triple<Number> finite_part(const VectorVolume<const double>& u, 
 
 /// Force on the node at element `at` of plane z, finite strain, in the order of elastic_finite.cpp:
 /// cells below, then above; in each of these, cells at smaller y, then larger y. Plane 0 starts
-/// with the incoming force.
+/// with the transferred force.
 ASPERITY_INLINE Triple<Number> finite_force(const DeviceLevel& level,
                                             const VectorVolume<const double>& u, std::ptrdiff_t at,
-                                            int z, const Triple<Number>& incoming) {
+                                            int z, const Triple<Number>& transferred) {
     const finite::Cell<Number> cell(level.cell);
     const bool pressed = level.cell.elasticity.kappa != 0.0;
     const auto in_plane = [&](int plane) { // springs in a surface belong to half as many cells
-        const double share = plane == 0 || plane == level.cells ? 0.5 : 1.0;
-        return finite::Stiffness<Number>(share * level.cell.elasticity.k, level.cell.edge);
+        const double fraction = plane == 0 || plane == level.cells ? 0.5 : 1.0;
+        return finite::Stiffness<Number>(fraction * level.cell.elasticity.k, level.cell.edge);
     };
     const auto here = in_plane(z);
-    Triple<Number> f = incoming;
+    Triple<Number> f = transferred;
     if (z > 0) {
         const auto below = in_plane(z - 1);
         f = finite_part<3>(u, at, cell, below, pressed) +
@@ -282,7 +282,7 @@ ASPERITY_INLINE Triple<Number> restricted_force(const DeviceLevel& fine, int x, 
     return {sum(fine.upper_force.x), sum(fine.upper_force.y), sum(fine.upper_force.z)};
 }
 
-/// Into the incoming forces of a level that every rank holds.
+/// Into the transferred forces of a level that every rank holds.
 struct RestrictToShared {
     DeviceStep s;
     int coarse;
@@ -292,7 +292,7 @@ struct RestrictToShared {
         const int x = nodes.x0 + static_cast<int>(i % width);
         const int y = nodes.y0 + static_cast<int>(i / width);
         const auto f = restricted_force(s.levels[coarse - 1], x, y);
-        const VectorPlane<double>& to = s.levels[coarse].incoming;
+        const VectorPlane<double>& to = s.levels[coarse].transferred;
         to.x(x, y) = f.x.r;
         to.y(x, y) = f.y.r;
         to.z(x, y) = f.z.r;
@@ -336,9 +336,10 @@ struct Advance {
         const std::ptrdiff_t at = z * u.x.plane + y * u.x.row + x;
         Triple<Number> in{};
         if (z == 0)
-            in = level.in_line ? restricted_force(s.levels[l - 1], x, y)
-                               : Triple<Number>{level.incoming.x(x, y), level.incoming.y(x, y),
-                                                level.incoming.z(x, y)};
+            in = level.in_line
+                     ? restricted_force(s.levels[l - 1], x, y)
+                     : Triple<Number>{level.transferred.x(x, y), level.transferred.y(x, y),
+                                      level.transferred.z(x, y)};
         Triple<Number> f;
         if constexpr (finite_strain)
             f = finite_force(level, u, at, z, in);
@@ -429,7 +430,7 @@ struct Halo {
 };
 
 inline const char* follow(const DeviceStep& s) {
-    return launch<false>(Follow{s}, s.hanging.first[s.hanging.levels], nullptr);
+    return launch<false>(Follow{s}, s.constrained.first[s.constrained.levels], nullptr);
 }
 
 template <class Pairs, class P>

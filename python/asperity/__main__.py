@@ -77,7 +77,7 @@ def _parser() -> argparse.ArgumentParser:
     cost.add_argument("--executor", **executor)
     cost.add_argument("--target", metavar="ERROR",
                       help="find the cheapest numerical settings that keep this error: 1%%, 0.01")
-    cost.add_argument("--knobs", default="", metavar="NAMES", help="only these: timestep,cutoff,layers,...")
+    cost.add_argument("--parameters", default="", metavar="NAMES", help="only these: timestep,cutoff,layers,...")
     report = add("report", "a run or a sweep as one self-contained HTML page")
     report.add_argument("directory", metavar="DIR", help="the result directory")
     export = add("export", "maps and trajectory of a run for OVITO, ParaView, or as PNG")
@@ -151,7 +151,7 @@ def _carry_out(given: argparse.Namespace) -> int:
         from .commands import cost_command, sweep_command
 
         if cost:
-            return cost_command(scenes[0], given.sets, [k for k in given.knobs.split(",") if k], given.out, options,
+            return cost_command(scenes[0], given.sets, [k for k in given.parameters.split(",") if k], given.out, options,
                                 given.target)
         return sweep_command(scenes, given.sets, given.out, given.theory_only, options)
 

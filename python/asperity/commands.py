@@ -8,7 +8,7 @@ from pathlib import Path
 
 from . import files, program
 from .cost import TARGETS, Cost, CostRow, Runs, row_of, target_of
-from .cost_knobs import cost_case
+from .cost_parameters import cost_case
 from .errors import SceneError
 from .plots.sweep import write_plots
 from .pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
@@ -47,20 +47,20 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
     return next((outcome.exit_code for _, outcome in failed), 0)
 
 
-def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str | None, options: PoolOptions,
+def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
                  target: str | None = None) -> int:
     """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the
     target."""
     asked = None if target is None else target_of(target)
     found = program.check(scene, overrides)
-    case = cost_case(found["scene"], found.get("longest_timestep", 0.0), knobs, same_experiment=asked is not None)
+    case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
     if found["problems"]:
         raise SceneError("\n".join(found["problems"]))
     cost = Cost(found["name"], found["scene"], case)
-    cost.rows = [CostRow("reference", "reference", case.reference, case.reference, judged=False),
+    cost.rows = [CostRow("reference", "reference", case.reference, case.reference, compared=False),
                  CostRow("scene", "as it is", [], [])]
-    cost.rows += [row_of(knob, value) for knob in case.knobs
-                  for value in [*knob.values, *([knob.twin] if knob.twin else [])]]
+    cost.rows += [row_of(parameter, value) for parameter in case.parameters
+                  for value in [*parameter.values, *([parameter.reference] if parameter.reference else [])]]
     directory = files.chosen(out, f"results/{cost.name}-cost")
     print(f"reference: {case.reference_text}", flush=True)
     with files.in_use(directory):
@@ -70,7 +70,7 @@ def cost_command(scene: str, overrides: list[str], knobs: list[str], out: str | 
         if complete and reference.status == FAILED:
             print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
             return reference.exit_code
-        cost.judge()
+        cost.compare()
         searches = [cost.search(base, t) for base in case.bases for t in (TARGETS if asked is None else [asked])]
         if asked is not None:
             cost.asked = searches[0]

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """`asperity cost`: what accuracy costs in time for a scene.
 
-Runs the reference, the scene as it is, every value of every knob (cost_knobs.py), and then combinations: a value
-of each knob, the cheapest whose own errors add up to no more than a target. Each is a process of its own with
-one thread, in a directory of its own; those that are there are not run again.
+Runs the reference, the scene as it is, every value of every parameter (cost_parameters.py), and then
+combinations: a value of each parameter, the cheapest whose own errors add up to no more than a target. Each is
+a process of its own with one thread, in a directory of its own; those that are there are not run again.
 
 With a target of the user only the numerics are varied, and a combination is chosen once it was run and its error
 against the reference is within the target.
@@ -24,13 +24,13 @@ from typing import Any
 import numpy as np
 
 from . import program
-from .cost_knobs import Base, CostCase, Knob, KnobValue, Setting, joined
+from .cost_parameters import Base, CostCase, Parameter, ParameterValue, Setting, joined
 from .errors import SceneError
 from .pool import DONE, WAITING, Job, Outcome, Pool, PoolOptions, look_at_all
 from .result import Values
 
 QUANTITIES = ("gamma", "contact", "approach", "pull-off", "force")
-"""What is judged: binding energy at zero load over flat, contact fraction there, works of the two legs over flat,
+"""What is compared: binding energy at zero load over flat, contact fraction there, works of the two branches over flat,
 largest attraction of the pull-off (eV/Å). Energies are compared over the flat reference of the same interaction, so
 that a cutoff is not blamed for the adhesion that it takes from both."""
 ASKED = {"state": 2, "path": len(QUANTITIES)}
@@ -84,7 +84,7 @@ def cheapest_within(seconds: np.ndarray, errors: np.ndarray, target: float) -> i
 def order_of(x: list[float], errors: list[float], x0: float | None, floor: float = 1e-6) -> float | None:
     """error = c |x^p - x0^p|: the power p that fits best (least squares of the logarithms).
 
-    x0: the knob of the run that the errors are measured against; None: nothing is left of the error there. Errors that
+    x0: the parameter of the run that the errors are measured against; None: no error is left there. Errors that
     are NaN or below `floor` are left out. 0.05 <= |p| <= 8, positive where the error grows with x.
     """
     points = [(v, abs(e)) for v, e in zip(x, errors) if abs(e) > floor and v > 0 and v != x0]
@@ -99,16 +99,16 @@ def order_of(x: list[float], errors: list[float], x0: float | None, floor: float
 
 @dataclass
 class CostRow:
-    """A setting that was run. knob: its name, or "reference", "scene", "combination"."""
+    """A setting that was run. parameter: its name, or "reference", "scene", "combination"."""
 
-    knob: str
+    parameter: str
     label: str
     setting: Setting
     """in full"""
     own: Setting
-    """the part of it that is the knob's value"""
+    """the part of it that is the parameter's value"""
     x: float = 0.0
-    judged: bool = True
+    compared: bool = True
     """its error is one of settings: not the reference, not another solid"""
     outcome: Outcome = field(default_factory=Outcome)
     numbers: np.ndarray = field(default_factory=nothing)
@@ -134,7 +134,7 @@ class Combination:
     rows: tuple[CostRow, ...]
     error: float
     time: float
-    """over that of the twins"""
+    """over that of the reference runs"""
 
     def row(self, base: Base) -> CostRow:
         setting = base.setting
@@ -180,56 +180,57 @@ class Cost:
     rows: list[CostRow] = field(default_factory=list)
     asked: Search | None = None
     """for a target of the user"""
-    orders: list[tuple[Knob, list[float | None]]] = field(default_factory=list)
+    orders: list[tuple[Parameter, list[float | None]]] = field(default_factory=list)
     cheapest: dict[str, list[int | None]] = field(default_factory=dict)
 
     def answered(self, question: str) -> bool:
-        return any(r.judged and not math.isnan(r.error[question]) for r in self.rows)
+        return any(r.compared and not math.isnan(r.error[question]) for r in self.rows)
 
-    def twin_of(self, knob: Knob) -> CostRow | None:
-        return next((r for r in self.rows if knob.twin and r.knob == knob.name and r.own == knob.twin.setting), None)
+    def reference_of(self, parameter: Parameter) -> CostRow | None:
+        return next((r for r in self.rows if parameter.reference and r.parameter == parameter.name
+                     and r.own == parameter.reference.setting), None)
 
-    def judge(self) -> None:
+    def compare(self) -> None:
         """Errors, fronts, orders and cheapest settings of the rows that are there."""
         for row in self.rows:
             row.error = {q: largest_error(row.numbers, self.rows[0].numbers, q) for q in ASKED}
             row.own_error = nothing()
         seconds = [r.seconds for r in self.rows]
         for question in ASKED:
-            errors = [r.error[question] if r.judged else NAN for r in self.rows]
+            errors = [r.error[question] if r.compared else NAN for r in self.rows]
             for row, front in zip(self.rows, pareto_front(seconds, errors).tolist()):
                 row.front[question] = front
             self.cheapest[question] = [cheapest_within(seconds, errors, t) for t in TARGETS]
         self.orders = []
-        for knob in self.case.knobs:
-            twin = self.twin_of(knob)
-            if twin is None or knob.twin is None:
+        for parameter in self.case.parameters:
+            reference = self.reference_of(parameter)
+            if reference is None or parameter.reference is None:
                 continue
-            others = [r for r in self.rows if r.knob == knob.name and r is not twin]
+            others = [r for r in self.rows if r.parameter == parameter.name and r is not reference]
             for row in others:
-                row.own_error = errors_of(row.numbers, twin.numbers)
-            x0 = None if knob.twin_is_exact else knob.twin.x
-            self.orders.append((knob, [order_of([r.x for r in others], [r.own_error[q] for r in others], x0)
+                row.own_error = errors_of(row.numbers, reference.numbers)
+            x0 = None if parameter.reference_is_exact else parameter.reference.x
+            self.orders.append((parameter, [order_of([r.x for r in others], [r.own_error[q] for r in others], x0)
                                        for q in range(len(QUANTITIES))]))
 
     def _of_part(self, part: str, question: str) -> list[Combination]:
-        """The values of a part's knobs, those that have an error."""
+        """The values of a part's parameters, those that have an error."""
         found = []
-        for knob in self.case.knobs:
-            twin = self.twin_of(knob)
-            if knob.part != part or twin is None:
+        for parameter in self.case.parameters:
+            reference = self.reference_of(parameter)
+            if parameter.part != part or reference is None:
                 continue
-            for row in (r for r in self.rows if r.knob == knob.name):
+            for row in (r for r in self.rows if r.parameter == parameter.name):
                 # Without time the velocity is another base.
-                if row is twin and (not knob.twin_is_exact or knob.name == "velocity"):
+                if row is reference and (not parameter.reference_is_exact or parameter.name == "velocity"):
                     continue
-                error = largest_error(row.numbers, twin.numbers, question)
+                error = largest_error(row.numbers, reference.numbers, question)
                 if not math.isnan(error):
-                    found.append(Combination((row,), error, row.seconds / twin.seconds))
+                    found.append(Combination((row,), error, row.seconds / reference.seconds))
         return found
 
     def search(self, base: Base, target: float) -> Search:
-        there = {knob.part for knob in self.case.knobs}
+        there = {parameter.part for parameter in self.case.parameters}
         parts = [self._of_part(part, base.question) for part in base.parts if part in there]
         every = [Combination(tuple(one.rows[0] for one in some), sum(one.error for one in some),
                              math.prod(one.time for one in some)) for some in itertools.product(*parts)]
@@ -250,7 +251,7 @@ class Cost:
             complete = not new or run(new)
             there += new
             self.rows += new
-            self.judge()
+            self.compare()
             if not complete:
                 return False
             for search, row in tried:
@@ -292,9 +293,9 @@ class Runs:
         return complete
 
 
-def row_of(knob: Knob, value: KnobValue) -> CostRow:
-    return CostRow(knob.name, value.label, joined(knob.base, value.setting), value.setting, value.x,
-                   judged=knob.name != "thickness")
+def row_of(parameter: Parameter, value: ParameterValue) -> CostRow:
+    return CostRow(parameter.name, value.label, joined(parameter.base, value.setting), value.setting, value.x,
+                   compared=parameter.name != "thickness")
 
 
 def target_of(text: str) -> float:

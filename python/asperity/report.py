@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from . import program, scene, words
+from . import program, scene, sentences
 from .page import Page, Row, file_name, minus
 from .plots import run as plots
 from .plots.files import KINDS
@@ -49,14 +49,14 @@ def _top(page: Page, run: Result) -> None:
         page.notices.append(("This run was stopped early", f"Reason: {run.stopped}. The path is not complete; what is "
                              "shown is what had been reached."))
     page.notices += [("Some of the files cannot be read", note) for note in run.notes]
-    page.add("numbers", words.key_numbers(run))
-    for sentence in words.findings(run):
+    page.add("numbers", sentences.key_numbers(run))
+    for sentence in sentences.results(run):
         page.add("paragraph", sentence)
     if not isinstance(run.find("scene"), dict):
         return
     # A result without a path or a state came from the theory alone.
     if run.series or run.fields or run.number("run.steps") is not None:
-        page.add("lists", [("Simulated", words.effects(run, True)), ("Not simulated", words.effects(run, False))])
+        page.add("lists", [("Simulated", sentences.effects(run, True)), ("Not simulated", sentences.effects(run, False))])
     else:
         page.add("lists", [("Computed", ["the theory alone: nothing was simulated"])])
 
@@ -71,7 +71,7 @@ def _path(page: Page, run: Result) -> None:
 
 def _state(page: Page, run: Result, state: State) -> None:
     name = file_name(state.name)
-    page.section(f"state-{name}", f"The state {words.state_in_words(run, state.name)}")
+    page.section(f"state-{name}", f"The state {sentences.state_in_words(run, state.name)}")
     for key, heading, caption in MAPS:
         if key == "gap":
             caption += " The colour bar ends at the cutoff." if run.curved else \
@@ -97,7 +97,7 @@ def _states(page: Page, run: Result) -> None:
     page.figure("states", "Energy of every state", f"Binding energy of the states {at} over their mean height.",
                 partial(plots.states, run))
     found = run.find("states.all")
-    rows = [Row([str(i + 1), *(words.general(s.get(k), 6) for k, _ in STATE_COLUMNS)])
+    rows = [Row([str(i + 1), *(sentences.general(s.get(k), 6) for k, _ in STATE_COLUMNS)])
             for i, s in enumerate(found if isinstance(found, list) else []) if isinstance(s, dict)]
     page.add("table", {"heads": ["state", *(head for _, head in STATE_COLUMNS)], "rows": rows} if rows else None)
 
@@ -138,7 +138,7 @@ def _segments(page: Page, run: Result) -> None:
     columns = [c for c in SEGMENT_COLUMNS if any(isinstance(s, dict) and c[0] in s for s in found)]
     page.section("segments", "Segments of the path")
     page.add("table", {"heads": [head for _, head in columns],
-                       "rows": [Row([str(s.get("name", "")), *(words.general(s.get(k), 5) for k, _ in columns[1:])])
+                       "rows": [Row([str(s.get("name", "")), *(sentences.general(s.get(k), 5) for k, _ in columns[1:])])
                                 for s in found if isinstance(s, dict)]})
 
 
@@ -149,7 +149,7 @@ def _numbers(page: Page, run: Result) -> None:
         if key.split(".")[0] in ("scene", "run", "failure", "units") or run.number(key) is None:
             continue
         known = program.quantity(key)
-        unit, meaning, flat = shown(run.unit(key) or known["unit"]), known["meaning"], words.reference(run, key)
+        unit, meaning, flat = shown(run.unit(key) or known["unit"]), known["meaning"], sentences.reference(run, key)
         # Of a sphere, the nominal area says nothing, and so does an energy over it.
         nominal = key.split(".")[0] in ("binding_energy", "work_of_adhesion", "work_of_drive", "lost", "states", "zero_load")
         over = unit == "meV/Å²" and flat > 0 and not (run.curved and nominal)
@@ -166,7 +166,7 @@ def _times(page: Page, run: Result) -> None:
             if (s := found.number(f"{name}.seconds")) is not None and (c := found.number(f"{name}.calls")) is not None]
     longest = max((s for _, s, _ in bars), default=0.0) or 1.0
     page.section("times", "Time spent")
-    page.add("bars", [{"name": name, "share": s / longest, "text": f"{s:.3g} s, {c:.0f} ×"}
+    page.add("bars", [{"name": name, "fraction": s / longest, "text": f"{s:.3g} s, {c:.0f} ×"}
                       for name, s, c in sorted(bars, key=lambda b: -b[1])])
 
 
@@ -177,17 +177,17 @@ def end(page: Page, result: Values, heading: str, keys: dict | None, note: str) 
         page.add("paragraph", note)
         page.add("preformatted", scene.toml_of(keys).strip())
     page.section("provenance", "Provenance")
-    rows = words.provenance(result)
+    rows = sentences.provenance(result)
     page.add("table", {"heads": [], "rows": [Row(r) for r in rows]} if rows else None)
     page.section("cite", "How to cite")
     page.add("paragraph", "Name the program with its version, and the paper whose system it simulates; with the theory’s "
              "numbers, also the theory.")
-    page.add("lists", [("", words.citations(result))])
+    page.add("lists", [("", sentences.citations(result))])
 
 
 def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
     """DIR/report.html of a run; kinds: of files of its figures."""
-    page = Page(run.directory, "Asperity report", run.title, words.lead(run), kinds=kinds)
+    page = Page(run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
     for part in (_top, _path, _segments, _states, _surface, _energies, _numbers, _times):
         part(page, run)
     keys = run.find("scene")

@@ -17,11 +17,11 @@ from .pool import FAILED
 
 
 def csv_of(cost: Cost) -> str:
-    heads = ["knob", "value", "setting", "processor_seconds", "wall_seconds", "ratio", *QUANTITIES,
+    heads = ["parameter", "value", "setting", "processor_seconds", "wall_seconds", "ratio", *QUANTITIES,
              *(f"error_{q}" for q in ASKED), *(f"own_{q}" for q in QUANTITIES), *(f"front_{q}" for q in ASKED)]
     scene = cost.rows[1].seconds or NAN
     return files.csv_text([heads, *(
-        [row.knob, row.label, " ".join(row.setting), row.seconds, row.wall, row.seconds / scene, *row.numbers,
+        [row.parameter, row.label, " ".join(row.setting), row.seconds, row.wall, row.seconds / scene, *row.numbers,
          *row.error.values(), *row.own_error, *row.front.values()] for row in cost.rows)])
 
 
@@ -32,15 +32,17 @@ def json_of(cost: Cost) -> dict[str, Any]:
     def by_quantity(values) -> dict[str, float | None]:
         return {name: known(v) for name, v in zip(QUANTITIES, values)}
 
-    settings = [{"knob": row.knob, "value": row.label, "set": row.setting, "processor_seconds": known(row.seconds),
+    settings = [{"parameter": row.parameter, "value": row.label, "set": row.setting,
+                 "processor_seconds": known(row.seconds),
                  "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers),
                  "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
                  "pareto": dict(row.front),
                  **({} if math.isnan(row.added) else {"added_error": row.added}),
                  **({"failed": row.outcome.reason} if row.outcome.status == FAILED else {})} for row in cost.rows]
-    orders = [{"knob": knob.name, "expected": knob.expected,
-               **({} if knob.order is None else {"expected_order": knob.order}), "measured": by_quantity(measured)}
-              for knob, measured in cost.orders]
+    orders = [{"parameter": parameter.name, "expected": parameter.expected,
+               **({} if parameter.order is None else {"expected_order": parameter.order}),
+               "measured": by_quantity(measured)}
+              for parameter, measured in cost.orders]
     cheapest = {question: [{"target": target, "set": cost.rows[i].text, "error": cost.rows[i].error[question],
                             "processor_seconds": cost.rows[i].seconds}
                            for target, i in zip(TARGETS, places) if i is not None]
@@ -87,15 +89,15 @@ def percent(error: float) -> str:
 def text_of(cost: Cost) -> str:
     """The tables on the terminal."""
     parts = ["\nErrors in %, against the reference: γ and works over flat on flat. * marks what nothing beats in both "
-             "time\nand error: first star the state at zero load (γ, contact), second the whole path. The last of a knob "
+             "time\nand error: first star the state at zero load (γ, contact), second the whole path. The last of each "
              "is the one its own error is taken against.\n"]
     rows: list[list[str]] = []
     last = ""
     for row in cost.rows:
-        if row.knob != last and last:
+        if row.parameter != last and last:
             rows.append([])
-        cells = ["" if row.knob == last else row.knob, row.label]
-        last = row.knob
+        cells = ["" if row.parameter == last else row.parameter, row.label]
+        last = row.parameter
         if row.outcome.status == FAILED:
             rows.append([*cells, "failed"])
             continue
@@ -104,13 +106,15 @@ def text_of(cost: Cost) -> str:
                      "-" if math.isnan(row.seconds) else f"{row.seconds:.2f} s",
                      f"{ratio:.2f}" if math.isfinite(ratio) else "-",
                      "".join("*" if f else " " for f in row.front.values())])
-    parts.append(terminal.table(["knob", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""], rows,
+    parts.append(terminal.table(["parameter", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""],
+                                rows,
                                 left=(0, 1)))
     if cost.orders:
-        parts.append("\nOrder of each knob's own error (all else as in the scene): the power of the knob that fits it.\n")
-        parts.append(terminal.table(["knob", "γ", "contact", "in", "out", "force", "expected"],
-                                    [[knob.name, *("-" if p is None else f"{p:.1f}" for p in measured), knob.expected]
-                                     for knob, measured in cost.orders], left=(0, 6)))
+        parts.append("\nOrder of each parameter's own error (all else as in the scene): the power that fits it.\n")
+        parts.append(terminal.table(["parameter", "γ", "contact", "in", "out", "force", "expected"],
+                                    [[parameter.name, *("-" if p is None else f"{p:.1f}" for p in measured),
+                                      parameter.expected]
+                                     for parameter, measured in cost.orders], left=(0, 6)))
     for question, what in zip(ASKED, ("the state at zero load (γ, contact)",
                                           "the whole path (works, pull-off force too)")):
         if cost.asked or not cost.answered(question):
@@ -123,13 +127,13 @@ def text_of(cost: Cost) -> str:
     if not cost.answered("path"):
         parts.append("\nThe path was not followed: works and force are not measured.")
     parts += [f"note: {note}" for note in cost.case.notes]
-    parts += [f"failed: {r.knob} {r.label}: {r.outcome.reason}" for r in cost.rows if r.outcome.status == FAILED]
+    parts += [f"failed: {r.parameter} {r.label}: {r.outcome.reason}" for r in cost.rows if r.outcome.status == FAILED]
     return "\n".join(parts)
 
 
 def answer_of(cost: Cost, asked: Search) -> str:
     """What was found for the target; the last line is what to put behind a command."""
-    target, varied = f"{100 * asked.target:.6g} %", "varied: " + ", ".join(knob.name for knob in cost.case.knobs)
+    target, varied = f"{100 * asked.target:.6g} %", "varied: " + ", ".join(p.name for p in cost.case.parameters)
     row = asked.chosen
     if row is None:
         best = "none could be measured" if math.isnan(asked.smallest) else (

@@ -27,7 +27,7 @@ from .result import Result, Values
 from .scene import toml_of
 from .sweeps import Sweep, load_sweeps
 from .tables import Table, text_of
-from .words import KeyNumber
+from .sentences import KeyNumber
 
 MOST_POINTS = 24
 MOST_CURVES = 6

@@ -113,14 +113,14 @@ def scenes_drawn(number: int, from_seed: int):
                     "block.poisson": round(chance.uniform(-0.3, 0.48), 2),
                     "interface.epsilon": round(chance.uniform(0.05, 0.25), 3),
                     "interface.r0": r0, "interface.cutoff": round(4 * r0, 2)}
-            seed, share = chance.randint(1, 10**6), chance.uniform(0.2, 1.3)
+            seed, fraction = chance.randint(1, 10**6), chance.uniform(0.2, 1.3)
 
             def theory(rms: float, *more: str) -> dict:
                 return program.theory(str(SCENE), [f"{k}={v}" for k, v in keys.items()] + [
                     f"surface.rms={rms}", f"surface.seed={seed}", *more])
             one = theory(1, "theory.renormalised=false", "theory.area_factor=none")
             cost = 1 - one["theory"]["gamma_full_contact"] / one["delta_gamma"]
-            rms = round(share / math.sqrt(cost), 2)
+            rms = round(fraction / math.sqrt(cost), 2)
             if one["theory"]["rms_slope"] * rms > 0.6:
                 continue
             both = theory(rms)
@@ -131,7 +131,7 @@ def scenes_drawn(number: int, from_seed: int):
         yield f"{from_seed}-{i:03}", keys, rms, seed
 
 
-def judge_drawn(options: argparse.Namespace) -> None:
+def compare_drawn(options: argparse.Namespace) -> None:
     """Draws, runs, writes drawn.csv and says how many states lie within the expected errors of the theory."""
     rows = []
     for i, (name, keys, rms, seed) in enumerate(scenes_drawn(options.draw, options.from_seed)):
@@ -186,7 +186,7 @@ def main() -> None:
         return
     options.out.mkdir(parents=True, exist_ok=True)
     if options.draw:
-        judge_drawn(options)
+        compare_drawn(options)
         return
     found = []
     print("| set | rms, Å | rms slope | surfaces | simulated | renormalised | difference (worst surface) | frictionless | wall "

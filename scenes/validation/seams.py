@@ -7,7 +7,7 @@
     scenes/validation/seams.py echoes [--program build/release/perf/seam_echo]
     scenes/validation/seams.py snap | cycles [--leaving] [--program build/release/engine/asperity] [--out results/seams]
 
-returned: share of the energy of a plane wave that comes back to level 0, from the equations of the block at
+returned: fraction of the energy of a plane wave that comes back to level 0, from the equations of the block at
 one frequency: the levels on a half-space of the lattice, under a half-space of cells twice as large as the
 last level's. echoes: packets of waves through steps of the engine, beside the same numbers. snap: a flat
 snap-in, the fast part of the force after it. cycles: energy lost in a cycle on four surfaces; --leaving: with
@@ -176,7 +176,7 @@ def table(layers: list, angles: list, long: bool, picture: str) -> None:
     curves = {}
     for n in layers:
         for absorbs in (False, True):
-            print(f"\n{n} layers a level, seams {'absorb' if absorbs else 'reflect'}: share of the energy returned")
+            print(f"\n{n} layers a level, seams {'absorb' if absorbs else 'reflect'}: fraction of the energy returned")
             print("angle wave " + "".join(f"{lam:>8g}" for lam in lengths))
             for angle in angles if absorbs else [0]:
                 found = [returned(n, 7 if not angle else 6 if lam > 40 else 5, lam, angle, absorbs) for lam in lengths]
@@ -202,7 +202,7 @@ def draw(picture: str, lengths: list, curves: dict, layers: list) -> None:
                   color="k" if not absorbs else colours[wave], lw=1.2, label=label)
     ax.axhline(0.05, color="0.6", lw=0.6)
     ax.text(lengths[0], 0.055, "5 %", ha="left", color="0.4", fontsize=8)
-    ax.set(xlabel="wavelength (a)", ylabel="share of the energy returned", ylim=(1e-4, 2),
+    ax.set(xlabel="wavelength (a)", ylabel="fraction of the energy returned", ylim=(1e-4, 2),
            title=f"{n} layers a level; the lattice returns nothing")
     ax.set_xticks(lengths, [f"{lam:g}" for lam in lengths])
     ax.minorticks_off()

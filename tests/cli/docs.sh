@@ -24,7 +24,7 @@ while IFS= read -r line; do
     *" run scenes/atoms/"*) command="$command --set drive.max_steps=30 --progress off" ;; # as wide as its atoms
     *"./asperity test"* | *"./asperity bench"*) continue ;; # would call this test
     *--theory-only*) ;;
-    *" cost "*) command="$command --knobs precision --progress off --set surface.sites=16 block.thickness=4 drive.velocity=40 drive.timestep=40" ;;
+    *" cost "*) command="$command --parameters precision --progress off --set surface.sites=16 block.thickness=4 drive.velocity=40 drive.timestep=40" ;;
     *" run "* | *" sweep "*) command="$command $small"
         # What is meant to fail has to get there; the others stop after a few steps.
         [ "$wanted" = 0 ] && command="$command --set drive.max_steps=30" ;;

@@ -28,7 +28,7 @@ END
 
 environment() { # environment NAME OPTION...: $work/NAME with the package
     /usr/bin/env python3 -m venv "$1" || fail "no virtual environment"
-    "$1/bin/pip" download --quiet --no-deps --dest "$work/wheels" scikit-build-core >/dev/null 2>&1 || { echo "skipped: no PyPI"; exit 77; }
+    "$1/bin/pip" download --quiet --no-deps --dest "$work/wheels" scikit-build-core pybind11 >/dev/null 2>&1 || { echo "skipped: no PyPI"; exit 77; }
     "$1/bin/pip" install --quiet "${@:2}" ./source >"$1.log" 2>&1 || fail "pip install ($1): $(tail -n 15 "$1.log")"
 }
 
@@ -51,6 +51,9 @@ assert asperity.program.call(["--version"]).split()[1] == version("asperity")
 one = asperity.load("one")
 again = asperity.run("scene.toml", out="again")
 assert one.binding_energy == again.binding_energy > 0
+statics = asperity.Statics("scene.toml")
+statics.load = 0.0
+assert statics.relax().contact > 0.0 and sys.modules["asperity._engine"].__file__.startswith(sys.prefix)
 END
 built/bin/pip uninstall --quiet --yes asperity || fail "uninstall"
 [ ! -e built/bin/asperity ] || fail "the program stays after pip uninstall"

@@ -34,7 +34,7 @@ fields = ["zero-load", "pull-off", "every:40"]
 EOF
 expect 0 run path.toml --progress off --out whole
 says "energy gained + energy dissipated"
-# The balance of the legs: approach + lost = state = pull-off - lost, to the tolerance on the way.
+# The balance of the branches: approach + lost = state = pull-off - lost, to the tolerance on the way.
 state=$(number whole binding_energy)
 awk -v s="$state" -v a="$(sed -n '/"work_of_drive"/,/}/s/.*"approach": \([0-9.]*\),*/\1/p' whole/result.json)" \
     -v l="$(sed -n '/"lost"/,/"pull_off"/s/.*"approach": \([0-9.]*\),*/\1/p' whole/result.json)" \
@@ -60,7 +60,7 @@ expect 0 run path.toml --progress off --out parts --resume auto --set drive.max_
 expect 0 run path.toml --progress off --out parts --resume auto
 same whole parts
 
-# Two cycles: maps of both states at zero load; each leg's loss is of the last one, the energy of all.
+# Two cycles: maps of both states at zero load; each branch's loss is of the last one, the energy of all.
 expect 0 run path.toml --progress off --out cycles --set 'drive.path=["approach", "pull-off", "approach", "pull-off"]'
 for object in fields/zero-load fields/zero-load-2; do
     objects cycles | grep -qx "$object" || fail "no $object after two cycles"

@@ -170,7 +170,7 @@ TEST(AtomsScene, RefusesAnotherBoxAndAtomsThatStandTwice) {
     EXPECT_NE(box.find("is 41.6 x 41.6 Å, and the block's 83.2 x 83.2 Å"), std::string::npos)
         << box;
     EXPECT_NE(box.find("surface.sites = 16"), std::string::npos) << box;
-    // On the box's far edge, and a hundredth of an ångström from its twin across the corner.
+    // On the box's far edge, and a hundredth of an ångström from its image across the corner.
     for (const auto& [x, y] : {std::pair{0.0, 0.0}, {41.595, 41.595}, {41.59, 0.01}}) {
         io::AtomsFile twice = atoms;
         add(twice, x, y, surface.height[0]);

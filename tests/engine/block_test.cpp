@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Laws of the block as a whole, hanging planes included: one energy, of which the forces are the
-// gradient; uniform strains exact; nothing gained or lost between levels.
+// Laws of the block as a whole, constrained planes included: one energy, of which the forces are
+// the gradient; uniform strains exact; nothing gained or lost between levels.
 //
 // Tolerances: a force is a sum of some hundred terms k u with k below 6 eV/Å^2 times 2^level, so
 // rounding leaves about 1e-15 times the largest k u; what depends on sums over all nodes gets
@@ -166,7 +166,7 @@ TEST_P(BlockLaws, ForceIsMinusTheGradientOfTheEnergy) {
         const Vector u = test::random_vector(k.size(), seed);
         Vector along = test::random_vector(k.size(), seed + 10);
         const double top = 0.3, top_along = seed == 3 ? 0.0 : 0.7;
-        if (seed == 2) // only the planes next to the hanging ones move
+        if (seed == 2) // only the planes next to the constrained ones move
             along = k.tabulate([&](const Block::Level& level, int c, int z, int y, int x) {
                 const bool seam = (level.shape.level > 0 && z == 0) || z == level.shape.cells - 1;
                 return seam ? std::sin(1.0 + c + 2.0 * x + 3.0 * y) : 0.0;

@@ -172,14 +172,14 @@ TEST(Effects, OffInAStepIsNoCallAndNoByte) {
     EXPECT_EQ(s.phases()[Phase::interpolate].calls, 0);
     EXPECT_EQ(s.phases()[Phase::absorb].calls, 0);
     EXPECT_EQ(s.block().absorption_bytes(), 0u);
-    EXPECT_EQ(s.ledger().radiated, 0.0);
+    EXPECT_EQ(s.balance().radiated, 0.0);
     EXPECT_EQ(s.block().coarse_bytes(), 0u);
     EXPECT_EQ(s.block().finite_bytes(), 0u);
     EXPECT_EQ(s.interface().tail_bytes(), 0u);
     // Sums that only damping and noise add to.
-    EXPECT_EQ(s.ledger().damped, 0.0);
-    EXPECT_EQ(s.ledger().drag_work, 0.0);
-    EXPECT_EQ(s.ledger().heat, 0.0);
+    EXPECT_EQ(s.balance().damped, 0.0);
+    EXPECT_EQ(s.balance().drag_work, 0.0);
+    EXPECT_EQ(s.balance().heat, 0.0);
 }
 
 TEST(Effects, OnInAStepTakesPlace) {
@@ -192,9 +192,9 @@ TEST(Effects, OnInAStepTakesPlace) {
     EXPECT_GT(s.block().coarse_bytes(), 0u);
     EXPECT_GT(s.block().finite_bytes(), 0u);
     EXPECT_GT(s.interface().tail_bytes(), 0u);
-    EXPECT_GT(s.ledger().damped, 0.0);
-    EXPECT_NE(s.ledger().drag_work, 0.0);
-    EXPECT_NE(s.ledger().heat, 0.0);
+    EXPECT_GT(s.balance().damped, 0.0);
+    EXPECT_NE(s.balance().drag_work, 0.0);
+    EXPECT_NE(s.balance().heat, 0.0);
 }
 
 TEST(Effects, SeamsAbsorbEveryFewSteps) {
@@ -208,7 +208,7 @@ TEST(Effects, SeamsAbsorbEveryFewSteps) {
     EXPECT_EQ(calls("drive.timestep=13"), 8);
     EXPECT_EQ(calls("drive.timestep=30"), 24);
     const Simulation s = follow(case_with({"block.seams=absorb", "block.thickness=32"}), 100);
-    EXPECT_GT(s.ledger().radiated, 0.0);
+    EXPECT_GT(s.balance().radiated, 0.0);
     EXPECT_GT(s.block().absorption_bytes(), 0u);
 }
 
@@ -262,7 +262,7 @@ TEST(Effects, AnotherSeedIsAnotherNoise) {
         return follow(case_with({"drive.damping=0.2", "drive.temperature=100", "block.thickness=8",
                                  seed}),
                       3)
-            .ledger()
+            .balance()
             .heat;
     };
     EXPECT_EQ(kinetic("drive.seed=1"), kinetic("drive.seed=1"));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Laws of the block at finite strain, hanging planes included; its motion; its relaxed contact.
+// Laws of the block at finite strain, constrained planes included; its motion; its relaxed contact.
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
 #include "support/levels_at_rest.hpp"

@@ -58,7 +58,7 @@ Compared compare(const Surface& substrate, int n, double z, double sideways, dou
     options.mixed = true;
     const Interface mixed(substrate, tile, a, options);
     options.method = InterfaceMethod::reference;
-    const Interface judge(substrate, tile, a, options);
+    const Interface reference(substrate, tile, a, options);
     VectorField<double> u(tile, 1), f(tile, 1), g(tile, 1);
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -70,8 +70,8 @@ Compared compare(const Surface& substrate, int n, double z, double sideways, dou
         }
     const auto seen = std::as_const(u).plane(0);
     const InterfaceSums sums = mixed.sweep(seen, f.plane(0), z, {.observe = true});
-    const InterfaceSums judged = judge.sweep(seen, g.plane(0), z, {.observe = true});
-    const InterfaceMaps maps = judge.maps(seen, z);
+    const InterfaceSums expected = reference.sweep(seen, g.plane(0), z, {.observe = true});
+    const InterfaceMaps maps = reference.maps(seen, z);
     Compared c;
     double energies = 1e-3;
     for (int y = 0; y < n; ++y)
@@ -97,9 +97,9 @@ Compared compare(const Surface& substrate, int n, double z, double sideways, dou
             energies +=
                 std::get<LennardJones>(options.potential).epsilon * (std::isfinite(r2) ? 1.0 : 0.0);
         }
-    c.energy = std::abs(sums.energy.value() - judged.energy.value()) /
-               std::max(energies, std::abs(judged.energy.value()));
-    c.same_counts = sums.in_contact == judged.in_contact && sums.repulsive == judged.repulsive;
+    c.energy = std::abs(sums.energy.value() - expected.energy.value()) /
+               std::max(energies, std::abs(expected.energy.value()));
+    c.same_counts = sums.in_contact == expected.in_contact && sums.repulsive == expected.repulsive;
     return c;
 }
 

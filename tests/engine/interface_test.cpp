@@ -93,26 +93,26 @@ Outcome sweep(const Surface& substrate, const State& state, const InterfaceOptio
     return out;
 }
 
-void expect_close(const Outcome& judge, const Outcome& other, const std::string& what) {
+void expect_close(const Outcome& reference, const Outcome& other, const std::string& what) {
     double worst = 0.0;
-    for (std::size_t i = 0; i < judge.force[0].size(); ++i) {
+    for (std::size_t i = 0; i < reference.force[0].size(); ++i) {
         double size = 1e-2; // eV/Å: the pair forces that cancel in a site's sum are of this size
         for (int k = 0; k < 3; ++k)
-            size = std::max(size, std::abs(judge.force[k][i]));
+            size = std::max(size, std::abs(reference.force[k][i]));
         for (int k = 0; k < 3; ++k)
-            worst = std::max(worst, std::abs(judge.force[k][i] - other.force[k][i]) / size);
+            worst = std::max(worst, std::abs(reference.force[k][i] - other.force[k][i]) / size);
     }
     EXPECT_LT(worst, 1e-12) << what;
-    EXPECT_EQ(judge.sums.in_contact, other.sums.in_contact) << what;
-    EXPECT_EQ(judge.sums.repulsive, other.sums.repulsive) << what;
-    if (judge.sums.closest_r2 < no_pair) {
-        EXPECT_NEAR(judge.sums.closest_r2, other.sums.closest_r2,
-                    1e-12 * (1.0 + judge.sums.closest_r2))
+    EXPECT_EQ(reference.sums.in_contact, other.sums.in_contact) << what;
+    EXPECT_EQ(reference.sums.repulsive, other.sums.repulsive) << what;
+    if (reference.sums.closest_r2 < no_pair) {
+        EXPECT_NEAR(reference.sums.closest_r2, other.sums.closest_r2,
+                    1e-12 * (1.0 + reference.sums.closest_r2))
             << what;
     } else {
         EXPECT_EQ(other.sums.closest_r2, no_pair) << what;
     }
-    const double energy = judge.sums.energy.value();
+    const double energy = reference.sums.energy.value();
     EXPECT_NEAR(energy, other.sums.energy.value(), 1e-12 * (10.0 + std::abs(energy))) << what;
 }
 
@@ -152,10 +152,10 @@ TEST(InterfaceSweep, AgreesWithTheReference) {
                             return sweep(surface, state, with(method, potential), z, true);
                         };
                         const Surface same = rough(n, n * a, 2.0, seed);
-                        const Outcome judge = swept(same, InterfaceMethod::reference);
-                        expect_close(judge, swept(same, InterfaceMethod::lattice),
+                        const Outcome reference = swept(same, InterfaceMethod::reference);
+                        expect_close(reference, swept(same, InterfaceMethod::lattice),
                                      "lattice " + what);
-                        expect_close(judge, swept(same, InterfaceMethod::rows), "rows " + what);
+                        expect_close(reference, swept(same, InterfaceMethod::rows), "rows " + what);
                         const Surface other = rough(substrate_sites(n, 1.618), n * a, 2.0, seed);
                         expect_close(swept(other, InterfaceMethod::reference),
                                      swept(other, InterfaceMethod::automatic),

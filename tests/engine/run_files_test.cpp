@@ -46,7 +46,7 @@ io::Json run_over_ridge(const Scratch& scratch, const std::string& drive,
     return test::run_scene(scene, scratch / "out");
 }
 
-double share(const std::vector<double>& values, const auto& is) {
+double fraction_of(const std::vector<double>& values, const auto& is) {
     return static_cast<double>(std::count_if(values.begin(), values.end(), is)) /
            static_cast<double>(values.size());
 }
@@ -62,8 +62,8 @@ TEST(RunFiles, FractionsAreThoseOfTheMaps) {
     const auto pressure = file.read<double>("/fields/zero-load/pressure");
     const auto distance = file.read<double>("/fields/zero-load/distance");
     const double inflection = std::pow(26.0 / 7.0, 1.0 / 6.0) * 3.28; // of 4 eps (s^12 - s^6)
-    const double repulsive = share(pressure, [](double p) { return p > 0.0; });
-    const double touching = share(distance, [&](double d) { return d < inflection; });
+    const double repulsive = fraction_of(pressure, [](double p) { return p > 0.0; });
+    const double touching = fraction_of(distance, [&](double d) { return d < inflection; });
     ASSERT_NE(repulsive, touching) << "the case must tell one from the other";
     EXPECT_EQ(result.at("repulsive_fraction").get<double>(), repulsive);
     EXPECT_EQ(result.at("contact_fraction").get<double>(), touching);

@@ -170,7 +170,7 @@ TEST(Simulation, NothingHappensOutOfReach) {
     EXPECT_EQ(now.force, 0.0);
     EXPECT_NEAR(now.mean_height, 20.0 - 999 * 10.0 * 5e-5, 1e-12);
     EXPECT_NEAR(now.elastic_energy, 0.0, 1e-20);
-    EXPECT_NEAR(simulation.ledger().damped, 0.0, 1e-20);
+    EXPECT_NEAR(simulation.balance().damped, 0.0, 1e-20);
     EXPECT_EQ(simulation.drive().now().kind, Segment::approach);
 }
 

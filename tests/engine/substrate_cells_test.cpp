@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The sweep over cells of substrate atoms: judged by the reference, by energy differences, by
+// The sweep over cells of substrate atoms: compared with the reference, by energy differences, by
 // itself on other tiles, and by the sweeps over the lattice and over rows of the same atoms.
 #include "engine/interface/interface.hpp"
 #include "engine/interface/substrate_cells.hpp"
@@ -115,21 +115,21 @@ TEST(SubstrateCells, AgreeWithTheReference) {
         for (const auto& [height, size] :
              {std::pair{2.5, 0.3}, {8.0, 1.0}, {12.0, 0.3}, {13.6, 1.0}, {3.0, 6.0}}) {
             const auto u = displaced(whole, size);
-            const Swept judge = by_reference(cells, solid.pairs, u, height),
+            const Swept reference = by_reference(cells, solid.pairs, u, height),
                         mine = by_cells(cells, solid.pairs, whole, u, height, mixed);
             double largest = 0.0;
-            for (double f : judge.force)
+            for (double f : reference.force)
                 largest = std::max(largest, std::abs(f));
             ASSERT_GT(largest, 0.0);
             const double tolerance = mixed ? 1e-5 : 1e-12;
-            for (std::size_t i = 0; i < judge.force.size(); ++i)
-                ASSERT_NEAR(mine.force[i], judge.force[i],
-                            tolerance * (largest + std::abs(judge.force[i])))
+            for (std::size_t i = 0; i < reference.force.size(); ++i)
+                ASSERT_NEAR(mine.force[i], reference.force[i],
+                            tolerance * (largest + std::abs(reference.force[i])))
                     << height << " " << i;
-            const double energy = judge.sums.energy.value();
+            const double energy = reference.sums.energy.value();
             EXPECT_NEAR(mine.sums.energy.value(), energy, tolerance * (1.0 + std::abs(energy)));
-            EXPECT_EQ(mine.sums.in_contact, judge.sums.in_contact);
-            EXPECT_NEAR(mine.sums.closest_r2, judge.sums.closest_r2, 1e-4);
+            EXPECT_EQ(mine.sums.in_contact, reference.sums.in_contact);
+            EXPECT_NEAR(mine.sums.closest_r2, reference.sums.closest_r2, 1e-4);
         }
     }
 }
@@ -290,7 +290,7 @@ TEST(SubstrateCells, OfSeveralTypesAddUpToThoseOfEach) {
     for (double height : {2.5, 8.0}) {
         const SubstrateCells cells = solid.cells(whole, false);
         const Swept mine = by_cells(cells, solid.pairs, whole, u, height, false);
-        const Swept judge = by_reference(cells, solid.pairs, u, height);
+        const Swept reference = by_reference(cells, solid.pairs, u, height);
         std::vector<double> sum(mine.force.size(), 0.0);
         double energy = 0.0, closest = no_pair, largest = 0.0;
         for (int type = 0; type < 4; ++type) {
@@ -314,7 +314,7 @@ TEST(SubstrateCells, OfSeveralTypesAddUpToThoseOfEach) {
         }
         for (double f : sum)
             largest = std::max(largest, std::abs(f));
-        for (const Swept* all : {&mine, &judge}) {
+        for (const Swept* all : {&mine, &reference}) {
             for (std::size_t i = 0; i < sum.size(); ++i)
                 ASSERT_NEAR(all->force[i], sum[i], 1e-12 * (largest + std::abs(sum[i]))) << i;
             EXPECT_NEAR(all->sums.energy.value(), energy, 1e-11 * std::abs(energy));

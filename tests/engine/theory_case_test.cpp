@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The theory of a scene: the scene's keys reach the solver, its numbers reach the result. The
-// expected numbers are those of theory.md (tests/theory judges the solver itself).
+// expected numbers are those of theory.md (tests/theory tests the solver itself).
 #include "engine/run/theory_case.hpp"
 
 #include "engine/setup/case.hpp"

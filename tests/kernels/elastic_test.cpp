@@ -62,7 +62,7 @@ struct Stack {
         ElasticLevel level;
         level.cells = cells;
         level.u = u.view();
-        level.incoming = none.plane(0);
+        level.transferred = none.plane(0);
         level.upper_force = force.plane(cells);
         level.lower = make_stencil(elasticity, Face::lower);
         level.inner = make_stencil(elasticity, Face::inner);

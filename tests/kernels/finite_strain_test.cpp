@@ -27,12 +27,12 @@ constexpr double s = 2.6, mu = 0.17, lame = 0.89; // Å, eV/Å^3: near the paper
 struct Stack {
     Tile tile;
     int cells;
-    VectorField<double> u, force, incoming, upper;
+    VectorField<double> u, force, transferred, upper;
     LevelCell cell{s, {mu * s, (lame - mu) * s / 16.0}};
 
     Stack(int n, int m, int layers)
         : tile{0, 0, n, m, n}, cells(layers), u(tile, layers + 1), force(tile, layers),
-          incoming(tile, 1), upper(tile, 1) {}
+          transferred(tile, 1), upper(tile, 1) {}
 
     using Place = std::array<double, 3>;
     /// u(node) on every node, those of the halo too.
@@ -71,7 +71,7 @@ struct Stack {
         ElasticLevel level;
         level.cells = cells;
         level.u = u.view();
-        level.incoming = incoming.plane(0);
+        level.transferred = transferred.plane(0);
         level.upper_force = upper.plane(0);
         level.lower = make_stencil(cell.elasticity, Face::lower);
         level.inner = make_stencil(cell.elasticity, Face::inner);
@@ -130,7 +130,7 @@ TEST_P(LevelCells, EqualTheDefinitionCellByCell) {
             Stack stack(n, m, layers);
             stack.cell.elasticity.kappa = kappa;
             stack.shake(0.4, 7u + static_cast<unsigned>(n));
-            stack.incoming.x.view()(1, 2, 0) = 0.3;
+            stack.transferred.x.view()(1, 2, 0) = 0.3;
             VectorField<double> expected;
             const double energy = stack.reference(expected);
             expected.x.view()(1, 2, 0) += 0.3;

@@ -109,48 +109,49 @@ TEST(SurfaceRows, TiesAreSpringsAndForces) {
         EXPECT_NEAR(to[i], 0.25 * (0.7 * u[i] + f[i]), 1e-7);
 }
 
-/// Sites that know their goals, moved by the kernel, against one site written out.
+/// Sites that know their targets, moved by the kernel, against one site written out.
 TEST(SurfaceRows, EverySiteKeepsItsOwnMomentumAndGain) {
     const BallRule rule{.keep = 0.7f, .cut = 0.5f, .raise = 1.25f, .most = 2.0f, .bound = 0.5f};
     const int n = 67; // with a rest
     std::mt19937_64 random(10);
     for (int components : {1, 3}) {
-        std::vector<float> goal[3], momentum[3], gain(n);
+        std::vector<float> target[3], momentum[3], step_size(n);
         std::vector<double> u[3];
         BallRow row{};
         for (int c = 0; c < components; ++c) {
-            goal[c] = numbers<float>(n, random);
+            target[c] = numbers<float>(n, random);
             momentum[c] = numbers<float>(n, random);
             u[c] = numbers<double>(n, random);
-            row.goal[c] = goal[c].data();
+            row.target[c] = target[c].data();
             row.momentum[c] = momentum[c].data();
             row.u[c] = u[c].data();
         }
         std::uniform_real_distribution<float> any(0.1f, 2.0f);
-        for (float& g : gain)
+        for (float& g : step_size)
             g = any(random);
-        row.gain = gain.data();
+        row.step_size = step_size.data();
         const auto m_before = std::to_array({momentum[0], momentum[1], momentum[2]});
         const auto u_before = std::to_array({u[0], u[1], u[2]});
-        const auto gain_before = gain;
+        const auto step_size_before = step_size;
         const float longest = move_row(row, rule, components, n);
 
         double longest_way2 = 0.0;
         int backwards = 0, capped = 0, clipped = 0;
-        for (std::size_t i = 0; i < gain.size(); ++i) {
+        for (std::size_t i = 0; i < step_size.size(); ++i) {
             double along = 0.0, way2 = 0.0, move2 = 0.0, move[3] = {};
             for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) {
-                const double way = goal[c][i] - u_before[c][i];
+                const double way = target[c][i] - u_before[c][i];
                 along += way * m_before[c][i];
                 way2 += way * way;
             }
             const bool back = along < 0.0;
-            const double g = back ? 0.5 * gain_before[i] : std::min(1.25 * gain_before[i], 2.0);
+            const double g =
+                back ? 0.5 * step_size_before[i] : std::min(1.25 * step_size_before[i], 2.0);
             backwards += back;
-            capped += !back && 1.25 * gain_before[i] > 2.0;
-            EXPECT_NEAR(gain[i], g, 1e-6);
+            capped += !back && 1.25 * step_size_before[i] > 2.0;
+            EXPECT_NEAR(step_size[i], g, 1e-6);
             for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) {
-                move[c] = g * (goal[c][i] - u_before[c][i]) + (back ? 0.0 : 0.7 * m_before[c][i]);
+                move[c] = g * (target[c][i] - u_before[c][i]) + (back ? 0.0 : 0.7 * m_before[c][i]);
                 move2 += move[c] * move[c];
             }
             const double kept = std::min(1.0, 0.5 / std::sqrt(move2));

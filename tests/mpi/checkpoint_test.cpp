@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A run that was interrupted goes on as if it had not been: the same bits, whatever number of ranks
-// wrote the checkpoint and whatever number reads it. Judge: the uninterrupted run on one rank.
+// wrote the checkpoint and whatever number reads it. Reference: the uninterrupted run on one rank.
 #include "engine/run/checkpoint.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
@@ -57,7 +57,7 @@ std::uint64_t trace(Simulation& s) {
     std::uint64_t hash = test::fingerprint(s.block());
     s.step(true);
     const StepRecord& now = s.now();
-    const Ledger& l = s.ledger();
+    const EnergyBalance& l = s.balance();
     for (double value : {now.time,
                          now.top,
                          now.mean_height,

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Steps on the emulated device give the bits of the processor's: displacements, velocities and
-// every record, on any number of ranks; and what is wrong with a device's memory shows. Judge: the
-// processor's steps on one rank (same_bits_test).
+// every record, on any number of ranks; and what is wrong with a device's memory shows. Reference:
+// the processor's steps on one rank (same_bits_test).
 //
 // The emulated device runs the text that CUDA runs; what this cannot show is the code generator of
 // a device's compiler, and speed.
@@ -134,7 +134,7 @@ void advance(Simulation& s, int steps, Trace& trace) {
     }
 }
 void conclude(Simulation& s, Trace& trace) {
-    const Ledger& l = s.ledger();
+    const EnergyBalance& l = s.balance();
     for (double value : {l.top_work, l.drag_work, l.damped, l.heat, l.interface})
         trace.records = test::mix(trace.records, value);
     trace.state = test::fingerprint(s.block());
@@ -154,7 +154,7 @@ Trace run(const Variant& c, const Communicator& ranks, bool on_device, int count
     return trace;
 }
 
-/// The judge, on every rank.
+/// The reference, on every rank.
 Trace on_processor(const Variant& c) {
     Trace trace;
     if (world().root()) trace = run(c, Communicator(), false);

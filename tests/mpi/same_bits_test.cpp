@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The same bits on any number of ranks and threads: positions, velocities, energies, and the state
-// that a relaxation finds. The run on one rank, in the same process, is the judge; so a wrong tile,
-// a stale halo or a sum that depends on its order shows at its first bit.
+// that a relaxation finds. The run on one rank, in the same process, is the reference; so a wrong
+// tile, a stale halo or a sum that depends on its order shows at its first bit.
 //
 // Two stacks on 32 x 32 sites, and their kin: warm, at finite strain, a plain lattice, over atoms
 // anywhere. Shallow: 4 +
@@ -123,7 +123,7 @@ Trace run(const Stack& stack, const Communicator& ranks) {
         trace.in_contact = std::max(trace.in_contact, now.in_contact);
     }
     EXPECT_EQ(s.interface().place()[0] < -1.3, stack.slides);
-    const Ledger& l = s.ledger();
+    const EnergyBalance& l = s.balance();
     for (double value : {l.top_work, l.drag_work, l.damped, l.radiated, l.heat, l.interface})
         trace.numbers.push_back(value);
     trace.state = test::fingerprint(s.block());

@@ -18,7 +18,7 @@ the tests of its layer first; those that survive, the rest of the short suite (a
 "long") at the end. A test sees a mutant if it fails, or takes ten times as long (of a processor) as without it. Tests that
 fail without a mutant are named and left out. Outcomes are kept in BUILD/outcomes.jsonl: started again, it
 goes on from there. Survivors are to be looked at one by one: some change nothing that anyone could see.
-Exit code 1 if a smaller share than --least is killed.
+Exit code 1 if a smaller fraction than --least is killed.
 """
 
 import argparse
@@ -45,7 +45,7 @@ LAYERS = {"kernels": ["kernels", "engine"], "decomposition": ["decomposition", "
           "engine": ["engine", "physics"], "python": ["python"]}
 # Text for people, and code of machines that are not here.
 TEXT = ("engine/run/summary.cpp", "engine/commands/", "kernels/device/cuda", "kernels/device/no_cuda",
-        "python/asperity/page.py", "python/asperity/words.py", "python/asperity/terminal.py",
+        "python/asperity/page.py", "python/asperity/sentences.py", "python/asperity/terminal.py",
         "python/asperity/plots/style.py")
 LEFT_ALONE = re.compile(r"kill|unlink|rmtree|remove|rename|fork|rlimit|signal|operator|virtual")
 COMPARED = {"<": ("<=", ">="), ">": (">=", "<="), "<=": ("<", ">"), ">=": (">", "<"), "==": ("!=",), "!=": ("==",)}
@@ -413,7 +413,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--minutes", type=float, default=1e9, help="no further mutant is begun after so many")
     parser.add_argument("--layer-only", action="store_true", help="without the rest of the short suite")
-    parser.add_argument("--least", type=float, default=0.0, help="share of the mutants to be killed")
+    parser.add_argument("--least", type=float, default=0.0, help="fraction of the mutants to be killed")
     parser.add_argument("--list", action="store_true")
     options = parser.parse_args()
     folders = options.folder or list(LAYERS)

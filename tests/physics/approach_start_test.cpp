@@ -94,14 +94,14 @@ TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
         if (s.drive().observe(
                 {now.time, now.force, now.top, out_of_reach(now.top, now.force, strongest)}) &&
             segment == 0)
-            turn = s.ledger().interface;
+            turn = s.balance().interface;
         ASSERT_LT(s.steps(), 100000);
     }
     const double per_area = units::milli_per_unit / std::pow(c.setup.scene.edge(), 2);
     const double approach = io::find(result, "work_of_adhesion.approach")->get<double>(),
                  pull_off = io::find(result, "work_of_adhesion.pull_off")->get<double>();
     EXPECT_NEAR(approach, per_area * turn, 1e-5 * approach);
-    EXPECT_NEAR(pull_off, -per_area * (s.ledger().interface - turn), 1e-4 * pull_off);
+    EXPECT_NEAR(pull_off, -per_area * (s.balance().interface - turn), 1e-4 * pull_off);
     EXPECT_LT(io::find(result, "run.steps")->get<double>(), 0.9 * static_cast<double>(s.steps()));
 }
 

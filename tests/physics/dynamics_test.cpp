@@ -194,7 +194,7 @@ TEST(EnergyBalance, ADrivenDampedRunBalances) {
             contact.step();
             worst = std::max(worst, std::abs(contact.simulation.now().residual));
         }
-        const Ledger& l = contact.simulation.ledger();
+        const EnergyBalance& l = contact.simulation.balance();
         EXPECT_GT(l.damped, 0.1);
         EXPECT_GT(std::abs(l.top_work), 0.1);
         EXPECT_NE(l.drag_work, 0.0);
@@ -216,7 +216,7 @@ TEST(EnergyBalance, DampingAloneTakesWhatTheDissipationSays) {
         double after = before;
         while (contact.simulation.time() < 15000.0)
             after = contact.step();
-        const Ledger& l = contact.simulation.ledger();
+        const EnergyBalance& l = contact.simulation.balance();
         EXPECT_EQ(l.top_work, 0.0) << "the top is held";
         EXPECT_EQ(l.drag_work, 0.0);
         EXPECT_GT(before - after, 1.0);
@@ -297,8 +297,8 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
     check("level 1", block_average(by_level[1], 40), by_half_step[1] / freedoms[1]);
     // What the noise gives and the damping takes, over the change of energy: the books of a warm
     // run.
-    EXPECT_NEAR(simulation.ledger().heat, simulation.ledger().damped,
-                0.02 * simulation.ledger().damped);
+    EXPECT_NEAR(simulation.balance().heat, simulation.balance().damped,
+                0.02 * simulation.balance().damped);
     EXPECT_LT(std::abs(simulation.now().residual), 0.02);
 }
 
@@ -341,7 +341,7 @@ Approach approach_slowly(const SimulationOptions& options, const Surface& surfac
     const double area = std::pow(options.block.sites * options.block.spacing, 2);
     Approach result;
     result.there = -1e3 * (s.now().interface_energy + s.now().elastic_energy) / area;
-    result.work = 1e3 * s.ledger().interface / area;
+    result.work = 1e3 * s.balance().interface / area;
     const LayerAtRest rest =
         test::bring_to_rest(s.block(), surface, s.reference_height(), options, 1e-6);
     result.binding = rest.numbers.value().binding_energy;

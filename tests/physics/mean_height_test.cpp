@@ -130,8 +130,8 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
             EXPECT_NEAR(-path.work(Segment::approach), state, tolerance * c.sites() * way);
             EXPECT_NEAR(path.work(Segment::pull_off), state, tolerance * c.sites() * way);
             int unstable = 0;
-            for (const auto* leg : {&in, &out})
-                for (const StepRecord& r : *leg) {
+            for (const auto* branch : {&in, &out})
+                for (const StepRecord& r : *branch) {
                     const double jump = one.jump(r.mean_height);
                     EXPECT_NEAR(r.force, one.force(r.mean_height), 1e-9 * c.sites() + jump);
                     EXPECT_NEAR(r.interface_energy, one.potential(r.mean_height),
@@ -180,7 +180,7 @@ TEST(MeanHeight, GradientLeavesItOut) {
         block.displace(1.0, start.waves, start.sites);
         constexpr double held_at = -0.3, h = 1e-5;
         block.constrain(Constraint::mean_height(held_at));
-        block.settle();
+        block.apply_constraint();
         EXPECT_NEAR(block.mean_height(), held_at, 1e-15);
         // Along anything but the uniform wave.
         const int normal = block.components() - 1;
@@ -376,7 +376,7 @@ TEST(MeanHeight, RoughWorkIsEnergyPlusLoss) {
         const char* map;
         double factor;
         int sites;
-        double least; ///< share of the state's energy that must be lost
+        double least; ///< fraction of the state's energy that must be lost
     };
     for (const Model& m :
          {Model{"c7_N64_T64_rms2", 0.25, 64, 0.01}, Model{"c3_N32_T32_rms1.5", 0.15, 32, 0.0},

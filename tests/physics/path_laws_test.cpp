@@ -128,7 +128,7 @@ TEST(PathErrors, AreThreeTimesWhatTheWorkOfAnInstabilityIsNotKnownBy) {
             last = now;
         }
         ASSERT_GT(squares, 0.0) << word(kind);
-        // Smaller losses, where the force stays smooth, have their own share.
+        // Smaller losses, where the force stays smooth, have their own fraction.
         EXPECT_GE(path.uncertainty(kind), (gaps + 3.0 * std::sqrt(squares)) * (1.0 - 1e-6));
         EXPECT_LE(path.uncertainty(kind), 1.5 * (gaps + 3.0 * std::sqrt(squares)));
     }

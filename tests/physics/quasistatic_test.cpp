@@ -24,7 +24,7 @@ using Solids = test::PathCase;
 
 namespace {
 
-/// A cycle on a rough surface: what the work brings is stored or lost, on each leg and step by
+/// A cycle on a rough surface: what the work brings is stored or lost, on each branch and step by
 /// step.
 void expect_balance(Solids& c, Constraint::Of along, bool snaps) {
     constexpr double tolerance = 1e-4;
@@ -46,17 +46,17 @@ void expect_balance(Solids& c, Constraint::Of along, bool snaps) {
     // The loop of F over the mean height encloses what was lost: by trapezia of the points,
     // which the falls are exact for.
     double loop = 0.0;
-    for (const auto* leg : {&in, &out})
-        for (std::size_t i = 1; i < leg->size(); ++i)
-            loop -= 0.5 * ((*leg)[i].force + (*leg)[i - 1].force) *
-                    ((*leg)[i].mean_height - (*leg)[i - 1].mean_height);
+    for (const auto* branch : {&in, &out})
+        for (std::size_t i = 1; i < branch->size(); ++i)
+            loop -= 0.5 * ((*branch)[i].force + (*branch)[i - 1].force) *
+                    ((*branch)[i].mean_height - (*branch)[i - 1].mean_height);
     EXPECT_NEAR(loop, lost.total(), 0.02 * (snaps ? lost.total() : state));
     EXPECT_LT(std::abs(path.now().residual) * state, tolerance * c.sites() * (way + back));
-    // Each leg only loses, and no step gains more energy than its work brings, but for what
+    // Each branch only loses, and no step gains more energy than its work brings, but for what
     // the work of the longest may be wrong by.
     double before = 0.0, books = 0.0;
-    for (const auto* leg : {&in, &out})
-        for (const StepRecord& r : *leg) {
+    for (const auto* branch : {&in, &out})
+        for (const StepRecord& r : *branch) {
             EXPECT_GE(r.damped, before);
             before = r.damped;
             const double unearned = energy(r) + r.damped - r.work;
@@ -102,8 +102,8 @@ TEST(Quasistatic, StiffBlockIsReversible) {
         EXPECT_EQ(path.dissipation().total(), 0.0);
         EXPECT_NEAR(energy(path.now()), 0.0, 1e-6 * state);
         const OneDimension one{c};
-        for (const auto* leg : {&in, &out})
-            for (const StepRecord& r : *leg)
+        for (const auto* branch : {&in, &out})
+            for (const StepRecord& r : *branch)
                 EXPECT_NEAR(r.force, one.force(r.mean_height),
                             1e-9 * c.sites() + one.jump(r.mean_height));
     }
@@ -119,8 +119,8 @@ TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
         const auto in = follow(path, Segment::approach);
         const auto out = follow(path, Segment::pull_off);
         // Every point is a point of the one-dimensional problem.
-        for (const auto* leg : {&in, &out})
-            for (const StepRecord& r : *leg) {
+        for (const auto* branch : {&in, &out})
+            for (const StepRecord& r : *branch) {
                 EXPECT_NEAR(r.force, one.force(r.mean_height), 1e-9 * c.sites());
                 EXPECT_NEAR(r.top, one.top(r.mean_height), tolerance * c.sites() / c.spring());
             }
@@ -205,9 +205,9 @@ TEST(Quasistatic, RoughWorkOverAWallIsEnergyPlusLoss) {
         }
 }
 
-/// The spring's force is the interface's at every point: what is left has no sign along a leg, and
-/// does no work of its own. (A block that is still on its way leaves some of the tolerance at every
-/// site, all of one sign.)
+/// The spring's force is the interface's at every point: what is left has no sign along a branch,
+/// and does no work of its own. (A block that is still on its way leaves some of the tolerance at
+/// every site, all of one sign.)
 TEST(Quasistatic, HeldTopOverAWallIsInBalance) {
     for (const double tolerance : {1e-3, 1e-4}) {
         BlockOptions o = test::paper_block(32, 24, 0);
@@ -218,9 +218,9 @@ TEST(Quasistatic, HeldTopOverAWallIsInBalance) {
                  ExponentialWall(0.0754 * site, 1.25, 50.0));
         test::KeptPath path = c.path(tolerance, 0.2);
         path.start();
-        for (const Segment::Kind leg : {Segment::approach, Segment::pull_off}) {
+        for (const Segment::Kind branch : {Segment::approach, Segment::pull_off}) {
             double sum = 0.0;
-            const auto points = follow(path, leg);
+            const auto points = follow(path, branch);
             ASSERT_GT(points.size(), 20u);
             for (const StepRecord& r : points)
                 sum += r.top_force - r.force;

@@ -115,7 +115,7 @@ std::map<Node, std::array<double, 3>> changes_by_definition(Block& block) {
                         for (std::size_t c = 0; c < 3; ++c)
                             for (const auto& [node, w] : corner[i])
                                 change[node][c] += w * level.node_mass / 8.0 *
-                                                   level.share[static_cast<std::size_t>(z)] *
+                                                   level.fraction[static_cast<std::size_t>(z)] *
                                                    (mean[c] - v[i][c]) / mass[node];
                 }
     return change;
@@ -229,7 +229,7 @@ SimulationOptions contact(double span, double step = dt) {
 
 } // namespace
 
-TEST(Seams, WhatTheyTakeIsBooked) {
+TEST(Seams, WhatTheyTakeIsCounted) {
     // Released pressed into a rough wall: half of the energy that moves is absorbed, and no more is
     // missing than with seams that reflect. Driven too.
     for (const double velocity : {0.0, 1e-3}) {
@@ -243,12 +243,12 @@ TEST(Seams, WhatTheyTakeIsBooked) {
             for (int n = 0; n < 1500; ++n)
                 residual = std::max(residual, std::abs(s.step(true).residual));
             if (span > 0.0) {
-                EXPECT_GT(s.ledger().radiated, 0.3 * s.now().kinetic_energy);
-                EXPECT_EQ(s.now().radiated, s.ledger().radiated);
+                EXPECT_GT(s.balance().radiated, 0.3 * s.now().kinetic_energy);
+                EXPECT_EQ(s.now().radiated, s.balance().radiated);
             } else {
-                EXPECT_EQ(s.ledger().radiated, 0.0);
+                EXPECT_EQ(s.balance().radiated, 0.0);
             }
-            EXPECT_EQ(s.ledger().damped, 0.0);
+            EXPECT_EQ(s.balance().damped, 0.0);
             return residual;
         };
         EXPECT_LT(worst(50.0), 1.5 * worst(0.0)) << velocity;
@@ -278,7 +278,7 @@ TEST(Seams, ThatReflectHoldNothing) {
     const Block off = made(test::paper_block(16, 50, 5)), on = made(absorbing(16, 50, 5));
     EXPECT_EQ(off.absorption_bytes(), 0u);
     for (const Block::Level& level : off.levels())
-        EXPECT_TRUE(level.share.empty() && level.hanging_v.empty() && !level.absorbs());
+        EXPECT_TRUE(level.fraction.empty() && level.constrained_v.empty() && !level.absorbs());
     EXPECT_EQ(on.bytes() - off.bytes(), on.absorption_bytes());
     EXPECT_FALSE(on.levels().back().absorbs()) << "under the rigid top";
 }

@@ -43,9 +43,9 @@ TEST(SurfaceMatrix, IsTheElimination) {
                 for (int ny = 0; ny <= nx; ++ny) {
                     if (nx + ny == 0) continue;
                     const double dq = 2.0 * pi / (sites * o.spacing);
-                    const double judge = test::surface_stiffness_ratio(
+                    const double reference = test::surface_stiffness_ratio(
                         nx * dq, ny * dq, thickness, o.spacing, o.lame(), o.shear_modulus());
-                    EXPECT_NEAR(ratio(o, nx, ny), judge, 1e-10 * judge) << nx << ", " << ny;
+                    EXPECT_NEAR(ratio(o, nx, ny), reference, 1e-10 * reference) << nx << ", " << ny;
                 }
         }
 }
@@ -152,7 +152,7 @@ TEST(SpectralBlock, PreconditionerIsAnInverse) {
 }
 
 TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
-    // goal - u = -(S + k)^-1 g, whatever is held, the gradient in double on its own way.
+    // target - u = -(S + k)^-1 g, whatever is held, the gradient in double on its own way.
     constexpr double k = 0.4;
     for (bool frictionless : {false, true})
         for (const Constraint& constraint :
@@ -162,7 +162,7 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
             const auto displacement = test::random_displacement(block, random, 0.3);
             block.displace(1.0, displacement.waves, displacement.sites);
             block.constrain(constraint);
-            block.settle();
+            block.apply_constraint();
             std::normal_distribution<double> normal(0.0, 0.1);
             const VectorPlane<double> force = block.interface_force();
             for (const PlaneView<double>& f : {force.x, force.y, force.z})
@@ -171,8 +171,8 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
                         f(x, y) = normal(random);
             const Preconditioner preconditioner(block, k);
             auto waves = block.new_waves<float>();
-            auto goal = block.new_field<float>();
-            block.respond(preconditioner, waves, goal);
+            auto target = block.new_field<float>();
+            block.respond(preconditioner, waves, target);
 
             auto g = block.new_waves<double>();
             block.gradient(g);
@@ -187,7 +187,7 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
             for (int c = 0; c < block.components(); ++c) {
                 const auto u = block.moving_layer(c);
                 const auto e = expected[static_cast<std::size_t>(c)].plane(0);
-                const auto to = goal[static_cast<std::size_t>(c)].plane(0);
+                const auto to = target[static_cast<std::size_t>(c)].plane(0);
                 for (int y = 0; y < u.ny; ++y)
                     for (int x = 0; x < u.nx; ++x) {
                         EXPECT_NEAR(to(x, y) - u(x, y), -e(x, y), 2e-6);

@@ -205,7 +205,7 @@ private:
             for (int y = 0; y < component.ny; ++y)
                 for (int x = 0; x < component.nx; ++x)
                     component(x, y) = u[i++];
-        block_.settle();
+        block_.apply_constraint();
         interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_, {});
         auto waves = block_.new_waves<double>();
         block_.gradient(waves);
@@ -236,11 +236,11 @@ private:
     Layer at_;
 };
 
-void expect_same(const StateList& a, const StateList& b, double share) {
+void expect_same(const StateList& a, const StateList& b, double fraction) {
     ASSERT_EQ(a.all.size(), b.all.size());
     for (std::size_t i = 0; i < a.all.size(); ++i) {
         const ZeroLoad &x = a.all[i].numbers, &y = b.all[i].numbers;
-        EXPECT_NEAR(x.binding_energy, y.binding_energy, share * std::abs(x.binding_energy)) << i;
+        EXPECT_NEAR(x.binding_energy, y.binding_energy, fraction * std::abs(x.binding_energy)) << i;
         EXPECT_NEAR(x.mean_height, y.mean_height, 0.02) << i;
     }
 }

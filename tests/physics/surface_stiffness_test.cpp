@@ -93,7 +93,7 @@ TEST(SurfaceStiffness, TheMultiscaleBlockOverTheLattice) {
 }
 
 TEST(SurfaceStiffness, EveryWaveLiesBetweenTheLatticeAndTheWorst) {
-    // Constraining the hanging nodes can only stiffen, and the table's worst wave is the worst.
+    // Constraining nodes can only stiffen, and the table's worst wave is the worst.
     struct Row {
         int layers, thickness;
         double worst;

@@ -337,7 +337,7 @@ TEST(Momentum, ChangesByTheForcesAlone) {
                 const auto before = momentum();
                 s.step(false);
                 const auto after = momentum();
-                const auto from_below = s.block().levels().front().incoming.plane(0);
+                const auto from_below = s.block().levels().front().transferred.plane(0);
                 const auto at_top = s.block().levels().back().upper_force.plane(0);
                 std::array<double, 3> force{};
                 for (int y = 0; y < from_below.x.ny; ++y)

@@ -85,8 +85,8 @@ struct AtWall {
 };
 
 template <class Law>
-double at_rest(const Law& law, double gap, double goal, double spring) {
-    return typename Law::template In<double>(law).settle(gap, goal, spring);
+double at_rest(const Law& law, double gap, double target, double spring) {
+    return typename Law::template In<double>(law).rest(gap, target, spring);
 }
 
 double modulus() { return test::paper_block(8, 8, 0).contact_modulus(); }
@@ -115,12 +115,13 @@ TEST(WallLaw, ForceIsTheSlopeOfItsEnergy) {
 
 /// The smeared layer is what many atoms with as little energy each make.
 TEST(WallLaw, SmearedLayerIsTheLimitOfManyAtoms) {
-    const double level = 0.0, fine = 0.1, share = fine * fine / (a * a);
+    const double level = 0.0, fine = 0.1, fraction = fine * fine / (a * a);
     const SmearedWall law(pair, 1.0 / (a * a), false);
     for (double g : {2.5, 3.28, 4.0, 7.0, 12.0}) {
         const PairSum sum = pair_sum({&level, 1, fine}, pair, 0.5 * fine, 0.5 * fine, g);
-        EXPECT_NEAR(law.energy(g), share * sum.energy, 2e-4 * std::abs(law.energy(g))) << g;
-        EXPECT_NEAR(law.force(g), share * sum.force[2], 2e-3 * std::abs(law.force(g)) + 1e-5) << g;
+        EXPECT_NEAR(law.energy(g), fraction * sum.energy, 2e-4 * std::abs(law.energy(g))) << g;
+        EXPECT_NEAR(law.force(g), fraction * sum.force[2], 2e-3 * std::abs(law.force(g)) + 1e-5)
+            << g;
     }
 }
 
@@ -129,11 +130,12 @@ TEST(WallLaw, SiteComesToRestUnderItsSpring) {
         std::visit(
             [](const auto& law) {
                 const double spring = 4.0 - 2.0 * law.softest();
-                for (double goal = -1.0; goal < 9.0; goal += 0.217) {
-                    double g = std::max(goal, 2.0);
+                for (double target = -1.0; target < 9.0; target += 0.217) {
+                    double g = std::max(target, 2.0);
                     for (int i = 0; i < 20; ++i)
-                        g = at_rest(law, g, goal, spring);
-                    EXPECT_NEAR(spring * (goal - g) + law.force(g), 0.0, 1e-9) << goal << " " << g;
+                        g = at_rest(law, g, target, spring);
+                    EXPECT_NEAR(spring * (target - g) + law.force(g), 0.0, 1e-9)
+                        << target << " " << g;
                 }
             },
             any);
@@ -147,10 +149,10 @@ TEST(WallLaw, SiteGoesDownhillToTheNearestRest) {
             [](const auto& law) {
                 if (law.softest() == 0.0) return; // does not attract
                 const double spring = -0.05 * law.softest();
-                for (double goal = -1.0; goal < 12.0; goal += 0.593)
+                for (double target = -1.0; target < 12.0; target += 0.593)
                     for (double from = 3.0; from < 9.0; from += 0.371) {
                         const auto pull = [&](double g) {
-                            return spring * (goal - g) + law.force(g);
+                            return spring * (target - g) + law.force(g);
                         };
                         const double way = pull(from) > 0.0 ? 1e-3 : -1e-3;
                         double rest = from;
@@ -158,8 +160,8 @@ TEST(WallLaw, SiteGoesDownhillToTheNearestRest) {
                             rest += way;
                         double g = from;
                         for (int i = 0; i < 2000; ++i)
-                            g = at_rest(law, g, goal, spring);
-                        EXPECT_NEAR(g, rest, 2e-3) << goal << " from " << from;
+                            g = at_rest(law, g, target, spring);
+                        EXPECT_NEAR(g, rest, 2e-3) << target << " from " << from;
                     }
             },
             any);
@@ -334,8 +336,8 @@ TEST(Wall, HeldPathsEnd) {
         o.reference_height = at.at.interface.start_height();
         test::KeptPath path(at.at.block, at.at.interface, o);
         path.start();
-        for (const Segment::Kind leg : {Segment::approach, Segment::pull_off})
-            test::follow(path, leg);
+        for (const Segment::Kind branch : {Segment::approach, Segment::pull_off})
+            test::follow(path, branch);
         EXPECT_LT(path.iterations(), 20000);
     }
 }

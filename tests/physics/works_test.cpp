@@ -111,9 +111,9 @@ TEST(Works, WithoutTimeTheDrivesWorkAndTheLossesMakeTheState) {
 
     const Path held(scene(rough, 96, drive + "\"mean-height\""));
     held.expect_identities(0.02);
-    for (const char* leg : {"approach", "pull_off"})
-        EXPECT_EQ(held(fmt::format("work_of_adhesion.{}", leg)),
-                  held(fmt::format("work_of_drive.{}", leg)));
+    for (const char* branch : {"approach", "pull_off"})
+        EXPECT_EQ(held(fmt::format("work_of_adhesion.{}", branch)),
+                  held(fmt::format("work_of_drive.{}", branch)));
     EXPECT_LT(held("lost.cycle"), 0.2 * top("lost.cycle"))
         << "held so, the block does not snap as a whole";
 }

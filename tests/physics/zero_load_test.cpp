@@ -34,8 +34,8 @@ struct Reference {
     /// Relative (Å for the height). Binding is stationary: residual forces of 1e-6 eV/Å enter
     /// squared, and what is left is 1 GPa = 1/160.21766 there and 1/160.21766208 here, 1.3e-8 of
     /// the elastic energy, which is 0.05 to 0.7 of the binding. The others feel the residual
-    /// itself. At 2.5 r0 the force's step at the cutoff (1.2e-3 eV/Å) leaves twin states: 1e-8 and
-    /// 1e-5 where they were seen.
+    /// itself. At 2.5 r0 the force's step at the cutoff (1.2e-3 eV/Å) leaves pairs of states: 1e-8
+    /// and 1e-5 where they were seen.
     double binding_tolerance = 2e-8, first_order = 2e-5;
 };
 constexpr Reference cases[] = {

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What accuracy costs: errors, fronts, orders and choices on made-up runs, the knobs of a scene, and a run of it all."""
+"""What accuracy costs: errors, fronts, orders and choices on made-up runs, the parameters of a scene, and a run of it all."""
 
 import csv
 import json
@@ -15,7 +15,7 @@ import pytest
 
 import asperity
 from asperity import cost, program, report_cost
-from asperity.cost_knobs import Base, CostCase, Knob, KnobValue, cost_case, joined
+from asperity.cost_parameters import Base, CostCase, Parameter, ParameterValue, cost_case, joined
 from asperity.result import Values
 from conftest import command
 from asperity.scene import scene_file
@@ -68,19 +68,19 @@ def case(same_experiment=False, **sections):
     return cost_case(found["scene"], found["longest_timestep"], same_experiment=same_experiment)
 
 
-def knobs(**sections):
-    return [k.name for k in case(**sections).knobs]
+def parameters(**sections):
+    return [k.name for k in case(**sections).parameters]
 
 
-def test_knobs_are_those_that_the_scene_has():
+def test_parameters_are_those_that_the_scene_has():
     small = {"sites": 16}
-    assert knobs(surface=small) == ["cutoff", "tail", "layers", "thickness", "precision", "timestep", "velocity", "damping",
+    assert parameters(surface=small) == ["cutoff", "tail", "layers", "thickness", "precision", "timestep", "velocity", "damping",
                                     "tolerance", "step", "model"]
-    assert knobs(surface=small, drive={"path": ["zero-load"]}) == ["cutoff", "tail", "thickness", "precision", "tolerance"]
-    assert "damping" not in knobs(surface=small, drive={"damping": 0})
+    assert parameters(surface=small, drive={"path": ["zero-load"]}) == ["cutoff", "tail", "thickness", "precision", "tolerance"]
+    assert "damping" not in parameters(surface=small, drive={"damping": 0})
     for bad in ({"block": {"strain": "finite"}}, {"drive": {"temperature": 300}}, {"drive": {"max_steps": 10}}):
         with pytest.raises(asperity.SceneError):
-            knobs(surface={"sites": 32}, **bad)
+            parameters(surface={"sites": 32}, **bad)
     assert joined(["a.b=1", "c.d=2"], ["a.b=3"]) == ["c.d=2", "a.b=3"]
 
 
@@ -92,28 +92,28 @@ PHYSICS = ("interface.", "surface.", "drive.mode", "drive.path", "drive.velocity
     ({"drive": {"path": ["zero-load"]}}, ["precision", "tolerance"]), ({"block": {"strain": "finite"}}, ["layers", "precision", "timestep"])])
 def test_a_target_chooses_no_physics(sections, names):
     found = case(True, surface={"sites": 16}, **sections)
-    assert [k.name for k in found.knobs] == names and found.bases[0].setting == []
-    for setting in [found.reference, *(v.setting for k in found.knobs for v in [*k.values, k.twin])]:
+    assert [k.name for k in found.parameters] == names and found.bases[0].setting == []
+    for setting in [found.reference, *(v.setting for k in found.parameters for v in [*k.values, k.reference])]:
         assert setting and not any(one.startswith(PHYSICS) for one in setting)
 
 
 def made_up(values):
-    """Knobs with values of (own error, seconds) over twins of one second, none of which may be chosen."""
-    def knob(name):
-        return Knob(name, [], KnobValue("best", [f"a.{name}=best"]), "", name)
+    """Parameters with values of (own error, seconds) over references of one second, none of which may be chosen."""
+    def parameter(name):
+        return Parameter(name, [], ParameterValue("best", [f"a.{name}=best"]), "", name)
 
-    knobs = [knob(name) for name in values]
+    parameters = [parameter(name) for name in values]
     made = cost.Cost("made up", {},
-                     CostCase([], "", knobs, [Base("", [], list(values), "state")], []))
+                     CostCase([], "", parameters, [Base("", [], list(values), "state")], []))
     best = np.array([1.0, 1.0, NAN, NAN, NAN])
-    made.rows = [cost.CostRow("reference", "", [], [], judged=False, numbers=best, seconds=1.0),
+    made.rows = [cost.CostRow("reference", "", [], [], compared=False, numbers=best, seconds=1.0),
                  cost.CostRow("scene", "", [], [], numbers=best, seconds=1.0)]
     for name, some in values.items():
         for label, error, seconds in [("best", 0.0, 1.0), *((str(i), *v) for i, v in enumerate(some))]:
             setting = [f"a.{name}={label}"]
             made.rows.append(cost.CostRow(name, label, setting, setting, numbers=best + [error, 0, 0, 0, 0],
                                           seconds=seconds))
-    made.judge()
+    made.compare()
     return made
 
 
@@ -140,12 +140,12 @@ def test_errors_add_and_times_multiply():
     """Each of the cheapest is within 1 %, both together are not."""
     assert outcome_of(made_up(VALUES), 0.01, {})[1:] == ("0, 1", ["0, 1"])
     assert outcome_of(made_up(VALUES), 0.02, {})[1:] == ("0, 0", ["0, 0"])
-    # "best" has no error by definition: only a twin in which nothing of it is left may be chosen.
+    # "best" has no error by definition: only a reference in which nothing of it is left may be chosen.
     made = made_up(VALUES)
     search, *outcome = outcome_of(made, 5e-4, {})
     assert outcome == [None, []] and search.smallest == pytest.approx(1e-3)
-    for knob in made.case.knobs:
-        knob.twin_is_exact = True
+    for parameter in made.case.parameters:
+        parameter.reference_is_exact = True
     assert outcome_of(made, 5e-4, {})[1] == "2, best"
 
 
@@ -172,7 +172,7 @@ def test_searches_share_their_runs():
     searches = [made.search(made.case.bases[0], target) for target in (0.02, 0.05, 0.01)]
     assert made.choose(searches, run)
     assert ran == ["0, 0", "0, 1"] and [s.chosen.label for s in searches] == ["0, 0", "0, 0", "0, 1"]
-    assert sum(r.knob == "combination" for r in made.rows) == 2
+    assert sum(r.parameter == "combination" for r in made.rows) == 2
     assert not made.choose([made.search(made.case.bases[0], 0.006)], run)  # stopped
 
 
@@ -240,23 +240,23 @@ def test_a_target_that_is_none_is_refused(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "tiny.toml").write_text(TINY)
     assert "a relative error is needed" in command("cost", "tiny.toml", "--target", "good", expect=2)
-    assert "layers, precision, timestep" in command("cost", "tiny.toml", "--target", "1%", "--knobs", "cutoff", expect=2)
+    assert "layers, precision, timestep" in command("cost", "tiny.toml", "--target", "1%", "--parameters", "cutoff", expect=2)
     assert [p.name for p in tmp_path.iterdir()] == ["tiny.toml"]
 
 
-def test_knobs_go_from_coarse_to_fine():
+def test_parameters_go_from_coarse_to_fine():
     """No value comes twice, and what they are compared with is finer than the finest."""
-    for knob in case(surface={"sites": 32}).knobs:
-        settings = [tuple(v.setting) for v in knob.values]
-        assert len(set(settings)) == len(settings), knob.name
-        x = [v.x for v in [*knob.values, *[knob.twin] * (knob.twin is not None)] if v.x]
-        assert x == sorted(set(x)) or x == sorted(set(x), reverse=True), knob.name
+    for parameter in case(surface={"sites": 32}).parameters:
+        settings = [tuple(v.setting) for v in parameter.values]
+        assert len(set(settings)) == len(settings), parameter.name
+        x = [v.x for v in [*parameter.values, *[parameter.reference] * (parameter.reference is not None)] if v.x]
+        assert x == sorted(set(x)) or x == sorted(set(x), reverse=True), parameter.name
 
 
-def test_tables_judge_what_was_run():
-    """Runs of a knob with errors of the square, under a reference."""
-    knob = Knob("timestep", [], KnobValue("1", ["drive.timestep=1"], 1.0), "2", "timestep", 2.0)
-    made = cost.Cost("made up", {}, CostCase([], "", [knob], [], []))
+def test_tables_compare_what_was_run():
+    """Runs of a parameter with errors of the square, under a reference."""
+    parameter = Parameter("timestep", [], ParameterValue("1", ["drive.timestep=1"], 1.0), "2", "timestep", 2.0)
+    made = cost.Cost("made up", {}, CostCase([], "", [parameter], [], []))
 
     def add(name, x, error, seconds):
         setting = [f"drive.timestep={x}"]
@@ -266,7 +266,7 @@ def test_tables_judge_what_was_run():
     add("scene", 2, 4e-3, 4.0)
     for x in (4, 3, 2, 1):
         add("timestep", x, 1.1e-3 * x * x, 8.0 / x)
-    made.judge()
+    made.compare()
     assert made.rows[2].error["state"] == pytest.approx(0.0176) and made.rows[5].front["state"]
     assert made.cheapest["state"] == [2, 3, None]  # 5 %, 1 %, nothing keeps 0.1 %
     assert made.orders[0][1][0] == pytest.approx(2.0, abs=0.02)
@@ -276,22 +276,22 @@ def test_tables_judge_what_was_run():
 
 
 def rows(directory):
-    """The scene's knobs without the times and what follows from them."""
+    """The scene's parameters without the times and what follows from them."""
     with open(directory / "cost.csv") as file:
         return [{k: v for k, v in row.items() if "seconds" not in k and "front" not in k and k != "ratio"}
-                for row in csv.DictReader(file) if row["knob"] != "combination"]
+                for row in csv.DictReader(file) if row["parameter"] != "combination"]
 
 
 def test_cost_runs_stops_and_goes_on(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "tiny.toml").write_text("[surface]\nsites = 16\nrms = 0.3\n[block]\nthickness = 8\n[drive]\nvelocity = 60\n"
                                         "timestep = 20\n")
-    assert "did you mean layers?" in command("cost", "tiny.toml", "--knobs", "layer", "--out", "bad", expect=2)
+    assert "did you mean layers?" in command("cost", "tiny.toml", "--parameters", "layer", "--out", "bad", expect=2)
     assert "those of their noise" in command("cost", "tiny.toml", "--set", "drive.temperature=300", "--out", "bad", expect=2)
     command("cost", "tiny.toml", "--jobs", "0", "--out", "bad", expect=2)
     command("cost", "tiny.toml", "--out", "bad", expect=2, env={"OMPI_COMM_WORLD_SIZE": "2"})
     assert [p.name for p in tmp_path.iterdir()] == ["tiny.toml"]
-    words = ["cost", "tiny.toml", "--knobs", "timestep,precision", "--progress", "off", "--out"]
+    words = ["cost", "tiny.toml", "--parameters", "timestep,precision", "--progress", "off", "--out"]
     said = command(*words, "whole", "--jobs", "2")
     assert "Cheapest for the whole path" in said and "velocity Verlet" in said
     for name in ("cost.csv", "cost.json", "cost-state.svg", "cost-path.svg", "cost-path.png"):

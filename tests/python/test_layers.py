@@ -11,9 +11,9 @@ import asperity
 ORDER = """errors units terminal
     files program scene convert
     result grid
-    pool runs tables sweeps cost_knobs cost
+    pool runs tables sweeps cost_parameters cost
     plots.__init__ plots.style plots.files plots.run plots.sweep plots.cost
-    page words report report_cost report_sweep export
+    page sentences report report_cost report_sweep export
     commands forms engine __init__ __main__""".split()
 PLACE = {name: place for place, name in enumerate(ORDER)}
 

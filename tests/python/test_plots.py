@@ -23,10 +23,10 @@ def test_forces_of_flat_solids_are_stresses(path_run):
     ax = path_run.plot.separation(axes())
     curves = {c.label: c for c in style.drawn(ax).curves}
     assert set(curves) == {"approach", "pull-off"}
-    leg, force = path_run.series["segment"], path_run.series["force"]
+    segment, force = path_run.series["segment"], path_run.series["force"]
     # eV/Å over Å² in GPa: 1 eV/Å^3 = 160.2176634 GPa
-    assert curves["pull-off"].y == pytest.approx(force[leg == 1] / path_run.edge**2 * 160.2176634)
-    assert (curves["approach"].x == path_run.series["mean_height"][leg == 0]).all()
+    assert curves["pull-off"].y == pytest.approx(force[segment == 1] / path_run.edge**2 * 160.2176634)
+    assert (curves["approach"].x == path_run.series["mean_height"][segment == 0]).all()
     assert "GPa" in ax.get_ylabel()
     felt = path_run.series["mean_height"][abs(force) > 0.01 * abs(force.min())]
     low, high = ax.get_xlim()
@@ -72,8 +72,8 @@ def test_distributions_are_normalised(path_run):
     state = path_run.fields["zero-load"]
     one = style.drawn(path_run.plot.pressures(axes())).curves[0]
     y = np.nan_to_num(one.y)
-    share = np.sum(y[::2] * (one.x[1::2] - one.x[::2]))
-    assert share == pytest.approx(np.mean(state.pressure != 0), rel=1e-9)
+    fraction = np.sum(y[::2] * (one.x[1::2] - one.x[::2]))
+    assert fraction == pytest.approx(np.mean(state.pressure != 0), rel=1e-9)
 
 
 def test_maps_are_seen_from_above(path_run):
@@ -120,9 +120,9 @@ def test_files_hold_the_curves(path_run, tmp_path):
     assert b"<path" in written[2].read_bytes()
     text = files.csv(fig)
     table = np.genfromtxt(io.StringIO(text), delimiter=",", skip_header=1)
-    leg = path_run.series["segment"]
+    segment = path_run.series["segment"]
     approach = table[:, 1][np.isfinite(table[:, 1])]
-    assert approach == pytest.approx(path_run.series["force"][leg == 0] / path_run.edge**2 / units.GIGAPASCAL, rel=1e-8)
+    assert approach == pytest.approx(path_run.series["force"][segment == 0] / path_run.edge**2 / units.GIGAPASCAL, rel=1e-8)
     assert text.startswith("mean separation (Å),approach: mean stress F/A_0 (GPa)")
     # In a page: without a size of its own, the date or the colours of paper.
     inline = files.inline_svg(fig)

@@ -14,7 +14,7 @@ import pytest
 
 import asperity
 import asperity.runs
-from asperity import words
+from asperity import sentences
 from asperity.report import write_run_page
 from asperity.report_sweep import holds_sweep, write_sweep_page
 from conftest import ROOT, SMALL, STATE, command, unsealed
@@ -93,9 +93,9 @@ def test_values_can_be_read_by_pointing(path_run):
     maps = [d for d in found.data if "map" in d]
     assert len(curves) == 9 and len(maps) == 4
     force = dict(map(tuple, curves[0]["curves"]))  # force over separation comes first
-    leg = path_run.series["segment"] == 1
-    assert force["pull-off"][0] == pytest.approx([path_run.series["mean_height"][leg][0],
-                                                  path_run.series["force"][leg][0] / path_run.edge**2 * 160.21766], rel=1e-4)
+    segment = path_run.series["segment"] == 1
+    assert force["pull-off"][0] == pytest.approx([path_run.series["mean_height"][segment][0],
+                                                  path_run.series["force"][segment][0] / path_run.edge**2 * 160.21766], rel=1e-4)
     one = next(d["map"] for d in maps if "gap" in d["map"]["unit"])
     raw = np.frombuffer(base64.b64decode(one["values"]), "<u2").reshape(one["n"], one["n"])
     gap = path_run.fields["zero-load"].gap
@@ -124,28 +124,28 @@ def stored(tmp_path, path, load):
     (["approach", "pull-off"], -5.5, "at zero load", " under a load of −5.5 MPa")])  # the state carries none
 def test_a_load_is_told_of_what_carries_it(tmp_path, path, load, at, under):
     run = stored(tmp_path, path, load)
-    numbers = {n.name: n for n in words.key_numbers(run)}
+    numbers = {n.name: n for n in sentences.key_numbers(run)}
     assert f"binding energy {at}" in numbers and f"renormalised theory{under}" in numbers
     assert numbers[f"of the sites in contact {at}"].note.startswith(f"theory{under}: ")
-    state, _, theory = words.findings(run)
+    state, _, theory = sentences.results(run)
     assert state.startswith(("Without external force" if at == "at zero load" else "U" + at[1:]) + " the solids are bound")
     assert theory.startswith(f"Persson’s theory{under} gives") and theory.endswith(" meV/Å²" + f" {at}" * bool(under) + ".")
     assert f"States {at}" in page(tmp_path).text
-    assert words.state_in_words(run, "zero-load") == at
+    assert sentences.state_in_words(run, "zero-load") == at
 
 
 def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
     run = stored(tmp_path, ["approach", "pull-off"], 0.0)
-    numbers = {n.name: n for n in words.key_numbers(run)}
+    numbers = {n.name: n for n in sentences.key_numbers(run)}
     assert numbers["Persson’s theory"].value == "0.500" and numbers["renormalised theory"].value == "0.750"
     assert numbers["binding energy at zero load"].value == "0.500"
-    assert "(50.0\u00a0% of its Δγ, 100.00 meV/Å²)" in words.findings(run)[2]
-    assert "(75.0\u00a0% of Δγ)" in words.findings(run)[2]
+    assert "(50.0\u00a0% of its Δγ, 100.00 meV/Å²)" in sentences.results(run)[2]
+    assert "(75.0\u00a0% of Δγ)" in sentences.results(run)[2]
     assert numbers["work of the drive, approach"].note == "30.00 meV/Å² ± 3"
     assert numbers["work of the drive, pull-off"].note == "50.00 meV/Å² ± 0.25"
     assert numbers["work of the interface, pull-off"].note == "44.00 meV/Å²"
     assert numbers["lost in a cycle (hysteresis)"].value == "20"
-    cycle = words.findings(run)[1]
+    cycle = sentences.results(run)[1]
     assert "takes up 30.00 meV/Å²" in cycle and "gives 50.00 meV/Å²" in cycle and "20.00 meV/Å², is lost" in cycle
     assert "interface’s force on the mean height is 36.00 meV/Å² and 44.00 meV/Å²" in cycle
     rows = re.findall(r"<tr>(.*?)</tr>", (tmp_path / "report.html").read_text() if page(tmp_path) else "", re.S)

@@ -49,9 +49,9 @@ TEST_P(HardScene, StaysStable) {
     const double residual = std::abs(number(result, "energy.balance_error"));
     EXPECT_LT(residual, GetParam().residual);
     // The zero-load state is found, no better than flat on flat and no worse than nothing.
-    const double share = number(result, "binding_energy") / number(result, "delta_gamma");
-    EXPECT_GT(share, 0.0);
-    EXPECT_LT(share, 1.0 + 1e-9);
+    const double fraction = number(result, "binding_energy") / number(result, "delta_gamma");
+    EXPECT_GT(fraction, 0.0);
+    EXPECT_LT(fraction, 1.0 + 1e-9);
     EXPECT_GT(number(result, "contact_fraction"), 0.0);
     EXPECT_GE(number(result, "energy.elastic"), 0.0);
 }

@@ -30,7 +30,7 @@ double bernoulli(double x) {
     return x / std::expm1(x);
 }
 
-/// Cells in z, their faces and the share of P in each.
+/// Cells in z, their faces and the fraction of P in each.
 class StressCells {
 public:
     explicit StressCells(int cells)
@@ -54,7 +54,7 @@ public:
         }
     }
 
-    /// The boundary moves by db, the length by dl, the clock by dT; returns the area left.
+    /// The boundary moves by db, the length by dl, the variance by dT; returns the area left.
     /// The old state stays until accept().
     double advance(double db, double l0, double l1, double dT) {
         const double l2 = l0 * l1, l = std::sqrt(l2), D = dT / (2 * l2);
@@ -115,10 +115,10 @@ private:
 
 } // namespace
 
-MarchPath diffusion(const MarchGrid& grid, const MarchInput& in, double spacing) {
+IntegrationPath diffusion(const IntegrationGrid& grid, const IntegrationInput& in, double spacing) {
     const int cells = static_cast<int>(std::lround(std::max(20.0, 40 / spacing)));
     const std::size_t n = grid.q.size();
-    MarchPath path;
+    IntegrationPath path;
     double area = 1, energy = grid.energy[0];
     double gamma = (in.g0 + energy) / grid.stretch[0];
     const auto boundary = [&](double gamma_now, std::size_t i) {
@@ -149,32 +149,33 @@ MarchPath diffusion(const MarchGrid& grid, const MarchInput& in, double spacing)
         const double d_energy = grid.energy[i] - grid.energy[i - 1];
         const double area0 = area, energy0 = energy, b0 = b, l0 = l;
         // The state at the end if `trial` of the area is left.
-        const auto settle = [&](double trial) {
+        const auto solve_boundary = [&](double trial) {
             area = trial;
-            energy = energy0 +
-                     d_energy * (energy_share(area0, in.beta) + energy_share(area, in.beta)) / 2;
+            energy =
+                energy0 +
+                d_energy * (energy_fraction(area0, in.beta) + energy_fraction(area, in.beta)) / 2;
             gamma = (in.g0 + energy) / (area * grid.stretch[i]);
             b = boundary(gamma, i);
             l = length(b, i);
         };
         if (!grid.ever_detaches || !(dT > 0)) {
-            settle(area0);
+            solve_boundary(area0);
             if (grid.ever_detaches) stress.carry_over(b0, l0, b, l);
             record();
             continue;
         }
         const double log_step = std::log(grid.T[i] / grid.T[i - 1]);
-        settle(area0);
+        solve_boundary(area0);
         if (b - b0 > 6 * std::sqrt(dT)) { // nearly a gap: the boundary leaves first, then P spreads
             stress.carry_over(b0, l0, b, l);
-            settle(std::min(area0, stress.advance(0, l, l, dT)));
+            solve_boundary(std::min(area0, stress.advance(0, l, l, dT)));
             stress.accept();
             rate = 0;
             record();
             continue;
         }
         const auto mismatch = [&](double trial) {
-            settle(trial);
+            solve_boundary(trial);
             return stress.advance(b - b0, l0, l, dT) - trial;
         };
         double x0 = area0, f0 = mismatch(x0);
@@ -188,7 +189,7 @@ MarchPath diffusion(const MarchGrid& grid, const MarchInput& in, double spacing)
             f0 = f1;
             x1 = next;
         }
-        settle(x1);
+        solve_boundary(x1);
         stress.accept();
         rate = (area0 - area) / log_step;
         record();

@@ -141,12 +141,12 @@ double echo(const BlockOptions& options, const Packet& packet, double depth, dou
             }
         lead.advance(parameters, sums);
         const auto push = std::as_const(below.upper_force).plane(0);
-        const auto incoming = block.fields(above).incoming.plane(0);
+        const auto transferred = block.fields(above).transferred.plane(0);
         for (int y = 0; y < below.tile.ny; ++y)
             for (int x = 0; x < below.tile.nx; ++x) {
-                incoming.x(x, y) = push.x(x, y);
-                incoming.y(x, y) = push.y(x, y);
-                incoming.z(x, y) = push.z(x, y);
+                transferred.x(x, y) = push.x(x, y);
+                transferred.y(x, y) = push.y(x, y);
+                transferred.z(x, y) = push.z(x, y);
             }
         block.advance(parameters, sums);
         block.exchange();

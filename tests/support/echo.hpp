@@ -24,7 +24,7 @@ struct Packet {
     double length(int sites) const;
 };
 
-/// Share of the packet's energy that is in the lead when what the block returns from its lowest
+/// Fraction of the packet's energy that is in the lead when what the block returns from its lowest
 /// `depth` cells of edge a has come back.
 double echo(const BlockOptions& block, const Packet& packet, double depth, double dt);
 

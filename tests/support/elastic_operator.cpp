@@ -59,7 +59,7 @@ void ElasticOperator::set(const Vector& u, double top) {
 }
 
 Vector ElasticOperator::force() {
-    // Nothing was ever put into the incoming forces of the lowest layer.
+    // Nothing was ever put into the transferred forces of the lowest layer.
     block_.forces(force_);
     Vector f(size_);
     each([&](std::size_t i, std::size_t l, int c, int z, int y, int x) {

@@ -5,7 +5,7 @@
 //
 // The vector holds the moving nodes, in the order level, component, plane, row, column. force() is
 // what the run itself does (interpolate, hand up, force) with nothing acting from below, so K =
-// -dF/du of the whole stack, hanging planes eliminated. Laws of K (symmetry, gradient, modes,
+// -dF/du of the whole stack, constrained planes eliminated. Laws of K (symmetry, gradient, modes,
 // static response) then read as algebra.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The slow, obvious twins of the elastic kernels: energy and forces cell by cell, spring by spring,
+// The slow, obvious forms of the elastic kernels: energy and forces cell by cell, spring by spring,
 // straight from the definition.
 #pragma once
 

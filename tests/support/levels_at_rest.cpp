@@ -90,10 +90,10 @@ RelaxedState LevelsAtRest::relax(const Interface& interface, double reference_he
             v[i] += dt * f[i];
             furthest = std::max(furthest, dt * std::abs(v[i]));
         }
-        const double share = std::min(1.0, 0.1 / furthest); // no node further than 0.1 Å
+        const double fraction = std::min(1.0, 0.1 / furthest); // no node further than 0.1 Å
         for (std::size_t i = 0; i < n; ++i)
-            *u[i] += share * dt * v[i];
-        block.set_top(block.top() + share * dt * v[n]);
+            *u[i] += fraction * dt * v[i];
+        block.set_top(block.top() + fraction * dt * v[n]);
         block.exchange();
         state.residual = feel();
     }

@@ -3,7 +3,7 @@
 //
 // The lattice block's static response at one wavevector, straight from the definition of the cell
 // energy: the 24 x 24 matrix of one cell, folded to two planes, and the planes eliminated one by
-// one from the clamped top. Shares nothing with the kernels or the block: it is their judge.
+// one from the clamped top. Shares nothing with the kernels or the block: it is their reference.
 #pragma once
 
 namespace asperity::test {

@@ -6,7 +6,7 @@
 //     P(σ, T) = N(σ - p; T) - ∫ N(σ + b(T'); T - T') dF(T').
 // On a short piece b is its middle value and F linear in T', so that the time integral is closed,
 //     ∫_{t0}^{t1} N(x; t) dt = [ √(2t/π) e^{-x²/2t} - |x| erfc(|x|/√(2t)) ]_{t0}^{t1},
-// and the square root at T' -> T costs no accuracy. The pieces are quarters of the march's
+// and the square root at T' -> T costs no accuracy. The pieces are quarters of the integration's
 // intervals, with a and b between the nodes by monotone cubics.
 #include "support/stress_distribution.hpp"
 
@@ -30,18 +30,18 @@ double normal_over_time(double x, double t) {
            std::abs(x) * std::erfc(std::abs(x) / std::sqrt(2 * t));
 }
 
-/// Boundary and area at an instant of the clock.
+/// Boundary and area at a value of the variance.
 struct Instant {
     double T, b, area;
 };
 
-double clock_of(const ProfilePoint& at) { return at.stress_variance; }
+double variance_of(const ProfilePoint& at) { return at.stress_variance; }
 
-/// Monotone cubic for `value` at a fraction `t` of interval i of the clock; one-sided next to gaps,
-/// where the clock stands still.
+/// Monotone cubic for `value` at a fraction `t` of interval i of the variance; one-sided next to
+/// gaps, where the variance does not grow.
 double between(const std::vector<ProfilePoint>& p, std::size_t i, double t,
                double ProfilePoint::*value) {
-    const auto width = [&](std::size_t k) { return clock_of(p[k]) - clock_of(p[k - 1]); };
+    const auto width = [&](std::size_t k) { return variance_of(p[k]) - variance_of(p[k - 1]); };
     const auto slope = [&](std::size_t k) { return (p[k].*value - p[k - 1].*value) / width(k); };
     const double here = slope(i);
     const auto moves = [&](std::size_t k) { return k >= 1 && k < p.size() && width(k) > 0; };
@@ -65,18 +65,18 @@ double between(const std::vector<ProfilePoint>& p, std::size_t i, double t,
            (t3 - 2 * t2 + t) * h * m0 + (t3 - t2) * h * m1;
 }
 
-/// The history up to the wavevector q, where the clock reads T.
+/// The history up to the wavevector q, where the variance is T.
 std::vector<Instant> history(const std::vector<ProfilePoint>& p, double T, double q) {
     constexpr int pieces = 4;
-    std::vector<Instant> result{{clock_of(p[0]), p[0].detachment_stress, p[0].area}};
+    std::vector<Instant> result{{variance_of(p[0]), p[0].detachment_stress, p[0].area}};
     for (std::size_t i = 1; i < p.size() && p[i - 1].q < q; ++i) {
-        const double T0 = clock_of(p[i - 1]), T1 = clock_of(p[i]);
+        const double T0 = variance_of(p[i - 1]), T1 = variance_of(p[i]);
         if (!(T1 > T0) || !(T0 > 0)) { // a gap, or before anything was absorbed
-            const double share = std::min(1.0, (q - p[i - 1].q) / (p[i].q - p[i - 1].q));
+            const double fraction = std::min(1.0, (q - p[i - 1].q) / (p[i].q - p[i - 1].q));
             const double b0 = p[i - 1].detachment_stress, b1 = p[i].detachment_stress;
             // b ∝ √q while nothing is absorbed
             result.push_back(
-                {std::min(T, T1), std::sqrt(b0 * b0 + share * (b1 * b1 - b0 * b0)), p[i].area});
+                {std::min(T, T1), std::sqrt(b0 * b0 + fraction * (b1 * b1 - b0 * b0)), p[i].area});
             continue;
         }
         for (int k = 1; k <= pieces; ++k) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Hard cases: each must end in a right answer or in an error that says what is wrong. Right means
-// that the diffusion march, which shares nothing with the production one but the grid, says the
-// same.
+// that the diffusion integration, which shares nothing with the production one but the grid, says
+// the same.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -23,15 +23,15 @@ using paper::gpa;
 using paper::q_L;
 
 /// Solves at fractions of the critical roughness, both ways.
-void judge(AdhesiveContact c, const std::string& what,
-           std::vector<double> fractions = {0.7, 0.95}) {
+void expect_solved(AdhesiveContact c, const std::string& what,
+                   std::vector<double> fractions = {0.7, 0.95}) {
     SCOPED_TRACE(what);
     const double h_c = critical_roughness(c).h_rms;
     ASSERT_TRUE(std::isfinite(h_c));
     for (double fraction : fractions) {
         c.spectrum = c.spectrum.with_rms_height(fraction * h_c);
         const ContactState a = solve(c);
-        const ContactState b = solve(c, {.march = by_diffusion, .max_refinement = 2});
+        const ContactState b = solve(c, {.integration = by_diffusion, .max_refinement = 2});
         EXPECT_EQ(a.status, Status::adhesive) << fraction;
         EXPECT_TRUE(a.converged) << fraction;
         EXPECT_NEAR(a.gamma_ratio, b.gamma_ratio, 1e-4 * std::max(1.0, b.gamma_ratio)) << fraction;
@@ -54,33 +54,35 @@ AdhesiveContact with_spectrum(Spectrum spectrum) {
 
 TEST(Hard, HurstExponent) {
     for (double H : {0.0, 0.5, 1.0})
-        judge(with_spectrum(Spectrum::self_affine({q_L, 3 * q_L, 512 * q_L, H, 5})),
-              "H = " + std::to_string(H));
+        expect_solved(with_spectrum(Spectrum::self_affine({q_L, 3 * q_L, 512 * q_L, H, 5})),
+                      "H = " + std::to_string(H));
 }
 
 TEST(Hard, WidthOfTheSpectrum) {
     for (double width : {1.0, 1.001, 10.0, 1e6})
-        judge(with_spectrum(Spectrum::self_affine({q_L, 3 * q_L, 3 * q_L * width, 0.8, 5})),
-              "q1/q0 = " + std::to_string(width));
+        expect_solved(with_spectrum(Spectrum::self_affine({q_L, 3 * q_L, 3 * q_L * width, 0.8, 5})),
+                      "q1/q0 = " + std::to_string(width));
     // The boundary runs far away from the paths here, and then nothing must happen.
-    judge(with_spectrum(Spectrum::self_affine({q_L, 3 * q_L, 3e6 * q_L, 1, 5})), "H = 1, 10^6");
+    expect_solved(with_spectrum(Spectrum::self_affine({q_L, 3 * q_L, 3e6 * q_L, 1, 5})),
+                  "H = 1, 10^6");
 }
 
 TEST(Hard, TwoPoints) {
     const std::vector<double> q{q_L, 30 * q_L}, C{1, 1e-4};
     const Spectrum table = Spectrum::tabulated(q, C);
-    judge(with_spectrum(table), "two points");
+    expect_solved(with_spectrum(table), "two points");
     // It is a power law of exponent -4/log10(30).
     EXPECT_NEAR(table(std::sqrt(30.0) * q_L), 1e-2, 1e-12);
-    judge(with_spectrum(Spectrum::tabulated(std::vector{q_L, 1.001 * q_L}, std::vector{1.0, 1.0})),
-          "a narrow band", {0.7});
+    expect_solved(
+        with_spectrum(Spectrum::tabulated(std::vector{q_L, 1.001 * q_L}, std::vector{1.0, 1.0})),
+        "a narrow band", {0.7});
 }
 
 TEST(Hard, Gaps) {
     const std::vector<double> q{q_L, 3 * q_L, 3 * q_L, 100 * q_L, 100 * q_L, 512 * q_L};
     const Spectrum gap = Spectrum::tabulated(q, std::vector{1.0, 1.0, 0.0, 0.0, 1e-5, 3e-8});
     EXPECT_EQ(gap(50 * q_L), 0);
-    judge(with_spectrum(gap), "gap");
+    expect_solved(with_spectrum(gap), "gap");
     // Nearly a gap is nearly the same.
     const Spectrum nearly = Spectrum::tabulated(q, std::vector{1.0, 1.0, 1e-12, 1e-12, 1e-5, 3e-8});
     const ContactState a = solve(with_spectrum(gap.with_rms_height(6)));
@@ -89,9 +91,10 @@ TEST(Hard, Gaps) {
     EXPECT_NEAR(a.gamma_ratio, b.gamma_ratio, 1e-6);
     EXPECT_NEAR(a.area, b.area, 1e-6);
     // A table that starts in a gap.
-    judge(with_spectrum(Spectrum::tabulated(std::vector{q_L, 100 * q_L, 100 * q_L, 512 * q_L},
-                                            std::vector{0.0, 0.0, 1e-5, 3e-8})),
-          "leading gap", {0.8});
+    expect_solved(
+        with_spectrum(Spectrum::tabulated(std::vector{q_L, 100 * q_L, 100 * q_L, 512 * q_L},
+                                          std::vector{0.0, 0.0, 1e-5, 3e-8})),
+        "leading gap", {0.8});
 }
 
 TEST(Hard, RealisedSpectrum) {
@@ -103,7 +106,7 @@ TEST(Hard, RealisedSpectrum) {
         const double smooth = k < 3 ? 1 : std::pow(k / 3.0, -3.6);
         C.push_back(k == 40 ? 0 : smooth * (1 + 0.5 * std::sin(7.0 * k)));
     }
-    judge(with_spectrum(Spectrum::rings(edges, C)), "rings");
+    expect_solved(with_spectrum(Spectrum::rings(edges, C)), "rings");
 }
 
 TEST(Hard, TableOfThePowerLaw) {
@@ -124,14 +127,14 @@ TEST(Hard, Beta) {
     for (double beta : {0.05, 1.0}) {
         AdhesiveContact c = paper::contact(5);
         c.beta = beta;
-        judge(c, "beta = " + std::to_string(beta));
+        expect_solved(c, "beta = " + std::to_string(beta));
     }
     // β = 0: a sparse contact costs a³, less than it gains, so adhesion fades but does not end.
     AdhesiveContact c = paper::contact(20);
     c.beta = 0;
     const ContactState s = solve(c);
     EXPECT_EQ(s.status, Status::adhesive);
-    EXPECT_NEAR(s.gamma_ratio, solve(c, {.march = by_diffusion}).gamma_ratio, 1e-5);
+    EXPECT_NEAR(s.gamma_ratio, solve(c, {.integration = by_diffusion}).gamma_ratio, 1e-5);
     EXPECT_THROW((void)critical_roughness(c), NoSolution);
 }
 
@@ -139,7 +142,7 @@ TEST(Hard, StiffAndSoft) {
     for (double E : {1e-3, 1.0, 1000.0}) {
         AdhesiveContact c = paper::contact(5);
         c.contact_modulus = E * gpa;
-        judge(c, "E* = " + std::to_string(E) + " GPa");
+        expect_solved(c, "E* = " + std::to_string(E) + " GPa");
     }
 }
 

@@ -45,7 +45,7 @@ TEST_P(PaperTable, FirstPassage) {
 
 TEST_P(PaperTable, Diffusion) {
     const Row row = GetParam();
-    const ContactState s = solve(paper::contact(row.h), {.march = by_diffusion});
+    const ContactState s = solve(paper::contact(row.h), {.integration = by_diffusion});
     EXPECT_NEAR(s.gamma_ratio, row.gamma, five_digits);
     EXPECT_NEAR(s.area, row.area, 1e-5);
 }
@@ -84,8 +84,8 @@ TEST(Persson, CriticalRoughness) {
     // And the answer really separates contact from none.
     EXPECT_EQ(solve(paper::contact(0.9995 * gaussian.h_rms)).status, Status::adhesive);
     EXPECT_EQ(solve(paper::contact(1.0005 * gaussian.h_rms)).status, Status::no_contact);
-    // The other march, on its own.
-    EXPECT_NEAR(critical_roughness(paper::contact(5), {.march = by_diffusion}).h_rms, 6.9723,
+    // The other integration, on its own.
+    EXPECT_NEAR(critical_roughness(paper::contact(5), {.integration = by_diffusion}).h_rms, 6.9723,
                 0.5e-4);
 }
 
@@ -198,9 +198,9 @@ TEST(Persson, VanishingAdhesionApproachesErf) {
     const ContactState none = solve(c);
     EXPECT_DOUBLE_EQ(none.area, std::erf(c.pressure / std::sqrt(2 * T)));
     EXPECT_EQ(none.contact_stress, c.pressure);
-    for (March march : {March::first_passage, by_diffusion}) {
+    for (Integration integration : {Integration::first_passage, by_diffusion}) {
         c.work_of_adhesion = 1e-9;
-        const ContactState little = solve(c, {.march = march, .max_refinement = 3});
+        const ContactState little = solve(c, {.integration = integration, .max_refinement = 3});
         EXPECT_NEAR(little.area, none.area, 1e-5);
         EXPECT_NEAR(little.elastic_energy, none.elastic_energy, 1e-5 * none.elastic_energy);
     }
@@ -225,13 +225,13 @@ TEST(Persson, DependsOnThetaAloneWithoutAreaFactor) {
     EXPECT_GT(std::abs(solve(other).gamma_ratio - here.gamma_ratio), 1e-3);
 }
 
-TEST(Persson, MarchesAgreeAtAnyLoad) {
+TEST(Persson, IntegrationsAgreeAtAnyLoad) {
     for (double h : {4.0, 6.5, 9.0})
         for (double p : {-0.3, 0.02, 3.0}) {
             AdhesiveContact c = paper::contact(h);
             c.pressure = p * gpa;
             const ContactState a = solve(c),
-                               b = solve(c, {.march = by_diffusion, .max_refinement = 3});
+                               b = solve(c, {.integration = by_diffusion, .max_refinement = 3});
             EXPECT_EQ(a.status, b.status) << h << " Å " << p << " GPa";
             EXPECT_NEAR(a.gamma_ratio, b.gamma_ratio, 1e-4) << h << " Å " << p << " GPa";
             EXPECT_NEAR(a.area, b.area, 1e-4) << h << " Å " << p << " GPa";
@@ -339,10 +339,10 @@ TEST(Persson, StressDistribution) {
 }
 
 TEST(Persson, OrderOfConvergence) {
-    for (const auto& [march, order] :
-         {std::pair{March::first_passage, 1.5}, std::pair{by_diffusion, 2.0}}) {
+    for (const auto& [integration, order] :
+         {std::pair{Integration::first_passage, 1.5}, std::pair{by_diffusion, 2.0}}) {
         const AdhesiveContact c = paper::contact(5);
-        const Shooting shooting(c, {.march = march});
+        const Shooting shooting(c, {.integration = integration});
         const Shooting::Outcome at = shooting.search(0);
         ASSERT_TRUE(at.found);
         std::array<double, 4> gamma{};

@@ -18,9 +18,9 @@ GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"
 
 def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
     """The largest error of a question ("state", "path") over the processor time of each setting that was run."""
-    rows = [r for r in cost.rows if r.judged and r.error[question] > 0 and r.seconds > 0]
-    for label, knobs, colour, marker in GROUPS:
-        some = [r for r in rows if r.knob in knobs]
+    rows = [r for r in cost.rows if r.compared and r.error[question] > 0 and r.seconds > 0]
+    for label, parameters, colour, marker in GROUPS:
+        some = [r for r in rows if r.parameter in parameters]
         if some:
             curve(ax, [r.seconds for r in some], [100 * r.error[question] for r in some], label, colour=colour, line="",
                   marker=marker, filled=marker != "P")

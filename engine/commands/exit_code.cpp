@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/commands/ending.hpp"
+#include "engine/commands/exit_code.hpp"
 
 #include "decomposition/communicator.hpp"
 #include "io/error.hpp"
@@ -95,7 +95,7 @@ int refuse_unconnected(const ParallelSession& session) {
          "--mpi=list)"});
 }
 
-int ended_in_order(const Communicator& world, const std::function<int()>& work) {
+int exit_code_of(const Communicator& world, const std::function<int()>& work) {
     try {
         return work();
     } catch (const io::SceneError& error) { // on every rank, or on the root for all of them

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/equilibrium/wall_descent.hpp"
+#include "engine/equilibrium/wall_minimiser.hpp"
 
 #include "decomposition/global_sum.hpp"
 
@@ -25,8 +25,8 @@ double stiffest_wave(const SpectralBlock& block) {
 
 } // namespace
 
-WallDescent::WallDescent(SpectralBlock& block, const Interface& interface, double reference_height,
-                         const RelaxOptions& options, Phases& phases)
+WallMinimiser::WallMinimiser(SpectralBlock& block, const Interface& interface,
+                             double reference_height, const RelaxOptions& options, Phases& phases)
     : block_(block), interface_(interface), height_(reference_height), options_(options),
       phases_(phases), waves_(block.new_waves<double>()), single_waves_(block.new_waves<float>()),
       field_(block.new_field<double>()), single_field_(block.new_field<float>()),
@@ -41,17 +41,17 @@ WallDescent::WallDescent(SpectralBlock& block, const Interface& interface, doubl
                                          : constraint.load() / (n * n);
 }
 
-bool WallDescent::step() {
+bool WallMinimiser::step() {
     if (options_.start == Start::predicted) return false;
     const auto t = phases_.time(Phase::advance);
     single_ = single_ && estimate_ > Constants::rounding * spring_;
     double turn = 0.0;
     if (single_) { // as long as that is good enough
         elastic_forces(single_waves_, single_field_);
-        turn = settle_sites(single_field_);
+        turn = relax_sites(single_field_);
     } else {
         elastic_forces(waves_, field_);
-        turn = settle_sites(field_);
+        turn = relax_sites(field_);
     }
     accept();
     if (turn > 0.0) sequence_ = 1.0;
@@ -61,8 +61,8 @@ bool WallDescent::step() {
     return true;
 }
 
-double WallDescent::conclude() {
-    block_.settle();
+double WallMinimiser::conclude() {
+    block_.apply_constraint();
     {
         const auto t = phases_.time(Phase::interface);
         sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_,
@@ -86,7 +86,7 @@ double WallDescent::conclude() {
 
 /// N^2 S (z - mean) at the sites; the field holds z - mean meanwhile.
 template <class T>
-void WallDescent::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
+void WallMinimiser::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
     const PlaneView<double> u = block_.moving_layer(0);
     const PlaneView<T> z = field[0].plane(0);
     const PlaneView<const float> step = std::as_const(step_).plane(0);
@@ -103,7 +103,7 @@ void WallDescent::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
 
 /// Fills next_. Returns by how much the step turns against the gradient.
 template <class T>
-double WallDescent::settle_sites(const SiteField<T>& elastic) {
+double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
     const Constraint& constraint = block_.constraint();
     const double n = block_.options().sites, sites = n * n, load = constraint.load() / sites;
     const PlaneView<double> u = block_.moving_layer(0);
@@ -113,7 +113,7 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
                   .norm = 1.0 / sites,
                   .load = 0.0};
     double turn = 0.0, mean = 0.0;
-    const auto settle = [&](double force) {
+    const auto relax = [&](double force) {
         rule.load = force;
         RowSums sums(block_.slab(), 2);
         double furthest = 0.0;
@@ -122,7 +122,7 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
             const WallRow<T> row{interface_.wall()->height().line(y), u.line(y),
                                  std::as_const(step_).plane(0).line(y), elastic[0].plane(0).line(y),
                                  next_.plane(0).line(y)};
-            const WallSums s = interface_.wall()->settle_row(row, rule, u.nx);
+            const WallSums s = interface_.wall()->rest_row(row, rule, u.nx);
             furthest = std::max(furthest, s.furthest);
             sums.row(y)[0] = s.turn;
             sums.row(y)[1] = s.height;
@@ -136,7 +136,7 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
     // uniform wave; or what lifts the mean to where it is held.
     const double spring = constraint.is_top() ? block_.stiffness(0, 0).zz : 0.0;
     const auto excess = [&](double force) {
-        settle(force);
+        relax(force);
         if (constraint.is_mean_height()) return spring_ * (mean - constraint.value);
         const double top = constraint.is_top() ? spring * (mean - constraint.value) : load;
         return top - spring_ * (mean - mean_) - force;
@@ -151,7 +151,7 @@ double WallDescent::settle_sites(const SiteField<T>& elastic) {
 /// the last one. The sites follow the force, so the excess falls steadily as the force grows. A
 /// secant that leaves what is known of the root is replaced by a halving.
 template <class Excess>
-void WallDescent::balance(const Excess& excess_at, double enough) {
+void WallMinimiser::balance(const Excess& excess_at, double enough) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     double force = uniform_force_, excess = excess_at(force), low = -infinite, high = infinite;
     double next = force + excess;
@@ -171,7 +171,7 @@ void WallDescent::balance(const Excess& excess_at, double enough) {
 }
 
 /// u <- next.
-void WallDescent::accept() {
+void WallMinimiser::accept() {
     const double lift = next_mean_ - mean_;
     mean_ = next_mean_;
     const PlaneView<double> u = block_.moving_layer(0);

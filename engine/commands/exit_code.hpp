@@ -17,7 +17,7 @@ class ParallelSession;
 
 /// Does the work and returns the exit code, the same on every rank: its own, or that of the error
 /// it threw, which is printed.
-int ended_in_order(const Communicator& world, const std::function<int()>& work);
+int exit_code_of(const Communicator& world, const std::function<int()>& work);
 
 /// Where a launcher has started several processes and MPI connects none (session.unconnected()):
 /// each would take itself for the whole run. In the first of them throws io::SceneError, elsewhere

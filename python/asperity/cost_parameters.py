@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The knobs of `asperity cost`: what each is set to, what it is compared with, what its error should do.
+"""The parameters of `asperity cost`: what each is set to, what it is compared with, what its error should do.
 
-All of it follows by rule from the scene, before anything has run. A knob is varied alone, all others stay as
-the scene has them; its own error is that against the same scene with this one knob at its best (`twin`). The
-error that counts in the end is that against the reference, which is the best in every knob at once; for a
+All of it follows by rule from the scene, before anything has run. A parameter is varied alone, all others stay as
+the scene has them; its own error is that against the same scene with this one parameter at its best (`reference`). The
+error that counts in the end is that against the reference, which is the best in every parameter at once; for a
 target it is the same experiment with the best numerics.
 """
 
@@ -24,7 +24,7 @@ NUMERICS = ("block", "precision", "timestep", "tolerance", "step")
 
 
 @dataclass
-class KnobValue:
+class ParameterValue:
     label: str
     setting: Setting
     x: float = 0.0
@@ -32,19 +32,19 @@ class KnobValue:
 
 
 @dataclass
-class Knob:
+class Parameter:
     name: str
-    values: list[KnobValue]
+    values: list[ParameterValue]
     """from coarse to fine"""
-    twin: KnobValue | None
+    reference: ParameterValue | None
     """what they are compared with; None: with the reference alone"""
     expected: str
     """order of its error in x, in words"""
     part: str = ""
-    """knobs of one part exclude each other in a combination; "": never in one"""
+    """parameters of one part exclude each other in a combination; "": never in one"""
     order: float | None = None
-    twin_is_exact: bool = False
-    """nothing of the knob's error is left in its twin: it may be chosen too"""
+    reference_is_exact: bool = False
+    """nothing of the parameter's error is left in its reference: it may be chosen too"""
     base: Setting = field(default_factory=list)
     """of all its runs, where it has no effect on the scene as it is"""
 
@@ -65,7 +65,7 @@ class Base:
 class CostCase:
     reference: Setting
     reference_text: str
-    knobs: list[Knob]
+    parameters: list[Parameter]
     bases: list[Base]
     notes: list[str]
 
@@ -76,8 +76,8 @@ def joined(first: Setting, then: Setting) -> Setting:
     return [one for one in first if one.partition("=")[0] not in later] + then
 
 
-def _value(key: str, v: float, unit: str) -> KnobValue:
-    return KnobValue(f"{v:.6g} {unit}".strip(), [f"{key}={v:.6g}"], v)
+def _value(key: str, v: float, unit: str) -> ParameterValue:
+    return ParameterValue(f"{v:.6g} {unit}".strip(), [f"{key}={v:.6g}"], v)
 
 
 def _refuse(scene: Values, same_experiment: bool) -> None:
@@ -97,14 +97,14 @@ def _refuse(scene: Values, same_experiment: bool) -> None:
         raise SceneError.of(problems)
 
 
-def _chosen(knobs: list[Knob], names: list[str]) -> list[Knob]:
-    there = [knob.name for knob in knobs]
+def _chosen(parameters: list[Parameter], names: list[str]) -> list[Parameter]:
+    there = [parameter.name for parameter in parameters]
     for name in names:
         if name not in there:
             near = difflib.get_close_matches(name, there, 1)
-            raise SceneError(f"--knobs {name}", "is none of the knobs", "knobs: " + ", ".join(there),
-                             f"did you mean {near[0]}?" if near else "leave --knobs out for all of them")
-    return [knob for knob in knobs if not names or knob.name in names]
+            raise SceneError(f"--parameters {name}", "is none of the parameters", "parameters: " + ", ".join(there),
+                             f"did you mean {near[0]}?" if near else "leave --parameters out for all of them")
+    return [parameter for parameter in parameters if not names or parameter.name in names]
 
 
 _LENGTHS = {"lennard-jones": "interface.r0", "morse": "interface.morse_r0"}
@@ -113,9 +113,9 @@ _LENGTHS = {"lennard-jones": "interface.r0", "morse": "interface.morse_r0"}
 
 def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | None = None,
               same_experiment: bool = False) -> CostCase:
-    """keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the knobs, none: all.
+    """keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the parameters, none: all.
 
-    same_experiment: only knobs of the numerics, and the reference is the scene with these at their best.
+    same_experiment: only parameters of the numerics, and the reference is the scene with these at their best.
     Raises SceneError.
     """
     scene = Values(keys)
@@ -126,7 +126,7 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
 
     path = scene.find("drive.path")
     dynamic = scene.text("drive.mode") == "dynamic" and "zero-load" not in path
-    legs = "approach" in path or "pull-off" in path
+    moves = "approach" in path or "pull-off" in path
     at_rest = ["drive.mode=quasistatic"]
     tolerance, step = own("drive.tolerance"), own("drive.step")
     length = own(_LENGTHS.get(scene.text("interface.potential"), ""))
@@ -136,78 +136,78 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     if length:
         reference += ["interface.tail=true", f"interface.cutoff={widest:.6g}"]
     path_text = ""
-    if legs:
+    if moves:
         reference += [*at_rest, f"drive.step={0.5 * step:.6g}"]
         path_text = f"no inertia (velocity to 0), steps of {0.5 * step:.6g} Å, "
     reach = f"cutoff {widest:.6g} Å and tail, " if length else ""
     text = (f"without time, {path_text}{reach}double precision, "
             f"tolerance {0.1 * tolerance:.6g} eV/Å")
 
-    def scaled(key: str, unit: str, *factors: float) -> list[KnobValue]:
+    def scaled(key: str, unit: str, *factors: float) -> list[ParameterValue]:
         return [_value(key, f * own(key), unit) for f in factors]
 
-    def with_tail(value: KnobValue, tail: bool) -> KnobValue:
-        return KnobValue(value.label + " + tail" * tail, [*value.setting, f"interface.tail={str(tail).lower()}"], value.x)
+    def with_tail(value: ParameterValue, tail: bool) -> ParameterValue:
+        return ParameterValue(value.label + " + tail" * tail, [*value.setting, f"interface.tail={str(tail).lower()}"], value.x)
 
-    knobs = []
+    parameters = []
     if length:
         cutoffs = [_value("interface.cutoff", f * length, "Å") for f in (2.0, 2.5, 3.0, 4.0, 6.0) if f * length < widest]
-        twin = with_tail(_value("interface.cutoff", widest, "Å"), True)
+        finest = with_tail(_value("interface.cutoff", widest, "Å"), True)
         fades = scene.text("interface.potential") == "lennard-jones"
-        knobs = [Knob("cutoff", [with_tail(v, False) for v in cutoffs], twin,
+        parameters = [Parameter("cutoff", [with_tail(v, False) for v in cutoffs], finest,
                       "-4: adhesion of what is beyond" if fades else "exponential", "interaction", -4.0 if fades else None, True),
-                 Knob("tail", [with_tail(v, True) for v in cutoffs if v.x <= 4.0 * length], twin,
+                 Parameter("tail", [with_tail(v, True) for v in cutoffs if v.x <= 4.0 * length], finest,
                       "steeper than -4" if fades else "exponential", "interaction",
                       None, True)]
     if dynamic:
         values = [_value("block.layers_per_level", m, "a level") for m in (2, 3, 4, 6, 8)]
         for value in values:
             value.setting.append("block.model=multiscale")
-        knobs.append(Knob("layers", values, KnobValue("lattice", ["block.model=lattice"]),
+        parameters.append(Parameter("layers", values, ParameterValue("lattice", ["block.model=lattice"]),
                           "about -2 (docs/explanation/model.md: stiffness of waves)", "block", -2.0, True))
     layers = int(own("block.thickness"))
-    knobs.append(Knob("thickness", [_value("block.thickness", t, "layers")
+    parameters.append(Parameter("thickness", [_value("block.thickness", t, "layers")
                                     for t in (layers // 4, layers // 2, layers, 2 * layers) if t >= 1],
                       _value("block.thickness", 8 * layers, "layers"), "none: another solid"))
-    knobs.append(Knob("precision", [KnobValue("mixed", ["numerics.precision=mixed"])],
-                      KnobValue("double", ["numerics.precision=double"]), "none: rounding", "precision", None, True))
+    parameters.append(Parameter("precision", [ParameterValue("mixed", ["numerics.precision=mixed"])],
+                      ParameterValue("double", ["numerics.precision=double"]), "none: rounding", "precision", None, True))
     notes = []
     if dynamic:
-        knobs.append(Knob("timestep", [v for v in scaled("drive.timestep", "fs", 6, 5, 4, 3, 2, 1)
+        parameters.append(Parameter("timestep", [v for v in scaled("drive.timestep", "fs", 6, 5, 4, 3, 2, 1)
                                        if v.x < 0.9 * longest_timestep],
                           _value("drive.timestep", 0.5 * own("drive.timestep"), "fs"), "2 (velocity Verlet)", "timestep",
                           2.0))
-        knobs.append(Knob("velocity", scaled("drive.velocity", "m/s", 4, 2, 1, 0.5, 0.25),
-                          KnobValue("quasi-static", at_rest), "1: drag and waves; state: none", "velocity", 1.0, True))
+        parameters.append(Parameter("velocity", scaled("drive.velocity", "m/s", 4, 2, 1, 0.5, 0.25),
+                          ParameterValue("quasi-static", at_rest), "1: drag and waves; state: none", "velocity", 1.0, True))
         if own("drive.damping") > 0:
-            knobs.append(Knob("damping", scaled("drive.damping", "1/ps", 4, 2, 1, 0.5),
+            parameters.append(Parameter("damping", scaled("drive.damping", "1/ps", 4, 2, 1, 0.5),
                               _value("drive.damping", 0.125 * own("drive.damping"), "1/ps"), "1 while weak; state: none",
                               "", 1.0))
         else:
             notes.append("drive.damping = 0: there is none to vary")
     still = at_rest if dynamic else []
-    knobs.append(Knob("tolerance", scaled("drive.tolerance", "eV/Å", 100, 10, 1),
+    parameters.append(Parameter("tolerance", scaled("drive.tolerance", "eV/Å", 100, 10, 1),
                       _value("drive.tolerance", 0.1 * tolerance, "eV/Å"), "up to 2: a minimum is flat", "tolerance", None,
                       False, still))
-    if legs:
-        knobs.append(Knob("step", scaled("drive.step", "Å", 4, 2, 1, 0.5), _value("drive.step", 0.25 * step, "Å"),
+    if moves:
+        parameters.append(Parameter("step", scaled("drive.step", "Å", 4, 2, 1, 0.5), _value("drive.step", 0.25 * step, "Å"),
                           "none: steps are cut where needed", "step", None, False, still))
-    models = [KnobValue("lattice, in time", ["block.model=lattice"])] if dynamic else []
-    if legs:
-        models += [KnobValue("quasi-static", at_rest), KnobValue("zero load alone", ["drive.path=zero-load"])]
-        knobs.append(Knob("model", models, None, ""))
+    models = [ParameterValue("lattice, in time", ["block.model=lattice"])] if dynamic else []
+    if moves:
+        models += [ParameterValue("quasi-static", at_rest), ParameterValue("zero load alone", ["drive.path=zero-load"])]
+        parameters.append(Parameter("model", models, None, ""))
 
     if same_experiment:
-        # Knobs with a base of their own have no effect on the scene as it is.
-        knobs = _chosen([k for k in knobs if k.part in NUMERICS and not k.base], names or [])
-        twins = [k.twin for k in knobs if k.twin]
-        return CostCase([one for twin in twins for one in twin.setting],
-                        "the scene with " + ", ".join(twin.label for twin in twins), knobs,
-                        [Base("", [], [k.part for k in knobs], "path" if legs else "state")], [])
+        # Parameters with a base of their own have no effect on the scene as it is.
+        parameters = _chosen([k for k in parameters if k.part in NUMERICS and not k.base], names or [])
+        best = [k.reference for k in parameters if k.reference]
+        return CostCase([key for one in best for key in one.setting],
+                        "the scene with " + ", ".join(one.label for one in best), parameters,
+                        [Base("", [], [k.part for k in parameters], "path" if moves else "state")], [])
     bases = []
     if dynamic:
         bases.append(Base("in time", [], ["interaction", "block", "precision", "timestep", "velocity"]))
-    if legs:
+    if moves:
         bases.append(Base("quasi-static", at_rest, ["interaction", "precision", "tolerance", "step"]))
     bases.append(Base("zero load alone", ["drive.path=zero-load"], ["interaction", "precision", "tolerance"], "state"))
-    return CostCase(reference, text, _chosen(knobs, names or []), bases, notes)
+    return CostCase(reference, text, _chosen(parameters, names or []), bases, notes)

@@ -38,10 +38,10 @@
 
 namespace asperity {
 
-class WallDescent {
+class WallMinimiser {
 public:
-    WallDescent(SpectralBlock& block, const Interface& interface, double reference_height,
-                const RelaxOptions& options, Phases& phases);
+    WallMinimiser(SpectralBlock& block, const Interface& interface, double reference_height,
+                  const RelaxOptions& options, Phases& phases);
 
     /// What the last step leaves, eV/Å: the largest L |z - u|.
     double residual() const { return estimate_ / doubt_; }
@@ -56,7 +56,7 @@ private:
     template <class T>
     void elastic_forces(Waves<T>& waves, SiteField<T>& field);
     template <class T>
-    double settle_sites(const SiteField<T>& elastic);
+    double relax_sites(const SiteField<T>& elastic);
     template <class Excess>
     void balance(const Excess& excess_at, double enough);
     void accept();

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What a report says of a run in words: key numbers, findings, effects, provenance."""
+"""What a report says of a run in words: key numbers, results, effects, provenance."""
 
 from __future__ import annotations
 
@@ -177,7 +177,7 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
     return text
 
 
-def findings(run: Result) -> list[str]:
+def results(run: Result) -> list[str]:
     """What the run came to, in sentences."""
     text: list[str] = []
     flat = run.number("delta_gamma") or 0.0

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The grid of a march: even in y = ln T + ln q. ln T because the first steps near the end of the
-// adhesive branch happen at T/T_1 of 10⁻¹⁰ and less; ln q so that a stretch of the spectrum that
-// adds hardly anything to T, while σ_a ∝ √q goes on growing, is still resolved. Refinement halves
-// every interval, so the grids are nested and the error has the clean expansion that Richardson
-// needs.
-#include "theory/march.hpp"
+// The grid of an integration: even in y = ln T + ln q. ln T because the first steps near the end of
+// the adhesive branch happen at T/T_1 of 10⁻¹⁰ and less; ln q so that a stretch of the spectrum
+// that adds hardly anything to T, while σ_a ∝ √q goes on growing, is still resolved. Refinement
+// halves every interval, so the grids are nested and the error has the clean expansion that
+// Richardson needs.
+#include "theory/integration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ constexpr double deviations = 9; // erfc(9/√2)/2 = 1.1e-19
 /// The boundary as it would be at full contact.
 class FullContact {
 public:
-    FullContact(const Spectrum& spectrum, AreaReading reading, const MarchInput& input)
+    FullContact(const Spectrum& spectrum, AreaReading reading, const IntegrationInput& input)
         : spectrum_(spectrum), reading_(reading), in_(input) {}
 
     [[nodiscard]] double T(const Magnification& m) const {
@@ -40,7 +40,7 @@ public:
     }
     /// Positive where the boundary is still out of reach.
     [[nodiscard]] double margin(double y) const {
-        const Magnification m = spectrum_.at_log_clock(y);
+        const Magnification m = spectrum_.at_coordinate(y);
         const double T_here = T(m);
         return T_here > 0 ? distance(m) - deviations * std::sqrt(T_here)
                           : std::numeric_limits<double>::infinity();
@@ -49,13 +49,13 @@ public:
 private:
     const Spectrum& spectrum_;
     AreaReading reading_;
-    MarchInput in_;
+    IntegrationInput in_;
 };
 
-/// Marks from begin to end: even, or with steps that grow away from the knee.
-std::vector<double> marks(double begin, double end, double spacing, std::optional<double> knee) {
+/// Marks from begin to end: even, or with steps that grow away from the onset.
+std::vector<double> marks(double begin, double end, double spacing, std::optional<double> onset) {
     std::vector<double> y{begin};
-    if (!knee || *knee < begin - spacing || *knee > end + spacing) {
+    if (!onset || *onset < begin - spacing || *onset > end + spacing) {
         const int steps = std::max(1, static_cast<int>(std::ceil((end - begin) / spacing)));
         for (int k = 1; k < steps; ++k)
             y.push_back(begin + (end - begin) * k / steps);
@@ -65,11 +65,11 @@ std::vector<double> marks(double begin, double end, double spacing, std::optiona
             return std::clamp(growth * distance, finest * spacing, spacing);
         };
         std::vector<double> below;
-        for (double d = 0; *knee - d > begin; d += step(d))
-            if (*knee - d < end) below.push_back(*knee - d);
+        for (double d = 0; *onset - d > begin; d += step(d))
+            if (*onset - d < end) below.push_back(*onset - d);
         y.insert(y.end(), below.rbegin(), below.rend());
-        for (double d = step(0); *knee + d < end; d += step(d))
-            if (*knee + d > begin) y.push_back(*knee + d);
+        for (double d = step(0); *onset + d < end; d += step(d))
+            if (*onset + d > begin) y.push_back(*onset + d);
     }
     y.push_back(end);
     return y;
@@ -77,10 +77,11 @@ std::vector<double> marks(double begin, double end, double spacing, std::optiona
 
 } // namespace
 
-MarchGrid make_grid(const Spectrum& spectrum, AreaReading reading, const MarchInput& input,
-                    double spacing, int refinement, std::optional<double> knee) {
+IntegrationGrid make_grid(const Spectrum& spectrum, AreaReading reading,
+                          const IntegrationInput& input, double spacing, int refinement,
+                          std::optional<double> onset) {
     const FullContact full(spectrum, reading, input);
-    MarchGrid grid;
+    IntegrationGrid grid;
     const auto add = [&](const Magnification& m) {
         grid.q.push_back(m.q);
         grid.T.push_back(full.T(m));
@@ -98,14 +99,14 @@ MarchGrid make_grid(const Spectrum& spectrum, AreaReading reading, const MarchIn
     };
     if (bands.empty()) return out_of_reach();
 
-    // A clock reading surely before the start: the smallest distance the boundary ever has (seen in
-    // a coarse look over the bands), at the steepest the clock can run.
+    // A variance surely before the start: the smallest distance the boundary ever has (seen in
+    // a coarse look over the bands), at its steepest growth.
     double least = full.distance(spectrum.at(spectrum.q_L()));
     for (const auto& band : bands)
         for (int k = 1; k <= 16; ++k) {
             const double begin = std::max(band.y_begin, band.y_end - 8);
-            least = std::min(
-                least, full.distance(spectrum.at_log_clock(begin + k * (band.y_end - begin) / 16)));
+            least = std::min(least, full.distance(spectrum.at_coordinate(
+                                        begin + k * (band.y_end - begin) / 16)));
         }
     least = std::max(least, 1e-150 * std::sqrt(full.T(end)));
     const double y_last = bands.back().y_end;
@@ -144,19 +145,19 @@ MarchGrid make_grid(const Spectrum& spectrum, AreaReading reading, const MarchIn
     for (const auto& band : bands) {
         const double begin = std::max(band.y_begin, y_start);
         if (begin >= band.y_end) continue;
-        const Magnification m0 = spectrum.at_log_clock(begin);
+        const Magnification m0 = spectrum.at_coordinate(begin);
         if (first || m0.q > grid.q.back()) {
             add(m0);
-            if (!first) { // the far edge of a gap: the clock stands still, to the last bit
+            if (!first) { // the far edge of a gap: the variance does not grow, to the last bit
                 grid.T.back() = grid.T[grid.T.size() - 2];
                 grid.energy.back() = grid.energy[grid.energy.size() - 2];
             }
         }
         first = false;
-        const std::vector<double> y = marks(begin, band.y_end, spacing, knee);
+        const std::vector<double> y = marks(begin, band.y_end, spacing, onset);
         for (std::size_t i = 1; i < y.size(); ++i)
             for (int k = 1; k <= halvings; ++k)
-                add(spectrum.at_log_clock(y[i] - (y[i] - y[i - 1]) * (halvings - k) / halvings));
+                add(spectrum.at_coordinate(y[i] - (y[i] - y[i - 1]) * (halvings - k) / halvings));
     }
     // Rounding at the end of the last band must not leave a sliver of the spectrum out.
     grid.q.back() = std::min(end.q, grid.q.back());
