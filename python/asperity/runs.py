@@ -28,15 +28,21 @@ def default_directory(name: str) -> Path:
 
 def launcher(ranks: int) -> list[str]:
     """The words before the program for so many ranks: those of $ASPERITY_MPIRUN ("srun --mpi=pmix"), or the mpirun of
-    the MPI that the program was built with, where several are installed."""
+    the MPI that the program was built with, where several are installed. Raises InputOutputError if it is not there."""
     if ranks == 1:
         return []
-    if words := os.environ.get("ASPERITY_MPIRUN", "").split():
-        return [*words, "-n", str(ranks)]
-    open_mpi = "Open MPI" in program.mpi()
-    names = ("mpirun.openmpi", "mpirun") if open_mpi else ("mpirun.mpich", "mpiexec.hydra", "mpirun")
-    options = ["--oversubscribe"] + (["--allow-run-as-root"] if os.geteuid() == 0 else []) if open_mpi else []
-    return [next(filter(shutil.which, names), "mpirun"), *options, "-n", str(ranks)]
+    words, names = os.environ.get("ASPERITY_MPIRUN", "").split(), ()
+    if not words:
+        open_mpi = "Open MPI" in program.mpi()
+        names = ("mpirun.openmpi", "mpirun") if open_mpi else ("mpirun.mpich", "mpiexec.hydra", "mpirun")
+        options = ["--oversubscribe"] + (["--allow-run-as-root"] if os.geteuid() == 0 else []) if open_mpi else []
+        words = [next(filter(shutil.which, names), names[-1]), *options]
+    if not shutil.which(words[0]):
+        raise InputOutputError(f"ranks = {ranks}", f"no launcher of {program.mpi()}, which the program was built with",
+                               "looked in PATH for " + ", ".join(names) if names else
+                               f"ASPERITY_MPIRUN names {words[0]}, which is not there",
+                               'put the mpirun of that MPI into PATH, or name it: ASPERITY_MPIRUN="srun --mpi=pmix"')
+    return [*words, "-n", str(ranks)]
 
 
 def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None,

@@ -18,6 +18,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("MPLBACKEND", "agg")
 
 import asperity  # noqa: E402
+import asperity.runs  # noqa: E402
 
 SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
 STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["zero-load"]}}
@@ -37,6 +38,30 @@ def unsealed(path):
     with h5py.File(path, "r+") as file:
         del file.attrs["asperity_digest"]
         yield file
+
+
+def pytest_configure(config):
+    config.option.reportchars += "s"  # says why tests are skipped
+
+
+def pytest_sessionfinish(session):
+    """Exit code 77, which ctest knows as skipped, where every test was. (A module that skips itself leaves no test.)"""
+    outcomes = session.config.pluginmanager.get_plugin("terminalreporter").stats
+    if outcomes.get("skipped") and not outcomes.keys() & {"passed", "failed", "error"}:
+        session.exitstatus = 77
+
+
+@pytest.fixture(scope="session")
+def mpi4py_launcher():
+    """The launcher for ranks of Python. Skips where there is no mpi4py, or one of another MPI than the program: its ranks
+    are not connected by the program's launcher."""
+    pytest.importorskip("mpi4py", reason="no mpi4py: apt-get install python3-mpi4py")
+    asked = "import mpi4py; mpi4py.rc.initialize = False; from mpi4py import MPI; print(MPI.Get_library_version())"
+    theirs = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout
+    ours = asperity.program.mpi()
+    if theirs.split()[0] != ours.split()[0]:
+        pytest.skip(f"mpi4py is of {theirs.split(',')[0]}, the program of {ours}")
+    return asperity.runs.launcher
 
 
 @pytest.fixture(scope="session")

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 """Sweeps on the workers of executors: Dask, mpi4py.futures, and any other; workers that are killed, sweeps that are
-stopped. Exit code 77 without Dask and mpi4py."""
+stopped."""
 
 import contextlib
 import csv
@@ -19,15 +19,10 @@ import pytest
 from conftest import ROOT, command
 
 import asperity
-import asperity.runs
 from asperity import files, pool
 from asperity.sweeps import load_sweep
 
-try:
-    import distributed
-    import mpi4py  # noqa: F401
-except ImportError as error:
-    pytest.exit(f"skipped: {error}; apt-get install python3-distributed python3-mpi4py", returncode=77)
+distributed = pytest.importorskip("distributed", reason="no Dask: apt-get install python3-distributed")
 
 SCENE = """
 [surface]
@@ -72,10 +67,6 @@ def numbers(directory):
         rows = list(csv.DictReader(file))
     assert len(rows) == 8 and {row["status"] for row in rows} == {"done"}
     return [{k: v for k, v in row.items() if "seconds" not in k} for row in rows]
-
-
-def ranks(number):
-    return asperity.runs.launcher(number)
 
 
 def wait_for(condition, seconds=60):
@@ -167,8 +158,8 @@ def test_dask_from_python(place, cluster):
     assert all(result.run.threads == 1 for result in sweep.results())
 
 
-def test_ranks_of_mpi(place, table):
-    words = [*ranks(3), os.environ["ASPERITY_PROGRAM"], "sweep", "scene.toml", *SETS, "--executor", "mpi", "--out", "one"]
+def test_ranks_of_mpi(mpi4py_launcher, place, table):
+    words = [*mpi4py_launcher(3), os.environ["ASPERITY_PROGRAM"], "sweep", "scene.toml", *SETS, "--executor", "mpi", "--out", "one"]
     with started(*words) as sweep:
         wait_for(lambda: list(place.glob("one/*/checkpoint.h5")))
         workers = [p for p in running("-m asperity sweep scene.toml") if f"{p}".isdigit()
@@ -188,7 +179,7 @@ def test_ranks_of_mpi(place, table):
     assert done.returncode == 2 and done.stderr.count("is no length of time") == 1, done.stderr
 
 
-def test_mpi4py_futures_of_a_script(place):
+def test_mpi4py_futures_of_a_script(mpi4py_launcher, place):
     (place / "study.py").write_text("""
 from mpi4py.futures import MPIPoolExecutor
 import asperity
@@ -198,7 +189,7 @@ if __name__ == "__main__":
                                out="script", executor=executor)
     print(sweep)
 """)
-    done = subprocess.run([*ranks(3), sys.executable, "-m", "mpi4py.futures", "study.py"], env=ENVIRONMENT,
+    done = subprocess.run([*mpi4py_launcher(3), sys.executable, "-m", "mpi4py.futures", "study.py"], env=ENVIRONMENT,
                           capture_output=True, text=True, timeout=120)
     assert done.returncode == 0 and "8 points" in done.stdout and "8 done" in done.stdout, done.stdout + done.stderr
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The notebooks among the examples, and the bar of steps in them and elsewhere. Exit code 77 without what runs them."""
+"""The notebooks among the examples, and the bar of steps in them and elsewhere."""
 
 import sys
 
@@ -9,14 +9,9 @@ from conftest import ROOT, SMALL
 
 import asperity
 
-try:
-    import ipykernel  # noqa: F401
-    import nbclient
-    import nbformat
-    import tqdm  # noqa: F401
-except ImportError as error:
-    pytest.exit(f"skipped: {error}; apt-get install python3-nbclient python3-ipykernel python3-nbformat python3-tqdm",
-                returncode=77)
+nbclient, nbformat, *_ = [
+    pytest.importorskip(name, reason=f"no {name}: apt-get install python3-{name}")
+    for name in ("nbclient", "nbformat", "ipykernel", "tqdm")]
 
 
 @pytest.mark.parametrize("with_tqdm", [True, False])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""asperity.Simulation on ranks of mpi4py (ranks.py): the bits of a run, and of one rank. Exit code 77 without mpi4py."""
+"""asperity.Simulation on ranks of mpi4py (ranks.py): the bits of a run, and of one rank."""
 
 import json
 import os
@@ -11,21 +11,13 @@ import numpy
 import pytest
 from conftest import ROOT
 
-import asperity
-import asperity.runs
 
-try:
-    import mpi4py  # noqa: F401
-except ImportError as error:
-    pytest.exit(f"skipped: {error}; apt-get install python3-mpi4py", returncode=77)
-
-
-def test_ranks_have_the_bits_of_a_run(path_run, tmp_path):
+def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):
     found = []
     for ranks in (1, 2):
         place = tmp_path / str(ranks)
         place.mkdir()
-        words = [*asperity.runs.launcher(ranks), sys.executable, "-m", "mpi4py", str(ROOT / "tests/python/ranks.py"), place]
+        words = [*mpi4py_launcher(ranks), sys.executable, "-m", "mpi4py", str(ROOT / "tests/python/ranks.py"), place]
         done = subprocess.run(words, capture_output=True, text=True, timeout=200,
                               env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
         assert done.returncode == 0, done.stdout + done.stderr

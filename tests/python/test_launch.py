@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""How ranks are started: the launcher that Python finds, and the processors that ranks share."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import SMALL
+
+import asperity
+import asperity.runs
+from asperity import program
+
+# Starts the rest of the command line on the processors that the environment names for this rank.
+BOUND = """
+import json, os, sys
+rank = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ["PMI_RANK"])
+os.sched_setaffinity(0, json.loads(os.environ["PROCESSORS"])[rank])
+os.execv(sys.argv[1], sys.argv[1:])
+"""
+
+
+def test_the_launcher_of_the_programs_mpi_is_found(tmp_path, monkeypatch):
+    monkeypatch.delenv("ASPERITY_MPIRUN", raising=False)
+    run = asperity.run(SMALL, {"drive.max_steps": 20}, out=tmp_path / "two", ranks=2)
+    assert run.run.ranks == 2
+
+
+@pytest.mark.parametrize("named", ["", "no-such-launcher --option"])
+def test_no_launcher(tmp_path, monkeypatch, named):
+    mpi = program.mpi()
+    monkeypatch.setenv("ASPERITY_MPIRUN", named)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(asperity.InputOutputError) as told:
+        asperity.run(SMALL, out=tmp_path / "none", ranks=2)
+    looked = "ASPERITY_MPIRUN names no-such-launcher" if named else r"looked in PATH for mpirun\.(openmpi|mpich), "
+    assert re.search(rf"(?s)no launcher of {re.escape(mpi)}, .*{looked}.*fix: .*ASPERITY_MPIRUN=", str(told.value))
+    assert asperity.runs.launcher(1) == [] and not any(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_ranks_share_the_processors_that_they_may_all_use(ranks):
+    """Ranks bound to one socket have its processors together; one that has others, or more, does not share with them."""
+    processors = sorted(os.sched_getaffinity(0))
+    free = {name: value for name, value in os.environ.items() if name != "OMP_NUM_THREADS"}
+    words = [*asperity.runs.launcher(ranks), sys.executable, "-c", BOUND, os.environ["ASPERITY_PROGRAM"], "info"]
+    for first, others, sharing in ((processors, processors, ranks), (processors, processors[:1], 1),
+                                   (processors[:1], processors, 1), (processors[:1], processors[:1], ranks)):
+        places = json.dumps([first] + [others] * (ranks - 1))
+        said = subprocess.run(words, env={**free, "PROCESSORS": places}, capture_output=True, text=True, timeout=60)
+        assert f"ranks      {ranks}\n  threads    {max(1, len(first) // sharing)} a rank" in said.stdout, (places, said)
