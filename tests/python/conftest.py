@@ -3,6 +3,7 @@
 """The package from this source tree, the program of $ASPERITY_PROGRAM, and a few small results."""
 
 import contextlib
+import json
 import os
 import subprocess
 import sys
@@ -18,17 +19,30 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("MPLBACKEND", "agg")
 
 import asperity  # noqa: E402
+import asperity.runs  # noqa: E402
 
 SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
 STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["zero-load"]}}
 
 
-def command(*words, expect=0, cwd=None, env=None):
-    """Runs the program; the text that it prints. The exit code must be `expect`."""
-    done = subprocess.run([os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, capture_output=True, text=True,
-                          env={**os.environ, **(env or {})})
-    assert done.returncode == expect, f"exit {done.returncode}: {words}\n{done.stdout}{done.stderr}"
-    return done.stdout + done.stderr
+def command(*words, expect=0, says=(), ranks=0, cwd=None, env=None, given=None):
+    """Runs the program, on `ranks` of the launcher or alone, with `given` as its standard input; the text that it prints.
+    The exit code must be `expect`, and the text hold `says`."""
+    launcher = [*asperity.runs.launcher(2)[:-1], str(ranks)] if ranks else []
+    done = subprocess.run([*launcher, os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, input=given, text=True,
+                          capture_output=True, timeout=60 if ranks else None, env={**os.environ, **(env or {})})
+    said = done.stdout + done.stderr
+    assert done.returncode == expect, f"exit {done.returncode}: {words}\n{said}"
+    for text in [says] if isinstance(says, str) else says:
+        assert text in said, f"{words} did not say {text!r}:\n{said}"
+    return said
+
+
+def found(directory):
+    """All that a run found: its result, but for what says where and how fast it was made."""
+    result = json.loads((Path(directory) / "result.json").read_text())
+    del result["digest"], result["scene"]["numerics"]["device"], result["units"]["run"]
+    return {**result, "run": result["run"]["steps"]}
 
 
 @contextlib.contextmanager
@@ -37,6 +51,15 @@ def unsealed(path):
     with h5py.File(path, "r+") as file:
         del file.attrs["asperity_digest"]
         yield file
+
+
+@pytest.fixture()
+def place(tmp_path, monkeypatch):
+    """An empty working directory, with a space in its name."""
+    work = tmp_path / "a place"
+    work.mkdir()
+    monkeypatch.chdir(work)
+    return work
 
 
 @pytest.fixture(scope="session")
