@@ -3,6 +3,7 @@
 """The package from this source tree, the program of $ASPERITY_PROGRAM, and a few small results."""
 
 import contextlib
+import json
 import os
 import subprocess
 import sys
@@ -24,12 +25,24 @@ SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"veloc
 STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["zero-load"]}}
 
 
-def command(*words, expect=0, cwd=None, env=None):
-    """Runs the program; the text that it prints. The exit code must be `expect`."""
-    done = subprocess.run([os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, capture_output=True, text=True,
-                          env={**os.environ, **(env or {})})
-    assert done.returncode == expect, f"exit {done.returncode}: {words}\n{done.stdout}{done.stderr}"
-    return done.stdout + done.stderr
+def command(*words, expect=0, says=(), ranks=0, cwd=None, env=None, given=None):
+    """Runs the program, on `ranks` of the launcher or alone, with `given` as its standard input; the text that it prints.
+    The exit code must be `expect`, and the text hold `says`."""
+    launcher = [*asperity.runs.launcher(2)[:-1], str(ranks)] if ranks else []
+    done = subprocess.run([*launcher, os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, input=given, text=True,
+                          capture_output=True, timeout=60 if ranks else None, env={**os.environ, **(env or {})})
+    said = done.stdout + done.stderr
+    assert done.returncode == expect, f"exit {done.returncode}: {words}\n{said}"
+    for text in [says] if isinstance(says, str) else says:
+        assert text in said, f"{words} did not say {text!r}:\n{said}"
+    return said
+
+
+def found(directory):
+    """All that a run found: its result, but for what says where and how fast it was made."""
+    result = json.loads((Path(directory) / "result.json").read_text())
+    del result["digest"], result["scene"]["numerics"]["device"], result["units"]["run"]
+    return {**result, "run": result["run"]["steps"]}
 
 
 @contextlib.contextmanager
@@ -62,6 +75,15 @@ def mpi4py_launcher():
     if theirs.split()[0] != ours.split()[0]:
         pytest.skip(f"mpi4py is of {theirs.split(',')[0]}, the program of {ours}")
     return asperity.runs.launcher
+
+
+@pytest.fixture()
+def place(tmp_path, monkeypatch):
+    """An empty working directory, with a space in its name."""
+    work = tmp_path / "a place"
+    work.mkdir()
+    monkeypatch.chdir(work)
+    return work
 
 
 @pytest.fixture(scope="session")

@@ -45,12 +45,9 @@ ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
 
 
 @pytest.fixture()
-def place(tmp_path, monkeypatch):
-    work = tmp_path / "a sweep"
-    work.mkdir()
-    monkeypatch.chdir(work)
-    (work / "scene.toml").write_text(SCENE)
-    return work
+def place(place):
+    (place / "scene.toml").write_text(SCENE)
+    return place
 
 
 @pytest.fixture(scope="module")

@@ -51,13 +51,10 @@ checkpoint = 0.2
 
 
 @pytest.fixture()
-def place(tmp_path, monkeypatch):
-    work = tmp_path / "a sweep"
-    work.mkdir()
-    monkeypatch.chdir(work)
-    (work / "state.toml").write_text(SCENE)
-    (work / "path.toml").write_text(PATH)
-    return work
+def place(place):
+    (place / "state.toml").write_text(SCENE)
+    (place / "path.toml").write_text(PATH)
+    return place
 
 
 def numbers(directory):
@@ -496,6 +493,8 @@ def test_the_time_left_counts_each_scene_by_its_own_points(tmp_path):
     (["--set", "surface.rms=0.2,0.02nm,0.2"], "two points are the same"),
     (["--set", "surface.rms=1", "surface.seed=1"], "nothing to sweep"), (["--jobs", "0"], "is no number from 1"),
     (["--wall-limit", "soon"], "is no length of time"), (["--progress", "loud"], "choices: auto, bar, lines, off"),
+    (["--theory-only", "--set", "surface.rms=0.2,-1"], "surface.rms = -1 is out of range"),
+    (["--theory-only", "--set", "surface.rms=1", "surface.seed=1"], "nothing to sweep"),
     (["state.toml"], "has the name of another scene"), (["--set", "surface.rsm=1,2"], "did you mean surface.rms?")])
 def test_what_is_wrong_is_said_before_anything_runs(place, words, says):
     assert says in command("sweep", "state.toml", *words, "--out", "no/such", expect=2)
@@ -661,13 +660,17 @@ def test_a_launcher_gives_ranks(place):
 
 def test_the_theory_alone(place):
     # Seeds mean nothing to the theory of a target spectrum.
-    said = command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2:0.6:0.2", "--out", "theory")
-    assert "3 points in" in said and "gamma.svg" in said
+    written = ["sweep.csv", "sweep.json", "gamma.svg", "area.svg", "full-contact.svg"]
+    command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2:0.6:0.2", "drive.load=0,100", "--out", "theory",
+            says=["6 points in", *written])
+    assert all((place / "theory" / name).stat().st_size > 0 for name in written)
     rows = numbers("theory")
-    assert [r["status"] for r in rows] == ["adhesive"] * 3
-    assert list(rows[0])[:3] == ["surface.rms", "delta_gamma", "gamma_eff"]
+    assert [r["status"] for r in rows] == ["adhesive"] * 6 and all(None not in {*row, *row.values()} for row in rows)
+    assert list(rows[0])[:4] == ["surface.rms", "drive.load", "delta_gamma", "gamma_eff"]
+    points = json.loads((place / "theory/sweep.json").read_text())["points"]
+    assert [p["set"]["surface.rms"] for p in points] == [0.2, 0.2, 0.4, 0.4, 0.6, 0.6]
     one = asperity.program.theory("state.toml", ["surface.rms=0.4"])["theory"]
-    assert float(rows[1]["gamma_eff"]) == pytest.approx(one["gamma_eff"], rel=1e-9)
+    assert float(rows[2]["gamma_eff"]) == pytest.approx(one["gamma_eff"], rel=1e-9)
     assert "already holds a sweep" in command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=1,2",
                                               "--out", "theory", expect=2)
     said = command("sweep", "state.toml", "--theory-only", "--set", "theory.area_factor=none,gaussian", "surface.rms=1",

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The command theory, and the theory of a run."""
+
+import os
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, command
+
+import asperity
+
+PAPER = ROOT / "scenes/paper/fig2.toml"
+
+
+@pytest.fixture()
+def place(place):
+    (place / "rough.toml").write_text("[surface]\nsites = 64\nrms = 12\n")
+    return place
+
+
+@pytest.mark.parametrize("rms, gamma, area, full", [(3, 67.469, 0.98985, 68.120), (5, 15.159, 0.66628, 11.353),
+                                                    (6.5, 0.604, 0.24305, -49.960)])
+def test_the_table_of_the_paper(place, rms, gamma, area, full):
+    command("theory", PAPER, "--set", f"surface.rms={rms}", "--out", "paper",
+            says=["critical rms   6.972", "hold together without any load"])
+    result = asperity.load("paper")
+    theory = result.theory
+    assert theory.gamma_eff == pytest.approx(gamma, abs=0.002)
+    assert theory.contact_fraction == pytest.approx(area, abs=2e-5)
+    assert theory.gamma_full_contact == pytest.approx(full, abs=0.002)
+    assert Path("paper/theory.h5").stat().st_size > 0
+    assert not {"energy", "binding_energy"} & set(result) and "steps" not in result.run  # no simulation
+
+
+@pytest.mark.parametrize("given, says", [
+    ("surface.rms=0.5", "ends at Nyquist"), ("theory.spectrum=realised surface.rms=1", "the surface itself"),
+    ("drive.load=3000", "the load alone"),
+    # 1.75: the Tabor number of the paper's formula
+    ("surface.rms=0 surface.radius=4410 theory.delta_gamma=100", ["JKR pull-off   2078.", "1.75"])])
+def test_what_it_says(place, given, says):
+    command("theory", "rough.toml", "--set", *given.split(), says=says)
+    assert asperity.load("results/rough-theory").theory
+
+
+def test_limits_without_numbers(place):
+    command("theory", "rough.toml", "--out", "rough", says="there is no adhesive solution")
+    assert asperity.load("rough").theory.gamma_eff == asperity.load("rough").theory.contact_fraction == 0
+    command("theory", "rough.toml", "--out", "rough", expect=2, says="already holds a result")
+    command("theory", "rough.toml", "--set", "surface.kind=flat", "--out", "flat")
+    assert asperity.load("flat").theory.contact_fraction == 1
+
+
+@pytest.mark.parametrize("words, expect, says", [
+    ("rough.toml --set theory.delta_gamma=-1", 2, "theory.delta_gamma = -1"),
+    ("rough.toml --set theory.spectrum=exact", 2, "theory.spectrum"),
+    ("rough.toml --set surface.cutoff=1 surface.rolloff=1", 2, "no roughness"),
+    ("gone.toml", 2, "there is no such file"), ("rough.toml --out rough.toml/x", 4, "rough.toml/x")])
+def test_what_is_wrong_is_said(place, words, expect, says):
+    command("theory", *words.split(), expect=expect, says=says)
+    assert os.listdir() == ["rough.toml"]
+
+
+def test_a_run_carries_the_theory_of_its_scene(place):
+    Path("small.toml").write_text("[surface]\nsites = 32\nrms = 0.5\n[drive]\nmax_steps = 2\n")
+    command("run", "small.toml", "--progress", "off", "--out", "run")
+    command("theory", "small.toml", "--out", "theory")
+    run, theory = (asperity.load(name).theory for name in ("run", "theory"))
+    for key in ("gamma_full_contact", "gamma_eff"):
+        assert run[key] == pytest.approx(theory[key], abs=1e-9)
+    for name in ("theory", "surface"):  # only one rank looks for the directory; both end
+        assert command(name, "small.toml", "--out", "theory", ranks=2, expect=2).count("already holds a result") == 1
+
+
+def test_a_wall_without_adhesion(place):
+    """There is no θ, and all else of the theory; a sweep runs whether its theory can be computed or not."""
+    Path("wall.toml").write_text("[surface]\nsites = 32\nrms = 0.5\n[block]\nthickness = 32\n[interface]\nkind = 'wall'\n"
+                                 "law = 'exponential'\nadhesion = 0\n[drive]\npath = ['zero-load']\nload = 50\n")
+    command("theory", "wall.toml", "--out", "theory")
+    assert asperity.load("theory").theory.contact_fraction > 0
+    for number, given in enumerate([["drive.load=50,100"], ["surface.rolloff=1", "surface.cutoff=1,2"]]):
+        command("sweep", "wall.toml", "--set", *given, "--out", f"sweep-{number}", "--progress", "off")
