@@ -42,7 +42,7 @@ def found(directory):
     """All that a run found: its result, but for what says where and how fast it was made."""
     result = json.loads((Path(directory) / "result.json").read_text())
     del result["digest"], result["scene"]["numerics"]["device"], result["units"]["run"]
-    return {**result, "run": result["run"]["steps"]}
+    return {**result, "run": [result["run"].get(name) for name in ("steps", "iterations")]}
 
 
 @contextlib.contextmanager

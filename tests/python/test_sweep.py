@@ -512,8 +512,7 @@ AMONG_OTHERS = [{"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX
 @pytest.mark.parametrize("env", ALONE)
 def test_one_process_of_a_launcher_is_one_process(place, env):
     command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2,0.4", env=env)
-    assert "nothing wrong" in subprocess.run([os.environ["ASPERITY_PROGRAM"], "check", "-"], input=SCENE, text=True,
-                                             capture_output=True, env={**os.environ, **env}).stdout
+    command("check", "-", given=SCENE, env=env, says="nothing wrong")
 
 
 @pytest.mark.parametrize("env", AMONG_OTHERS)
