@@ -73,7 +73,7 @@ def test_a_path_and_the_same_at_a_held_mean_height(place):
 
 
 def test_two_cycles(place):
-    """Maps of both states at zero load; each leg's loss is of the last one, the energy of all."""
+    """Maps of both states at zero load; each branch's loss is of the last one, the energy of all."""
     run("cycles", CYCLES)
     assert {"zero-load", "zero-load-2"} <= set(asperity.load("cycles").fields)
     run("parts", CYCLES, "drive.max_steps=150")
