@@ -22,6 +22,13 @@ import asperity  # noqa: E402
 import asperity.runs  # noqa: E402
 
 SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
+# Starts the rest of the command line on the processors that the environment names for this rank.
+BOUND = """
+import json, os, sys
+rank = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ.get("PMI_RANK", 0))
+os.sched_setaffinity(0, json.loads(os.environ["PROCESSORS"])[rank])
+os.execv(sys.argv[1], sys.argv[1:])
+"""
 STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["zero-load"]}}
 
 

@@ -9,21 +9,24 @@ import sys
 
 import numpy
 import pytest
-from conftest import ROOT
+from conftest import BOUND, ROOT
 
 
 def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):
-    found = []
+    found, processors = [], sorted(os.sched_getaffinity(0))
     for ranks in (1, 2):
         place = tmp_path / str(ranks)
         place.mkdir()
-        words = [*mpi4py_launcher(ranks), sys.executable, "-m", "mpi4py", str(ROOT / "tests/python/ranks.py"), place]
+        words = [*mpi4py_launcher(ranks), sys.executable, "-c", BOUND,
+                 sys.executable, "-m", "mpi4py", str(ROOT / "tests/python/ranks.py"), place]
         done = subprocess.run(words, capture_output=True, text=True, timeout=200,
-                              env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+                              env={**os.environ, "PYTHONPATH": str(ROOT / "python"), "PROCESSORS": json.dumps([processors] * ranks)})
         assert done.returncode == 0, done.stdout + done.stderr
         found.append((json.loads((place / "found.json").read_text()), numpy.load(place / "fields.npy")))
     one, two = found
     gaps = [numbers.pop("gap") for numbers, _ in found]
+    threads = [numbers.pop("threads") for numbers, _ in found]
+    assert threads == [len(processors), max(1, len(processors) // 2)]
     assert one[0] == two[0] and (one[1] == two[1]).all()
     assert gaps[0] == pytest.approx(gaps[1], rel=1e-12) == path_run.fields["zero-load"].gap.sum()
     assert one[0]["refused"] and one[0]["work"] > 0 and abs(one[0]["balance"]) < 1e-3
