@@ -62,6 +62,12 @@ sim.external = field[sim.tile]
 sim.step(40)
 found["work"], found["balance"] = sim.external_work, sim.energy.balance_error
 fields = whole(sim)
+assert sim.write(place / "written") == place / "written"
+try:
+    sim.write(place / "written")
+    found["written_twice"] = True
+except asperity.SceneError:
+    found["written_twice"] = False
 if comm.rank == comm.size - 1:
     kept, sim.u.z[1, 1] = sim.u.z[1, 1], numpy.nan
 try:

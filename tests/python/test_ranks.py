@@ -11,6 +11,8 @@ import numpy
 import pytest
 from conftest import BOUND, ROOT
 
+import asperity
+
 
 def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):
     found, processors = [], sorted(os.sched_getaffinity(0))
@@ -24,6 +26,10 @@ def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):
         assert done.returncode == 0, done.stdout + done.stderr
         found.append((json.loads((place / "found.json").read_text()), numpy.load(place / "fields.npy")))
     one, two = found
+    written = [asperity.load(tmp_path / ranks / "written").fields["now"] for ranks in "12"]
+    for name in ("gap", "contact", "pressure"):
+        assert (getattr(written[0], name) == getattr(written[1], name)).all(), name
+    assert not one[0]["written_twice"] and not two[0]["written_twice"]
     gaps = [numbers.pop("gap") for numbers, _ in found]
     threads = [numbers.pop("threads") for numbers, _ in found]
     assert threads == [len(processors), max(1, len(processors) // 2)]
