@@ -4,12 +4,10 @@
 fast anything is, is not asked."""
 
 import csv
-import importlib.util
 import json
 import math
 import os
 import re
-import shutil
 import subprocess
 import sys
 import xml.dom.minidom
@@ -18,10 +16,7 @@ from pathlib import Path
 import pytest
 from conftest import ROOT
 
-import asperity.runs
-
-if not importlib.util.find_spec("matplotlib") or not shutil.which(asperity.runs.launcher(2)[0]):
-    pytest.skip("no Matplotlib, or no mpirun", allow_module_level=True)
+pytest.importorskip("matplotlib", reason="no Matplotlib: apt-get install python3-matplotlib")
 
 
 def bench(*words, expect=0):
