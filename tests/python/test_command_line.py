@@ -70,7 +70,8 @@ def test_processes_that_mpi_does_not_connect(place):
 
 @pytest.mark.parametrize("words, says", [
     ([], ""), (["chek"], "did you mean `asperity check`?"), (["run"], "SCENE is required"),
-    (["run", "plain.toml", "--no-such-option"], "--no-such-option"), (["run", "plain.toml", "plain.toml"], "more than one scene"),
+    (["run", "plain.toml", "--no-such-option"], "--no-such-option"),
+    (["run", "plain.toml", "plain.toml"], "more than one scene"),
     (["run", "plain.toml", "--wall-limit", "soon"], "--wall-limit soon: is no length of time"),
     (["run", "plain.toml", "--progress", "loud"], "choices: auto, bar, lines, off"),
     *((["run", "plain.toml", option, ""], f"{option}: is empty") for option in ("--resume", "--wall-limit", "--progress")),

@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 
 import asperity
-import asperity.runs
 from asperity import sentences
 from asperity.report import write_run_page
 from asperity.report_sweep import holds_sweep, write_sweep_page

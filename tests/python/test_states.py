@@ -5,11 +5,10 @@ by a load: under less than the barrier a relaxation stays near the first, under 
 
 import os
 import subprocess
-import time
 from pathlib import Path
 
 import pytest
-from conftest import command
+from conftest import command, started, wait_for
 
 import asperity
 
@@ -72,12 +71,8 @@ def test_a_checkpoint_while_a_relaxation_goes_on(place):
     """It survives a kill."""
     words = [*RUN, "killed", "--set", "surface.sites=256", "block.thickness=256", "drive.states=first", "drive.tolerance=1e-13",
              "output.checkpoint=0.1s"]
-    child = subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words], stdout=subprocess.DEVNULL)
-    end = time.monotonic() + 10
-    while not Path("killed/checkpoint.h5").exists() and time.monotonic() < end:
-        time.sleep(0.1)
-    child.kill()
-    child.wait()
+    with started(*words):
+        wait_for(Path("killed/checkpoint.h5").exists)
     assert Path("killed/checkpoint.h5").exists()
 
 
