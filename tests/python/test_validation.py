@@ -28,3 +28,11 @@ def test_a_flat_punch_parts_like_the_rings(results):
     assert row["program"] == pytest.approx(row["rings"], abs=0.006)
     # Towards Kendall's force, and not beyond, as the range falls.
     assert 0.75 < row["rings"] < row["rings/2"] < 1
+
+
+def test_a_sphere_parts_like_the_rings(results):
+    row, = adhesion.sphere(adhesion.Runs(results / "sphere", small=True))
+    assert row["lambda"] == pytest.approx(0.744, abs=1e-3)
+    assert row["program"] == pytest.approx(row["rings"], abs=0.003)
+    assert row["along"] < 0.005
+    assert 0.75 < row["maugis"] < row["rings"] < 1
