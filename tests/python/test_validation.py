@@ -12,6 +12,7 @@ from conftest import ROOT
 sys.path.insert(0, str(ROOT / "scenes/validation"))
 import adhesion  # noqa: E402
 import rings  # noqa: E402
+import snaps  # noqa: E402
 
 
 def test_rings_without_adhesion_are_hertz():
@@ -36,3 +37,11 @@ def test_a_sphere_parts_like_the_rings(results):
     assert row["program"] == pytest.approx(row["rings"], abs=0.003)
     assert row["along"] < 0.005
     assert 0.75 < row["maugis"] < row["rings"] < 1
+
+
+def test_the_loss_in_time_falls_to_that_without_time(results):
+    flat, rough = snaps.losses(results / "snaps", (5, 2))
+    assert rough[0] == pytest.approx(0, abs=0.05) and rough[5] > 2.5 * rough[2] > 0  # no snap
+    assert flat[0] > 1
+    # A fold that is passed at a velocity v is left later and loses v^(2/3) more.
+    assert (flat[5] - flat[0]) / (flat[2] - flat[0]) == pytest.approx(2.5 ** (2 / 3), rel=0.05)
