@@ -20,7 +20,7 @@ import h5py
 import numpy
 
 from . import files, program
-from .errors import InputOutputError, SceneError
+from .errors import Error, InputOutputError, SceneError
 from .scene import Overrides, SceneLike, assignments, scene_file
 from .terminal import Progress
 
@@ -166,7 +166,23 @@ def _number(comm: Any) -> int | None:
     if not set(ours.split()) <= set(theirs.replace(",", " ").split()):
         raise SceneError("comm", f"is of {theirs}", f"the engine was built with {ours}",
                          "install an mpi4py of the same MPI")
+    if comm.size > 1:
+        _end_all_with(comm)
     return comm.py2f()
+
+
+def _end_all_with(comm: Any) -> None:
+    """From now on an error that ends this rank ends all of comm: the others would wait for it."""
+    before = sys.excepthook
+    if before.__module__ == __name__:
+        return
+
+    def ends_all(kind: type[BaseException], error: BaseException, trace: Any) -> None:
+        before(kind, error, trace)
+        sys.stderr.flush()
+        comm.Abort(error.code if isinstance(error, Error) else 1)
+
+    sys.excepthook = ends_all
 
 
 class Simulation(_engine.Simulation):
@@ -186,7 +202,8 @@ class Simulation(_engine.Simulation):
     output.series-th, and those of observers.
 
     comm       ranks to share it, mpi4py's MPI.COMM_WORLD; each has a `tile` of the sites. All of them make the
-               same calls with the same arguments, but for what is written to their own sites.
+               same calls with the same arguments, but for what is written to their own sites. An error that ends one
+               of them ends all.
 
     It takes all threads of its process, or rank (OMP_NUM_THREADS). Raises SceneError for a scene that has no time,
     or that a run would refuse, and warns (SceneWarning) of what is worth knowing of a scene.
