@@ -3,11 +3,11 @@
 # SPDX-License-Identifier: MIT
 """Pull-off over an adhesive wall against closed forms and an independent axisymmetric solution (rings.py).
 
-    scenes/validation/adhesion.py punch | sphere [--small] [--out results/adhesion]
+    scenes/validation/adhesion.py punch | sphere | sticky [--small] [--out results/adhesion]
 
-punch: a flat round punch against Kendall's force as the range of the attraction falls. sphere: one
-sphere from nearly rigid (Bradley) to soft (JKR). --small: the
-fewest sites, in seconds (tests/python/test_validation.py). The last line is the time of the program's runs.
+punch: a flat round punch against Kendall's force as the range of the attraction falls. sphere: one sphere from nearly rigid (Bradley)
+to soft (JKR). sticky: where a rough surface's area against pressure changes the sign of its slope. --small: few sites, in seconds
+(tests/python/test_validation.py). The last line is the time of the program's runs.
 """
 import argparse
 import math
@@ -108,9 +108,55 @@ def sphere(runs: Runs) -> list[dict]:
     return rows
 
 
+def sticky(runs: Runs) -> list[dict]:
+    """Mean pressure p at a repulsive area A of 2 % of a self-affine surface, approached at a held mean height: 1/κ = p A0/(E*h'A), h'
+    the rms slope. Pastewka and Robbins (PNAS 111, 3298, 2014) expect surfaces to be sticky, 1/κ < 0, where
+
+        s = (h'E*ρ/(κ0 w)) (h'd/(4ρ))^(2/3) / (π (3/16)^(2/3)) < 1,
+
+    κ0 = 2 without adhesion, d = 4h'/h'' the mean width of a contact, h'' the rms of the Laplacian, w/ρ the stress."""
+    sites, spacing, part = (64 if runs.small else 128), 2.6, 0.02
+    surface = {"surface.sites": sites, "surface.rms": 3, "surface.rolloff": 2, "surface.cutoff": sites / 8, "surface.seed": 1,
+               "surface.spacing": spacing}
+    rows, statistics = [], None
+    print("range/Å  w, meV/Å²  s       1/κ")
+    for reach in (1.0,) if runs.small else (2.0, 1.0, 0.5):
+        for s in (1.4, 30.0) if runs.small else (1.4, 2.8, 5.6, 11.2):
+            if statistics is None:
+                statistics = slope_and_curvature(runs, surface)
+            slope, curvature = statistics
+            width = 4 * slope / curvature
+            w = slope * E * reach / 2 * (slope * width / (4 * reach)) ** (2 / 3) / (math.pi * (3 / 16) ** (2 / 3)) / s
+            r = runs.path(f"sticky-{reach}-{s}", wall(spacing, w, reach), surface | {
+                "drive.path": ["approach"], "drive.load": 0.7 * part * E * slope / GPA * 1e3, "drive.step": 0.1,
+                "drive.tolerance": 1e-3})
+            first = int(np.argmax(r["contact_fraction"] >= part))
+            force = np.interp(part, r["contact_fraction"][first - 1:first + 1], r["force"][first - 1:first + 1])
+            rows.append({"range": reach, "w": 1e3 * w, "s": s,
+                         "kappa": float(force) / (sites * spacing) ** 2 / (E * slope * part)})
+            print("{:6} {:9.2f} {:8.2f} {:9.4f}".format(*rows[-1].values()), flush=True)
+        print(f"       h' = {slope:.4f}, d = {width:.1f} Å")
+        own = sorted((q["kappa"], q["s"]) for q in rows if q["range"] == reach)
+        print(f"       1/κ = 0 at s = {np.interp(0, *zip(*own)):.2f}", flush=True)
+    return rows
+
+
+def slope_and_curvature(runs: Runs, surface: dict) -> tuple[float, float]:
+    """Root mean squares of the gradient and of the Laplacian of a surface, 1 and 1/Å."""
+    r = asperity.run({}, {**surface, "drive.path": "zero-load", "interface.kind": "wall", "interface.adhesion": 0,
+                          "drive.load": 10, "block.thickness": surface["surface.sites"], "theory.renormalised": False,
+                          "output.checkpoint": 0}, runs.out / "surface")
+    with h5py.File(r.directory / "run.h5") as file:
+        height = file["substrate/height"][:]
+    wave = 2 * math.pi * np.fft.fftfreq(len(height), surface["surface.spacing"])
+    q2 = wave[:, None] ** 2 + wave[None, :] ** 2
+    power = np.abs(np.fft.fft2(height)) ** 2 / height.size**2
+    return math.sqrt((q2 * power).sum()), math.sqrt((q2**2 * power).sum())
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("problem", choices=["punch", "sphere"])
+    parser.add_argument("problem", choices=["punch", "sphere", "sticky"])
     parser.add_argument("--small", action="store_true")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/adhesion"))
     given = parser.parse_args()

@@ -45,3 +45,10 @@ def test_the_loss_in_time_falls_to_that_without_time(results):
     assert flat[0] > 1
     # A fold that is passed at a velocity v is left later and loses v^(2/3) more.
     assert (flat[5] - flat[0]) / (flat[2] - flat[0]) == pytest.approx(2.5 ** (2 / 3), rel=0.05)
+
+
+def test_strong_adhesion_makes_a_surface_sticky(results):
+    strong, weak = adhesion.sticky(adhesion.Runs(results / "sticky", small=True))
+    assert strong["kappa"] < 0 < weak["kappa"]
+    # Without adhesion κ is about 2: adhesion always takes from 1/κ.
+    assert weak["kappa"] < 0.5
