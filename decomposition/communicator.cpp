@@ -8,12 +8,19 @@
 #endif
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
+#include <span>
 #include <stdexcept>
 #include <thread>
 #include <utility>
+
+#include <omp.h>
+#include <sched.h>
 
 namespace asperity {
 
@@ -44,6 +51,19 @@ Launched launched() {
             return {std::atoi(ranks), own ? std::atoi(own) : 0};
         }
     return {};
+}
+
+/// The processors that this process may use, as a number: FNV-1a of their mask.
+std::uint64_t processors_allowed() {
+    std::vector<cpu_set_t> mask(1);
+    // A mask that is too short for the kernel is refused.
+    while (sched_getaffinity(0, mask.size() * sizeof(cpu_set_t), mask.data()) != 0 &&
+           errno == EINVAL && mask.size() < 1024)
+        mask.resize(2 * mask.size());
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const std::byte byte : std::as_bytes(std::span(mask)))
+        hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3;
+    return hash;
 }
 
 } // namespace
@@ -88,13 +108,18 @@ double Communicator::sum_on_machine(double value) const {
     return value;
 }
 
-int Communicator::alike_on_machine(std::uint64_t number) const {
-    if (!mpi_) return 1;
-    int ranks = 0;
-    MPI_Comm_size(mpi_->machine, &ranks);
-    std::vector<std::uint64_t> all(static_cast<std::size_t>(ranks));
-    MPI_Allgather(&number, 1, MPI_UINT64_T, all.data(), 1, MPI_UINT64_T, mpi_->machine);
-    return static_cast<int>(std::count(all.begin(), all.end(), number));
+void Communicator::share_processors() const {
+    int ranks = 1;
+    if (mpi_) {
+        const std::uint64_t mine = processors_allowed();
+        MPI_Comm_size(mpi_->machine, &ranks);
+        std::vector<std::uint64_t> all(static_cast<std::size_t>(ranks));
+        MPI_Allgather(&mine, 1, MPI_UINT64_T, all.data(), 1, MPI_UINT64_T, mpi_->machine);
+        ranks = static_cast<int>(std::count(all.begin(), all.end(), mine));
+    }
+    const int shared = std::max(1, omp_get_num_procs() / ranks);
+    if (!std::getenv("OMP_NUM_THREADS"))
+        omp_set_num_threads(std::min(shared, omp_get_max_threads()));
 }
 
 double Communicator::max(double value) const {

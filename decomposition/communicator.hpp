@@ -56,8 +56,10 @@ public:
     void sum(std::span<std::int64_t> values) const;
     /// Over the ranks of this machine.
     double sum_on_machine(double value) const;
-    /// How many ranks of this machine give the same number, this one included.
-    int alike_on_machine(std::uint64_t number) const;
+    /// Threads of this rank, where OMP_NUM_THREADS is not set: the processors it may use, shared
+    /// with the ranks of its machine that may use the same ones; never more than it has.
+    /// Collective.
+    void share_processors() const;
     /// The greatest of the ranks' values.
     double max(double value) const;
     /// Root's bytes to all.

@@ -16,17 +16,11 @@
 #include "io/error.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include <omp.h>
-#include <sched.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -138,27 +132,6 @@ std::vector<Command> all_commands() {
     };
 }
 
-/// The processors that this process may use, as a number: FNV-1a of their mask.
-std::uint64_t processors_allowed() {
-    std::vector<cpu_set_t> mask(1);
-    // A mask that is too short for the kernel is refused.
-    while (sched_getaffinity(0, mask.size() * sizeof(cpu_set_t), mask.data()) != 0 &&
-           errno == EINVAL && mask.size() < 1024)
-        mask.resize(2 * mask.size());
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const std::byte byte : std::as_bytes(std::span(mask)))
-        hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3;
-    return hash;
-}
-
-/// Threads of this rank, where OMP_NUM_THREADS is not set: the processors it may use, shared with
-/// the ranks beside it that may use the same ones.
-void choose_threads(const Communicator& world) {
-    const int ranks = world.alike_on_machine(processors_allowed());
-    if (!std::getenv("OMP_NUM_THREADS"))
-        omp_set_num_threads(std::max(1, omp_get_num_procs() / ranks));
-}
-
 } // namespace
 } // namespace asperity
 
@@ -175,7 +148,7 @@ int main(int argc, char** argv) {
     io::set_commit(build_commit);
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
-    choose_threads(world);
+    world.share_processors();
     return exit_code_of(world, [&] {
         if (session.unconnected() > 0) return refuse_unconnected(session);
         return carry_out(commands, argc, argv, world);

@@ -281,9 +281,11 @@ public:
 };
 
 Parallel::Parallel(int& argc, char**& argv) : inside_(std::make_unique<Inside>(argc, argv)) {
+    inside_->ranks.share_processors();
     parallel_world = &inside_->ranks;
 }
 Parallel::Parallel(int communicator) : inside_(std::make_unique<Inside>(communicator)) {
+    inside_->ranks.share_processors();
     parallel_world = &inside_->ranks;
 }
 Parallel::~Parallel() { parallel_world = nullptr; }

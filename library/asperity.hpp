@@ -349,7 +349,8 @@ private:
 
 /// In a program that mpirun starts: MPI and runs on all its ranks, from the construction of the one
 /// object to its end. Does nothing in a program started alone. Without it a run takes one process.
-/// Throws Error where a launcher has started several processes that MPI does not connect.
+/// Throws Error where a launcher has started several processes that MPI does not connect. Where
+/// OMP_NUM_THREADS is not set, the ranks of a machine share its processors from then on.
 class LIBASPERITY_API Parallel {
 public:
     Parallel(int& argc, char**& argv);

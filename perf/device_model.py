@@ -25,7 +25,7 @@ SECOND_CACHE = 5.5e12
 LAUNCH, COPY, COPY_BYTES, MESSAGE, MESSAGE_BYTES = 3e-6, 10e-6, 50e9, 3e-6, 25e9
 
 # Counted from the texts (docs/explanation/device.md), a node, site, pair, node of an upper or a constrained plane.
-# (All upper planes but the top hang, and that has a few nodes.)
+# (All upper planes but the top follow a coarser one, and that has a few nodes.)
 NODE_MEMORY, NODE_SECOND, NODE_FIRST, NODE_OPERATIONS = 96, 27 * 8 + 72, 81 * 8 + 72, 159
 SITE_MEMORY, FACE_MEMORY, CONSTRAINED_MEMORY = 56, 72, 30
 PAIR_INSTRUCTIONS = (31 + 16) / 4 + 0.5 * 10  # half a division, of ten instructions (assumed)

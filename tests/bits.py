@@ -4,6 +4,7 @@
 """Whether two programs, as two compilers or MPIs build them, compute the same bits.
 
     tests/bits.py build/release/engine/asperity build/clang/engine/asperity [SCENE...]
+    tests/bits.py BEFORE AFTER      # two result directories
 
 Runs small scenes with both, and compares every number of result.json and every data set of run.h5. What differs is
 named, with its largest relative difference; the exit code is then 1. ASPERITY_KERNELS=v2|v3|v4 and OMP_NUM_THREADS
@@ -81,8 +82,20 @@ def difference(one, other):
     return float(np.max(np.abs(a[known].astype(float) - b[known])) / scale) if scale else np.inf
 
 
+def differs(what, one, other):
+    """Prints what is not the same in both."""
+    apart = {key: difference(one.get(key), other.get(key)) for key in sorted(one.keys() | other.keys())}
+    apart = {key: by for key, by in apart.items() if by}
+    print(f"{what}: {len(one) - len(apart)} of {len(one)} the same", flush=True)
+    for key, by in sorted(apart.items(), key=lambda item: -item[1])[:12]:
+        print(f"    {key}: {by:.1e}", flush=True)
+    return bool(apart)
+
+
 def main():
     words = sys.argv[1:]
+    if len(words) == 2 and all(map(os.path.isdir, words)):
+        return int(differs(words[1], *map(results, words)))
     launch = []
     if "--launch" in words:
         at = words.index("--launch")
@@ -105,13 +118,7 @@ def main():
                 if done.returncode:
                     sys.exit(f"{name}: {program} ended with {done.returncode}:\n{done.stderr}")
                 found.append(results(out))
-        one, other = found
-        apart = {key: difference(one.get(key), other.get(key)) for key in sorted(one.keys() | other.keys())}
-        apart = {key: by for key, by in apart.items() if by}
-        differ += bool(apart)
-        print(f"{name}: {len(one) - len(apart)} of {len(one)} the same", flush=True)
-        for key, by in sorted(apart.items(), key=lambda item: -item[1])[:12]:
-            print(f"    {key}: {by:.1e}", flush=True)
+        differ += differs(name, *found)
     return int(differ > 0)
 
 

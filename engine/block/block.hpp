@@ -4,7 +4,7 @@
 // The elastic block: a stack of levels over one cell stencil (docs/explanation/model.md).
 //
 // Level l is a regular lattice of cells of edge 2^l a, `cells` layers thick. Its planes are
-// numbered from below: planes 0 .. cells-1 move; plane `cells` is prescribed, for it hangs on the
+// numbered from below: planes 0 .. cells-1 move; plane `cells` is constrained to the
 // lowest plane of level l+1 (bilinear interpolation) or, on the last level, is the rigid driven
 // top. A block of one level is the plain lattice.
 //
@@ -157,7 +157,7 @@ public:
     LevelKicks kicks(const Level& level, const StepParameters& step) const;
 
     /// Only where there are constrained planes: nothing to do for a block of one level.
-    bool hangs() const { return levels_.size() > 1; }
+    bool has_constrained_planes() const { return levels_.size() > 1; }
     void interpolate();
     void advance(const StepParameters& step, KickSums& sums);
     /// Only where seams absorb; before interpolate(), for it takes the places of the forces between

@@ -33,7 +33,7 @@ void Block::exchange_absorbing(std::size_t absorbing) {
     fields.reserve(3 * levels_.size());
     for (std::size_t l = 0; l <= absorbing; ++l) {
         Level& level = levels_[l];
-        const int from = l > 0 ? 0 : level.absorbs_from; // the finer level hangs on plane 0
+        const int from = l > 0 ? 0 : level.absorbs_from; // plane 0 constrains the finer level
         const int to = l < absorbing ? level.shape.cells : 1;
         const auto v = level.v.view();
         for (VolumeView<double> component : {v.x, v.y, v.z}) {
@@ -45,7 +45,7 @@ void Block::exchange_absorbing(std::size_t absorbing) {
 }
 
 /// Every change is made of the velocities from before. What the changes of a level do to the plane
-/// that it hangs on goes there as an impulse, the way forces do.
+/// that it follows goes there as an impulse, the way forces do.
 void Block::absorb(long long number, ExactSum& taken) {
     std::size_t absorbing = 0; // levels
     while (absorbing + 1 < levels_.size() && number % (1ll << absorbing) == 0)

@@ -96,7 +96,7 @@ void Block::forces(std::vector<VectorField<double>>& out) {
     }
 }
 
-/// Hands the forces on a level's upper plane to the level that it hangs on. Called by all threads.
+/// Hands the forces on a level's upper plane to the level that it follows. Called by all threads.
 void Block::restrict_forces(std::size_t fine) {
     if (fine + 1 >= levels_.size()) return;
     Level& coarse = levels_[fine + 1];

@@ -394,7 +394,7 @@ void DeviceBlock::mark(StepMark mark) {
     check(device_.mark(number_of(mark, steps_)), "a mark in its queue");
 }
 
-void DeviceBlock::book(Phases& phases, bool all) {
+void DeviceBlock::record_times(Phases& phases, bool all) {
     if (all && recorded_ < steps_) check(device_.wait(number_of(exchanged, steps_ - 1)), "a step");
     // The sums of the last step say that the one before it has ended.
     for (; recorded_ < steps_ - (all ? 0 : 1); ++recorded_) {

@@ -71,7 +71,7 @@ public:
 
     /// Adds the device's own times of all steps to the phases: those whose end the host has seen,
     /// or all, for which it waits.
-    void book(Phases& phases, bool all);
+    void record_times(Phases& phases, bool all);
 
     /// Of device memory: in use, and known before anything is allocated.
     std::size_t bytes() const { return used_; }

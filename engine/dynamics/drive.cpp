@@ -86,7 +86,7 @@ void Drive::begin(const Felt& felt) {
         normal_ = {from, v, HUGE_VAL};
         break;
     case Segment::load:
-        normal_ = {from, felt.force < next.amount ? -v : v, HUGE_VAL};
+        normal_ = {from, felt.gone || felt.force < next.amount ? -v : v, HUGE_VAL};
         break;
     case Segment::height:
         normal_ = VelocityProfile::over(next.amount - reference_height_ - felt.top, from, v,
@@ -109,16 +109,17 @@ bool Drive::ended(const Felt& felt) {
     const double since = felt.time - begun_;
     switch (now.kind) {
     case Segment::approach:
-        return approach_ended(felt.force);
+        return came_down(felt.force, options_.load_force);
     case Segment::pull_off:
         return felt.gone;
     case Segment::load: {
         const bool up = normal_.to > 0.0;
-        if (up && felt.gone && now.amount < 0.0)
+        const bool there = up ? felt.force <= now.amount : came_down(felt.force, now.amount);
+        if (now.amount < 0.0 && (up ? felt.gone && !there : there && !attracted_))
             throw io::PhysicsError(
-                fmt::format("the solids parted before the pull of \"{}\" was reached", now.text),
-                "the attraction is nowhere that large on this way", "take a smaller pull");
-        return up ? felt.force <= now.amount : felt.force >= now.amount;
+                fmt::format("no attraction was as large as the pull of \"{}\"", now.text),
+                "it is nowhere that large on this way", "take a smaller pull");
+        return there;
     }
     case Segment::height:
         return since >= normal_.end(options_.ramp);
@@ -134,13 +135,12 @@ bool Drive::ended(const Felt& felt) {
 
 /// Through attraction (beyond the load, if that pulls) and back to the load; or, where nothing
 /// attracts that much, pressed.
-bool Drive::approach_ended(double force) {
+bool Drive::came_down(double force, double load) {
     // A force of exactly zero is no contact: a warm block's tip was in reach and left it again.
     if (force == 0.0) {
         attracted_ = false;
         return false;
     }
-    const double load = options_.load_force;
     if (force < std::min(load, 0.0)) attracted_ = true;
     const bool back = attracted_ && force >= load;
     const bool pressed = force > std::max(load, 0.0);

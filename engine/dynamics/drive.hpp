@@ -106,7 +106,7 @@ public:
 private:
     void begin(const Felt& felt);
     bool ended(const Felt& felt);
-    bool approach_ended(double force);
+    bool came_down(double force, double load);
 
     DriveOptions options_;
     double reference_height_ = 0.0;

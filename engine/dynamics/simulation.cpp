@@ -59,7 +59,8 @@ const StepRecord& Simulation::step(bool observe) {
 void Simulation::step_on_processor(bool observe) {
     if (absorbs() && step_ % absorbs_every_ == 0)
         phases_.during(Phase::absorb, [&] { absorb_at_seams(); });
-    if (block_.hangs()) phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
+    if (block_.has_constrained_planes())
+        phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
     phases_.during(Phase::interface, [&] { sweep_interface(observe); });
     phases_.during(Phase::observe, [&] { collect(observe); });
     phases_.during(Phase::advance, [&] { advance_block(observe); });
@@ -81,7 +82,7 @@ void Simulation::step_on_device(bool observe) {
     block_.note_top(block_.top() + options_.dt * velocity);
     device_->forces({block_.top(), reference_height_, next_is_observed(observe)});
     const DeviceSums sums = device_->sums();
-    device_->book(phases_, false);
+    device_->record_times(phases_, false);
     interface_sums_ = sums.interface;
     kick_sums_ = sums.kick;
     top_force_ = sums.top_force;
@@ -104,7 +105,7 @@ bool Simulation::next_is_observed(bool observe) {
 void Simulation::download() const {
     device_->download(block_);
     block_.set_top(block_.top());
-    if (block_.hangs()) block_.interpolate();
+    if (block_.has_constrained_planes()) block_.interpolate();
     device_is_newer_ = false;
 }
 

@@ -118,7 +118,7 @@ public:
     /// With a device: by its clock, but for what is copied from and to the host's fields; `sums`
     /// is its wait for the host.
     const Phases& phases() const {
-        if (device_) device_->book(phases_, true);
+        if (device_) device_->record_times(phases_, true);
         return phases_;
     }
     const Communicator& communicator() const { return block_.communicator(); }

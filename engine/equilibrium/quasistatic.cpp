@@ -205,6 +205,7 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
         const bool back = attracted_ && record_.force >= load;
         const bool there =
             back || (std::exchange(bracketed_, false) && record_.force >= aim - slack);
+        if (there && load_ && load < -slack && !attracted_) refuse_pull(load);
         return there ? Outcome::at_load : Outcome::point;
     }
     if (load_ && std::exchange(bracketed_, false) && record_.force <= load + slack)
@@ -213,12 +214,15 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
                        std::abs(record_.force) <= 1e-6 * strongest_;
     if (!apart) return Outcome::point;
     if (!load_) return Outcome::apart;
-    if (load >= -slack) return Outcome::at_load; // an attraction too weak to be told from none
+    if (load < -slack) refuse_pull(load);
+    return Outcome::at_load; // an attraction too weak to be told from none
+}
+
+void QuasistaticPath::refuse_pull(double load) const {
     const double a = block_.options().spacing;
-    throw io::PhysicsError(
-        fmt::format("the solids parted before the pull of {:.4g} MPa was reached",
-                    -load / (sites_ * a * a * units::megapascal)),
-        "the attraction is nowhere that large on this way", "take a smaller pull");
+    throw io::PhysicsError(fmt::format("no attraction was as large as the pull of {:.4g} MPa",
+                                       -load / (sites_ * a * a * units::megapascal)),
+                           "it is nowhere that large on this way", "take a smaller pull");
 }
 
 /// Of the substrate on the lowest layer, by the forces of the last relaxation. Collective.

@@ -141,6 +141,7 @@ private:
     std::array<double, 2> lateral_force() const;
     void begin(Along along, double direction);
     Outcome outcome();
+    [[noreturn]] void refuse_pull(double load) const;
     StepCheck check(const Trial& to) const;
     double slack(std::int64_t in_contact) const;
     bool passes_load(const RelaxedState& state, double aim) const;

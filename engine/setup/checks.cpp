@@ -57,10 +57,6 @@ void check_path(const Case& c, io::Problems& problems) {
                        "under zero load is found anyway");
             break;
         case Segment::load:
-            if (after_all && !(segment.amount > 0.0))
-                refuse("from out of reach", "there is no pressure there to come down to",
-                       "put an \"approach\" before it");
-            break;
         case Segment::height:
             break;
         case Segment::slide:

@@ -20,7 +20,7 @@ import h5py
 import numpy
 
 from . import files, program
-from .errors import InputOutputError, SceneError
+from .errors import Error, InputOutputError, SceneError
 from .scene import Overrides, SceneLike, assignments, scene_file
 from .terminal import Progress
 
@@ -116,6 +116,7 @@ class Substrate:
         return self._simulation._substrate_edge
 
 
+MAPS = {"gap": "Å", "contact": "1", "pressure": "GPa"}
 SERIES: dict[str, tuple[str, Callable[[Simulation], float]]] = {
     "step": ("1", lambda s: s.steps - 1), "time": ("ps", lambda s: s.time), "force": ("eV/Å", lambda s: s.force),
     "top_force": ("eV/Å", lambda s: s.top_force), "mean_height": ("Å", lambda s: s.mean_height),
@@ -165,7 +166,23 @@ def _number(comm: Any) -> int | None:
     if not set(ours.split()) <= set(theirs.replace(",", " ").split()):
         raise SceneError("comm", f"is of {theirs}", f"the engine was built with {ours}",
                          "install an mpi4py of the same MPI")
+    if comm.size > 1:
+        _end_all_with(comm)
     return comm.py2f()
+
+
+def _end_all_with(comm: Any) -> None:
+    """From now on an error that ends this rank ends all of comm: the others would wait for it."""
+    before = sys.excepthook
+    if before.__module__ == __name__:
+        return
+
+    def ends_all(kind: type[BaseException], error: BaseException, trace: Any) -> None:
+        before(kind, error, trace)
+        sys.stderr.flush()
+        comm.Abort(error.code if isinstance(error, Error) else 1)
+
+    sys.excepthook = ends_all
 
 
 class Simulation(_engine.Simulation):
@@ -185,7 +202,8 @@ class Simulation(_engine.Simulation):
     output.series-th, and those of observers.
 
     comm       ranks to share it, mpi4py's MPI.COMM_WORLD; each has a `tile` of the sites. All of them make the
-               same calls with the same arguments, but for what is written to their own sites.
+               same calls with the same arguments, but for what is written to their own sites. An error that ends one
+               of them ends all.
 
     It takes all threads of its process, or rank (OMP_NUM_THREADS). Raises SceneError for a scene that has no time,
     or that a run would refuse, and warns (SceneWarning) of what is worth knowing of a scene.
@@ -195,9 +213,10 @@ class Simulation(_engine.Simulation):
         """A scene at the start of its path."""
         with scene_file(scene) as file:
             super().__init__(file, assignments(overrides), _number(comm))
-        self._begin()
+        self._begin(comm)
 
-    def _begin(self) -> None:
+    def _begin(self, comm: Any) -> None:
+        self._comm = comm
         self._observers: list[tuple[Callable, str]] = []
         self._rows: list[dict[str, float]] = []
 
@@ -206,7 +225,7 @@ class Simulation(_engine.Simulation):
         """The simulation that save() wrote, which goes on to the same bits. Observers are given anew."""
         simulation = cls.__new__(cls)
         _engine.Simulation.__init__(simulation, os.fspath(file), _number(comm))
-        simulation._begin()
+        simulation._begin(comm)
         return simulation
 
     def step(self, n: int = 1, progress: bool = False) -> int:
@@ -275,9 +294,38 @@ class Simulation(_engine.Simulation):
 
     def write(self, directory: str | os.PathLike) -> Path:
         """Writes a result directory for asperity.load(): the scene, `series`, and the maps of the sites as they are,
-        as the state "now". Raises SceneError where there is a result already."""
+        as the state "now". With `comm` the first rank writes them, with its own series and the maps of all. Raises
+        SceneError where there is a result already."""
+        maps = self._whole_maps()
+        if self._comm is None:
+            return self._write(directory, maps)
+        place = failed = None
+        if self._comm.rank == 0:
+            try:
+                place = self._write(directory, maps)
+            except Exception as error:
+                failed = error
+        place, failed = self._comm.bcast((place, failed))
+        if failed:
+            raise failed
+        return place
+
+    def _whole_maps(self) -> dict[str, numpy.ndarray]:
+        """Those of all sites, on the first rank."""
+        maps = self.maps()
+        mine = {name: getattr(maps, name) for name in MAPS}
+        if self._comm is None:
+            return mine
+        parts = self._comm.gather((self.tile, mine)) or []
+        whole = {name: numpy.empty(self.substrate.height.shape, values.dtype) for name, values in mine.items()}
+        for tile, part in parts:
+            for name, values in part.items():
+                whole[name][tile] = values
+        return whole
+
+    def _write(self, directory: str | os.PathLike, maps: dict[str, numpy.ndarray]) -> Path:
         place = files.chosen(os.fspath(directory), "")
-        maps, units = self.maps(), {name: unit for name, (unit, _) in SERIES.items()}
+        units = {name: unit for name, (unit, _) in SERIES.items()}
         with files.in_use(place):
             if (place / "result.json").exists():
                 raise SceneError(str(place), "already holds a result", "results are not written over",
@@ -287,8 +335,8 @@ class Simulation(_engine.Simulation):
                     file[f"series/{name}"] = values
                     if name in units:
                         file[f"series/{name}"].attrs["unit"] = units[name]
-                for name, unit in (("gap", "Å"), ("contact", "1"), ("pressure", "GPa")):
-                    file[f"fields/now/{name}"] = getattr(maps, name)
+                for name, unit in MAPS.items():
+                    file[f"fields/now/{name}"] = maps[name]
                     file[f"fields/now/{name}"].attrs["unit"] = unit
                 file["substrate/height"] = self.substrate.height
                 file["substrate/height"].attrs["unit"] = "Å"

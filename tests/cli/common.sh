@@ -40,13 +40,6 @@ $out" ;;
     esac
 }
 
-# The directory holds these files and nothing else.
-only_files() {
-    local found
-    found=$(find . -mindepth 1 | sort | tr '\n' ' ')
-    [ "$found" = "$*" ] || [ "$found" = "$* " ] || fail "files: '$found' instead of '$*'"
-}
-
 finish() {
     [ $failures -eq 0 ] && echo "all fine"
     exit $((failures > 0))

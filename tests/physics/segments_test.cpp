@@ -225,6 +225,22 @@ TEST(Loads, AreReachedFromBothSidesAndTheirWorkIsTheEnergy) {
     }
 }
 
+TEST(Loads, FromOutOfReachAreReachedThroughAttraction) {
+    const double area = std::pow(16 * 2.6, 2);
+    Slider c(rough(), 8);
+    test::KeptPath path = c.path(1e-5, 0.1);
+    path.start();
+    for (double pressure : {-200.0, 0.0, 100.0}) {
+        const double load = pressure * units::megapascal * area;
+        follow(path, {Segment::load, load});
+        EXPECT_NEAR(path.now().force, load, path.slack() + 1e-12) << pressure;
+        EXPECT_GT(path.now().in_contact, 0) << pressure;
+        follow(path, {Segment::height, 30.0});
+        ASSERT_EQ(path.now().in_contact, 0);
+    }
+    EXPECT_THROW(follow(path, {Segment::load, -1e3 * area}), io::PhysicsError);
+}
+
 TEST(Heights, AreReachedExactly) {
     Slider c(rough());
     test::KeptPath path = c.path(1e-4, 0.25, 0.0, Constraint::Of::mean_height);
@@ -289,6 +305,42 @@ TEST(SegmentsInTime, EndWhereTheyShouldAndCloseTheBalance) {
         ASSERT_LT(s.steps(), 60000);
     }
     EXPECT_EQ(ended, 7u);
+}
+
+TEST(SegmentsInTime, LoadsFromOutOfReachAreReachedThroughAttraction) {
+    SimulationOptions o;
+    o.block = test::paper_block(16, 8, 0);
+    o.drive.velocity = 4e-4;
+    o.drive.ramp = 500.0;
+    o.damping = 1e-3;
+    const double area = std::pow(16 * 2.6, 2);
+    const Surface surface = rough();
+    for (double pressure : {-200.0, 0.0, 100.0, -1e5}) {
+        const double load = pressure * units::megapascal * area;
+        o.drive.path = {{Segment::approach}, {Segment::height, 30.0}, {Segment::load, load}};
+        Simulation s(o, surface, Communicator(), test::serial_grid(o.block));
+        s.start(s.interface().start_height());
+        double strongest = 0.0;
+        const auto lead = [&] {
+            while (!s.drive().done()) {
+                const bool loads = s.drive().segment() == 2;
+                const StepRecord& now = s.step(true);
+                if (loads) strongest = std::min(strongest, now.force);
+                s.drive().observe(
+                    {now.time, now.force, now.top, out_of_reach(now.top, now.force, 50.0)});
+                ASSERT_LT(s.steps(), 60000);
+            }
+        };
+        if (pressure < -1e4) {
+            EXPECT_THROW(lead(), io::PhysicsError) << "no attraction is that large";
+            continue;
+        }
+        lead();
+        EXPECT_LT(strongest, std::min(load, 0.0)) << pressure;
+        EXPECT_GE(s.now().force, load) << pressure;
+        EXPECT_LT(s.now().force, load + 2.0) << pressure;
+        EXPECT_GT(s.now().in_contact, 0) << pressure;
+    }
 }
 
 TEST(SegmentsInTime, ASlowSlideFollowsTheEquilibria) {

@@ -3,10 +3,12 @@
 """The package from this source tree, the program of $ASPERITY_PROGRAM, and a few small results."""
 
 import contextlib
+import csv
 import json
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import h5py
@@ -22,6 +24,13 @@ import asperity  # noqa: E402
 import asperity.runs  # noqa: E402
 
 SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
+# Starts the rest of the command line on the processors that the environment names for this rank.
+BOUND = """
+import json, os, sys
+rank = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ.get("PMI_RANK", 0))
+os.sched_setaffinity(0, json.loads(os.environ["PROCESSORS"])[rank])
+os.execv(sys.argv[1], sys.argv[1:])
+"""
 STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["zero-load"]}}
 
 
@@ -30,7 +39,7 @@ def command(*words, expect=0, says=(), ranks=0, cwd=None, env=None, given=None):
     The exit code must be `expect`, and the text hold `says`."""
     launcher = [*asperity.runs.launcher(2)[:-1], str(ranks)] if ranks else []
     done = subprocess.run([*launcher, os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, input=given, text=True,
-                          capture_output=True, timeout=60 if ranks else None, env={**os.environ, **(env or {})})
+                          capture_output=True, timeout=120 if ranks else None, env={**os.environ, **(env or {})})
     said = done.stdout + done.stderr
     assert done.returncode == expect, f"exit {done.returncode}: {words}\n{said}"
     for text in [says] if isinstance(says, str) else says:
@@ -42,7 +51,33 @@ def found(directory):
     """All that a run found: its result, but for what says where and how fast it was made."""
     result = json.loads((Path(directory) / "result.json").read_text())
     del result["digest"], result["scene"]["numerics"]["device"], result["units"]["run"]
-    return {**result, "run": result["run"]["steps"]}
+    return {**result, "run": [result["run"].get(name) for name in ("steps", "iterations")]}
+
+
+@contextlib.contextmanager
+def started(*words):
+    """The program while it goes on. It is killed at the end."""
+    child = subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *map(str, words)], stdout=subprocess.DEVNULL,
+                             stderr=subprocess.DEVNULL)
+    try:
+        yield child
+    finally:
+        child.kill()
+        child.wait()
+
+
+def wait_for(condition, seconds=60):
+    end = time.monotonic() + seconds
+    while not (found := condition()):
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.02)
+    return found
+
+
+def rows(table):
+    """Of a sweep.csv or cost.csv, without what depends on time."""
+    with open(table) as file:
+        return [{k: v for k, v in row.items() if "seconds" not in k} for row in csv.DictReader(file)]
 
 
 @contextlib.contextmanager

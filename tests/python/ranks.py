@@ -5,7 +5,10 @@
     mpirun -n 2 python3 ranks.py DIRECTORY
 """
 
+import ctypes
 import json
+import os
+import re
 import sys
 from pathlib import Path
 
@@ -15,6 +18,7 @@ from mpi4py import MPI
 
 import asperity
 
+del os.environ["OMP_NUM_THREADS"]  # of conftest
 comm, place = MPI.COMM_WORLD, Path(sys.argv[1])
 found = {}
 
@@ -33,6 +37,8 @@ assert sim.u.z.size * comm.size == 32 * 32
 sim.every(100, lambda s: s.steps, "count")
 while sim.work_of_adhesion.approach is None:
     sim.step()
+openmp = next(line.split()[-1] for line in open("/proc/self/maps") if re.search(r"/lib[gi]?omp\d*\.so", line))
+found["threads"] = ctypes.CDLL(openmp).omp_get_max_threads()
 rest = sim.relax()
 found["binding_energy"], found["contact_fraction"] = rest.binding_energy, rest.contact_fraction
 found["gap"] = comm.allreduce(rest.maps.gap.sum())
@@ -56,6 +62,12 @@ sim.external = field[sim.tile]
 sim.step(40)
 found["work"], found["balance"] = sim.external_work, sim.energy.balance_error
 fields = whole(sim)
+assert sim.write(place / "written") == place / "written"
+try:
+    sim.write(place / "written")
+    found["written_twice"] = True
+except asperity.SceneError:
+    found["written_twice"] = False
 if comm.rank == comm.size - 1:
     kept, sim.u.z[1, 1] = sim.u.z[1, 1], numpy.nan
 try:

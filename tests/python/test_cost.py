@@ -2,13 +2,8 @@
 # SPDX-License-Identifier: MIT
 """What accuracy costs: errors, fronts, orders and choices on made-up runs, the parameters of a scene, and a run of it all."""
 
-import csv
 import json
 import math
-import os
-import signal
-import subprocess
-import time
 
 import numpy as np
 import pytest
@@ -17,7 +12,7 @@ import asperity
 from asperity import cost, program, report_cost
 from asperity.cost_parameters import Base, CostCase, Parameter, ParameterValue, cost_case, joined
 from asperity.result import Values
-from conftest import command
+from conftest import command, rows, started, wait_for
 from asperity.scene import scene_file
 
 NAN = math.nan
@@ -275,11 +270,10 @@ def test_tables_compare_what_was_run():
     assert len(report_cost.csv_of(made).splitlines()) == 7
 
 
-def rows(directory):
+def settings(directory):
     """The scene's parameters without the times and what follows from them."""
-    with open(directory / "cost.csv") as file:
-        return [{k: v for k, v in row.items() if "seconds" not in k and "front" not in k and k != "ratio"}
-                for row in csv.DictReader(file) if row["parameter"] != "combination"]
+    return [{k: v for k, v in row.items() if "front" not in k and k != "ratio"}
+            for row in rows(directory / "cost.csv") if row["parameter"] != "combination"]
 
 
 def test_cost_runs_stops_and_goes_on(tmp_path, monkeypatch):
@@ -297,14 +291,9 @@ def test_cost_runs_stops_and_goes_on(tmp_path, monkeypatch):
     for name in ("cost.csv", "cost.json", "cost-state.svg", "cost-path.svg", "cost-path.png"):
         assert (tmp_path / "whole" / name).stat().st_size > 0
     # Killed after a while, it goes on with what is there, and nothing is run twice.
-    child = subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words, "cut"], stdout=subprocess.DEVNULL,
-                             stderr=subprocess.DEVNULL)
     result = tmp_path / "cut/scene/result.json"
-    end = time.monotonic() + 60
-    while not result.exists() and time.monotonic() < end:
-        time.sleep(0.02)
-    child.send_signal(signal.SIGKILL)
-    child.wait()
+    with started(*words, "cut"):
+        wait_for(result.exists)
     before = result.stat().st_mtime_ns
     assert "are there already" in command(*words, "cut")
-    assert result.stat().st_mtime_ns == before and rows(tmp_path / "whole") == rows(tmp_path / "cut")
+    assert result.stat().st_mtime_ns == before and settings(tmp_path / "whole") == settings(tmp_path / "cut")

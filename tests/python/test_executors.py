@@ -4,7 +4,6 @@
 stopped."""
 
 import contextlib
-import csv
 import json
 import os
 import signal
@@ -16,7 +15,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, command
+from conftest import ROOT, command, rows, wait_for
 
 import asperity
 from asperity import files, pool
@@ -60,17 +59,8 @@ def table(tmp_path_factory):
 
 
 def numbers(directory):
-    with open(Path(directory) / "sweep.csv") as file:
-        rows = list(csv.DictReader(file))
-    assert len(rows) == 8 and {row["status"] for row in rows} == {"done"}
-    return [{k: v for k, v in row.items() if "seconds" not in k} for row in rows]
-
-
-def wait_for(condition, seconds=60):
-    end = time.monotonic() + seconds
-    while not (found := condition()):
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.02)
+    found = rows(Path(directory) / "sweep.csv")
+    assert len(found) == 8 and {row["status"] for row in found} == {"done"}
     return found
 
 

@@ -9,19 +9,11 @@ import subprocess
 import sys
 
 import pytest
-from conftest import SMALL
+from conftest import BOUND, SMALL
 
 import asperity
 import asperity.runs
 from asperity import program
-
-# Starts the rest of the command line on the processors that the environment names for this rank.
-BOUND = """
-import json, os, sys
-rank = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ["PMI_RANK"])
-os.sched_setaffinity(0, json.loads(os.environ["PROCESSORS"])[rank])
-os.execv(sys.argv[1], sys.argv[1:])
-"""
 
 
 def test_the_launcher_of_the_programs_mpi_is_found(tmp_path, monkeypatch):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""asperity.Simulation on ranks of mpi4py (ranks.py): the bits of a run, and of one rank."""
+"""asperity.Simulation on ranks of mpi4py (ranks.py): the bits of a run, and of one rank; an error of one rank."""
 
 import json
 import os
@@ -9,21 +9,29 @@ import sys
 
 import numpy
 import pytest
-from conftest import ROOT
+from conftest import BOUND, ROOT
+
+import asperity
 
 
 def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):
-    found = []
+    found, processors = [], sorted(os.sched_getaffinity(0))
     for ranks in (1, 2):
         place = tmp_path / str(ranks)
         place.mkdir()
-        words = [*mpi4py_launcher(ranks), sys.executable, "-m", "mpi4py", str(ROOT / "tests/python/ranks.py"), place]
+        words = [*mpi4py_launcher(ranks), sys.executable, "-c", BOUND, sys.executable, str(ROOT / "tests/python/ranks.py"), place]
         done = subprocess.run(words, capture_output=True, text=True, timeout=200,
-                              env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+                              env={**os.environ, "PYTHONPATH": str(ROOT / "python"), "PROCESSORS": json.dumps([processors] * ranks)})
         assert done.returncode == 0, done.stdout + done.stderr
         found.append((json.loads((place / "found.json").read_text()), numpy.load(place / "fields.npy")))
     one, two = found
+    written = [asperity.load(tmp_path / ranks / "written").fields["now"] for ranks in "12"]
+    for name in ("gap", "contact", "pressure"):
+        assert (getattr(written[0], name) == getattr(written[1], name)).all(), name
+    assert not one[0]["written_twice"] and not two[0]["written_twice"]
     gaps = [numbers.pop("gap") for numbers, _ in found]
+    threads = [numbers.pop("threads") for numbers, _ in found]
+    assert threads == [len(processors), max(1, len(processors) // 2)]
     assert one[0] == two[0] and (one[1] == two[1]).all()
     assert gaps[0] == pytest.approx(gaps[1], rel=1e-12) == path_run.fields["zero-load"].gap.sum()
     assert one[0]["refused"] and one[0]["work"] > 0 and abs(one[0]["balance"]) < 1e-3
@@ -34,3 +42,17 @@ def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):
     of_run = numpy.isin(path_run.series["step"], series["step"])
     for name in set(series) - {"count"}:
         assert (path_run.series[name][of_run] == series[name]).all(), name
+
+
+def test_an_error_of_one_rank_ends_all(mpi4py_launcher):
+    script = """if True:
+        from mpi4py import MPI
+        import asperity
+        sim = asperity.Simulation({"surface": {"sites": 16}}, comm=MPI.COMM_WORLD)
+        if sim.tile[0].start + sim.tile[1].start > 0:
+            raise ValueError("of the second rank alone")
+        sim.step(100)
+        """
+    done = subprocess.run([*mpi4py_launcher(2), sys.executable, "-c", script], capture_output=True, text=True, timeout=100,
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+    assert done.returncode == 1 and "of the second rank alone" in done.stderr, done.stdout + done.stderr

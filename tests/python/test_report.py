@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 
 import asperity
-import asperity.runs
 from asperity import sentences
 from asperity.report import write_run_page
 from asperity.report_sweep import holds_sweep, write_sweep_page
@@ -293,12 +292,5 @@ def test_what_is_no_result_is_a_message(tmp_path):
 
 
 def test_under_mpirun_one_rank_speaks(state_run):
-    import os
-    import subprocess
-
-    def report(ranks):
-        return subprocess.run([*asperity.runs.launcher(2)[:-1], ranks, os.environ["ASPERITY_PROGRAM"], "report",
-                               state_run.directory], capture_output=True, text=True, timeout=120)
-    two = report("2")
-    assert two.returncode == 2 and two.stderr.count("not one of several ranks") == 1
-    assert report("1").returncode == 0
+    assert command("report", state_run.directory, ranks=2, expect=2).count("not one of several ranks") == 1
+    command("report", state_run.directory, ranks=1)

@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Sweeps: their grid, the pool of processes, tables, and how they stop, resume and fail."""
 
-import csv
 import json
 import math
 import os
 import shutil
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import h5py
@@ -23,7 +21,7 @@ from asperity.plots import sweep as plots
 from asperity.plots.style import drawn
 from asperity.sweeps import load_sweep, load_sweeps
 from asperity.tables import text_of
-from conftest import STATE, command
+from conftest import STATE, command, rows, started, wait_for
 from matplotlib.figure import Figure
 
 SCENE = """
@@ -58,10 +56,7 @@ def place(place):
 
 
 def numbers(directory):
-    """The table without what depends on time."""
-    with open(Path(directory) / "sweep.csv") as file:
-        rows = list(csv.DictReader(file))
-    return [{k: v for k, v in row.items() if "seconds" not in k} for row in rows]
+    return rows(Path(directory) / "sweep.csv")
 
 
 # The grid
@@ -512,8 +507,7 @@ AMONG_OTHERS = [{"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX
 @pytest.mark.parametrize("env", ALONE)
 def test_one_process_of_a_launcher_is_one_process(place, env):
     command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2,0.4", env=env)
-    assert "nothing wrong" in subprocess.run([os.environ["ASPERITY_PROGRAM"], "check", "-"], input=SCENE, text=True,
-                                             capture_output=True, env={**os.environ, **env}).stdout
+    command("check", "-", given=SCENE, env=env, says="nothing wrong")
 
 
 @pytest.mark.parametrize("env", AMONG_OTHERS)
@@ -594,24 +588,14 @@ def test_several_scenes_share_their_plots(place):
     assert (place / "both/gamma.svg").exists()
 
 
-def wait_for(condition, seconds=60):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.05)
-
-
 def test_a_directory_has_one_sweep_at_a_time(place):
     """The second sweep, and a run, are refused; what a killed sweep left behind is no obstacle."""
     words = ["sweep", "path.toml", "--set", "drive.velocity=30,40", "--progress", "off", "--out", "one"]
-    child = subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words], stdout=subprocess.DEVNULL)
-    wait_for((place / "one/velocity=30/run.journal").exists)
-    child.send_signal(signal.SIGSTOP)  # it cannot end meanwhile, however slow the machine is
-    for second in (words, ["run", "path.toml", "--out", "one"]):
-        said = command(*second, expect=4)
-        assert f"process {child.pid} on host {os.uname().nodename} has had it since 20" in said, said
-    child.send_signal(signal.SIGKILL)
-    child.wait()
+    with started(*words) as child:
+        wait_for((place / "one/velocity=30/run.journal").exists)
+        child.send_signal(signal.SIGSTOP)  # it cannot end meanwhile, however slow the machine is
+        for second in (words, ["run", "path.toml", "--out", "one"]):
+            command(*second, expect=4, says=f"process {child.pid} on host {os.uname().nodename} has had it since 20")
     assert (place / "one/run.lock").exists()
     assert "2 of 2 points are done" in command(*words)
     assert not (place / "one/run.lock").exists()
@@ -624,12 +608,11 @@ def test_a_directory_has_one_sweep_at_a_time(place):
 def test_a_sweep_that_is_stopped_goes_on_to_the_same_table(place, number):
     words = ["sweep", "path.toml", "--set", "drive.velocity=30,40", "--jobs", "2", "--progress", "off", "--out"]
     command(*words, "whole")
-    child = subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words, "cut"], stdout=subprocess.DEVNULL,
-                             stderr=subprocess.DEVNULL)
     points = [place / f"cut/velocity={v}" for v in (30, 40)]
-    wait_for(lambda: all((p / "checkpoint.h5").exists() for p in points))
-    child.send_signal(number)
-    assert child.wait() == (75 if number == signal.SIGINT else -number)
+    with started(*words, "cut") as child:
+        wait_for(lambda: all((p / "checkpoint.h5").exists() for p in points))
+        child.send_signal(number)
+        assert child.wait() == (75 if number == signal.SIGINT else -number)
 
     def running():  # a point that the sweep left behind stops as well
         return any(b"cut/velocity" in (p / "cmdline").read_bytes() for p in Path("/proc").glob("[0-9]*")

@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Scenes that are wrong: exit 2, position, reason and remedy, and nothing written."""
+
+import os
+from pathlib import Path
+
+import pytest
+from conftest import command
+
+MAP = '[surface]\nkind = "file"\nfile = "map.txt"\nsites = 32'
+BAD = {
+    "unknown key": ("[surface]\nsites = 64\nrmss = 1.0",
+                    ["scene.toml:3:1: surface.rmss is no key of a scene", "did you mean surface.rms?"]),
+    "unknown section": ("[surfaces]\nsites = 64", ["scene.toml:1:2: [surfaces] is no section", "[surface]?"]),
+    "wrong type": ('[surface]\nsites = "many"',
+                   ['scene.toml:2:9: surface.sites = "many" is of the wrong type', "a whole number is needed"]),
+    "negative rms": ("[surface]\nrms = -1.0", ["scene.toml:2:7: surface.rms = -1", "allowed: 0 Å or more"]),
+    "wrong unit": ('[surface]\nrms = "1 GPa"', ["scene.toml:2:7", "a length is needed, and GPa is a pressure"]),
+    "cutoff": ("[surface]\nsites = 8", ["scene.toml:2:9: interface.cutoff = 13.12 Å is more than half the box"]),
+    "cutoff over many sites": (
+        "[surface]\nsites = 130\n[block]\nthickness = 4\n[interface]\ncutoff = 160",
+        ["scene.toml:6:10: interface.cutoff = 160 Å reaches over too many atoms", "it may be 156 Å"]),
+    "cutoff over many rows": (
+        "[surface]\nsites = 32\nlattice_ratio = 10\n[interface]\ncutoff = 35",
+        ["scene.toml:5:10: interface.cutoff = 35 Å reaches over too many atoms", "it may be 27.3 Å"]),
+    "time step": ("[surface]\nsites = 32\n[drive]\ntimestep = 200.0",
+                  ["scene.toml:4:12: drive.timestep = 200 fs is over the stability limit"]),
+    "missing map": ('[surface]\nkind = "file"\nfile = "gone.h5"',
+                    ['scene.toml:3:8: surface.file = "gone.h5": there is no such file']),
+    "no TOML": ("[surface]\nrms = 0.3 nm", ["scene.toml:2:", 'stand in quotes: rms = "0.3 nm"']),
+    "path": ('[drive]\npath = ["pull-off"]', ['scene.toml:2:8: drive.path has "pull-off"']),
+    "not yet": ('[drive]\npath = ["zero-load", "pull-off"]',
+                ['scene.toml:2:8: drive.path = a path in time from "zero-load" is not available yet']),
+    "a model that is gone": ('[block]\nmodel = "spectral"',
+                             ['scene.toml:2:9: block.model = "spectral" is not a choice any more', "leave block.model out"]),
+    "a key that is gone": ('[numerics]\naccuracy = "1%"',
+                           ["scene.toml:2:1: numerics.accuracy is not a key any more", "asperity cost SCENE --target 1%"]),
+    "waves at finite strain": ('[block]\nstrain = "finite"\n[drive]\npath = ["zero-load"]',
+                               ['scene.toml:2:10: block.strain = "finite" on a path without time', "waves do not add up"]),
+    "a wall in time": ('[interface]\nkind = "wall"', ['scene.toml:2:8: interface.kind = "wall" on a path in time']),
+    "mean height in time": (
+        '[drive]\nhold = "mean-height"',
+        ['scene.toml:2:8: drive.hold = "mean-height" on a path in time', 'take drive.mode = "quasistatic"']),
+    "several": ("[surface]\nrms = -1\nhurst = 3\n[drive]\nspeed = 1\n",
+                ["scene.toml:2:7", "scene.toml:3:9", "scene.toml:5:1", "3 problems"]),
+    # What stands in the map is looked at before anything is written.
+    "NaN in a map": (MAP, ["map.txt:5:63", "the height in row 5, column 32 is nan"]),
+    "map that is not square": (MAP, ["not square"]),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_wrong_scene(place, name):
+    text, says = BAD[name]
+    Path("scene.toml").write_text(text + "\n")
+    rows = [["0"] * 32 for _ in range(31 if "square" in name else 32)]
+    rows[4][31] = "nan" if "NaN" in name else "0"
+    Path("map.txt").write_text("".join(" ".join(row) + "\n" for row in rows))
+    for word in ("check", "run"):
+        command(word, "scene.toml", expect=2, says=[*says, "fix: ", "nothing was written"])
+    assert sorted(os.listdir()) == ["map.txt", "scene.toml"]
+
+
+def test_no_scene_and_wrong_overrides(place):
+    command("check", "gone.toml", expect=2, says=["gone.toml: the scene cannot be read", "there is no such file"])
+    command("check", ".", expect=2, says="it is a directory")
+    Path("scene.toml").write_text("[surface]\nsites = 64\n")
+    wrong = ["scene.toml", "--set", "surface.rms=-1"]
+    command("check", *wrong, expect=2, says="--set surface.rms=-1: surface.rms = -1 is out of range")
+    command("run", "scene.toml", "--set", "rms=1", expect=2, says="did you mean surface.rms?")
+    # One rank speaks and all end alike.
+    assert command("run", *wrong, ranks=2, expect=2).count("is out of range") == 1
+    # 12 sites of 2.6 Å can be cut in few tiles only.
+    few = ["--set", "surface.sites=12", "surface.rolloff=2", "drive.max_steps=1"]
+    command("run", "scene.toml", *few, ranks=7, expect=2, says="rank")
+    assert os.listdir() == ["scene.toml"]

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Every command of the README and the docs runs, one after another in one place. Runs are made small and short by overrides
+put behind the command's own; a comment "# exit N" behind a command says with which code it is meant to end."""
+
+import re
+import subprocess
+
+import pytest
+from conftest import ROOT, command
+
+import asperity
+
+PAGES = [ROOT / "ARCHITECTURE.md", ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+LINES = [line for page in PAGES for line in re.findall(r"^    ((?:mpirun .*)?\./asperity .*)", page.read_text(), re.M)
+         if not re.search(r"\./asperity (test|bench)", line)]  # which would call this test
+SMALL = " --set surface.sites=32 block.thickness=32 theory.renormalised=false --progress off"
+SHORT = " --set drive.max_steps=30"
+
+
+@pytest.fixture(scope="module")
+def work(tmp_path_factory):
+    place = tmp_path_factory.mktemp("all commands")
+    command("surface", ROOT / "scenes/first-contact.toml", "--out", "map", cwd=place)
+    (place / "map/heights.h5").rename(place / "heights.h5")  # "your own surface"
+    (place / "scenes").symlink_to(ROOT / "scenes")
+    return place
+
+
+def test_there_are_commands():
+    assert len(LINES) >= 10
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_commands(work, line):
+    given = re.search(r"# exit (\d+)", line)
+    wanted = int(given[1]) if given else 0
+    # Devices are refused where the kernels do not fuse multiplications and additions.
+    if "numerics.device=" in line and re.search(r"kernels for (portable|v2)\b", command("info")):
+        wanted = 2
+    words = line.partition("#")[0]
+    if " run scenes/atoms/" in words:  # as wide as its atoms
+        words += SHORT + " --progress off"
+    elif " cost " in words:
+        words += (" --parameters precision --progress off --set surface.sites=16 block.thickness=4 drive.velocity=40"
+                  " drive.timestep=40")
+    elif re.search(" (run|sweep) ", words) and "--theory-only" not in words:
+        words += SMALL + (SHORT if wanted == 0 else "")  # what is meant to fail has to get there
+    words = words.replace("./asperity", '"$ASPERITY_PROGRAM"')
+    if words.startswith("mpirun "):
+        words = " ".join(asperity.runs.launcher(2)[:-2]) + words.removeprefix("mpirun")
+    done = subprocess.run(["bash", "-c", f"timeout 400 {words}"], cwd=work, stdin=subprocess.DEVNULL, text=True,
+                          capture_output=True)
+    assert done.returncode == wanted, f"exit {done.returncode}, not {wanted}: {words}\n{done.stdout}{done.stderr}"

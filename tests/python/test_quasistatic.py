@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Runs without time as a user meets them: stopped and taken up again they end the same, and their files say what
+there is."""
+
+from pathlib import Path
+
+import pytest
+from conftest import command, found
+
+import asperity
+
+PATH = """[surface]
+sites = 24
+rms = 0.8
+[block]
+thickness = 90
+[drive]
+mode = "quasistatic"
+"""
+FIELDS = '[output]\nfields = ["zero-load", "pull-off", "every:40"]\n'
+HELD = "drive.hold=mean-height"
+CYCLES = 'drive.path=["approach", "pull-off", "approach", "pull-off"]'
+
+
+@pytest.fixture()
+def place(place):
+    (place / "path.toml").write_text(PATH + FIELDS)
+    return place
+
+
+def run(out, *sets, scene="path.toml", expect=0, says=(), more=()):
+    return command("run", scene, "--progress", "off", "--out", out, *more, *(["--set", *sets] if sets else []), expect=expect,
+                   says=says)
+
+
+def resume(out, *sets, **keys):
+    return run(out, *sets, more=["--resume", "auto"], **keys)
+
+
+def stop(out, limit, *sets):
+    """By a wall limit it ends at a point, wherever it is then."""
+    run(out, *sets, more=["--wall-limit", limit], expect=75)
+    assert asperity.load(out).run.stopped == "wall_limit"
+
+
+def test_a_path_and_the_same_at_a_held_mean_height(place):
+    run("whole", says="energy gained + energy dissipated")
+    whole = asperity.load("whole")
+    # The balance: approach + lost = state = pull-off - lost, to the tolerance on the way.
+    work, lost = whole.work_of_drive, whole.lost
+    assert lost.approach > 1 and lost.pull_off > 1
+    assert work.approach + lost.approach == pytest.approx(whole.binding_energy, abs=0.1)
+    assert work.pull_off - lost.pull_off == pytest.approx(whole.binding_energy, abs=0.1)
+    assert {"zero-load", "pull-off", "step-40"} <= set(whole.fields)
+    assert "dissipated" in whole.series and "time" not in whole.series
+    stop("parts", "0.05s")
+    resume("parts", "drive.max_steps=37")
+    resume("parts")
+    assert found("parts") == found("whole")
+    # Held, nothing falls as a whole, and the two works are the state's energy.
+    run("held", HELD)
+    held = asperity.load("held")
+    assert held.binding_energy == pytest.approx(whole.binding_energy, abs=0.1)
+    for work in held.work_of_adhesion.approach, held.work_of_adhesion.pull_off:
+        assert work == pytest.approx(whole.binding_energy, abs=0.5)
+    stop("held-parts", "0.05s", HELD)
+    before = Path("held-parts/result.json").read_bytes()
+    resume("held-parts", expect=2, says="differs from it in drive.hold")
+    assert before == Path("held-parts/result.json").read_bytes()
+    resume("held-parts", HELD)
+    assert found("held-parts") == found("held")
+
+
+def test_two_cycles(place):
+    """Maps of both states at zero load; each branch's loss is of the last one, the energy of all."""
+    run("cycles", CYCLES)
+    assert {"zero-load", "zero-load-2"} <= set(asperity.load("cycles").fields)
+    run("parts", CYCLES, "drive.max_steps=150")
+    resume("parts", CYCLES)
+    assert found("parts") == found("cycles")
+
+
+def test_walls(place):
+    wall = ["interface.kind=wall", "interface.adhesion=60", 'output.fields=["zero-load"]']
+    run("wall", *wall, says="energy gained + energy dissipated")
+    stop("parts", "0.02s", *wall)
+    resume("parts", *wall)
+    assert found("parts") == found("wall")
+    # No relaxation is given up by a force that is not summed on the way (763 points were then needed).
+    Path("soft.toml").write_text(PATH.replace("24", "64").replace("0.8", "2").replace("90", "64"))
+    run("soft", HELD, "drive.tolerance=1e-4", "interface.kind=wall", "interface.adhesion=50 meV/Å^2", "interface.range=1 Å",
+        scene="soft.toml")
+    assert asperity.load("soft").run.steps < 500
+
+
+def test_one_relaxation_stopped_inside(place):
+    zero = ["drive.path=zero-load", 'output.fields=["zero-load"]', "surface.sites=64", "drive.tolerance=1e-6"]
+    run("zero", *zero)
+    stop("parts", "0.001s", *zero)
+    resume("parts", *zero)
+    assert asperity.load("parts").binding_energy == pytest.approx(asperity.load("zero").binding_energy, abs=1e-6)
+
+
+@pytest.mark.parametrize("sets, expect, says", [
+    (['output.fields=["every:10", "every:7"]'], 2, "twice"),
+    ([HELD, 'drive.path=["zero-load"]', "output.fields=[]"], 0, "drive.hold has no effect"),
+    (["output.fields=[]", 'drive.path=["zero-load","pull-off"]', "drive.load=100"], 0, "carries drive.load")])
+def test_what_a_check_says(place, sets, expect, says):
+    command("check", "path.toml", "--set", *sets, expect=expect, says=says)

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The validations of scenes/validation in their small versions (docs/reports/validation.md)."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from conftest import ROOT
+
+sys.path.insert(0, str(ROOT / "scenes/validation"))
+import adhesion  # noqa: E402
+import rings  # noqa: E402
+import snaps  # noqa: E402
+
+
+def test_rings_without_adhesion_are_hertz():
+    radius, depth = 300.0, 0.4
+    around = rings.Rings(np.arange(0, 20, 0.1), adhesion.E)
+    law = rings.Exponential(0.0, 1.0, 1e3)
+    _, force, contact = rings.pulled(around, around.r**2 / (2 * radius), law, -depth, 0.1, -0.35)
+    assert force[0] == pytest.approx(4 / 3 * adhesion.E * np.sqrt(radius * depth**3), rel=2e-3)
+    assert contact[0] == pytest.approx(np.sqrt(radius * depth), abs=0.06)  # half a ring
+
+
+def test_a_flat_punch_parts_like_the_rings(results):
+    row, = adhesion.punch(adhesion.Runs(results / "punch", small=True))
+    assert row["program"] == pytest.approx(row["rings"], abs=0.006)
+    # Towards Kendall's force, and not beyond, as the range falls.
+    assert 0.75 < row["rings"] < row["rings/2"] < 1
+
+
+def test_a_sphere_parts_like_the_rings(results):
+    row, = adhesion.sphere(adhesion.Runs(results / "sphere", small=True))
+    assert row["lambda"] == pytest.approx(0.744, abs=1e-3)
+    assert row["program"] == pytest.approx(row["rings"], abs=0.003)
+    assert row["along"] < 0.005
+    assert 0.75 < row["maugis"] < row["rings"] < 1
+
+
+def test_the_loss_in_time_falls_to_that_without_time(results):
+    flat, rough = snaps.losses(results / "snaps", (5, 2))
+    assert rough[0] == pytest.approx(0, abs=0.05) and rough[5] > 2.5 * rough[2] > 0  # no snap
+    assert flat[0] > 1
+    # A fold that is passed at a velocity v is left later and loses v^(2/3) more.
+    assert (flat[5] - flat[0]) / (flat[2] - flat[0]) == pytest.approx(2.5 ** (2 / 3), rel=0.05)
+
+
+def test_strong_adhesion_makes_a_surface_sticky(results):
+    strong, weak = adhesion.sticky(adhesion.Runs(results / "sticky", small=True))
+    assert strong["kappa"] < 0 < weak["kappa"]
+    # Without adhesion κ is about 2: adhesion always takes from 1/κ.
+    assert weak["kappa"] < 0.5
