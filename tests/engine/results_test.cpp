@@ -114,7 +114,8 @@ void expect_units_everywhere(const Written& run) {
     const std::string scene = run.file->read_text_attribute("/", "scene");
     EXPECT_EQ(scene_toml(read_scene_text(scene, "attribute"), false),
               scene_toml(run.scene(), false));
-    EXPECT_EQ(run.file->read_text_attribute("/", "version"), run.json.at("run").at("version"));
+    EXPECT_EQ(run.file->read_text_attribute("/", "version"),
+              run.json.at("run").at("version").get<std::string>());
 }
 
 const char* const quasistatic = R"(
