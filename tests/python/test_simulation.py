@@ -319,8 +319,12 @@ def test_bad_use(tmp_path):
         numpy.arange(256).reshape(16, 16, 1) == 37, numpy.nan, numpy.zeros((16, 16, 3)))))
     with pytest.raises(ValueError, match="broadcast"):
         sim.u.z[...] = numpy.zeros((3, 3))
-    with pytest.raises(TypeError):
-        sim.step("many")
+    for many in ("many", 1.5):
+        with pytest.raises(TypeError, match="integer"):
+            sim.step(many)
+    for thing, misspelt in ((sim, "extrenal"), (sim.top, "velocty"), (asperity.Statics(STATIC), "mean_heigth")):
+        with pytest.raises(AttributeError, match=misspelt):
+            setattr(thing, misspelt, 1.0)
     refused("-1", lambda: sim.step(-1))
     refused("0 steps", lambda: sim.every(0, print))
     refused("function", lambda: sim.every(3, None))
