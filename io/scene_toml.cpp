@@ -140,8 +140,11 @@ public:
             root = toml::parse(text, file_);
         } catch (const toml::parse_error& error) {
             const Position at = position_of(error.source(), file_);
-            add(at, "this is no TOML", std::string(error.description()),
-                syntax_advice(text, at.line));
+            const std::string why(error.description());
+            add(at, "this is no TOML", why,
+                why.find("redefine") != why.npos
+                    ? "a section stands in one place, and a key once in it"
+                    : syntax_advice(text, at.line));
             return;
         }
         for (const auto& [name, node] : root)

@@ -227,7 +227,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    plus_minus(of("work_of_drive.uncertainty.approach")),
                    plus_minus(of("work_of_drive.uncertainty.pull_off")),
                    plus_minus(of("binding_energy_uncertainty"))});
-    row("largest attraction", "pull_off_force", 1, of("approach_force"), of("pull_off_force"), 0.0);
+    row("largest attraction", "pull_off_force", 1, of("approach_force"), of("pull_off_force"), {});
     if (scene.surface.radius)
         row("  as a JKR sphere", "jkr.in", 2, of("jkr.in"), of("jkr.out"), {});
     row("contact area fraction", "contact_fraction", 4, {}, {}, of("contact_fraction"));

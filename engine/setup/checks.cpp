@@ -336,6 +336,16 @@ std::vector<std::string> notes_on_keys(const Case& c) {
         list.push_back(fmt::format("the \"zero-load\" state carries drive.load = {:.6g} MPa; its "
                                    "binding energy leaves out the load's potential",
                                    scene.drive.load));
+    double load = std::abs(scene.drive.load); // MPa
+    for (const Segment& segment : c.path)
+        if (segment.kind == Segment::load) load = std::max(load, std::abs(segment.amount));
+    const double poisson = scene.block.poisson;
+    const double strain = 1e-3 * load * (1.0 + poisson) * (1.0 - 2.0 * poisson) /
+                          (scene.block.young * (1.0 - poisson)); // of a block that cannot widen
+    if (strain > 0.05 && scene.block.strain == Strain::linear)
+        list.push_back(fmt::format("a load of {:.4g} MPa strains the block by {:.2g} %, and "
+                                   "block.strain = \"linear\" describes small strains",
+                                   load, 100.0 * strain));
     const bool wall = scene.interface.kind == InterfaceKind::wall;
     const bool exponential = wall && scene.interface.law == WallLawKind::exponential;
     if (exponential) {

@@ -7,6 +7,7 @@ from __future__ import annotations
 import contextlib
 import importlib.machinery
 import importlib.util
+import operator
 import os
 import sys
 import tomllib
@@ -70,8 +71,17 @@ class Components(NamedTuple):
     z: numpy.ndarray
 
 
+def _set_what_is_there(self: object, name: str, value: Any) -> None:
+    """In place of object's: a misspelt name would be kept, and do nothing."""
+    if not name.startswith("_") and not hasattr(type(self), name):
+        raise AttributeError(f"{type(self).__name__} has no '{name}' that can be set", name=name, obj=self)
+    object.__setattr__(self, name, value)
+
+
 class Top:
     """The block's rigid top plane. The scene's drive leads it until a velocity is given."""
+
+    __setattr__ = _set_what_is_there
 
     def __init__(self, simulation: Simulation):
         self._simulation = simulation
@@ -209,6 +219,8 @@ class Simulation(_engine.Simulation):
     or that a run would refuse, and warns (SceneWarning) of what is worth knowing of a scene.
     """
 
+    __setattr__ = _set_what_is_there
+
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None, comm: Any = None):
         """A scene at the start of its path."""
         with scene_file(scene) as file:
@@ -234,6 +246,7 @@ class Simulation(_engine.Simulation):
         Other Python threads run meanwhile; Ctrl-C ends it between two steps. progress: shows a bar (tqdm's, if it is
         installed). Raises PhysicsError where the physics fails a guard; that simulation has then ended.
         """
+        n = operator.index(n)
         if not progress:
             return self._step(n, None)
         with _bar(n) as tell:
@@ -360,6 +373,8 @@ class Statics(_engine.Statics):
     load holds what drive.hold of the scene says). Of a scene in time the same solids are taken, as if
     drive.mode were "quasistatic". scene and overrides are as for Simulation.
     """
+
+    __setattr__ = _set_what_is_there
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
         """The solids of a scene, out of reach of each other."""

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """Pull-off over an adhesive wall against closed forms and an independent axisymmetric solution (rings.py).
 
-    scenes/validation/adhesion.py punch | sphere | sticky [--small] [--out results/adhesion]
+    scenes/validation/adhesion.py punch | sphere [--picture FILE] | sticky [--small] [--out results/adhesion]
 
 punch: a flat round punch against Kendall's force as the range of the attraction falls. sphere: one sphere from nearly rigid (Bradley)
 to soft (JKR). sticky: where a rough surface's area against pressure changes the sign of its slope. --small: few sites, in seconds
@@ -96,16 +96,33 @@ def sphere(runs: Runs) -> list[dict]:
             "drive.step": 0.02 if energy < 30 else 0.1, "drive.tolerance": min(1, energy / 30) * 1e-3 * (64 / sites) ** 2})
         width = min(0.5, E * reach**2 / w / 8)
         around = rings.Rings(np.arange(0, math.sqrt(30 * radius * reach) + 15, width), E, box)
-        found = rings.pulled(around, radius - np.sqrt(radius**2 - around.r**2), law, -2.0, 0.02 * reach, 10 * reach)
-        height, force = found[:2]
+        shape = radius - np.sqrt(radius**2 - around.r**2)
+        height, force = rings.pulled(around, shape, law, -2.0, 0.02 * reach, 10 * reach)[:2]
+        deepest, largest = height[force.argmin()], -force.min()
+        if energy < 30:  # a sharp minimum
+            largest = -rings.pulled(around, shape, law, deepest - 0.03 * reach, 0.002 * reach, deepest + 0.03 * reach)[1].min()
         out = (r["segment"] == r["segment"].max()) & (r["mean_height"] < height[np.abs(force) > 1e-3 * -force.min()].max())
         off = np.interp(r["mean_height"][out], height, force) - r["force"][out]
         theory = r["result"]["sphere"]
         rows.append({"energy": energy, "range": reach, "sites": sites, "lambda": theory["maugis_parameter"],
-                     "program": -r["force"].min() / unit, "rings": -force.min() / unit,
-                     "maugis": 0.75 * theory["maugis_images"] / energy, "along": math.sqrt(np.mean(off**2)) / -force.min()})
+                     "program": -r["force"].min() / unit, "rings": largest / unit,
+                     "maugis": 0.75 * theory["maugis_images"] / energy, "along": math.sqrt(np.mean(off**2)) / -force.min(),
+                     "path": (r["mean_height"][out] / reach, r["force"][out] / unit), "curve": (height / reach, force / unit)})
         print("{:9} {:8} {:6} {:11.3f} {:19.4f} {:7.4f} {:11.4f} {:17.4f}".format(*rows[-1].values()), flush=True)
     return rows
+
+
+def picture(rows: list[dict], file: pathlib.Path) -> None:
+    """Force against height of the spheres' pull-off, the program's points on the lines of the rings."""
+    from matplotlib.figure import Figure
+    axes = (figure := Figure(figsize=(6, 4), layout="constrained")).subplots()
+    for number, row in enumerate(rows):
+        axes.plot(*row["curve"], color=f"C{number}", lw=1)
+        every = 1 + len(row["path"][0]) // 100
+        axes.plot(*(values[::every] for values in row["path"]), ".", color=f"C{number}", ms=3, label=f"λ = {row['lambda']:.2f}")
+    axes.set(xlim=(-6, 6), ylim=(-1.05, 0.2), xlabel="mean height of the surface above the apex, ranges", ylabel="force, 2πwR")
+    axes.legend()
+    figure.savefig(file)
 
 
 def sticky(runs: Runs) -> list[dict]:
@@ -159,7 +176,10 @@ if __name__ == "__main__":
     parser.add_argument("problem", choices=["punch", "sphere", "sticky"])
     parser.add_argument("--small", action="store_true")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/adhesion"))
+    parser.add_argument("--picture", type=pathlib.Path, help="of the spheres, a file to write")
     given = parser.parse_args()
     runs = Runs(given.out, given.small)
-    globals()[given.problem](runs)
+    rows = globals()[given.problem](runs)
+    if given.picture:
+        picture(rows, given.picture)
     print(f"{runs.seconds:.0f} s of the program")

@@ -7,7 +7,8 @@ uniformly pressed discs, in complete elliptic integrals. The gap of ring i is
 
     g_i = d + shape_i + sum_j C_ij p(g_j),
 
-d the height of the surface at rest. Nothing here is shared with the program. Units: Å, eV.
+d the height of the surface at rest. pulled() follows the solutions from contact outwards. Nothing here is shared with the program.
+Units: Å, eV.
 """
 import numpy as np
 

@@ -211,9 +211,10 @@ TEST(Scene, Paths) {
                                "hold -2 ps", "approach 3", "height 2 GPa", "load 3 MPa more", ""})
         only(fmt::format("drive.path = [\"approach\", \"{}\"]", member));
     const std::string quasistatic = "drive.mode = \"quasistatic\"\n";
-    for (const char* path :
-         {"\"load -3\"", "\"slide x 2\"", "\"approach\", \"load 1\", \"approach\"",
-          "\"approach\", \"pull-off\", \"slide y 1\""})
+    for (const char* load : {"load -3", "load 0", "load 3"})
+        EXPECT_TRUE(wrong(fmt::format("drive.path = [\"{}\", \"pull-off\"]", load)).empty());
+    for (const char* path : {"\"slide x 2\"", "\"approach\", \"load 1\", \"approach\"",
+                             "\"approach\", \"pull-off\", \"slide y 1\""})
         only(fmt::format("{}drive.path = [{}]", quasistatic, path));
     only(quasistatic + "drive.path = [\"approach\", \"hold 3 ps\"]");
     only(quasistatic + "interface.kind = \"wall\"\ndrive.path = [\"approach\", \"slide x 2 Å\"]");
@@ -312,6 +313,11 @@ TEST(Scene, Notes) {
     EXPECT_TRUE(said("surface.sites = 500", "halved 2 times"));
     EXPECT_FALSE(said("", "halved"));
     EXPECT_TRUE(said("block.thickness = 64", "thinner"));
+    // E (1 - ν) / ((1 + ν) (1 - 2ν)) = 197.08 GPa
+    EXPECT_TRUE(said("drive.load = 19708", "strains the block by 10 %"));
+    EXPECT_TRUE(said("drive.path = [\"approach\", \"load -19.708 GPa\", \"pull-off\"]", "by 10 %"));
+    EXPECT_FALSE(said("drive.load = 19708\nblock.strain = \"finite\"", "strains"));
+    EXPECT_FALSE(said("drive.load = 1000", "strains"));
 }
 
 TEST(Scene, MapsAreFoundBesideTheScene) {

@@ -239,6 +239,10 @@ TEST(SceneReader, SyntaxErrors) {
     EXPECT_EQ(p.fix, "words, and numbers with a unit, stand in quotes: height = \"20 cm\"");
     p = only("[body]\ncups = 3\ncups = 4\n");
     EXPECT_TRUE(p.where.starts_with("pot.toml:3:")) << p.where;
+    for (const char* twice :
+         {"[body]\ncups = 3\ncups = 4\n", "body = { cups = 3 }\nbody.height = 2\n",
+          "[body]\ncups = 3\n[body]\nheight = 2\n"})
+        EXPECT_EQ(only(twice).fix, "a section stands in one place, and a key once in it");
     p = only("[body]\ncups\n");
     EXPECT_EQ(p.fix, "a line is [section], or key = value, or a # comment");
     only("[body\n");
