@@ -6,6 +6,8 @@ import contextlib
 import csv
 import json
 import os
+import re
+import signal
 import subprocess
 import sys
 import time
@@ -72,6 +74,43 @@ def wait_for(condition, seconds=60):
         assert time.monotonic() < end, "waited in vain"
         time.sleep(0.02)
     return found
+
+
+def running(words):
+    """Processes with these words in their command lines."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            if words.encode() in (process / "cmdline").read_bytes().replace(b"\0", b" "):
+                found.append(int(process.name))
+    return found
+
+
+def status(process, name):
+    """What the kernel says of a process; nothing of one that is gone."""
+    with contextlib.suppress(OSError):
+        return re.findall(rf"^{name}:\s+(\w+)", Path(f"/proc/{process}/status").read_text(), re.M)
+    return []
+
+
+@contextlib.contextmanager
+def held(words):
+    """The processes with these words, which do not go on meanwhile, so that none ends before it is told to."""
+    processes = running(words)
+    for process in processes:
+        os.kill(process, signal.SIGSTOP)
+    wait_for(lambda: all(status(process, "State") in (["T"], ["Z"], []) for process in processes))
+    processes = [process for process in processes if status(process, "State") == ["T"]]
+    try:
+        yield processes
+    finally:
+        for process in processes:
+            os.kill(process, signal.SIGCONT)
+
+
+def is_told(process):
+    """Whether USR1 waits for a process that is held."""
+    return any(int(mask, 16) >> (signal.SIGUSR1 - 1) & 1 for mask in status(process, "S(?:ig|hd)Pnd"))
 
 
 def rows(table):

@@ -15,7 +15,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, command, rows, wait_for
+from conftest import ROOT, command, held, is_told, rows, running, wait_for
 
 import asperity
 from asperity import files, pool
@@ -61,16 +61,6 @@ def table(tmp_path_factory):
 def numbers(directory):
     found = rows(Path(directory) / "sweep.csv")
     assert len(found) == 8 and {row["status"] for row in found} == {"done"}
-    return found
-
-
-def running(words):
-    """Processes with these words in their command lines."""
-    found = []
-    for process in Path("/proc").glob("[0-9]*"):
-        with contextlib.suppress(OSError):
-            if words.encode() in (process / "cmdline").read_bytes().replace(b"\0", b" "):
-                found.append(int(process.name))
     return found
 
 
@@ -121,8 +111,10 @@ def test_dask_stops_with_checkpoints_and_goes_on(place, cluster, table):
     words = [os.environ["ASPERITY_PROGRAM"], "sweep", "scene.toml", *SETS, "--executor", f"dask:{cluster[0]}", "--out",
              "cut"]
     with started(*words) as sweep:
-        wait_for(lambda: len(list(place.glob("cut/*/checkpoint.h5"))) == 2)
-        sweep.send_signal(signal.SIGINT)
+        wait_for(lambda: list(place.glob("cut/*/checkpoint.h5")))
+        with held("--out " + str(place / "cut")) as points:
+            sweep.send_signal(signal.SIGINT)
+            wait_for(lambda: all(map(is_told, points)))
         said = sweep.communicate()[0]
     assert sweep.returncode == 75 and "stopped, with a checkpoint" in said, said
     assert not running("--out " + str(place / "cut"))

@@ -21,7 +21,7 @@ from asperity.plots import sweep as plots
 from asperity.plots.style import drawn
 from asperity.sweeps import load_sweep, load_sweeps
 from asperity.tables import text_of
-from conftest import STATE, command, rows, started, wait_for
+from conftest import STATE, command, held, is_told, rows, running, started, wait_for
 from matplotlib.figure import Figure
 
 SCENE = """
@@ -610,14 +610,12 @@ def test_a_sweep_that_is_stopped_goes_on_to_the_same_table(place, number):
     command(*words, "whole")
     points = [place / f"cut/velocity={v}" for v in (30, 40)]
     with started(*words, "cut") as child:
-        wait_for(lambda: all((p / "checkpoint.h5").exists() for p in points))
-        child.send_signal(number)
+        wait_for(lambda: any((p / "checkpoint.h5").exists() for p in points))
+        with held("cut/velocity") as going:
+            child.send_signal(number)
+            wait_for(lambda: all(map(is_told, going)))
         assert child.wait() == (75 if number == signal.SIGINT else -number)
-
-    def running():  # a point that the sweep left behind stops as well
-        return any(b"cut/velocity" in (p / "cmdline").read_bytes() for p in Path("/proc").glob("[0-9]*")
-                   if (p / "cmdline").exists())
-    wait_for(lambda: not running())
+    wait_for(lambda: not running("cut/velocity"))  # a point that the sweep left behind stops as well
     assert any((p / "checkpoint.h5").exists() for p in points)
     command(*words, "cut")
     assert numbers("whole") == numbers("cut")
