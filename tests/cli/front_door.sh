@@ -186,13 +186,14 @@ rm "$broken" bin/flock "$builds" waiting rank-*
 stand_in ninja 'true'
 
 # Under a limit on open files it says so, and builds nothing anywhere.
+had_build=$([ -e /build ] && echo yes)
 for limit in 5 20 63; do
     out=$(bash -c 'ulimit -n $1; exec bash "$2" check' - $limit "$asperity" 2>&1)
     [ $? -eq 4 ] || fail "ulimit -n $limit: $out"
     says "too few files may be open"
 done
 [ ! -e calls ] || [ "$(grep -c '^cmake' calls)" -eq 1 ] || fail "a limit configures again: $(cat calls)"
-[ ! -e /build ] || fail "a limit makes /build"
+[ -e /build ] && [ ! "$had_build" ] && fail "a limit makes /build"
 
 # The build of a copied tree is made anew: it holds the paths of the old place.
 rm calls
