@@ -87,6 +87,7 @@ void Drive::begin(const Felt& felt) {
         break;
     case Segment::load:
         normal_ = {from, felt.gone || felt.force < next.amount ? -v : v, HUGE_VAL};
+        attracted_ = felt.force < std::min(next.amount, 0.0); // beyond that pull already
         break;
     case Segment::height:
         normal_ = VelocityProfile::over(next.amount - reference_height_ - felt.top, from, v,

@@ -343,6 +343,18 @@ TEST(SegmentsInTime, LoadsFromOutOfReachAreReachedThroughAttraction) {
     }
 }
 
+TEST(SegmentsInTime, APullThatIsPassedInOneStepEnds) {
+    DriveOptions o;
+    o.velocity = 1.0;
+    o.load_force = -6.0;
+    o.path = {{Segment::approach}, {Segment::load, -5.0}, {Segment::pull_off}};
+    Drive drive(o);
+    EXPECT_FALSE(drive.observe({1.0, -7.0, 0.0, false}));
+    EXPECT_TRUE(drive.observe({2.0, -5.5, 0.0, false})); // back at the load of the approach
+    EXPECT_TRUE(drive.observe({3.0, -4.9, 0.0, false})); // from beyond the pull to less in a step
+    EXPECT_EQ(drive.segment(), 2u);
+}
+
 TEST(SegmentsInTime, ASlowSlideFollowsTheEquilibria) {
     // Force over place of a stiff block that does not snap: what is left goes with the speed.
     Slider c(test::reference_surface("c1_N16_T16_rms0.5", 0.3), 4);
