@@ -611,11 +611,11 @@ def test_a_sweep_that_is_stopped_goes_on_to_the_same_table(place, number):
     points = [place / f"cut/velocity={v}" for v in (30, 40)]
     with started(*words, "cut") as child:
         wait_for(lambda: any((p / "checkpoint.h5").exists() for p in points))
-        with held("cut/velocity") as going:
+        with held(f"--out {place}/cut") as going:
             child.send_signal(number)
             wait_for(lambda: all(map(is_told, going)))
         assert child.wait() == (75 if number == signal.SIGINT else -number)
-    wait_for(lambda: not running("cut/velocity"))  # a point that the sweep left behind stops as well
+    wait_for(lambda: not running(f"--out {place}/cut"))  # a point that the sweep left behind stops as well
     assert any((p / "checkpoint.h5").exists() for p in points)
     command(*words, "cut")
     assert numbers("whole") == numbers("cut")
