@@ -206,7 +206,7 @@ def draw(picture: str, lengths: list, curves: dict, layers: list) -> None:
            title=f"{n} layers a level; the lattice returns nothing")
     ax.set_xticks(lengths, [f"{lam:g}" for lam in lengths])
     ax.minorticks_off()
-    ax.legend(fontsize=7, frameon=False, loc="lower left", ncol=2)
+    ax.legend(fontsize=7, frameon=False, loc="upper right", bbox_to_anchor=(1, 0.92), ncol=2)
     figure.savefig(picture, dpi=120)
 
 
