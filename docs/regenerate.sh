@@ -55,9 +55,9 @@ made $data/renormalised.csv $data/fig5-equilibrium.csv $data/parameters.csv
 ./asperity sweep scenes/paper/small/fig2-quasistatic.toml --set surface.rms=0.5,1,1.5,2,3,4.5 --out $place/readings >$place/log.txt
 cp $place/readings/readings.svg $gallery/fig2-readings.svg
 ./asperity sweep scenes/paper/small/fig5-quasistatic.toml --out $place/spheres >$place/log.txt
-"$python" $gallery/spheres.py $place/spheres $gallery/small-fig5-curves.svg
+"$python" $gallery/spheres.py $place/spheres $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
 made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-readings.svg $gallery/fig2-readings.svg \
-    $gallery/small-fig5-curves.svg
+    $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
 
 "$python" scenes/validation/seams.py returned --long --layers 4 --picture $gallery/seams.png >$place/seams.txt
 made $gallery/seams.png

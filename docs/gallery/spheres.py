@@ -1,21 +1,24 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 """Force against height of rough spheres without time, beside Maugis-Dugdale with the renormalised law, of
-scenes/paper/small/fig5-quasistatic.toml:
-PYTHONPATH=python python3 docs/gallery/spheres.py SWEEP_DIRECTORY PICTURE.svg"""
+scenes/paper/small/fig5-quasistatic.toml, and the table of its readings (mean ± standard deviation of the surfaces):
+PYTHONPATH=python python3 docs/gallery/spheres.py SWEEP_DIRECTORY PICTURE.svg TABLE.csv"""
+import csv
 import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import numpy as np
 
 import asperity
 from asperity.plots.style import BLUE, GREY, PINK, RED, style
 from asperity.units import NANONEWTON
 
-directory, picture = sys.argv[1:3]
-runs = [run for run in asperity.load_sweep(directory).results() if run]
+directory, picture, table = sys.argv[1:4]
+sweep = asperity.load_sweep(directory)
+runs = [run for run in sweep.results() if run]
 with style():
     figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4), layout="constrained")
     for axis, rms in zip(axes, (0, 3, 6)):
@@ -39,3 +42,21 @@ with style():
     axes[0].set_ylabel("force, nN (repulsion positive)")
     axes[1].legend(loc="lower right")
     figure.savefig(picture, metadata={"Date": None})
+
+
+def reading(values, digits):
+    deviation = f" ± {np.std(values, ddof=1):.{digits}f}" if np.ptp(values) else ""  # a smooth sphere has no seeds
+    return f"{np.mean(values):.{digits}f}{deviation}"
+
+
+columns = sweep.table
+with open(table, "w") as file:
+    rows = csv.writer(file, lineterminator="\n")
+    rows.writerow(["h_rms, Å", "in", "out", "by energy at zero load", "out over in, %", "lost at instabilities, in and out, eV"])
+    for rms in np.unique(columns["surface.rms"]):
+        here = columns["surface.rms"] == rms
+        ratios = [columns[f"jkr.{name}_ratio"][here] for name in ("in", "out", "zero_load")]
+        area = runs[0].key("surface.sites")**2 * runs[0].key("surface.spacing")**2 / 1000  # meV/Å² to eV
+        lost = [area * columns[f"lost.{name}"][here] for name in ("approach", "pull_off")]
+        rows.writerow([f"{rms:g}", *(reading(values, 3) for values in ratios), reading(100 * (ratios[1] / ratios[0] - 1), 1),
+                       ", ".join(reading(values, 0) for values in lost)])
