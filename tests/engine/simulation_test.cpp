@@ -194,31 +194,3 @@ TEST(Simulation, TheTopMovesByTheIntegralOfItsVelocity) {
     EXPECT_NEAR(simulation.now().top, 30 * options.dt * v, 1e-12);
     EXPECT_NEAR(simulation.block().top(), 31 * options.dt * v, 1e-12);
 }
-
-TEST(Simulation, MomentumIsWhatTheForcesGave) {
-    // The free-standing identity of Newton's law for the whole block over one step: the change of
-    // momentum of the moving nodes is dt times (force of the substrate + force of the top plane).
-    SimulationOptions options;
-    options.block = test::paper_block(8, 11, 2);
-    options.interface = test::paper_interface();
-    Simulation simulation(options, test::reference_surface("n8_b_rms1.0"), Communicator(),
-                          test::serial_grid(options.block));
-    simulation.start(6.0);
-    const auto momentum = [&] {
-        double sum = 0.0;
-        for (const auto& level : simulation.block().levels())
-            for (int z = 0; z < level.shape.cells; ++z)
-                for (int y = 0; y < level.tile.ny; ++y)
-                    for (int x = 0; x < level.tile.nx; ++x)
-                        sum += level.mass(z) * level.v.view().z(x, y, z);
-        return sum;
-    };
-    for (int n = 0; n < 200; ++n)
-        simulation.step(false);
-    const double before = momentum();
-    const StepRecord now = simulation.step(false);
-    // top_force is the force on the top plane; the block feels its reverse.
-    const double given = options.dt * (now.force - now.top_force);
-    EXPECT_GT(std::abs(given), 1.0);
-    EXPECT_NEAR(momentum() - before, given, 1e-11 * std::abs(before));
-}

@@ -39,17 +39,6 @@ RelaxedState let_go(Solids& c) {
     return relax(c.block, c.interface, c.interface.start_height(), {}, o, phases);
 }
 
-/// A flat surface with a little of the longest wave along x.
-Surface wave(int sites, double amplitude) {
-    Surface surface = test::flat_surface(sites);
-    for (std::size_t i = 0; i < surface.height.size(); ++i) {
-        const double x = static_cast<double>(i % static_cast<std::size_t>(sites));
-        surface.height[i] = amplitude * std::cos(2.0 * std::numbers::pi * x / sites);
-    }
-    surface.statistics.highest = amplitude;
-    return surface;
-}
-
 /// What the energy of an instability is not known by: the path knows its place to one step.
 double uncertain(const Instability& fall) {
     return 0.5 * std::abs((fall.force_after - fall.force_before) *
@@ -169,50 +158,6 @@ TEST(MeanHeight, ForceIsMinusTheSlopeOfTheRelaxedEnergy) {
     }
 }
 
-TEST(MeanHeight, GradientLeavesItOut) {
-    const Surface surface = test::reference_surface("c1_N16_T16_rms0.5");
-    for (bool frictionless : {false, true}) {
-        SpectralBlock block(test::paper_block(16, 8, 0), Communicator(), frictionless);
-        const Interface interface(surface, block.tile(), 2.6, test::paper_interface());
-        std::mt19937_64 random(5);
-        const auto start = test::random_displacement(block, random, 0.1);
-        auto along = test::random_displacement(block, random, 1.0);
-        block.displace(1.0, start.waves, start.sites);
-        constexpr double held_at = -0.3, h = 1e-5;
-        block.constrain(Constraint::mean_height(held_at));
-        block.apply_constraint();
-        EXPECT_NEAR(block.mean_height(), held_at, 1e-15);
-        // Along anything but the uniform wave.
-        const int normal = block.components() - 1;
-        const float mean = std::exchange(along.waves.row(normal, 0)[0], 0.0f);
-        const PlaneView<float> along_z = along.sites.back().plane(0);
-        for (int y = 0; y < along_z.ny; ++y)
-            for (int x = 0; x < along_z.nx; ++x)
-                along_z(x, y) -= mean;
-        const auto energy = [&] {
-            return block.elastic_energy() +
-                   interface.sweep(block.lowest_layer(), block.interface_force(), 3.9, {.observe = true})
-                       .energy.value();
-        };
-        energy();
-        auto g = block.new_waves<double>();
-        block.gradient(g);
-        EXPECT_EQ(g.row(normal, 0)[0], 0.0);
-        const double slope = dot(g, along.waves);
-        block.displace(h, along.waves, along.sites);
-        const double above = energy();
-        double sum = 0.0;
-        const auto z = block.lowest_layer().z;
-        for (int y = 0; y < z.ny; ++y)
-            for (int x = 0; x < z.nx; ++x)
-                sum += z(x, y);
-        EXPECT_NEAR(sum / 256.0, held_at, 1e-11);
-        block.displace(-2.0 * h, along.waves, along.sites);
-        EXPECT_GT(std::abs(slope), 0.01);
-        EXPECT_NEAR(slope, (above - energy()) / (2.0 * h), 2e-6 * (10.0 + std::abs(slope)));
-    }
-}
-
 TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     // Soft and gently rough: under a held top plane it snaps as a whole.
     constexpr double tolerance = 1e-4;
@@ -250,7 +195,8 @@ TEST(MeanHeight, SurfaceFallsWhereItsLongestWaveGetsUnstable) {
     for (double amplitude : {8e-4, 1e-4}) {
         std::vector<Dissipation> lost;
         for (double step : {0.25, 0.1}) {
-            Solids c(test::paper_block(32, 32, 0), wave(32, amplitude), test::Friction::without);
+            Solids c(test::paper_block(32, 32, 0), test::wave(32, amplitude),
+                     test::Friction::without);
             const OneDimension one{c};
             const double stiffness =
                 SpectralBlock(c.options, Communicator(), true).stiffness(1, 0).zz;
@@ -349,14 +295,9 @@ TEST(MeanHeight, WorkIsThatOfATighterPath) {
     // In nearly full contact a relaxation from too far before an instability ends in a state that
     // the path does not reach, and the path misses instabilities on the way. On this surface the
     // pull-off loses 17.8 eV in one of them.
-    SurfaceOptions rough;
-    rough.sites = 64;
-    rough.length = 64 * 2.6;
-    rough.rms = 0.5;
-    rough.seed = 7;
     std::vector<std::array<double, 4>> works;
     for (double tolerance : {1e-4, 2e-5}) {
-        Solids c(test::paper_block(64, 64, 0), make_surface(rough));
+        Solids c(test::paper_block(64, 64, 0), test::self_affine(64, 0.5, 7));
         test::KeptPath path = path_of(c, tolerance);
         path.start();
         follow(path, Segment::approach);

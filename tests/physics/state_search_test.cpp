@@ -31,16 +31,10 @@ constexpr double tolerance = 1e-5;
 
 /// A round hill on a flat surface, periodic.
 Surface hill(int sites, double height, double width) {
-    Surface surface = test::flat_surface(sites);
-    for (int y = 0; y < sites; ++y)
-        for (int x = 0; x < sites; ++x) {
-            const double dx = 2.6 * (x - sites / 2), dy = 2.6 * (y - sites / 2);
-            surface.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(sites) +
-                           static_cast<std::size_t>(x)] =
-                height * std::exp(-0.5 * (dx * dx + dy * dy) / (width * width));
-        }
-    surface.statistics.highest = height;
-    return surface;
+    return test::surface_from(sites, [=](int x, int y) {
+        const double away = 2.6 * std::hypot(x - sites / 2, y - sites / 2);
+        return height * std::exp(-0.5 * away * away / (width * width));
+    });
 }
 
 /// Relaxed energy where the summit alone touches, full contact, and a single way between them.
@@ -423,16 +417,10 @@ TEST(StateSearch, NoneIsDeeperFromABlockDrapedOverTheSubstrate) {
 }
 
 TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
-    SurfaceOptions rough;
-    rough.sites = 64;
-    rough.length = 64 * 2.6;
     std::vector<Surface> surfaces;
     for (const double rms : {4.0, 6.0, 9.0, 14.0})
-        for (const std::uint64_t seed : {1, 2, 3}) {
-            rough.rms = rms;
-            rough.seed = seed;
-            surfaces.push_back(make_surface(rough));
-        }
+        for (const std::uint64_t seed : {1, 2, 3})
+            surfaces.push_back(test::self_affine(64, rms, seed));
     // Full contact is the deepest state of some hills, far inside of the first one.
     for (const auto& [height, width] : {std::pair{12.0, 6.0}, {16.0, 5.0}, {12.0, 3.0}, {8.0, 3.0}})
         surfaces.push_back(hill(32, height, width));
