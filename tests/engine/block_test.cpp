@@ -11,7 +11,6 @@
 // sqrt(nodes) more.
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
-#include "support/levels_at_rest.hpp"
 #include "support/rotation.hpp"
 #include "support/spectral_lattice.hpp"
 
@@ -465,41 +464,4 @@ TEST(BlockModuli, OfThePaper) {
     EXPECT_NEAR(o.contact_modulus() * gpa, 93.7348, 5e-5);
     EXPECT_NEAR(o.elasticity(0).k, 0.4411253, 1e-7);
     EXPECT_NEAR(o.elasticity(3).k, 8 * o.elasticity(0).k, 1e-15);
-}
-
-namespace {
-
-struct Relaxation {
-    RelaxedState state;
-    double top = 0.0;
-};
-Relaxation relaxed(bool finite, double load) {
-    BlockOptions options = test::paper_block(8, 6, 2);
-    options.finite_strain = finite;
-    test::LevelsAtRest rest(options);
-    const Interface interface(test::reference_surface("n8_b_rms1.0"), rest.block.grid().tile(0),
-                              options.spacing, test::paper_interface());
-    const RelaxedState state = rest.relax(interface, 4.0, Constraint::load(load), 1e-8);
-    return {state, rest.block.top()};
-}
-
-} // namespace
-
-TEST(FiniteRelaxation, ReleasesTheWorkOfTheLoad) {
-    // d(U + F z_top)/dF = z_top (Castigliano): forces of every node are those of the energy, linear
-    // or not.
-    const auto enthalpy = [](double load) {
-        const auto r = relaxed(true, load);
-        return r.state.interface_energy + r.state.elastic_energy + load * r.top;
-    };
-    const double h = 0.05;
-    const auto free = relaxed(true, 0.0);
-    ASSERT_TRUE(free.state.converged);
-    EXPECT_NEAR((enthalpy(h) - enthalpy(-h)) / (2 * h), free.top, 1e-5);
-    // It is another state than that of small strain, and not far from it.
-    const auto linear = relaxed(false, 0.0);
-    const double energy = free.state.interface_energy + free.state.elastic_energy;
-    const double other = linear.state.interface_energy + linear.state.elastic_energy;
-    EXPECT_GT(std::abs(energy - other), 1e-5 * std::abs(other));
-    EXPECT_LT(std::abs(energy - other), 0.05 * std::abs(other));
 }

@@ -294,26 +294,6 @@ TEST(Effects, WithoutFrictionThereAreNoLateralDisplacements) {
     EXPECT_LT(relaxing_bytes(frictionless), relaxing_bytes(wall) / 2);
 }
 
-TEST(Effects, FarSitesAreLeftOutOfTheSweep) {
-    const Case c = case_with({});
-    const Tile tile = test::serial_grid(c.simulation.block).tile(0);
-    const Interface interface(surface_of(c), tile, c.scene.surface.spacing, c.simulation.interface);
-    VectorField<double> layer(tile, 1), force(tile, 1);
-    const auto in_reach = [&](double height) {
-        return interface.sweep(layer.plane(0), force.plane(0), height, {}).in_reach;
-    };
-    EXPECT_EQ(in_reach(interface.start_height() + 0.1), 0);
-    EXPECT_EQ(in_reach(3.0), 32 * 32);
-}
-
-TEST(Effects, NoCurvatureIsNoCap) {
-    const Surface plain = surface_of(case_with({})),
-                  curved = surface_of(case_with({"surface.radius=200"}));
-    EXPECT_EQ(plain.radius, 0.0);
-    EXPECT_EQ(curved.radius, 200.0);
-    EXPECT_NE(plain.height, curved.height);
-}
-
 TEST(Effects, OffInARunLeavesNothing) {
     const std::vector<std::string> small = {"surface.sites=16", "block.thickness=8",
                                             "drive.max_steps=20", "output.series=10"};

@@ -45,15 +45,7 @@ InterfaceOptions interface_of(const Kind& kind) {
 /// A rough map of 16 sites, or a rougher one of more.
 Surface surface_of(const Kind& kind) {
     if (kind.sites == 16) return test::reference_surface("c1_N16_T16_rms0.5");
-    SurfaceOptions o;
-    o.kind = SurfaceKind::self_affine;
-    o.sites = kind.sites;
-    o.length = 2.6 * kind.sites;
-    o.rms = 1.0;
-    o.rolloff = 3;
-    o.cutoff = 0.5 * kind.sites;
-    o.seed = 8;
-    return make_surface(o);
+    return test::self_affine(kind.sites, 1.0, 8);
 }
 
 /// A soft block on it: under a held top plane it snaps in.

@@ -241,50 +241,6 @@ TEST_P(SameBits, OfARelaxationOnAnyRanksAndThreads) {
     expect_same(relaxation(stack, world()), expected);
 }
 
-TEST_P(SameBits, OfTheForcesOnEveryNodeOfARandomState) {
-    // One evaluation, plane by plane: says where, when one of the tests above only says that.
-    const BlockOptions options = options_of(GetParam()).block;
-    Block mine(options, world(), test::grid_for(options, world()));
-    Block alone(options, Communicator(), test::serial_grid(options));
-    std::vector<VectorField<double>> forces[2];
-    for (Block* block : {&mine, &alone}) {
-        auto& out = forces[block == &alone];
-        block->set_uniform(0.1, 0.0);
-        for (const auto& level : block->levels()) {
-            out.emplace_back(level.tile, level.shape.cells);
-            const Tile& t = level.tile;
-            const auto u = block->fields(level).u.view();
-            for (int z = 0; z < level.shape.cells; ++z)
-                for (int y = 0; y < t.ny; ++y)
-                    for (int x = 0; x < t.nx; ++x) {
-                        const double phase = 1.3 * (t.x0 + x) + 71.7 * (t.y0 + y) + 0.7 * z +
-                                             5.0 * level.shape.level;
-                        u.x(x, y, z) = std::sin(phase);
-                        u.y(x, y, z) = std::sin(phase * 1.7);
-                        u.z(x, y, z) = std::sin(phase * 2.3);
-                    }
-        }
-        block->exchange();
-        block->interpolate();
-        block->forces(out);
-    }
-    for (std::size_t l = 0; l < mine.levels().size(); ++l) {
-        const Tile t = mine.levels()[l].tile;
-        const auto f = forces[0][l].view(), g = forces[1][l].view();
-        for (int z = 0; z < mine.levels()[l].shape.cells; ++z) {
-            int wrong = 0, last = -1;
-            for (int y = 0; y < t.ny; ++y)
-                for (int x = 0; x < t.nx; ++x)
-                    if (f.x(x, y, z) != g.x(t.x0 + x, t.y0 + y, z) ||
-                        f.y(x, y, z) != g.y(t.x0 + x, t.y0 + y, z) ||
-                        f.z(x, y, z) != g.z(t.x0 + x, t.y0 + y, z))
-                        ++wrong, last = t.y0 + y;
-            EXPECT_EQ(wrong, 0) << "nodes of level " << l << ", plane " << z << ", the last in row "
-                                << last;
-        }
-    }
-}
-
 INSTANTIATE_TEST_SUITE_P(Stacks, SameBits, testing::ValuesIn(stacks));
 
 TEST(SameBits, TheStacksAreCutAsIntended) {

@@ -111,15 +111,15 @@ TEST(Thickness, FourThousandLayers) {
     EXPECT_NEAR(first / second, 2.0, 0.05);
 }
 
-// Load. Stable: the relaxed state carries what presses it, from nothing to fifty times the largest
+// Load. Stable: the relaxed state carries what pulls or presses it, up to fifty times the largest
 // tension.
 
-TEST(Load, FromNothingToHuge) {
+TEST(Load, FromAPullToHuge) {
     const BlockOptions options = test::paper_block(8, 8, 2);
     const Surface surface = test::reference_surface("n8_b_rms1.0");
     const double area = std::pow(options.sites * options.spacing, 2);
     double height_before = 1e300;
-    for (double gpa : {0.0, 1.0, 10.0, 100.0, 500.0}) {
+    for (double gpa : {-1.0, 0.0, 1.0, 10.0, 100.0, 500.0}) {
         SpectralBlock block(options, Communicator());
         const Interface interface(surface, block.tile(), options.spacing, test::paper_interface());
         RelaxOptions how;
