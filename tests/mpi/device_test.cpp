@@ -13,6 +13,7 @@
 #include "io/error.hpp"
 #include "kernels/variant.hpp"
 #include "support/cases.hpp"
+#include "support/message.hpp"
 #include "support/world.hpp"
 
 #include <gtest/gtest.h>
@@ -285,14 +286,7 @@ TEST(Device, MpiMayTakeItsMemory) {
 
 TEST(Device, ThatIsLostOrTooSmallIsSaid) {
     if (!fuses() || world().size() > 1) return;
-    const auto message = [](auto&& work) -> std::string {
-        try {
-            work();
-        } catch (const io::FileError& error) { // exit code 4
-            return error.what();
-        }
-        return "";
-    };
+    const auto message = [](auto&& work) { return test::message_of<io::FileError>(work); };
     {
         const Emulated small({.memory = 1 << 16});
         const std::string text = message([] { make(cases[0], world(), true); });
