@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace asperity;
 
@@ -23,57 +24,35 @@ DriveOptions both_ways() {
 
 } // namespace
 
-TEST(Drive, ApproachEndsWhereTheForceComesBackToZero) {
-    Drive drive(both_ways());
-    EXPECT_EQ(drive.now().kind, Segment::approach);
-    EXPECT_EQ(drive.velocity(0.0), -5e-5);
-    EXPECT_FALSE(drive.observe({0.0, 0.0, 0.0, false})) << "out of reach is not contact";
-    EXPECT_FALSE(drive.observe({10.0, -1.0, 0.0, false}));
-    EXPECT_FALSE(drive.observe({20.0, -9.0, 0.0, true}))
-        << "nothing ends an approach but the force";
-    EXPECT_FALSE(drive.observe({30.0, -0.01, 0.0, false}));
-    EXPECT_TRUE(drive.observe({40.0, 0.02, 0.0, false}));
-    EXPECT_EQ(drive.now().kind, Segment::pull_off);
-    EXPECT_FALSE(drive.observe({50.0, 3.0, 0.0, false})) << "a segment ends once";
-}
-
-TEST(Drive, ALoadIsReachedWithOrWithoutAttraction) {
-    auto options = both_ways();
-    options.load_force = 2.0;
-    Drive sticky(options), hard(options);
-    EXPECT_FALSE(sticky.observe({0.0, -1.0, 0.0, false}));
-    EXPECT_FALSE(sticky.observe({1.0, 1.0, 0.0, false})) << "through zero, but not at the load";
-    EXPECT_TRUE(sticky.observe({2.0, 2.5, 0.0, false}));
-    EXPECT_FALSE(hard.observe({0.0, 1.0, 0.0, false}));
-    EXPECT_TRUE(hard.observe({1.0, 2.5, 0.0, false}));
-}
-
-TEST(Drive, ATipThatLeavesTheReachAgainIsNoContact) {
-    // What a warm block does: the first attraction is gone a few steps later.
-    auto options = both_ways();
-    for (double load : {-2.0, 0.0, 2.0}) {
-        options.load_force = load;
-        Drive drive(options);
-        EXPECT_FALSE(drive.observe({0.0, -5.0, 0.0, false}));
-        EXPECT_FALSE(drive.observe({1.0, 0.0, 0.0, false})) << "out of reach";
-        EXPECT_FALSE(drive.observe({2.0, -5.0, 0.0, false}));
-        EXPECT_TRUE(drive.observe({3.0, 2.5, 0.0, false})) << load;
-    }
-}
-
-TEST(Drive, APullingLoadIsReachedFromBeyondIt) {
-    auto options = both_ways();
-    options.load_force = -2.0;
-    Drive drive(options);
-    EXPECT_FALSE(drive.observe({0.0, 0.0, 0.0, false}))
-        << "out of reach is above the load, but no contact";
-    EXPECT_FALSE(drive.observe({1.0, -1.0, 0.0, false}));
-    EXPECT_FALSE(drive.observe({2.0, -5.0, 0.0, false})) << "beyond the load";
-    EXPECT_FALSE(drive.observe({3.0, -2.5, 0.0, false}));
-    EXPECT_TRUE(drive.observe({4.0, -1.5, 0.0, false}));
-    Drive weak(options);
-    EXPECT_FALSE(weak.observe({0.0, -1.0, 0.0, false})) << "never attracts that much";
-    EXPECT_TRUE(weak.observe({1.0, 0.5, 0.0, false}));
+TEST(Drive, AnApproachEndsWhereTheForceComesToItsLoad) {
+    const struct {
+        const char* what;
+        double load;
+        std::vector<double> forces; ///< the last one ends it
+    } cases[] = {{"back to zero; out of reach is not contact", 0.0, {0.0, -1.0, -9.0, -0.01, 0.02}},
+                 {"through zero, but not at the load", 2.0, {-1.0, 1.0, 2.5}},
+                 {"without attraction", 2.0, {1.0, 2.5}},
+                 // What a warm block does: the first attraction is gone a few steps later.
+                 {"a tip that leaves the reach again", -2.0, {-5.0, 0.0, -5.0, 2.5}},
+                 {"a tip that leaves the reach again", 0.0, {-5.0, 0.0, -5.0, 2.5}},
+                 {"a tip that leaves the reach again", 2.0, {-5.0, 0.0, -5.0, 2.5}},
+                 {"a pull, from beyond it", -2.0, {0.0, -1.0, -5.0, -2.5, -1.5}},
+                 {"a pull, never attracted that much", -2.0, {-1.0, 0.5}}};
+    for (const auto& c : cases)
+        for (const bool out : {false, true}) { // nothing ends an approach but the force
+            SCOPED_TRACE(c.what);
+            DriveOptions options = both_ways();
+            options.load_force = c.load;
+            Drive drive(options);
+            EXPECT_EQ(drive.now().kind, Segment::approach);
+            EXPECT_EQ(drive.velocity(0.0), -5e-5);
+            double time = 0.0;
+            for (const double& force : c.forces)
+                EXPECT_EQ(drive.observe({time++, force, 0.0, out}), &force == &c.forces.back())
+                    << force;
+            EXPECT_EQ(drive.now().kind, Segment::pull_off);
+            EXPECT_FALSE(drive.observe({time, 3.0, 0.0, false})) << "a segment ends once";
+        }
 }
 
 TEST(Drive, TurnsSmoothly) {

@@ -31,11 +31,7 @@ PairInteraction lennard_jones(double epsilon = 0.1, double r0 = 3.28, double cut
 
 /// The paper's surface, clipped at Nyquist.
 Spectrum surface(double rms) {
-    return Spectrum::self_affine({.q_L = paper::q_L,
-                                  .q0 = 3 * paper::q_L,
-                                  .q1 = 256 * paper::q_L,
-                                  .hurst = 0.8,
-                                  .h_rms = rms});
+    return Spectrum::self_affine({paper::q_L, 3 * paper::q_L, 256 * paper::q_L, 0.8, rms});
 }
 
 RoughInterface rough(double rms, double pressure = 0, bool friction = true) {
@@ -103,8 +99,7 @@ TEST(Renormalised, SoftBlockIsFullContact) {
 TEST(Renormalised, RigidBlockAveragesOverTheGaps) {
     const double rms = 0.3, s = rms * rms / (range * range);
     const RoughInterface rigid{
-        Spectrum::self_affine({.q_L = 0.5, .q0 = 0.5, .q1 = 1.2, .hurst = 0.8, .h_rms = rms}),
-        FlatInterface::wall(morse, -0.5, 22, 3.6),
+        Spectrum::self_affine({0.5, 0.5, 1.2, 0.8, rms}), FlatInterface::wall(morse, -0.5, 22, 3.6),
         StiffnessTable::half_space(1e3 * paper::contact_modulus, 0.42), true, 0};
     const RenormalisedPotential p = renormalised_potential(rigid, 2);
     int compared = 0;
@@ -361,11 +356,8 @@ TEST(ExpectedError, StiffeningIsWhatAStifferBlockCosts) {
 TEST(ExpectedError, OfAWallFallsWithItsSize) {
     const auto of = [](double length, double rms, bool ensemble) {
         RoughInterface r = wall(rms, morse);
-        r.spectrum = Spectrum::self_affine({.q_L = paper::q_L / length,
-                                            .q0 = 3 * paper::q_L,
-                                            .q1 = 256 * paper::q_L,
-                                            .hurst = 0.8,
-                                            .h_rms = rms});
+        r.spectrum = Spectrum::self_affine(
+            {paper::q_L / length, 3 * paper::q_L, 256 * paper::q_L, 0.8, rms});
         r.ensemble = ensemble;
         return solve(r);
     };
@@ -407,11 +399,8 @@ TEST(ExpectedError, HasNoUnits) {
     RoughInterface here = rough(3), there = here;
     const PairInteraction pair = lennard_jones(0.1 * energy, 3.28 * length, 13.12 * length);
     there.flat = FlatInterface::hollow_sites(pair, 2.6 * length);
-    there.spectrum = Spectrum::self_affine({.q_L = paper::q_L / length,
-                                            .q0 = 3 * paper::q_L / length,
-                                            .q1 = 256 * paper::q_L / length,
-                                            .hurst = 0.8,
-                                            .h_rms = 3 * length});
+    there.spectrum = Spectrum::self_affine(
+        {paper::q_L / length, 3 * paper::q_L / length, 256 * paper::q_L / length, 0.8, 3 * length});
     there.stiffness =
         StiffnessTable::half_space(paper::contact_modulus * energy / std::pow(length, 3), 0.42);
     const RenormalisedState a = solve(here), b = solve(there);
@@ -428,11 +417,8 @@ TEST(Renormalised, HardInputs) {
         for (const double modulus : {1e-3, 1.0, 30.0})
             for (const double r0 : {2.2, 3.28, 5.0})
                 for (const double rms : {0.3, 3.0}) {
-                    const Spectrum C = Spectrum::self_affine({.q_L = paper::q_L,
-                                                              .q0 = paper::q_L,
-                                                              .q1 = q1 * paper::q_L,
-                                                              .hurst = 1,
-                                                              .h_rms = rms});
+                    const Spectrum C =
+                        Spectrum::self_affine({paper::q_L, paper::q_L, q1 * paper::q_L, 1, rms});
                     try {
                         const RenormalisedState s = solve(
                             {C, FlatInterface::hollow_sites(lennard_jones(0.1, r0, 4 * r0), 2.6),
@@ -459,8 +445,7 @@ TEST(Renormalised, HardInputs) {
 /// flat surfaces have, are no answers.
 TEST(Renormalised, NoNumberWithoutAUsefulBound) {
     const double q_L = 8 * paper::q_L; // a box of 64 sites
-    const Spectrum steep = Spectrum::self_affine(
-        {.q_L = q_L, .q0 = 3 * q_L, .q1 = 32 * q_L, .hurst = 0.8, .h_rms = 8});
+    const Spectrum steep = Spectrum::self_affine({q_L, 3 * q_L, 32 * q_L, 0.8, 8});
     const auto reason = [&](double epsilon, bool friction, const RenormalisedOptions& options) {
         try {
             const RenormalisedState s =
