@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -97,7 +98,7 @@ SimulationOptions options_of(const Stack& stack) {
 
 /// What a run leaves behind, bit by bit.
 struct Trace {
-    std::vector<double> numbers;
+    std::vector<std::uint64_t> numbers; ///< of each record, the balance at last
     std::uint64_t state = 0;
     long long in_contact = 0;
     bool operator==(const Trace&) const = default;
@@ -112,20 +113,12 @@ Trace run(const Stack& stack, const Communicator& ranks) {
     for (int n = 0; n < (stack.slides ? 500 : 300); ++n) {
         const StepRecord& now = s.step(n % 10 == 0);
         s.drive().observe({now.time, now.force, 0.0, false}); // turns round on contact
-        for (double value : {now.top, now.mean_height, now.force, now.top_force, now.slide[0],
-                             now.lateral_force[0], now.lateral_force[1]})
-            trace.numbers.push_back(value);
+        trace.numbers.push_back(test::mix(1, now));
         if (!now.observed) continue;
-        for (double value : {now.interface_energy, now.elastic_energy, now.kinetic_energy,
-                             now.closest, static_cast<double>(now.in_contact),
-                             static_cast<double>(now.repulsive), now.residual})
-            trace.numbers.push_back(value);
         trace.in_contact = std::max(trace.in_contact, now.in_contact);
     }
     EXPECT_EQ(s.interface().place()[0] < -1.3, stack.slides);
-    const EnergyBalance& l = s.balance();
-    for (double value : {l.top_work, l.drag_work, l.damped, l.radiated, l.heat, l.interface})
-        trace.numbers.push_back(value);
+    trace.numbers.push_back(test::mix(1, s.balance()));
     trace.state = test::fingerprint(s.block());
     return trace;
 }
@@ -143,12 +136,9 @@ Trace relaxation(const Stack& stack, const Communicator& ranks) {
     const LayerAtRest rest = test::bring_to_rest(block, surface, 8.0, options, 1e-3);
     Trace trace;
     const ZeroLoad& z = rest.numbers.value();
-    trace.numbers = {z.binding_energy,
-                     z.pairwise,
-                     z.mean_height,
-                     z.residual,
-                     static_cast<double>(z.iterations),
-                     z.repulsive_fraction};
+    for (double value : {z.binding_energy, z.pairwise, z.mean_height, z.residual,
+                         static_cast<double>(z.iterations), z.repulsive_fraction})
+        trace.numbers.push_back(test::mix(1, value));
     trace.in_contact = std::llround(1024.0 * z.contact_fraction);
     // Every rank has its tile of the layer.
     const auto layer = std::as_const(rest.layer).view()[0];
@@ -172,7 +162,7 @@ Trace from_root(const std::function<Trace()>& make) {
     trace.numbers.resize(static_cast<std::size_t>(head[0]));
     trace.state = std::bit_cast<std::uint64_t>(head[1]);
     trace.in_contact = head[2];
-    world().broadcast(std::span<double>(trace.numbers));
+    world().broadcast(std::as_writable_bytes(std::span(trace.numbers)));
     return trace;
 }
 
@@ -180,14 +170,10 @@ void expect_same(const Trace& mine, const Trace& expected) {
     EXPECT_EQ(mine.state, expected.state) << "displacements and velocities";
     EXPECT_EQ(mine.in_contact, expected.in_contact);
     ASSERT_EQ(mine.numbers.size(), expected.numbers.size());
-    for (std::size_t i = 0; i < mine.numbers.size(); ++i)
-        if (std::bit_cast<std::uint64_t>(mine.numbers[i]) !=
-            std::bit_cast<std::uint64_t>(expected.numbers[i])) {
-            ADD_FAILURE() << "number " << i
-                          << " of the record is the first that differs: " << mine.numbers[i]
-                          << " instead of " << expected.numbers[i];
-            return;
-        }
+    const auto differs =
+        std::mismatch(mine.numbers.begin(), mine.numbers.end(), expected.numbers.begin());
+    EXPECT_EQ(differs.first, mine.numbers.end())
+        << "record " << differs.first - mine.numbers.begin() << " is the first that differs";
 }
 
 /// OpenMP threads for as long as it lives.

@@ -99,5 +99,8 @@ SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt1993
 /// same on every rank, and for any number of them.
 std::uint64_t fingerprint(const Block& block);
 std::uint64_t mix(std::uint64_t hash, double value);
+/// All numbers of a record, those of its energies where it was observed; all sums of a balance.
+std::uint64_t mix(std::uint64_t hash, const StepRecord& record);
+std::uint64_t mix(std::uint64_t hash, const EnergyBalance& balance);
 
 } // namespace asperity::test
