@@ -194,4 +194,5 @@ TEST(QuasistaticRanks, StoppedOnItsWayIntoAnInstabilityItIsTheSameBits) {
         EXPECT_EQ(resumed.trace(), whole[point + 1]) << "stopped at look " << look;
         world().barrier();
     }
+    if (world().root()) std::filesystem::remove(file);
 }
