@@ -119,8 +119,7 @@ TEST(Simulation, TheForceAndHeightOfARigidBlockAreThoseOfTheFlatSum) {
     options.block = test::paper_block(8, 4, 0);
     options.interface = test::paper_interface();
     options.drive.velocity = 0.0;
-    Simulation simulation(options, test::flat_surface(8), Communicator(),
-                          test::serial_grid(options.block));
+    Simulation simulation = test::simulation(options, test::flat_surface(8));
     for (double gap : {3.0, 3.6, 5.0, 13.0}) {
         simulation.start(gap);
         const StepRecord& now = simulation.step(true);
@@ -140,8 +139,7 @@ TEST(Simulation, NothingHappensOutOfReach) {
     options.block = test::paper_block(8, 7, 2);
     options.interface = test::paper_interface();
     options.damping = 1e-3; // against a medium that moves along: no drag
-    Simulation simulation(options, test::flat_surface(8), Communicator(),
-                          test::serial_grid(options.block));
+    Simulation simulation = test::simulation(options, test::flat_surface(8));
     simulation.start(20.0);
     for (int n = 0; n < 1000; ++n)
         simulation.step(true);
@@ -161,8 +159,7 @@ TEST(Simulation, TheTopMovesByTheIntegralOfItsVelocity) {
     options.interface = test::paper_interface();
     options.drive.path = {Segment{Segment::pull_off}};
     options.drive.ramp = 40 * options.dt;
-    Simulation simulation(options, test::flat_surface(8), Communicator(),
-                          test::serial_grid(options.block));
+    Simulation simulation = test::simulation(options, test::flat_surface(8));
     simulation.start(20.0);
     const double v = options.drive.velocity;
     for (int n = 0; n < 41; ++n)

@@ -105,7 +105,7 @@ std::vector<double> path(const Block16& block, const InterfaceOptions& interface
     options.interface = interface;
     options.drive.velocity = 1e-3;
     options.damping = 5e-4;
-    Simulation s(options, surface, Communicator(), test::serial_grid(options.block));
+    Simulation s = test::simulation(options, surface);
     s.start(surface.statistics.highest + 3.3);
     std::vector<double> series;
     for (int n = 0; n < 160; ++n) {
@@ -189,8 +189,7 @@ TEST(Symmetry, AFlatContactStaysFlat) {
             options.block = block.options();
             options.interface = interface_with(method, true);
             options.drive.velocity = 1e-3;
-            Simulation s(options, test::flat_surface(16), Communicator(),
-                         test::serial_grid(options.block));
+            Simulation s = test::simulation(options, test::flat_surface(16));
             s.start(4.5);
             for (int n = 0; n < 200; ++n)
                 s.step(false);
@@ -337,8 +336,8 @@ TEST(Momentum, ChangesByTheForcesAlone) {
                 options.interface = interface_with(InterfaceMethod::automatic, tail);
                 options.drive.velocity = 5e-4;
                 options.damping = damping;
-                Simulation s(options, test::reference_surface("c2_N16_T8_rms1.5"), Communicator(),
-                             test::serial_grid(options.block));
+                Simulation s =
+                    test::simulation(options, test::reference_surface("c2_N16_T8_rms1.5"));
                 s.start(6.0);
                 const auto momentum = [&] {
                     std::array<double, 3> sum{};

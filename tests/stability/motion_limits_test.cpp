@@ -21,19 +21,7 @@ namespace {
 
 const bool at_length = std::getenv("ASPERITY_LONG") != nullptr;
 
-Simulation make(const SimulationOptions& options, const Surface& surface) {
-    return Simulation(options, surface, Communicator(), test::serial_grid(options.block));
-}
-
-/// A contact of N = 8 sites without drive or damping.
-SimulationOptions free_contact(double dt) {
-    SimulationOptions options;
-    options.block = test::paper_block(8, 7, 2);
-    options.interface = test::paper_interface();
-    options.drive.velocity = 0.0;
-    options.dt = dt;
-    return options;
-}
+using test::free_contact;
 
 /// Worst energy residual of some observed steps; infinite where something is no number.
 double worst_residual(Simulation& s, int steps) {
@@ -56,11 +44,11 @@ TEST(Overlap, MotionKeepsItsEnergyOrSaysSo) {
     for (bool finite : {false, true}) {
         SimulationOptions options = free_contact(0.5);
         options.block.finite_strain = finite;
-        Simulation fine = make(options, test::flat_surface(8));
+        Simulation fine = test::simulation(options, test::flat_surface(8));
         fine.start(1.8);
         const double kept = worst_residual(fine, 1000);
         options.dt = 20.0;
-        Simulation coarse = make(options, test::flat_surface(8));
+        Simulation coarse = test::simulation(options, test::flat_surface(8));
         coarse.start(1.8);
         const double lost = worst_residual(coarse, 20);
         EXPECT_LT(kept, 1e-2);
@@ -76,12 +64,12 @@ TEST(Overlap, OfFewSitesIsNoticedWithinThreeSteps) {
         SimulationOptions options = free_contact(10.0);
         options.block = test::paper_block(32, 32, 3);
         options.block.finite_strain = finite;
-        Simulation s = make(options, test::reference_surface("c3_N32_T32_rms1.5"));
+        Simulation s = test::simulation(options, test::reference_surface("c3_N32_T32_rms1.5"));
         s.start(5.0);
         const double lost = worst_residual(s, 3);
         EXPECT_GT(lost, 0.02) << "the guard's limit";
         options.dt = 0.5;
-        Simulation fine = make(options, test::reference_surface("c3_N32_T32_rms1.5"));
+        Simulation fine = test::simulation(options, test::reference_surface("c3_N32_T32_rms1.5"));
         fine.start(5.0);
         EXPECT_LT(worst_residual(fine, 100), 1e-2);
     }
@@ -99,7 +87,7 @@ TEST(TimeStep, TheLimitIsSharp) {
         options.interface = test::paper_interface();
         options.drive.velocity = 0.0;
         options.dt = dt;
-        Simulation s = make(options, test::flat_surface(8));
+        Simulation s = test::simulation(options, test::flat_surface(8));
         s.start(40.0); // out of reach
         for (int z = 0; z < block.thickness; ++z)
             for (int y = 0; y < 8; ++y)
@@ -153,7 +141,7 @@ struct Drift {
 Drift drift_over(int steps, bool mixed) {
     SimulationOptions options = free_contact(10.0);
     options.interface.mixed = mixed;
-    Simulation s = make(options, test::reference_surface("n8_b_rms1.0"));
+    Simulation s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
     s.start(4.5);
     std::array<double, 10> mean{};
     double least = 1e300, most = -1e300, kinetic = 0.0;
@@ -188,7 +176,7 @@ TEST(MixedPrecision, ClosesTheEnergyBalanceOverAHundredThousandSteps) {
         options.interface.mixed = mixed;
         options.drive.velocity = 1e-5; // 1 m/s, 10 Å
         options.damping = 2e-4;
-        Simulation s = make(options, test::reference_surface("n8_b_rms1.0"));
+        Simulation s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
         s.start(8.0);
         double worst = 0.0;
         for (int n = 0; n < 100000; ++n) {
@@ -214,13 +202,13 @@ TEST(Levels, OneAndTen) {
     s.interface = test::paper_interface();
     s.drive.velocity = 5e-4;
     s.dt = 10.0;
-    Simulation ten = make(s, test::flat_surface(sites));
+    Simulation ten = test::simulation(s, test::flat_surface(sites));
     ten.start(3.3);
     const double residual = worst_residual(ten, at_length ? 500 : 30);
     EXPECT_LT(residual, 1e-3);
     s.block = test::paper_block(16, 16, 0);
     ASSERT_EQ(level_shapes(s.block).size(), 1u);
-    Simulation one = make(s, test::flat_surface(16));
+    Simulation one = test::simulation(s, test::flat_surface(16));
     one.start(3.3);
     EXPECT_LT(worst_residual(one, 300), 1e-3);
 }

@@ -46,6 +46,19 @@ InterfaceOptions paper_interface(double cutoff_in_r0) {
     return options;
 }
 
+SimulationOptions free_contact(double dt, int layers_per_level) {
+    SimulationOptions options;
+    options.block = paper_block(8, 7, layers_per_level);
+    options.interface = paper_interface();
+    options.drive.velocity = 0.0;
+    options.dt = dt;
+    return options;
+}
+
+Simulation simulation(const SimulationOptions& options, const Surface& surface) {
+    return Simulation(options, surface, Communicator(), serial_grid(options.block));
+}
+
 namespace {
 
 Surface surface_of(std::vector<double> heights) {

@@ -32,6 +32,11 @@ inline LennardJones& lennard_jones(InterfaceOptions& options) {
 /// belongs to the process.
 std::array<PairPotential, 3> potentials(double cutoff = 13.12);
 
+/// A contact of 8 sites with nothing driven and nothing damped.
+SimulationOptions free_contact(double dt, int layers_per_level = 2);
+/// On one rank.
+Simulation simulation(const SimulationOptions& options, const Surface& surface);
+
 Surface flat_surface(int sites);
 /// Its height at the atom (x, y), Å: height(x, y).
 template <class Height>
