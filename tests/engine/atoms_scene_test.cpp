@@ -11,6 +11,7 @@
 
 #include "support/atoms.hpp"
 #include "support/cases.hpp"
+#include "support/message.hpp"
 #include "support/scratch.hpp"
 
 #include <fmt/format.h>
@@ -122,17 +123,9 @@ TEST(AtomsScene, HasTheHeightsOfItsTopmostAtoms) {
         << with_hole.notes.back();
 }
 
-/// All that a scene over this file is refused for.
+/// All that a scene is refused for.
 std::string refusal(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const io::SceneError& error) {
-        std::string all;
-        for (const io::Problem& problem : error.problems())
-            all += io::format(problem) + "\n";
-        return all;
-    }
-    return "";
+    return test::message_of<io::SceneError>(work);
 }
 
 TEST(AtomsScene, RefusesWhatDoesNotGoTogether) {

@@ -86,42 +86,18 @@ TEST(Curve, TheRunningMeanIsOverTwoPicoseconds) {
     }
 }
 
-/// A run.h5 with the forces of a path and the curves that a scene adds to it.
-io::Hdf5File with_curves(const io::Scratch& scratch, const Case& c) {
-    io::Hdf5File file(scratch / "run.h5", io::Hdf5File::Mode::create);
-    file.make_group("/series");
-    file.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
-    write_sphere_curves(file, c, std::nullopt);
-    return file;
-}
-
-TEST(SphereCurves, AreThoseOfJkr) {
-    const Scene scene = read_scene_text(
-        "[surface]\nsites = 64\nrms = 0\nradius = 300\n[block]\nthickness = 16\n", "s.toml");
-    const io::Scratch scratch;
-    const io::Hdf5File run = with_curves(scratch, resolve(scene));
-    // The deepest attraction of JKR: 3/2 pi gamma R.
-    const double gamma = resolve(scene).flat.work_of_adhesion / units::milli_per_unit;
-    const auto force = run.read<double>("/curves/jkr/force");
-    EXPECT_NEAR(*std::min_element(force.begin(), force.end()) / (-1.5 * M_PI * gamma * 300.0), 1.0,
-                1e-4);
-    EXPECT_EQ(run.read_text_attribute("/curves/jkr", "label"), "smooth sphere, JKR");
-    EXPECT_EQ(run.read_text_attribute("/curves/jkr/force", "unit"), "eV/Å");
-    for (const char* name : {"jkr", "jkr_images", "maugis_images"}) {
-        const std::string group = std::string("/curves/") + name;
-        EXPECT_EQ(run.read<double>(group + "/height").size(),
-                  run.read<double>(group + "/force").size());
-    }
-}
-
-TEST(SphereCurves, AreNoneWithoutAdhesion) {
+TEST(SphereCurves, AreNoneWithoutAdhesion) { // with it: results_test
     const Scene scene = read_scene_text("[surface]\nsites = 64\nrms = 0\nradius = 300\n"
                                         "[interface]\nkind = \"wall\"\nadhesion = 0\n"
                                         "[block]\nthickness = 16\n"
                                         "[drive]\nmode = \"quasistatic\"\n",
                                         "s.toml");
     const io::Scratch scratch;
-    EXPECT_FALSE(with_curves(scratch, resolve(scene)).exists("/curves"));
+    io::Hdf5File file(scratch / "run.h5", io::Hdf5File::Mode::create);
+    file.make_group("/series");
+    file.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
+    write_sphere_curves(file, resolve(scene), std::nullopt);
+    EXPECT_FALSE(file.exists("/curves"));
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Mixed precision against the reference loop in double: forces of each site, energies, states at
-// zero load, the books of a run, and a long one.
+// zero load. (Motion: stability/motion_limits_test.)
 //
 // What to expect of a force: positions are rounded to 1.2e-7 Å (half of fixed_quantum) on both
 // sides, and r^2 by three float roundings: about 3e-7 of r^2. Where a pair repels, t^7 - t^4 is
@@ -152,58 +152,6 @@ TEST(MixedPrecision, BindsLikeDouble) {
         EXPECT_NEAR(mixed.binding_energy / exact.binding_energy, 1.0, 1e-6) << map;
         EXPECT_NEAR(mixed.mean_height, exact.mean_height, 1e-4) << map;
     }
-}
-
-/// A rough contact released from a strained state under its own forces, or driven and damped.
-SimulationOptions contact_options(bool mixed) {
-    SimulationOptions options;
-    options.block = test::paper_block(8, 7, 2);
-    options.interface = test::paper_interface();
-    options.interface.mixed = mixed;
-    options.drive.velocity = 0.0;
-    options.dt = 10.0;
-    return options;
-}
-
-TEST(MixedPrecision, KeepsEnergyOverTenThousandSteps) {
-    // The mean energy of the last tenth against that of the first: no more of a drift than
-    // double's.
-    double drift[2], ripple = 0.0;
-    for (bool mixed : {false, true}) {
-        const SimulationOptions options = contact_options(mixed);
-        Simulation simulation(options, test::reference_surface("n8_b_rms1.0"), Communicator(),
-                              test::serial_grid(options.block));
-        simulation.start(4.5);
-        double first = 0.0, last = 0.0, least = 1e300, most = -1e300;
-        for (int n = 0; n < 10000; ++n) {
-            const StepRecord& now = simulation.step(true);
-            const double energy = now.interface_energy + now.elastic_energy + now.kinetic_energy;
-            if (n < 1000) first += energy / 1000.0;
-            if (n >= 9000) last += energy / 1000.0;
-            least = std::min(least, energy), most = std::max(most, energy);
-        }
-        drift[mixed] = last - first;
-        ripple = most - least;
-    }
-    EXPECT_LT(std::abs(drift[1]), std::abs(drift[0]) + 0.02 * ripple);
-}
-
-TEST(MixedPrecision, ClosesTheEnergyBalanceOfADrivenRun) {
-    double residual[2];
-    for (bool mixed : {false, true}) {
-        SimulationOptions options = contact_options(mixed);
-        options.drive.velocity = 1e-3; // Å/fs
-        options.drive.path = {Segment{Segment::approach}, Segment{Segment::pull_off}};
-        options.damping = 1e-3;
-        options.dt = 5.0;
-        Simulation simulation(options, test::reference_surface("n8_b_rms1.0"), Communicator(),
-                              test::serial_grid(options.block));
-        simulation.start(8.0);
-        for (int n = 0; n < 2000; ++n)
-            simulation.step(n % 100 == 0);
-        residual[mixed] = simulation.step(true).residual;
-    }
-    EXPECT_LT(std::abs(residual[1]), std::abs(residual[0]) + 1e-6);
 }
 
 } // namespace

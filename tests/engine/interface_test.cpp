@@ -398,18 +398,6 @@ TEST(InterfaceSweep, ReportsSitesThatAreNoNumbers) {
     }
 }
 
-TEST(InterfaceSweep, WithoutDepthThereIsNoForce) {
-    InterfaceOptions o;
-    std::get<LennardJones>(o.potential).epsilon = 0.0;
-    const State state(8, 0.1, 0.1, 1);
-    for (int m : {8, 13}) {
-        const Outcome out = sweep(rough(m, 8 * a, 0.5, 1), state, o, 3.0, true);
-        EXPECT_EQ(out.sums.force_z.value(), 0.0);
-        EXPECT_EQ(out.sums.energy.value(), 0.0);
-        EXPECT_GT(out.sums.in_contact, 0);
-    }
-}
-
 TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
     const int n = 9;
     Surface s = rough(n, n * a, 0.0, 1);

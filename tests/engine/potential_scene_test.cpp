@@ -5,6 +5,7 @@
 // Lennard-Jones as Lennard-Jones.
 #include "engine/run/renormalised_case.hpp"
 #include "engine/run/theory_case.hpp"
+#include "support/message.hpp"
 #include "support/run_scene.hpp"
 
 #include <fmt/format.h>
@@ -37,12 +38,7 @@ std::string table(const io::Scratch& scratch, int points, double depth = 0.1) {
 }
 
 std::string refusal(const std::vector<std::string>& keys) {
-    try {
-        case_of(keys).require_runnable();
-    } catch (const io::SceneError& error) {
-        return error.what();
-    }
-    return "";
+    return test::message_of<io::SceneError>([&] { case_of(keys).require_runnable(); });
 }
 
 double number(const io::Json& result, const char* group, const char* name) {

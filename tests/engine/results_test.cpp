@@ -172,7 +172,17 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
     EXPECT_EQ(run.number("repulsive_fraction", "1"),
               static_cast<double>(repulsive) / static_cast<double>(pressure.size()));
     EXPECT_EQ(run.number("contact_fraction", "1"), mean(run.data(state + "contact", "1")));
+    const auto distance = run.data(state + "distance", "Å");
+    const double inflection = std::pow(26.0 / 7.0, 1.0 / 6.0) * 3.28; // of 4 eps (s^12 - s^6)
+    const auto touching =
+        std::count_if(distance.begin(), distance.end(), [&](double d) { return d < inflection; });
+    EXPECT_EQ(run.number("contact_fraction", "1"), static_cast<double>(touching) / 256.0);
     EXPECT_NE(run.number("contact_fraction", "1"), run.number("repulsive_fraction", "1"));
+    // The last point of the approach is the state.
+    const auto turn = static_cast<std::size_t>(std::find(segment.begin(), segment.end(), 1.0) -
+                                               segment.begin() - 1);
+    for (const char* name : {"contact_fraction", "repulsive_fraction"})
+        EXPECT_EQ(run.data(std::string("/series/") + name, "1")[turn], run.number(name, "1"));
     EXPECT_NEAR(run.number("zero_load.mean_height", "Å"),
                 run.file->read_attribute<double>("/fields/zero-load", "reference_height") +
                     mean(run.data(state + "u_z", "Å")),

@@ -46,31 +46,6 @@ io::Json run_over_ridge(const Scratch& scratch, const std::string& drive,
     return test::run_scene(scene, scratch / "out");
 }
 
-double fraction_of(const std::vector<double>& values, const auto& is) {
-    return static_cast<double>(std::count_if(values.begin(), values.end(), is)) /
-           static_cast<double>(values.size());
-}
-
-TEST(RunFiles, FractionsAreThoseOfTheMaps) {
-    // A path without time that ends at zero load: the result, the last row of the series and the
-    // maps of the state are of the same equilibrium, the result's to the tolerance of its
-    // relaxation.
-    const Scratch scratch;
-    const io::Json result = run_over_ridge(
-        scratch, "mode = \"quasistatic\"\npath = [\"approach\"]\n", "fields = [\"zero-load\"]\n");
-    const io::Hdf5File file(scratch / "out/run.h5", io::Hdf5File::Mode::read);
-    const auto pressure = file.read<double>("/fields/zero-load/pressure");
-    const auto distance = file.read<double>("/fields/zero-load/distance");
-    const double inflection = std::pow(26.0 / 7.0, 1.0 / 6.0) * 3.28; // of 4 eps (s^12 - s^6)
-    const double repulsive = fraction_of(pressure, [](double p) { return p > 0.0; });
-    const double touching = fraction_of(distance, [&](double d) { return d < inflection; });
-    ASSERT_NE(repulsive, touching) << "the case must tell one from the other";
-    EXPECT_EQ(result.at("repulsive_fraction").get<double>(), repulsive);
-    EXPECT_EQ(result.at("contact_fraction").get<double>(), touching);
-    EXPECT_EQ(file.read<double>("/series/repulsive_fraction").back(), repulsive);
-    EXPECT_EQ(file.read<double>("/series/contact_fraction").back(), touching);
-}
-
 TEST(RunFiles, TheVelocityOfAFrameIsThatOfItsStep) {
     // Frames of every step: the velocity of one is the central difference of its neighbours, whose
     // error is of the order dt^2, to the single precision of positions. That of half a step before

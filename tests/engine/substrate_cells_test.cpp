@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The sweep over cells of substrate atoms: compared with the reference, by energy differences, by
-// itself on other tiles, and by the sweeps over the lattice and over rows of the same atoms.
+// The sweep over cells of substrate atoms: compared with the reference (whose
+// gradient interface_test sees), by itself on other tiles, and by the sweeps over the lattice and
+// over rows of the same atoms.
 #include "engine/interface/interface.hpp"
 #include "engine/interface/substrate_cells.hpp"
 
@@ -134,36 +135,6 @@ TEST(SubstrateCells, AgreeWithTheReference) {
     }
 }
 
-class GradientOverCells : public testing::TestWithParam<bool> {};
-
-TEST_P(GradientOverCells, IsMinusTheForce) {
-    const Solid solid(GetParam());
-    const SubstrateCells cells = solid.cells(whole, false);
-    const double height = 2.5, h = 1e-4;
-    auto u = displaced(whole, 0.3);
-    const Swept here = by_cells(cells, solid.pairs, whole, u, height, false);
-    for (int part = 0; part < 3; ++part)
-        for (int site : {0, 17, 200, sites * sites - 1}) {
-            const auto v = u.plane(0);
-            double& moved = (part == 0 ? v.x : part == 1 ? v.y : v.z)(site % sites, site / sites);
-            const double rest = moved;
-            moved = rest + h;
-            const double up =
-                by_cells(cells, solid.pairs, whole, u, height, false).sums.energy.value();
-            moved = rest - h;
-            const double down =
-                by_cells(cells, solid.pairs, whole, u, height, false).sums.energy.value();
-            moved = rest;
-            const double f = here.force[static_cast<std::size_t>(3 * site + part)];
-            // The force steps by V'(r_c), about 1e-4 eV/Å, where an atom crosses the cutoff.
-            EXPECT_NEAR(f, -(up - down) / (2.0 * h), 1e-3 * (1.0 + std::abs(f)))
-                << part << " " << site;
-        }
-}
-
-INSTANTIATE_TEST_SUITE_P(SubstrateCells, GradientOverCells, testing::Bool(),
-                         [](const auto& one) { return one.param ? "SeveralTypes" : "OneType"; });
-
 TEST(SubstrateCells, SameBitsOnAnyTile) {
     for (const auto& [typed, mixed] :
          {std::pair{false, false}, {false, true}, {true, false}, {true, true}})
@@ -250,38 +221,6 @@ TEST(SubstrateCells, OfASurfacesAtomsActLikeItsLatticeAndItsRows) {
                 expect_alike(over(map, options, height, 0.3), over(atoms, options, height, 0.3),
                              mixed ? 3e-6 : 1e-11);
             }
-}
-
-TEST(SubstrateCells, OfASteppedTwoLayerSolidAgreeWithTheReference) {
-    // Two layers of a square lattice of 2.4 Å turned by no angle to the block's, and a terrace.
-    Surface solid;
-    solid.sites = sites;
-    solid.length = sites * a;
-    const int m = 26;
-    const double b = solid.length / m;
-    for (int layer = 0; layer < 3; ++layer)
-        for (int j = 0; j < m; ++j)
-            for (int i = 0; i < (layer == 0 ? m / 2 : m); ++i) {
-                solid.atoms.x.push_back((i + 0.5 * (layer % 2)) * b);
-                solid.atoms.y.push_back((j + 0.5 * (layer % 2)) * b);
-                solid.atoms.z.push_back(-1.7 * layer);
-            }
-    solid.height.assign(sites * sites, 0.0);
-    for (double height : {2.6, 9.0}) {
-        InterfaceOptions reference;
-        reference.method = InterfaceMethod::reference;
-        expect_alike(over(solid, reference, height, 0.3), over(solid, {}, height, 0.3), 1e-11);
-        InterfaceOptions all;
-        all.skip = false;
-        EXPECT_EQ(over(solid, all, height, 0.3).force, over(solid, {}, height, 0.3).force);
-    }
-    // The second layer counts.
-    Surface top = solid;
-    top.atoms.x.resize(static_cast<std::size_t>(m * (m / 2)));
-    top.atoms.y.resize(top.atoms.x.size());
-    top.atoms.z.resize(top.atoms.x.size());
-    EXPECT_LT(over(solid, {}, 2.6, 0.0).sums.energy.value(),
-              1.2 * over(top, {}, 2.6, 0.0).sums.energy.value());
 }
 
 TEST(SubstrateCells, OfSeveralTypesAddUpToThoseOfEach) {

@@ -5,6 +5,7 @@
 #include "engine/scene/surface.hpp"
 
 #include "engine/scene/map_statistics.hpp"
+#include "support/message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -285,13 +286,9 @@ TEST(MapFromAFile, KeepsItsWidth) {
     EXPECT_EQ(sites_of_map(o), 24);
     EXPECT_NO_THROW(surface_from_heights(o, h, m, m));
     o.map_edge = 40.0;
-    try {
-        surface_from_heights(o, h, m, m);
-        FAIL();
-    } catch (const std::invalid_argument& error) {
-        EXPECT_NE(std::string(error.what()).find("40 Å wide, the box 48 Å"), std::string::npos)
-            << error.what();
-    }
+    const auto message =
+        test::message_of<std::invalid_argument>([&] { surface_from_heights(o, h, m, m); });
+    EXPECT_TRUE(test::has(message, "40 Å wide, the box 48 Å")) << message;
 }
 
 TEST(MapFromAFile, LosesItsJumpsAndNothingElse) {
@@ -378,13 +375,9 @@ TEST(BadSurfaces, SayWhatIsWrong) {
     EXPECT_THROW(surface_from_heights(o, h, 4, 4), std::invalid_argument); // flat, scaled to 3 Å
     EXPECT_THROW(surface_from_heights(o, h, 4, 5), std::invalid_argument);
     h[6] = std::nan("");
-    try {
-        surface_from_heights(o, h, 4, 4);
-        FAIL();
-    } catch (const std::invalid_argument& error) {
-        EXPECT_NE(std::string(error.what()).find("row 2, column 3"), std::string::npos)
-            << error.what();
-    }
+    const auto message =
+        test::message_of<std::invalid_argument>([&] { surface_from_heights(o, h, 4, 4); });
+    EXPECT_TRUE(test::has(message, "row 2, column 3")) << message;
 }
 
 TEST(SubstrateSites, AreWholeAtoms) {

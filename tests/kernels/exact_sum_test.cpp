@@ -86,16 +86,6 @@ TEST(ExactSum, IsTheSumUpToTheStatedQuantum) {
     }
 }
 
-TEST(ExactSum, TermsAndTheirNegativesCancelToZero) {
-    const auto terms = many_terms(1000, 6);
-    ExactSum sum;
-    for (double t : terms)
-        sum.add(t);
-    for (double t : terms)
-        sum.add(-t);
-    EXPECT_EQ(sum.value(), 0.0);
-}
-
 TEST(ExactSum, HoldsTheRangeItPromises) {
     // The largest terms, with a small one that must not be lost beneath them.
     ExactSum sum;
@@ -106,18 +96,6 @@ TEST(ExactSum, HoldsTheRangeItPromises) {
     for (int i = 0; i < 3; ++i)
         sum.add(-(0x1p29 - 0.75));
     EXPECT_EQ(sum.value(), 0x1p-50);
-    // The most terms, 2^26 of them, by merging: each with 53 bits, of which the bins keep all.
-    ExactSum doubled;
-    const double term = 0x1.fffffffffffffp2 + 0x1p-50;
-    doubled.add(term);
-    for (int i = 0; i < 26; ++i) {
-        const ExactSum twice = doubled;
-        doubled.merge(twice);
-    }
-    EXPECT_EQ(doubled.value(), 0x1p26 * term);
-    doubled.add(0x1p-50);
-    doubled.add(-0x1p26 * term);
-    EXPECT_EQ(doubled.value(), 0x1p-50) << "the last quantum beside a sum of 2^29";
 }
 
 namespace {
@@ -145,12 +123,18 @@ ExactSum sum_of_sums(const std::vector<ExactSum>& parts) {
 TEST(ExactSum, HoldsForATrillionTerms) {
     // The worst there is for the fine bin: all of a term, the last quantum too, is left to it. A
     // bin without carries is full after 2^26 of them, and forgets the next last quantum.
-    const double worst = 0x1p-23 - 0x1p-50;
-    for (const int doublings : {25, 26, 27, 30, 40}) {
-        ExactSum sum = many_equal(worst, doublings);
-        EXPECT_EQ(sum.value(), std::ldexp(worst, doublings)) << doublings;
+    // The other term has 53 bits, of which the bins keep all.
+    const double worst = 0x1p-23 - 0x1p-50, longest = 0x1.fffffffffffffp2 + 0x1p-50;
+    for (const auto& [term, doublings] : {std::pair{worst, 25},
+                                          {worst, 26},
+                                          {worst, 27},
+                                          {worst, 30},
+                                          {worst, 40},
+                                          {longest, 26}}) {
+        ExactSum sum = many_equal(term, doublings);
+        EXPECT_EQ(sum.value(), std::ldexp(term, doublings)) << doublings;
         sum.add(0x1p-50);
-        sum.merge(many_equal(-worst, doublings));
+        sum.merge(many_equal(-term, doublings));
         EXPECT_EQ(sum.value(), 0x1p-50) << doublings;
     }
     // 2^40 terms of several kinds in any order and grouping: the same bits.

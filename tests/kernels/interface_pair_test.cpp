@@ -26,14 +26,6 @@ TEST(InterfacePair, AtTheZeroCrossing) {
     EXPECT_NEAR(p.nearest_r2, 3.28 * 3.28, 1e-14);
 }
 
-TEST(InterfacePair, AtTheMinimum) {
-    const double rm = std::pow(2.0, 1.0 / 6.0) * 3.28;
-    const PairSum p = pair_sum(lone_atom, gold, 0.6 * rm, 0.0, 0.8 * rm);
-    EXPECT_NEAR(p.energy, -0.1 + 9.763240814208984e-5, 1e-15);
-    EXPECT_NEAR(p.force[0], 0.0, 1e-15);
-    EXPECT_NEAR(p.force[2], 0.0, 1e-15);
-}
-
 TEST(InterfacePair, PointsAlongThePair) {
     // (2, 3, 6) has length 7: s6 = (3.28/7)^6, f = 2.4 s6 (2 s6 - 1) / 49 per Å.
     const PairSum p = pair_sum(lone_atom, gold, 2.0, -3.0, 6.0);
@@ -64,13 +56,6 @@ TEST(InterfacePair, SeesPeriodicImages) {
     // Folding the site back changes nothing.
     const PairSum folded = pair_sum(box, gold, 19.0 - 60.0, 1.0 + 40.0, 3.0);
     EXPECT_NEAR(folded.force[2], p.force[2], 1e-13);
-}
-
-TEST(InterfacePair, StaysFiniteOnTop) {
-    const PairSum p = pair_sum(lone_atom, gold, 0.0, 0.0, 0.0);
-    EXPECT_TRUE(std::isfinite(p.energy));
-    EXPECT_GT(p.energy, 1e5 * gold.epsilon);
-    EXPECT_GT(pair_sum(lone_atom, gold, 0.0, 0.0, 0.1).force[2], 0.0);
 }
 
 TEST(InterfacePair, HandsNotANumberOn) {
@@ -109,17 +94,6 @@ TEST(InterfaceTail, ForceIsMinusTheGradient) {
     }
     EXPECT_NEAR(tail.force(13.12 - 1e-9), tail.force(13.12 + 1e-9), 1e-11);
     EXPECT_NEAR(tail.energy(13.12 - 1e-9), tail.energy(13.12 + 1e-9), 1e-11);
-}
-
-TEST(InterfaceKernelTable, IsFilled) {
-    const InterfaceKernels& kernels = interface_kernels();
-    for (bool observe : {false, true})
-        for (bool mixed : {false, true}) {
-            const SweepOptions how{.observe = observe, .mixed = mixed};
-            EXPECT_NE(kernels.lattice(how), nullptr);
-            EXPECT_NE(kernels.rows(how), nullptr);
-            EXPECT_NE(kernels.cells(how), nullptr);
-        }
 }
 
 } // namespace

@@ -51,46 +51,48 @@ void interpolate_all(LevelSeam seam, const Field<double>& coarse, Field<double>&
         transfer_kernels().interpolate(seam, coarse.plane(0), fine.plane(0), y, halo);
 }
 
-} // namespace
-
-TEST(LevelTransfer, InterpolationIsAPartitionOfUnity) {
-    const Tile c = whole(coarse_sites), f = whole(fine_sites);
-    Field<double> coarse(c, 1), fine(f, 1);
-    fill(coarse, c, [](int, int) { return 1.0; });
-    interpolate_all({0, 0, 0, 0}, coarse, fine, f.ny, halo_width);
-    for (int y = -halo_width; y < f.ny + halo_width; ++y)
-        for (int x = -halo_width; x < f.nx + halo_width; ++x)
-            ASSERT_EQ(fine.plane(0)(x, y), 1.0);
+/// Rows from..to of the coarse plane, columns x0 on.
+void restrict_rows(LevelSeam seam, const Field<double>& fine, Field<double>& coarse, int from,
+                   int to, int x0, int columns) {
+    for (int y = from; y < to; ++y)
+        transfer_kernels().restrict_forces(seam, fine.plane(0), coarse.plane(0), y, x0, columns);
 }
 
-TEST(LevelTransfer, LinearFieldsAreExactAndBilinearOnesToo) {
+/// Two levels of the whole box: a coarse field interpolated, fine forces handed back.
+struct Whole {
+    Tile c = whole(coarse_sites), f = whole(fine_sites);
+    Field<double> coarse{c, 1}, fine{f, 1}, fine_force{f, 1}, handed{c, 1};
+
+    template <class U, class Force>
+    Whole(const U& u, const Force& force) {
+        fill(coarse, c, u);
+        fill(fine_force, f, force);
+        interpolate_all({0, 0, 0, 0}, coarse, fine, f.ny, halo_width);
+        restrict_rows({0, 0, 0, 0}, fine_force, handed, 0, c.ny, 0, c.nx);
+    }
+};
+
+} // namespace
+
+TEST(LevelTransfer, BilinearFieldsAreExact) {
     // Small integers: every product and mean is exact in binary, so the law holds to the bit.
-    const Tile c = whole(coarse_sites), f = whole(fine_sites);
-    Field<double> coarse(c, 1), fine(f, 1);
-    fill(coarse, c, [](int x, int y) { return 3.0 + 4.0 * x - 6.0 * y + 8.0 * x * y; });
-    interpolate_all({0, 0, 0, 0}, coarse, fine, f.ny, halo_width);
-    for (int y = -halo_width; y < f.ny + halo_width; ++y)
-        for (int x = -halo_width; x < f.nx + halo_width; ++x)
-            ASSERT_EQ(fine.plane(0)(x, y), 3.0 + 2.0 * x - 3.0 * y + 2.0 * x * y);
+    const Whole box([](int x, int y) { return 3.0 + 4.0 * x - 6.0 * y + 8.0 * x * y; },
+                    [](int, int) { return 0.0; });
+    for (int y = -halo_width; y < box.f.ny + halo_width; ++y)
+        for (int x = -halo_width; x < box.f.nx + halo_width; ++x)
+            ASSERT_EQ(box.fine.plane(0)(x, y), 3.0 + 2.0 * x - 3.0 * y + 2.0 * x * y);
 }
 
 TEST(LevelTransfer, ForcesGoBackByTheTranspose) {
-    const Tile c = whole(coarse_sites), f = whole(fine_sites);
     const RandomBox u(coarse_sites, 1), force(fine_sites, 2);
-    Field<double> coarse(c, 1), fine(f, 1), fine_force(f, 1), handed(c, 1);
-    fill(coarse, c, u);
-    fill(fine_force, f, force);
-    interpolate_all({0, 0, 0, 0}, coarse, fine, f.ny, halo_width);
+    const Whole box(u, force);
     double left = 0.0, right = 0.0, given = 0.0, received = 0.0;
-    for (int y = 0; y < f.ny; ++y)
-        for (int x = 0; x < f.nx; ++x)
-            left += fine.plane(0)(x, y) * force(x, y), given += force(x, y);
-    for (int y = 0; y < c.ny; ++y) {
-        transfer_kernels().restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0),
-                                           handed.plane(0), y, 0, c.nx);
-        for (int x = 0; x < c.nx; ++x)
-            right += u(x, y) * handed.plane(0)(x, y), received += handed.plane(0)(x, y);
-    }
+    for (int y = 0; y < box.f.ny; ++y)
+        for (int x = 0; x < box.f.nx; ++x)
+            left += box.fine.plane(0)(x, y) * force(x, y), given += force(x, y);
+    for (int y = 0; y < box.c.ny; ++y)
+        for (int x = 0; x < box.c.nx; ++x)
+            right += u(x, y) * box.handed.plane(0)(x, y), received += box.handed.plane(0)(x, y);
     // 324 terms of order one: rounding below 1e-13.
     EXPECT_NEAR(left, right, 1e-13);
     EXPECT_NEAR(given, received, 1e-13) << "no force may be lost on the way";
@@ -101,33 +103,24 @@ class LevelTransferTiles : public testing::TestWithParam<std::pair<int, int>> {}
 TEST_P(LevelTransferTiles, GiveTheBitsOfTheWholeBox) {
     const auto [x0, y0] = GetParam();
     const RandomBox u(coarse_sites, 3), force(fine_sites, 4);
-    const Tile c = whole(coarse_sites), f = whole(fine_sites);
-    Field<double> coarse(c, 1), fine(f, 1), fine_force(f, 1), handed(c, 1);
-    fill(coarse, c, u);
-    fill(fine_force, f, force);
-    interpolate_all({0, 0, 0, 0}, coarse, fine, f.ny, halo_width);
-    for (int y = 0; y < c.ny; ++y)
-        transfer_kernels().restrict_forces({0, 0, 0, 0}, std::as_const(fine_force).plane(0),
-                                           handed.plane(0), y, 0, c.nx);
+    const Whole box(u, force);
 
     // A fine tile anywhere; the coarse level held whole, or cut where the offset is even.
     const Tile mine{x0, y0, 7, 5, fine_sites};
     Field<double> piece(mine, 1);
-    interpolate_all({x0, y0, 0, 0}, coarse, piece, mine.ny, 0);
+    interpolate_all({x0, y0, 0, 0}, box.coarse, piece, mine.ny, 0);
     for (int y = 0; y < mine.ny; ++y)
         for (int x = 0; x < mine.nx; ++x)
-            ASSERT_EQ(piece.plane(0)(x, y), fine.plane(0)(x0 + x, y0 + y));
+            ASSERT_EQ(piece.plane(0)(x, y), box.fine.plane(0)(x0 + x, y0 + y));
 
-    Field<double> own_force(mine, 1), into(c, 1);
+    Field<double> own_force(mine, 1), into(box.c, 1);
     fill(own_force, mine, force);
     const int cx0 = (x0 + 1) / 2, cx1 = (x0 + mine.nx + 1) / 2, cy0 = (y0 + 1) / 2,
               cy1 = (y0 + mine.ny + 1) / 2;
-    for (int y = cy0; y < cy1; ++y)
-        transfer_kernels().restrict_forces({x0, y0, 0, 0}, std::as_const(own_force).plane(0),
-                                           into.plane(0), y, cx0, cx1 - cx0);
+    restrict_rows({x0, y0, 0, 0}, own_force, into, cy0, cy1, cx0, cx1 - cx0);
     for (int y = cy0; y < cy1; ++y)
         for (int x = cx0; x < cx1; ++x)
-            ASSERT_EQ(into.plane(0)(x, y), handed.plane(0)(x, y));
+            ASSERT_EQ(into.plane(0)(x, y), box.handed.plane(0)(x, y));
 
     if (x0 % 2 || y0 % 2) return;
     const Tile cut{x0 / 2, y0 / 2, 4, 3, coarse_sites};
@@ -137,8 +130,8 @@ TEST_P(LevelTransferTiles, GiveTheBitsOfTheWholeBox) {
     interpolate_all({x0, y0, cut.x0, cut.y0}, coarse_piece, again, mine.ny, halo_width);
     for (int y = -halo_width; y < mine.ny + halo_width; ++y)
         for (int x = -halo_width; x < mine.nx + halo_width; ++x)
-            ASSERT_EQ(again.plane(0)(x, y),
-                      fine.plane(0)(periodic(x0 + x, fine_sites), periodic(y0 + y, fine_sites)));
+            ASSERT_EQ(again.plane(0)(x, y), box.fine.plane(0)(periodic(x0 + x, fine_sites),
+                                                              periodic(y0 + y, fine_sites)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Offsets, LevelTransferTiles,

@@ -8,6 +8,7 @@
 #include "kernels/simd.hpp"
 
 #include "engine/interface/potential_table.hpp"
+#include "support/message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -198,13 +199,8 @@ TEST(PotentialTable, IsTheFunctionItWasMadeOf) {
 
 TEST(PotentialTable, RefusesWhatIsNoPotential) {
     using Numbers = std::vector<double>;
-    const auto refused = [](const Numbers& r, const Numbers& v) -> std::string {
-        try {
-            const PotentialTable table(r, v);
-        } catch (const std::invalid_argument& error) {
-            return error.what();
-        }
-        return "";
+    const auto refused = [](const Numbers& r, const Numbers& v) {
+        return test::message_of<std::invalid_argument>([&] { const PotentialTable table(r, v); });
     };
     Numbers r, v;
     for (int i = 0; i < 40; ++i) {

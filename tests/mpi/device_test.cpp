@@ -13,6 +13,7 @@
 #include "io/error.hpp"
 #include "kernels/variant.hpp"
 #include "support/cases.hpp"
+#include "support/message.hpp"
 #include "support/world.hpp"
 
 #include <gtest/gtest.h>
@@ -123,20 +124,13 @@ void advance(Simulation& s, int steps, Trace& trace) {
         const StepRecord& now = s.step(s.steps() % 10 == 0);
         s.drive().observe({now.time, now.force, 0.0, false}); // turns round on contact
         trace.force = now.force;
-        for (double value : {now.top, now.mean_height, now.force, now.top_force})
-            trace.records = test::mix(trace.records, value);
+        trace.records = test::mix(trace.records, now);
         if (!now.observed) continue;
-        for (double value : {now.interface_energy, now.elastic_energy, now.kinetic_energy,
-                             now.closest, static_cast<double>(now.in_contact),
-                             static_cast<double>(now.repulsive), now.residual})
-            trace.records = test::mix(trace.records, value);
         trace.in_contact = std::max(trace.in_contact, now.in_contact);
     }
 }
 void conclude(Simulation& s, Trace& trace) {
-    const EnergyBalance& l = s.balance();
-    for (double value : {l.top_work, l.drag_work, l.damped, l.heat, l.interface})
-        trace.records = test::mix(trace.records, value);
+    trace.records = test::mix(trace.records, s.balance());
     trace.state = test::fingerprint(s.block());
 }
 
@@ -285,14 +279,7 @@ TEST(Device, MpiMayTakeItsMemory) {
 
 TEST(Device, ThatIsLostOrTooSmallIsSaid) {
     if (!fuses() || world().size() > 1) return;
-    const auto message = [](auto&& work) -> std::string {
-        try {
-            work();
-        } catch (const io::FileError& error) { // exit code 4
-            return error.what();
-        }
-        return "";
-    };
+    const auto message = [](auto&& work) { return test::message_of<io::FileError>(work); };
     {
         const Emulated small({.memory = 1 << 16});
         const std::string text = message([] { make(cases[0], world(), true); });

@@ -236,8 +236,7 @@ TEST(Seams, WhatTheyTakeIsCounted) {
         const auto worst = [&](double span) {
             SimulationOptions options = contact(span, 5.0);
             options.drive.velocity = velocity;
-            Simulation s(options, test::reference_surface("n8_b_rms1.0"), Communicator(),
-                         test::serial_grid(options.block));
+            Simulation s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
             s.start(4.5);
             double residual = 0.0;
             for (int n = 0; n < 1500; ++n)
@@ -261,8 +260,7 @@ TEST(Seams, LeaveStatesAtRestWhereTheyAre) {
         SimulationOptions options = contact(span);
         options.damping = 2e-3;
         options.drive.velocity = 0.0;
-        Simulation s(options, test::reference_surface("n8_b_rms1.0"), Communicator(),
-                     test::serial_grid(options.block));
+        Simulation s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
         s.start(4.5);
         for (int n = 0; n < 6000; ++n)
             s.step(n == 5999);

@@ -38,13 +38,9 @@ struct Slider : test::PathCase {
 Surface rough() { return test::reference_surface("c1_N16_T16_rms0.5"); }
 
 /// Heights with x and y exchanged.
-Surface transposed(Surface s) {
-    const Surface old = s;
-    for (int y = 0; y < s.sites; ++y)
-        for (int x = 0; x < s.sites; ++x)
-            s.height[static_cast<std::size_t>(y * s.sites + x)] =
-                old.height[static_cast<std::size_t>(x * s.sites + y)];
-    return s;
+Surface transposed(const Surface& s) {
+    return test::surface_from(
+        s.sites, [&](int x, int y) { return s.height[static_cast<std::size_t>(x * s.sites + y)]; });
 }
 
 double integral(const VelocityProfile& p, double ramp) {

@@ -50,17 +50,6 @@ TEST(SurfaceMatrix, IsTheElimination) {
         }
 }
 
-TEST(SurfaceMatrix, GivesTheNumbersOfTheModel) {
-    struct Row {
-        int period;
-        double along_x; // reference (docs/explanation/model.md)
-    };
-    for (const Row& row :
-         {Row{4, 0.8713020761}, Row{8, 0.9797060798}, Row{16, 0.9964538307}, Row{32, 0.9992299794}})
-        EXPECT_NEAR(ratio(test::paper_block(row.period, 8 * row.period, 0), 1, 0), row.along_x,
-                    1e-9);
-}
-
 TEST(SurfaceMatrix, UniformModesAreExact) {
     for (int thickness : {1, 8, 512}) {
         const BlockOptions o = test::paper_block(16, thickness, 0);
@@ -87,30 +76,6 @@ TEST(SurfaceMatrix, IsPositiveAndStopsWhereNothingIsLeft) {
             EXPECT_NEAR(s.zz, t.zz, apart * t.zz) << nx << ", " << ny;
             EXPECT_NEAR(s.xz, t.xz, apart * t.zz) << nx << ", " << ny;
         }
-}
-
-TEST(SpectralBlock, ForceIsTheGradientOfItsEnergy) {
-    // The energy is quadratic, so a central difference along any direction is exact; no interface
-    // acts.
-    for (int sites : {9, 12, 20})
-        for (bool held : {false, true})
-            for (bool frictionless : {false, true}) {
-                SpectralBlock block(test::paper_block(sites, 7, 0), Communicator(), frictionless);
-                std::mt19937_64 random(3);
-                const auto there = test::random_displacement(block, random, 0.3);
-                const auto d = test::random_displacement(block, random, 1.0);
-                block.displace(1.0, there.waves, there.sites);
-                if (held) block.constrain(Constraint::top(0.17));
-                auto g = block.new_waves<double>();
-                block.gradient(g);
-                const double slope = dot(g, d.waves);
-                block.displace(1.0, d.waves, d.sites);
-                const double above = block.elastic_energy();
-                block.displace(-2.0, d.waves, d.sites);
-                const double below = block.elastic_energy();
-                EXPECT_NEAR(slope, 0.5 * (above - below), 1e-10 * (above + below))
-                    << sites << held << frictionless;
-            }
 }
 
 TEST(SpectralBlock, AHeldTopPullsWithItsSpring) {

@@ -10,6 +10,7 @@
 #include "engine/run/checkpoint.hpp"
 #include "engine/scene/surface.hpp"
 #include "engine/units.hpp"
+#include "support/elastic_operator.hpp"
 #include "support/path_case.hpp"
 
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@
 #include <vector>
 
 using namespace asperity;
+using test::energy;
 using Solids = test::PathCase;
 
 namespace {
@@ -31,16 +33,10 @@ constexpr double tolerance = 1e-5;
 
 /// A round hill on a flat surface, periodic.
 Surface hill(int sites, double height, double width) {
-    Surface surface = test::flat_surface(sites);
-    for (int y = 0; y < sites; ++y)
-        for (int x = 0; x < sites; ++x) {
-            const double dx = 2.6 * (x - sites / 2), dy = 2.6 * (y - sites / 2);
-            surface.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(sites) +
-                           static_cast<std::size_t>(x)] =
-                height * std::exp(-0.5 * (dx * dx + dy * dy) / (width * width));
-        }
-    surface.statistics.highest = height;
-    return surface;
+    return test::surface_from(sites, [=](int x, int y) {
+        const double away = 2.6 * std::hypot(x - sites / 2, y - sites / 2);
+        return height * std::exp(-0.5 * away * away / (width * width));
+    });
 }
 
 /// Relaxed energy where the summit alone touches, full contact, and a single way between them.
@@ -58,22 +54,10 @@ void without_friction(Solids& c) { c.block = SpectralBlock(c.options, Communicat
 
 double area(const Solids& c) { return 6.76 * c.sites(); }
 
-RelaxedState relax(Solids& c, const Constraint& constraint, double to = tolerance) {
-    RelaxOptions o;
-    o.tolerance = to;
-    Phases phases;
-    const RelaxedState s =
-        relax(c.block, c.interface, c.interface.start_height(), constraint, o, phases);
-    EXPECT_TRUE(s.converged) << s.residual;
-    return s;
-}
-
-double energy(const RelaxedState& s) { return s.interface_energy + s.elastic_energy; }
-
 ZeroLoad relax_free(Solids& c, double load = 0.0) {
-    const RelaxedState s = relax(c, Constraint::load(load));
+    const RelaxedState s = c.relax(Constraint::load(load), tolerance);
     ZeroLoad z;
-    z.binding_energy = -1e3 * (s.interface_energy + s.elastic_energy) / area(c);
+    z.binding_energy = -1e3 * energy(s) / area(c);
     z.contact_fraction = static_cast<double>(s.in_contact) / c.sites();
     z.mean_height = c.interface.start_height() + s.mean_height;
     return z;
@@ -156,15 +140,15 @@ public:
         std::vector<Layer> basis(1, Layer(at_.size()));
         for (double& v : basis[0])
             v = normal(random);
-        scale(basis[0], 1.0 / std::sqrt(dot(basis[0], basis[0])));
+        scale(basis[0], 1.0 / std::sqrt(test::dot(basis[0], basis[0])));
         std::vector<double> diagonal, beside;
         for (int i = 0; i < steps; ++i) {
             Layer next = times(basis.back());
-            diagonal.push_back(dot(next, basis.back()));
+            diagonal.push_back(test::dot(next, basis.back()));
             for (int twice = 0; twice < 2; ++twice)
                 for (const Layer& b : basis)
-                    add(-dot(next, b), b, next);
-            beside.push_back(std::sqrt(dot(next, next)));
+                    add(-test::dot(next, b), b, next);
+            beside.push_back(std::sqrt(test::dot(next, next)));
             scale(next, 1.0 / beside.back());
             basis.push_back(std::move(next));
         }
@@ -184,12 +168,6 @@ public:
     }
 
 private:
-    static double dot(const Layer& a, const Layer& b) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < a.size(); ++i)
-            sum += a[i] * b[i];
-        return sum;
-    }
     static void scale(Layer& a, double by) {
         for (double& v : a)
             v *= by;
@@ -259,7 +237,7 @@ void expect_work_of_the_force(Solids& c) {
     for (int i = 0; i <= pieces; ++i) {
         const double z = z0 + (z1 - z0) * i / pieces - c.interface.start_height();
         const double weight = i == 0 || i == pieces ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
-        work += weight * relax(c, Constraint::mean_height(z)).force;
+        work += weight * c.relax(Constraint::mean_height(z), tolerance).force;
     }
     work *= (z1 - z0) / pieces / 3.0;
     const double gained =
@@ -330,7 +308,7 @@ TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
     s.search.restore_first();
     double outer = z0, inner = z0, largest = 0.0;
     for (double z = z0 - 0.05; z > z1; z -= 0.05) {
-        const double force = relax(c, Constraint::mean_height(z)).force;
+        const double force = c.relax(Constraint::mean_height(z), tolerance).force;
         largest = std::max(largest, force);
         if (force < 0.0 && largest > 1.0) {
             inner = z;
@@ -342,7 +320,7 @@ TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
     EXPECT_NEAR(states.all[0].barrier.value_or(0.0), largest / area(c), 0.02 * largest / area(c));
     for (int i = 0; i < 30; ++i) {
         const double z = 0.5 * (inner + outer);
-        (relax(c, Constraint::mean_height(z)).force < 0.0 ? inner : outer) = z;
+        (c.relax(Constraint::mean_height(z), tolerance).force < 0.0 ? inner : outer) = z;
     }
     EXPECT_LT(Hessian(c, layer_of(c.block)).smallest(80), -1e-4);
 }
@@ -359,13 +337,13 @@ TEST(StateSearch, ABarrierReachesDownToTheInstabilityThatHasToBeCrossed) {
     s.search.restore_first();
     constexpr double step = 0.25;
     double largest = 0.0, largest_above = 0.0, lost = 0.0, z = c.block.mean_height();
-    for (RelaxedState last = relax(c, Constraint::mean_height(z)); lost < 5.0;) {
+    for (RelaxedState last = c.relax(Constraint::mean_height(z), tolerance); lost < 5.0;) {
         const double height = c.interface.start_height() + z;
         ASSERT_GT(height, 3.0);
         largest = std::max(largest, last.force);
         if (height > states.all[1].numbers.mean_height) largest_above = largest;
         z -= step;
-        const RelaxedState now = relax(c, Constraint::mean_height(z));
+        const RelaxedState now = c.relax(Constraint::mean_height(z), tolerance);
         lost = energy(last) + 0.5 * step * (last.force + now.force) - energy(now);
         last = now;
     }
@@ -423,16 +401,10 @@ TEST(StateSearch, NoneIsDeeperFromABlockDrapedOverTheSubstrate) {
 }
 
 TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
-    SurfaceOptions rough;
-    rough.sites = 64;
-    rough.length = 64 * 2.6;
     std::vector<Surface> surfaces;
     for (const double rms : {4.0, 6.0, 9.0, 14.0})
-        for (const std::uint64_t seed : {1, 2, 3}) {
-            rough.rms = rms;
-            rough.seed = seed;
-            surfaces.push_back(make_surface(rough));
-        }
+        for (const std::uint64_t seed : {1, 2, 3})
+            surfaces.push_back(test::self_affine(64, rms, seed));
     // Full contact is the deepest state of some hills, far inside of the first one.
     for (const auto& [height, width] : {std::pair{12.0, 6.0}, {16.0, 5.0}, {12.0, 3.0}, {8.0, 3.0}})
         surfaces.push_back(hill(32, height, width));

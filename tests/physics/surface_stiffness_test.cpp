@@ -101,18 +101,9 @@ TEST(SurfaceStiffness, EveryWaveLiesBetweenTheLatticeAndTheWorst) {
     for (const Row& row : {Row{2, 62, 1.0814}, Row{4, 60, 1.0174}, Row{8, 56, 1.0040}}) {
         const BlockOptions o = test::paper_block(32, row.thickness, row.layers);
         const double q = 2.0 * pi / (o.sites * o.spacing);
-        for (const auto& [nx, ny] : {std::pair{1, 0},
-                                     {2, 0},
-                                     {3, 0},
-                                     {4, 0},
-                                     {6, 0},
-                                     {10, 0},
-                                     {16, 0},
-                                     {1, 1},
-                                     {2, 2},
-                                     {3, 3},
-                                     {2, 1},
-                                     {5, -3}}) {
+        constexpr int waves[][2] = {{1, 0},  {2, 0}, {3, 0}, {4, 0}, {6, 0}, {10, 0},
+                                    {16, 0}, {1, 1}, {2, 2}, {3, 3}, {2, 1}, {5, -3}};
+        for (const auto& [nx, ny] : waves) {
             const double ratio = block_ratio(o, nx, ny) / lattice_ratio(o, nx * q, ny * q);
             EXPECT_GE(ratio, 1.0 - 1e-9) << nx << ", " << ny;
             EXPECT_LE(ratio, row.worst) << nx << ", " << ny;

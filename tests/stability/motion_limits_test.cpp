@@ -3,21 +3,17 @@
 //
 // Hard cases of motion in time. Each test says first what stable means for it. With ASPERITY_LONG
 // set, long paths are as long as in the issue (10^6 steps).
-#include "engine/run/checkpoint.hpp"
 #include "engine/setup/case.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
+#include "support/message.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-
-#include <unistd.h>
 
 using namespace asperity;
 
@@ -25,19 +21,7 @@ namespace {
 
 const bool at_length = std::getenv("ASPERITY_LONG") != nullptr;
 
-Simulation make(const SimulationOptions& options, const Surface& surface) {
-    return Simulation(options, surface, Communicator(), test::serial_grid(options.block));
-}
-
-/// A contact of N = 8 sites without drive or damping.
-SimulationOptions free_contact(double dt) {
-    SimulationOptions options;
-    options.block = test::paper_block(8, 7, 2);
-    options.interface = test::paper_interface();
-    options.drive.velocity = 0.0;
-    options.dt = dt;
-    return options;
-}
+using test::free_contact;
 
 /// Worst energy residual of some observed steps; infinite where something is no number.
 double worst_residual(Simulation& s, int steps) {
@@ -60,11 +44,11 @@ TEST(Overlap, MotionKeepsItsEnergyOrSaysSo) {
     for (bool finite : {false, true}) {
         SimulationOptions options = free_contact(0.5);
         options.block.finite_strain = finite;
-        Simulation fine = make(options, test::flat_surface(8));
+        Simulation fine = test::simulation(options, test::flat_surface(8));
         fine.start(1.8);
         const double kept = worst_residual(fine, 1000);
         options.dt = 20.0;
-        Simulation coarse = make(options, test::flat_surface(8));
+        Simulation coarse = test::simulation(options, test::flat_surface(8));
         coarse.start(1.8);
         const double lost = worst_residual(coarse, 20);
         EXPECT_LT(kept, 1e-2);
@@ -80,12 +64,12 @@ TEST(Overlap, OfFewSitesIsNoticedWithinThreeSteps) {
         SimulationOptions options = free_contact(10.0);
         options.block = test::paper_block(32, 32, 3);
         options.block.finite_strain = finite;
-        Simulation s = make(options, test::reference_surface("c3_N32_T32_rms1.5"));
+        Simulation s = test::simulation(options, test::reference_surface("c3_N32_T32_rms1.5"));
         s.start(5.0);
         const double lost = worst_residual(s, 3);
         EXPECT_GT(lost, 0.02) << "the guard's limit";
         options.dt = 0.5;
-        Simulation fine = make(options, test::reference_surface("c3_N32_T32_rms1.5"));
+        Simulation fine = test::simulation(options, test::reference_surface("c3_N32_T32_rms1.5"));
         fine.start(5.0);
         EXPECT_LT(worst_residual(fine, 100), 1e-2);
     }
@@ -103,7 +87,7 @@ TEST(TimeStep, TheLimitIsSharp) {
         options.interface = test::paper_interface();
         options.drive.velocity = 0.0;
         options.dt = dt;
-        Simulation s = make(options, test::flat_surface(8));
+        Simulation s = test::simulation(options, test::flat_surface(8));
         s.start(40.0); // out of reach
         for (int z = 0; z < block.thickness; ++z)
             for (int y = 0; y < 8; ++y)
@@ -133,18 +117,16 @@ TEST(TimeStep, ASceneOverTheLimitIsRefused) {
     };
     const double limit = case_at(10.0).longest_timestep;
     EXPECT_NO_THROW(case_at(0.99 * limit).require_runnable());
-    try {
-        case_at(1.01 * limit).require_runnable();
-        FAIL() << "accepted";
-    } catch (const io::SceneError& error) {
-        EXPECT_EQ(error.code(), 2);
-        EXPECT_NE(std::string(error.what()).find("is over the stability limit of"),
-                  std::string::npos);
-    }
+    EXPECT_TRUE(test::has(
+        test::message_of<io::SceneError>([&] { case_at(1.01 * limit).require_runnable(); }),
+        "is over the stability limit of"));
 }
 
-// Long free oscillation. Stable: the means of the energy over tenths of the path lie together, far
-// closer than Verlet's own ripple.
+// Long free oscillation. Stable: over 10^5 steps (10^6 at length) the means of the energy over
+// tenths of the path lie together, far closer than Verlet's own ripple and than what moves. (Pairs
+// that cross the cutoff, where the force has a step of 4.5e-5 eV/Å, leave a random walk some 1e-5
+// eV wide.) In mixed precision the energy drifts no more than in double, but for what the means of
+// tenths are known to; the books of a driven, damped contact close as well.
 
 namespace {
 
@@ -153,40 +135,37 @@ struct Drift {
     double ripple;    ///< greatest less least
     double of_tenths; ///< the same of the means over tenths
     double whole;     ///< mean of the last tenth less that of the first
+    double kinetic;   ///< the largest
 };
 
 Drift drift_over(int steps, bool mixed) {
     SimulationOptions options = free_contact(10.0);
     options.interface.mixed = mixed;
-    Simulation s = make(options, test::reference_surface("n8_b_rms1.0"));
+    Simulation s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
     s.start(4.5);
     std::array<double, 10> mean{};
-    double least = 1e300, most = -1e300;
+    double least = 1e300, most = -1e300, kinetic = 0.0;
     for (int n = 0; n < steps; ++n) {
         const StepRecord& now = s.step(true);
         const double energy = now.interface_energy + now.elastic_energy + now.kinetic_energy;
         least = std::min(least, energy), most = std::max(most, energy);
+        kinetic = std::max(kinetic, now.kinetic_energy);
         mean[static_cast<std::size_t>(n / (steps / 10))] += 10.0 * energy / steps;
     }
     const auto [low, high] = std::minmax_element(mean.begin(), mean.end());
-    return {most - least, *high - *low, mean.back() - mean.front()};
+    return {most - least, *high - *low, mean.back() - mean.front(), kinetic};
 }
 
 } // namespace
 
-TEST(Oscillation, DoesNotDrift) {
-    const Drift drift = drift_over(at_length ? 1000000 : 30000, false);
-    EXPECT_LT(drift.of_tenths, 0.05 * drift.ripple);
-}
-
-// Mixed precision. Stable: over 10^5 steps (10^6 at length) the energy of a free contact drifts no
-// more than in double precision, but for what the means of tenths are known to; the books of a
-// driven, damped contact close as well as in double.
-
-TEST(MixedPrecision, DoesNotDriftOverAHundredThousandSteps) {
+TEST(Oscillation, DoesNotDriftOverAHundredThousandStepsInEitherPrecision) {
     const int steps = at_length ? 1000000 : 100000;
     const Drift exact = drift_over(steps, false), mixed = drift_over(steps, true);
-    EXPECT_LT(mixed.of_tenths, 0.05 * mixed.ripple);
+    for (const Drift& drift : {exact, mixed}) {
+        EXPECT_GT(drift.kinetic, 0.1) << "nothing moved";
+        EXPECT_LT(drift.of_tenths, 0.02 * drift.ripple);
+        EXPECT_LT(drift.of_tenths, 1e-3 * drift.kinetic);
+    }
     EXPECT_LT(std::abs(mixed.whole), std::abs(exact.whole) + 0.01 * exact.ripple);
     EXPECT_NEAR(mixed.ripple, exact.ripple, 0.02 * exact.ripple);
 }
@@ -197,7 +176,7 @@ TEST(MixedPrecision, ClosesTheEnergyBalanceOverAHundredThousandSteps) {
         options.interface.mixed = mixed;
         options.drive.velocity = 1e-5; // 1 m/s, 10 Å
         options.damping = 2e-4;
-        Simulation s = make(options, test::reference_surface("n8_b_rms1.0"));
+        Simulation s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
         s.start(8.0);
         double worst = 0.0;
         for (int n = 0; n < 100000; ++n) {
@@ -223,46 +202,13 @@ TEST(Levels, OneAndTen) {
     s.interface = test::paper_interface();
     s.drive.velocity = 5e-4;
     s.dt = 10.0;
-    Simulation ten = make(s, test::flat_surface(sites));
+    Simulation ten = test::simulation(s, test::flat_surface(sites));
     ten.start(3.3);
     const double residual = worst_residual(ten, at_length ? 500 : 30);
     EXPECT_LT(residual, 1e-3);
     s.block = test::paper_block(16, 16, 0);
     ASSERT_EQ(level_shapes(s.block).size(), 1u);
-    Simulation one = make(s, test::flat_surface(16));
+    Simulation one = test::simulation(s, test::flat_surface(16));
     one.start(3.3);
     EXPECT_LT(worst_residual(one, 300), 1e-3);
-}
-
-// Restart. Stable: a checkpoint taken while the block snaps in leads to the same bits.
-
-TEST(Restart, InsideASnapIn) {
-    SimulationOptions options;
-    options.block = test::paper_block(16, 62, 2);
-    options.interface = test::paper_interface();
-    options.drive.velocity = 2e-4;
-    options.damping = 1e-3;
-    const Surface surface = test::reference_surface("c1_N16_T16_rms0.5");
-    Simulation s = make(options, surface);
-    s.start(7.0);
-    double fastest = 0.0, height = 7.0;
-    for (int n = 0; n < 3000; ++n) { // until the layer falls twice as fast as the top
-        s.step(false);
-        fastest = (height - s.now().mean_height) / options.dt;
-        height = s.now().mean_height;
-        if (fastest > 2.0 * options.drive.velocity) break;
-    }
-    ASSERT_GT(fastest, 2.0 * options.drive.velocity) << "no snap-in";
-    const auto path = (std::filesystem::temp_directory_path() /
-                       ("asperity-snap-" + std::to_string(::getpid()) + ".h5"))
-                          .string();
-    write_checkpoint(path, s, {}, "snap");
-    Simulation again = make(options, surface);
-    read_checkpoint(path, again, "snap");
-    std::filesystem::remove(path);
-    for (int n = 0; n < 300; ++n)
-        s.step(n % 50 == 0), again.step(n % 50 == 0);
-    EXPECT_EQ(test::fingerprint(s.block()), test::fingerprint(again.block()));
-    EXPECT_EQ(s.now().force, again.now().force);
-    EXPECT_EQ(s.now().residual, again.now().residual);
 }

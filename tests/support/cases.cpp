@@ -46,6 +46,19 @@ InterfaceOptions paper_interface(double cutoff_in_r0) {
     return options;
 }
 
+SimulationOptions free_contact(double dt, int layers_per_level) {
+    SimulationOptions options;
+    options.block = paper_block(8, 7, layers_per_level);
+    options.interface = paper_interface();
+    options.drive.velocity = 0.0;
+    options.dt = dt;
+    return options;
+}
+
+Simulation simulation(const SimulationOptions& options, const Surface& surface) {
+    return Simulation(options, surface, Communicator(), serial_grid(options.block));
+}
+
 namespace {
 
 Surface surface_of(std::vector<double> heights) {
@@ -149,6 +162,25 @@ SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt1993
 
 std::uint64_t mix(std::uint64_t hash, double value) {
     return (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u + (hash >> 29);
+}
+
+std::uint64_t mix(std::uint64_t hash, const StepRecord& r) {
+    for (double value : {r.time, r.top, r.mean_height, r.force, r.top_force, r.slide[0], r.slide[1],
+                         r.lateral_force[0], r.lateral_force[1]})
+        hash = mix(hash, value);
+    if (!r.observed) return hash;
+    for (double value : {r.interface_energy, r.elastic_energy, r.kinetic_energy, r.closest,
+                         static_cast<double>(r.in_contact), static_cast<double>(r.repulsive),
+                         r.work, r.damped, r.radiated, r.interface_work, r.residual})
+        hash = mix(hash, value);
+    return hash;
+}
+
+std::uint64_t mix(std::uint64_t hash, const EnergyBalance& b) {
+    for (double value : {b.top_work, b.lateral, b.drag_work, b.damped, b.radiated, b.heat,
+                         b.external, b.interface})
+        hash = mix(hash, value);
+    return hash;
 }
 
 std::uint64_t fingerprint(const Block& block) {

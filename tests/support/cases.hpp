@@ -8,8 +8,11 @@
 #include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/zero_load.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -29,7 +32,39 @@ inline LennardJones& lennard_jones(InterfaceOptions& options) {
 /// belongs to the process.
 std::array<PairPotential, 3> potentials(double cutoff = 13.12);
 
+/// A contact of 8 sites with nothing driven and nothing damped.
+SimulationOptions free_contact(double dt, int layers_per_level = 2);
+/// On one rank.
+Simulation simulation(const SimulationOptions& options, const Surface& surface);
+
 Surface flat_surface(int sites);
+/// Its height at the atom (x, y), Å: height(x, y).
+template <class Height>
+Surface surface_from(int sites, const Height& height, double spacing = 2.6) {
+    Surface s = flat_surface(sites);
+    s.length = sites * spacing;
+    for (int y = 0; y < sites; ++y)
+        for (int x = 0; x < sites; ++x)
+            s.height[static_cast<std::size_t>(y * sites + x)] = height(x, y);
+    const auto [low, high] = std::minmax_element(s.height.begin(), s.height.end());
+    s.statistics.lowest = *low, s.statistics.highest = *high;
+    return s;
+}
+/// One period of a cosine along x.
+inline Surface wave(int sites, double amplitude, double spacing = 2.6) {
+    return surface_from(
+        sites, [=](int x, int) { return amplitude * std::cos(2.0 * std::numbers::pi * x / sites); },
+        spacing);
+}
+/// As a scene makes it, of the paper's spacing.
+inline Surface self_affine(int sites, double rms, std::uint64_t seed = SurfaceOptions().seed) {
+    SurfaceOptions o;
+    o.sites = sites;
+    o.length = 2.6 * sites;
+    o.rms = rms;
+    o.seed = seed;
+    return make_surface(o);
+}
 /// A map of tests/physics/data, at its own size, its heights times a factor.
 Surface reference_surface(const std::string& name, double factor = 1.0);
 /// Its atoms, displaced sideways by up to 0.4 Å, over a second layer: a substrate of atoms
@@ -69,5 +104,8 @@ SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt1993
 /// same on every rank, and for any number of them.
 std::uint64_t fingerprint(const Block& block);
 std::uint64_t mix(std::uint64_t hash, double value);
+/// All numbers of a record, those of its energies where it was observed; all sums of a balance.
+std::uint64_t mix(std::uint64_t hash, const StepRecord& record);
+std::uint64_t mix(std::uint64_t hash, const EnergyBalance& balance);
 
 } // namespace asperity::test

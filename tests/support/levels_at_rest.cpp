@@ -5,68 +5,36 @@
 #include "engine/equilibrium/zero_load.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 namespace asperity::test {
 
-namespace {
-
-/// All displacements that move, as one list of numbers; the top plane's last.
-std::vector<double*> displacements_of(Block& block) {
-    std::vector<double*> list;
-    for (const Block::Level& level : block.levels())
-        for (int plane = 0; plane < level.shape.cells; ++plane) {
-            const auto u = block.fields(level).u.plane(plane);
-            for (const PlaneView<double>& c : {u.x, u.y, u.z})
-                for (int y = 0; y < c.ny; ++y)
-                    for (int x = 0; x < c.nx; ++x)
-                        list.push_back(&c(x, y));
-        }
-    return list;
-}
-
-} // namespace
-
-LevelsAtRest::LevelsAtRest(const BlockOptions& options)
-    : block(options, Communicator(), serial_grid(options)) {}
+LevelsAtRest::LevelsAtRest(const BlockOptions& options) : lattice(options) {}
 
 RelaxedState LevelsAtRest::relax(const Interface& interface, double reference_height,
                                  const Constraint& constraint, double tolerance) {
-    std::vector<VectorField<double>> forces;
-    for (const Block::Level& level : block.levels())
-        forces.emplace_back(level.tile, level.shape.cells);
-    const std::vector<double*> u = displacements_of(block);
+    Block& block = lattice.block();
+    Vector u = lattice.tabulate([](const Block::Level& level, int c, int z, int y, int x) {
+        const auto at = level.u.view();
+        return (c == 0 ? at.x : c == 1 ? at.y : at.z)(x, y, z);
+    });
+    double top = constraint.is_top() ? constraint.value : block.top();
     const std::size_t n = u.size();
-    std::vector<double> f(n + 1), v(n + 1);
-    if (constraint.is_top()) block.set_top(constraint.value);
-    block.exchange();
+    Vector f, v(n + 1); // the top plane's last
     InterfaceSums sums;
-    const auto top_force = [&] {
-        ExactSum sum;
-        block.add_top_force(sum);
-        return sum.value();
-    };
     // The top plane weighs as much as a plane of nodes: it moves as the planes below it do.
     const double sites = std::pow(block.options().sites, 2);
     const auto feel = [&] {
-        block.interpolate();
+        lattice.set(u, top);
         sums = interface.sweep(block.lowest_layer(), block.interface_force(), reference_height,
                                {.observe = true});
-        block.forces(forces);
-        std::size_t i = 0;
-        for (const Block::Level& level : block.levels())
-            for (int plane = 0; plane < level.shape.cells; ++plane) {
-                const auto at = forces[static_cast<std::size_t>(level.shape.level)].plane(plane);
-                for (const PlaneView<double>& c : {at.x, at.y, at.z})
-                    for (int y = 0; y < c.ny; ++y)
-                        for (int x = 0; x < c.nx; ++x)
-                            f[i++] = c(x, y);
-            }
-        f[n] = constraint.is_top() ? 0.0 : (top_force() - constraint.load()) / sites;
-        return std::max(std::abs(*std::max_element(f.begin(), f.end())),
-                        std::abs(*std::min_element(f.begin(), f.end())));
+        f = lattice.force();
+        f.push_back(constraint.is_top() ? 0.0
+                                        : (lattice.top_force()[2] - constraint.load()) / sites);
+        double largest = 0.0;
+        for (double force : f)
+            largest = std::max(largest, std::abs(force));
+        return largest;
     };
     RelaxedState state;
     double dt = 0.3, alpha = 0.1; // masses of 1
@@ -92,19 +60,17 @@ RelaxedState LevelsAtRest::relax(const Interface& interface, double reference_he
         }
         const double fraction = std::min(1.0, 0.1 / furthest); // no node further than 0.1 Å
         for (std::size_t i = 0; i < n; ++i)
-            *u[i] += fraction * dt * v[i];
-        block.set_top(block.top() + fraction * dt * v[n]);
-        block.exchange();
+            u[i] += fraction * dt * v[i];
+        top += fraction * dt * v[n];
         state.residual = feel();
     }
     state.converged = state.residual <= tolerance;
-    ExactSum elastic, height;
-    block.add_elastic_energy(elastic);
+    ExactSum height;
     block.add_lowest_z(height);
-    state.elastic_energy = elastic.value();
+    state.elastic_energy = lattice.energy();
     state.interface_energy = sums.energy.value();
     state.force = sums.force_z.value();
-    state.top_force = top_force();
+    state.top_force = lattice.top_force()[2];
     state.mean_height = height.value() / sites;
     state.in_contact = sums.in_contact;
     state.repulsive = sums.repulsive;

@@ -7,17 +7,17 @@
 // how it relaxes; slow, for blocks of some thousand nodes.
 #pragma once
 
-#include "engine/block/block.hpp"
 #include "engine/equilibrium/relaxation.hpp"
 #include "support/cases.hpp"
+#include "support/elastic_operator.hpp"
 
 namespace asperity::test {
 
 struct LevelsAtRest {
-    Block block;
+    ElasticOperator lattice;
     explicit LevelsAtRest(const BlockOptions& options);
 
-    /// From where the block is, its top plane held where the constraint says or free under its
+    /// From where the nodes are, the top plane held where the constraint says or free under its
     /// load, to this largest force on a node, eV/Å.
     RelaxedState relax(const Interface& interface, double reference_height,
                        const Constraint& constraint, double tolerance);

@@ -90,6 +90,15 @@ struct PathCase {
         p.reference_height = interface.start_height();
         return KeptPath(block, interface, p);
     }
+    /// From where the block is, to its end.
+    RelaxedState relax(const Constraint& constraint, double tolerance, RelaxOptions how = {}) {
+        how.tolerance = tolerance;
+        Phases phases;
+        const RelaxedState s =
+            asperity::relax(block, interface, interface.start_height(), constraint, how, phases);
+        EXPECT_TRUE(s.converged) << s.residual << " at " << constraint.value;
+        return s;
+    }
     double sites() const { return static_cast<double>(options.sites) * options.sites; }
     /// Of the whole block under uniform stretch, eV/Å^2.
     double spring() const {
@@ -116,7 +125,8 @@ inline std::vector<StepRecord> follow(KeptPath& path, Segment::Kind kind) {
     return follow(path, {kind, 0.0, 0, ""});
 }
 
-inline double energy(const StepRecord& r) { return r.interface_energy + r.elastic_energy; }
+/// Of a record or a relaxed state.
+inline double energy(const auto& r) { return r.interface_energy + r.elastic_energy; }
 
 /// Flat on flat as one coordinate: N^2 sites at gap z on the spring of the block.
 struct OneDimension {

@@ -37,16 +37,13 @@ Matrix times(const Matrix& a, const Matrix& b) {
     return c;
 }
 
+double corner(std::size_t p, std::size_t c) { return static_cast<double>(p >> c & 1u); }
+
 } // namespace
 
-double surface_stiffness_ratio(double qx, double qy, int thickness, double spacing, double lame,
-                               double shear) {
+CellStiffness cell_stiffness(double spacing, double lame, double shear) {
     // K of one cell: springs of k/4 along edges, k/2 along face diagonals, and the mean dilatation.
-    static constexpr std::size_t n = 24;
-    std::array<std::array<double, n>, n> cell{};
-    const auto corner = [](std::size_t p, std::size_t c) {
-        return static_cast<double>(p >> c & 1u);
-    };
+    CellStiffness cell{};
     const double k = shear * spacing;
     for (std::size_t p = 0; p < 8; ++p)
         for (std::size_t q = p + 1; q < 8; ++q) {
@@ -65,15 +62,21 @@ double surface_stiffness_ratio(double qx, double qy, int thickness, double spaci
                     cell[3 * q + a][3 * p + b] -= value;
                 }
         }
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = 0; i < 24; ++i)
+        for (std::size_t j = 0; j < 24; ++j) {
             const double si = 2 * corner(i / 3, i % 3) - 1, sj = 2 * corner(j / 3, j % 3) - 1;
             cell[i][j] += (lame - shear) * spacing / 16 * si * sj;
         }
+    return cell;
+}
+
+double surface_stiffness_ratio(double qx, double qy, int thickness, double spacing, double lame,
+                               double shear) {
+    const CellStiffness cell = cell_stiffness(spacing, lame, shear);
     // Folded with the phases of the wave: low plane, coupling, high plane.
     Matrix low{}, across{}, high{};
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = 0; i < 24; ++i)
+        for (std::size_t j = 0; j < 24; ++j) {
             const auto phase = [&](std::size_t p) {
                 return std::polar(1.0, spacing * (qx * corner(p, 0) + qy * corner(p, 1)));
             };

@@ -6,7 +6,13 @@
 // one from the clamped top. Shares nothing with the kernels or the block: it is their reference.
 #pragma once
 
+#include <array>
+
 namespace asperity::test {
+
+/// Second derivatives of the energy of one cell, node by node (bits x, y, z), then by component.
+using CellStiffness = std::array<std::array<double, 24>, 24>;
+CellStiffness cell_stiffness(double spacing, double lame, double shear);
 
 /// Frictionless normal stiffness of the surface, 1 / (S^-1)_zz per a^2, in units of E* q / 2.
 /// q in 1/Å; lame = lambda, shear = mu in eV/Å^3; thickness in cells.

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// JKR, Maugis-Dugdale and the periodic sine against theory.md's digits and
-// against each other's limits.
+// JKR and Maugis-Dugdale against theory.md's digits and against each other's limits.
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "support/westergaard.hpp"
 #include "theory/error.hpp"
 #include "theory/half_space.hpp"
 #include "theory/jkr.hpp"
@@ -163,49 +161,6 @@ TEST(PeriodicSphere, PullOffIsTheCurvesMinimum) {
     EXPECT_LT(excess, 0.013);
     EXPECT_THROW((void)PeriodicSphere({paper_sphere, 200, 3}).radius_under(-3000), NoSolution);
     EXPECT_THROW((void)PeriodicSphere({paper_sphere, 0, 3}).radius_under(-1), InvalidInput);
-}
-
-// theory.md writes the curve as sin²(πa) - α√tan(πa) and gives its minimum at a = 0.1171. The two
-// do not go together: with a the half-width over λ, as in that formula, the minimum is at 0.0586;
-// 0.1171 is the contact fraction 2a, which this module uses. The pressures are those of theory.md
-// either way.
-TEST(Westergaard, AdhesiveSine) {
-    const auto e = westergaard::extremes(0.3);
-    ASSERT_TRUE(e.exist);
-    EXPECT_NEAR(e.pull_off, -0.09594, 0.5e-5);
-    EXPECT_NEAR(e.pull_off_fraction, 0.1171, 0.5e-4);
-    EXPECT_NEAR(e.jump_in, 0.3877, 0.5e-4);
-    const auto formula = [](double a) { // as printed
-        return std::pow(std::sin(pi * a), 2) - 0.3 * std::sqrt(std::tan(pi * a));
-    };
-    EXPECT_NEAR(formula(e.pull_off_fraction / 2), e.pull_off, 1e-15);
-    EXPECT_GT(formula(0.1171), -0.06);
-    EXPECT_NEAR(westergaard::spontaneous_alpha(), 0.56988, 0.5e-5);
-    // Above it the surfaces close without load; above the merging α at any load.
-    EXPECT_GT(westergaard::extremes(westergaard::spontaneous_alpha() - 1e-6).jump_in, 0);
-    EXPECT_LT(westergaard::extremes(westergaard::spontaneous_alpha() + 1e-6).jump_in, 0);
-    EXPECT_TRUE(westergaard::extremes(westergaard::merging_alpha() - 1e-6).exist);
-    EXPECT_FALSE(westergaard::extremes(westergaard::merging_alpha() + 1e-6).exist);
-}
-
-TEST(Westergaard, WithoutAdhesion) {
-    for (double fraction : {0.1, 0.5, 0.9}) {
-        const double p = westergaard::reduced_pressure(0, fraction);
-        EXPECT_NEAR(p, std::pow(std::sin(pi * fraction / 2), 2), 1e-15);
-        EXPECT_NEAR(westergaard::contact_fraction(0, p), fraction, 1e-12);
-    }
-    EXPECT_THROW((void)westergaard::contact_fraction(0, 1.1), NoSolution);
-}
-
-TEST(Westergaard, SparseContactIsAJkrCylinder) {
-    // A narrow contact sees a parabola of radius R = λ²/4π²h, and the line contact of JKR:
-    // P = πE*b²/4R - √(2πE*wb), half-width b.
-    const AdhesiveSine sine{0.5, 100, 7, 1e-9};
-    const double fraction = 1e-3, b = fraction * 50;
-    const double R = 100.0 * 100 / (4 * pi * pi * 0.5);
-    const double line = pi * 7 * b * b / (4 * R) - std::sqrt(2 * pi * 7 * 1e-9 * b);
-    EXPECT_NEAR(westergaard::pressure(sine, fraction) * 100, line, 1e-5 * std::abs(line));
-    EXPECT_THROW((void)westergaard::contact_fraction(2, 0), NoSolution);
 }
 
 } // namespace

@@ -5,7 +5,6 @@
 // those n digits: the tolerance is half a unit of the last one.
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <random>
 #include <vector>
 
@@ -14,7 +13,6 @@
 
 #include "support/diffusion.hpp"
 #include "support/paper_contact.hpp"
-#include "support/stress_distribution.hpp"
 #include "theory/error.hpp"
 #include "theory/shooting.hpp"
 
@@ -272,70 +270,42 @@ TEST(Persson, EquationThreeHoldsAtEveryMagnification) {
 // The third opinion: random walks. The boundary of the solved state is given to walkers that know
 // nothing of Volterra equations; between nodes their chance of having crossed is the Brownian
 // bridge's.
-TEST(Persson, RandomWalkersSurviveAsOften) {
+TEST(Persson, RandomWalkersSurviveAsOftenUnderAsMuchStress) {
     const ContactState s = solve(paper::contact(5), {.tolerance = 1e-5});
     const auto& at = s.profile;
     std::mt19937_64 generator(20260101);
     std::normal_distribution<double> normal;
-    constexpr int walkers = 20000;
-    double sum = 0, squares = 0;
+    constexpr double walkers = 20000;
+    struct Mean {
+        double sum = 0, squares = 0;
+        void add(double value) { sum += value, squares += value * value; }
+        void expect(double value, double most) const {
+            const double mean = sum / walkers;
+            const double error = std::sqrt((squares / walkers - mean * mean) / walkers);
+            EXPECT_LT(error, most);
+            EXPECT_NEAR(mean, value, 4 * error);
+        }
+    };
+    std::vector<Mean> area(at.size());
+    Mean load; // of what is still in contact at the end
     for (int k = 0; k < walkers; ++k) {
         double stress = 0, alive = 1;
         for (std::size_t i = 1; i < at.size() && alive > 0; ++i) {
             const double dT = at[i].stress_variance - at[i - 1].stress_variance;
-            if (!(dT > 0)) continue;
-            const double above = stress + at[i - 1].detachment_stress;
-            stress += std::sqrt(dT) * normal(generator);
-            const double now = stress + at[i].detachment_stress;
-            alive *= now > 0 ? -std::expm1(-2 * above * now / dT) : 0;
+            if (dT > 0) {
+                const double above = stress + at[i - 1].detachment_stress;
+                stress += std::sqrt(dT) * normal(generator);
+                const double now = stress + at[i].detachment_stress;
+                alive *= now > 0 ? -std::expm1(-2 * above * now / dT) : 0;
+            }
+            area[i].add(alive);
         }
-        sum += alive;
-        squares += alive * alive;
+        load.add(alive * stress);
     }
-    const double mean = sum / walkers;
-    const double error = std::sqrt((squares / walkers - mean * mean) / walkers);
-    EXPECT_LT(error, 0.004);
-    EXPECT_NEAR(mean, s.area, 4 * error);
-}
-
-TEST(Persson, StressDistribution) {
-    const AdhesiveContact c = paper::contact(5);
-    const ContactState s = solve(c, {.tolerance = 1e-5});
-    for (double zeta : {4.0, 30.0, 512.0}) {
-        const double q = zeta * paper::q_L;
-        const double spread = std::sqrt(stress_variance(c, q));
-        std::vector<double> stress;
-        const double step = spread / 200;
-        for (double x = -8 * spread; x < 8 * spread; x += step)
-            stress.push_back(x);
-        const std::vector<double> P = stress_distribution(c, s, q, stress);
-        double area = 0, total = 0;
-        for (std::size_t i = 0; i < P.size(); ++i) {
-            area += P[i] * step;
-            total += P[i] * stress[i] * step;
-        }
-        double expected = 1;
-        for (const auto& at : s.profile)
-            if (at.q <= q * (1 + 1e-9)) expected = at.area;
-        EXPECT_NEAR(area, expected, zeta == 512 ? 1e-3 : 0.02) << zeta;
-        if (zeta == 512) {
-            EXPECT_NEAR(total, s.contact_stress, 2e-3 * spread);
-        }
-    }
-    // Without adhesion: an image charge.
-    AdhesiveContact bare = c;
-    bare.work_of_adhesion = 0;
-    bare.pressure = 3 * gpa;
-    const double T = stress_variance(bare, bare.spectrum.q1());
-    const std::vector<double> stress{0.5 * gpa, 3 * gpa, 9 * gpa};
-    const auto P = stress_distribution(bare, solve(bare), bare.spectrum.q1(), stress);
-    for (std::size_t i = 0; i < stress.size(); ++i) {
-        const auto bell = [&](double x) {
-            return std::exp(-x * x / (2 * T)) / std::sqrt(2 * std::numbers::pi * T);
-        };
-        const double image = bell(stress[i] - bare.pressure) - bell(stress[i] + bare.pressure);
-        EXPECT_NEAR(P[i], image, 2e-3 * image) << i;
-    }
+    for (std::size_t i = 8; i < at.size(); i += (at.size() - 9) / 4)
+        area[i].expect(at[i].area, 0.004);
+    area.back().expect(s.area, 0.004);
+    load.expect(s.contact_stress, 0.08 * gpa);
 }
 
 TEST(Persson, OrderOfConvergence) {
@@ -365,14 +335,10 @@ TEST(Persson, ErrorEstimateIsHonest) {
     }
 }
 
-TEST(Persson, HundredRoughnessesInTenSeconds) {
+TEST(Persson, RoughnessOnlyWeakens) {
     std::vector<ContactState> curve;
-    const std::clock_t begin = std::clock();
     for (int i = 1; i <= 100; ++i)
         curve.push_back(solve(paper::contact(0.1 * i)));
-    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-    RecordProperty("seconds", std::to_string(seconds));
-    EXPECT_LT(seconds, 10);
     for (std::size_t i = 1; i < curve.size(); ++i) {
         EXPECT_LE(curve[i].gamma_ratio, curve[i - 1].gamma_ratio) << i;
         EXPECT_LE(curve[i].area, curve[i - 1].area + 1e-9) << i;
