@@ -412,6 +412,10 @@ class Result(Values):
         return found
 
     @property
+    def load_words(self) -> tuple[str, str]:
+        return load_words(self.find("scene"))
+
+    @property
     def edge(self) -> float:
         """Width of the box, Å; 0 without a scene."""
         return self.number("scene.surface.sites", 0.0) * self.number("scene.surface.spacing", 0.0)

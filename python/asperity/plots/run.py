@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from .. import program, scene
 from ..errors import Error, InputOutputError
-from ..result import Result, State, Values, load_words
+from ..result import Result, State, Values
 from ..units import GIGAPASCAL, NANONEWTON
 from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into, finish, image
 
@@ -153,7 +153,7 @@ def roughness(run: Result, ax: Axes) -> bool:
     flat, rms = run.number("delta_gamma") or 0.0, run.number("surface.rms") or run.number("theory.h_rms") or 0.0
     if flat <= 0 or rms <= 0 or run.key("surface.kind") == "atoms":  # no theory, and Δγ but a unit
         return False
-    at, pressed = load_words(run.find("scene"))
+    at, pressed = run.load_words
     for words, x, y, line in theory_over_roughness(run, rms):
         curve(ax, x, y, words + pressed, colour=GREY, line=line, behind=True)
     names = (("jkr.in_averaged", "approach, by JKR", BLUE, "o"), ("jkr.out", "pull-off, by JKR", RED, "s")) \
