@@ -41,8 +41,7 @@ class RestState:
     elastic_energy: Final[float]
     contact_fraction: Final[float]
     repulsive_fraction: Final[float]
-    @property
-    def mean_height(self) -> float: ...
+    mean_height: Final[float]
     residual: Final[float]
     iterations: Final[int]
     maps: Final[SiteMaps]
@@ -62,8 +61,7 @@ class Simulation:
     time: Final[float]
     force: Final[float]
     top_force: Final[float]
-    @property
-    def mean_height(self) -> float: ...
+    mean_height: Final[float]
     energy: Final[Energies]
     contact: Final[float]
     repulsive_fraction: Final[float]
@@ -90,10 +88,8 @@ class Simulation:
     def _release_top(self) -> None: ...
 
 class Point:
-    @property
-    def top(self) -> float: ...
-    @property
-    def mean_height(self) -> float: ...
+    top: Final[float]
+    mean_height: Final[float]
     force: Final[float]
     energy: Final[float]
     elastic_energy: Final[float]

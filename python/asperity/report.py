@@ -184,7 +184,7 @@ def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
         part(page, run)
     beside = {"file": ", with the map beside it", "atoms": ", with the file of atoms beside it"}.get(
         run.text("scene.surface.kind"), "")
-    end(page, run, "The scene", run.part("scene"),
+    end(page, run, "The scene", run.find("scene") if run.part("scene") else {},
         f"Every key with the value that was used. Saved as a file, it runs again{beside}.")
     page.said = page.write()
     return page
