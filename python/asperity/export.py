@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import base64
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -37,6 +37,7 @@ TRAJECTORY = "/particles/trajectory"
 ASE_TIME = 0.010180505671156723
 """ASE's unit of time, Å sqrt(u/eV), in ps."""
 FORMATS = ("xyz", "lammps", "xdmf", "vtk", "png")
+DISPLACEMENT = ("u_x", "u_y", "u_z")
 
 
 @dataclass
@@ -135,15 +136,14 @@ def write_data(file: IO[str], atoms: Atoms, name: str, mass: float) -> None:
 
 def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> str:
     """VTK's XML image of one layer: maps [y, x], or [y, x, 3] for vectors; values as base64, lengths first."""
-    kinds = {"f": "Float64", "u": "UInt8"}
     n = len(next(iter(maps.values())))
     text = ('<?xml version="1.0"?>\n<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" '
             f'header_type="UInt64">\n  <ImageData WholeExtent="0 {n - 1} 0 {n - 1} 0 0" '
             f'Origin="{origin:.12g} {origin:.12g} 0" Spacing="{spacing:.12g} {spacing:.12g} {spacing:.12g}">\n'
             f'    <Piece Extent="0 {n - 1} 0 {n - 1} 0 0">\n      <PointData>\n')
     for name, values in maps.items():
-        kind = kinds["f" if values.dtype.kind == "f" else "u"]
-        data = np.ascontiguousarray(values, "<f8" if kind == "Float64" else "u1").tobytes()
+        kind, form = ("Float64", "<f8") if values.dtype.kind == "f" else ("UInt8", "u1")
+        data = np.ascontiguousarray(values, form).tobytes()
         packed = base64.b64encode(struct.pack("<Q", len(data)) + data).decode()
         text += (f'        <DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{values.ndim * 2 - 3}" '
                  f'format="binary">{packed}</DataArray>\n')
@@ -158,7 +158,7 @@ class Export:
         expect(directory, "run.h5")
         for note in self.run.notes:
             print(f"note: {note}")
-        self.spacing = self.run.number("scene.surface.spacing") or 0.0
+        self.spacing = self.run.number("scene.surface.spacing", 0.0)
         self._mass = self.run.number("scene.block.atom_mass") or 1.0
         if not self.run.substrate or not self.spacing > 0:
             raise InputOutputError(str(directory / "run.h5"), "has nothing to export",
@@ -173,8 +173,11 @@ class Export:
         types = self.run.substrate.types
         self.types = np.ones(len(self.rigid), int) if types is None else types
         if len(self.types) != len(self.rigid):
-            raise InputOutputError(str(self.run.file.path), f"has {len(self.types)} types of {len(self.rigid)} atoms",
-                                   "each atom of the substrate has one", "was the file written by another program?")
+            raise self._strange(f"has {len(self.types)} types of {len(self.rigid)} atoms",
+                                "each atom of the substrate has one")
+
+    def _strange(self, what: str, why: str) -> InputOutputError:
+        return InputOutputError(str(self.run.file.path), what, why, "was the file written by another program?")
 
     def _path(self, name: str) -> Path:
         return files.directory(self.run.directory / "export") / name
@@ -191,18 +194,16 @@ class Export:
         """Of the state's maps, which must be of one size."""
         sizes = {len(state[name]) for name in state}
         if len(sizes) != 1:
-            raise InputOutputError(str(self.run.file.path), f'state "{state.name}" cannot be exported',
-                                   f"its maps have the sizes {sorted(sizes)}", "was the file written by another program?")
+            raise self._strange(f'state "{state.name}" cannot be exported', f"its maps have the sizes {sorted(sizes)}")
         return sizes.pop()
 
     def _state_atoms(self, state: State) -> Atoms:
         """Both layers with the maps as columns, zero for the substrate. Sites stand over its hollows."""
-        missing = [name for name in ("u_x", "u_y", "u_z") if name not in state]
-        if missing:
-            raise InputOutputError(str(self.run.file.path), f'state "{state.name}" cannot be exported',
-                                   f"it has no map {missing[0]}", "was the file written by another program?")
+        for name in DISPLACEMENT:
+            if name not in state:
+                raise self._strange(f'state "{state.name}" cannot be exported', f"it has no map {name}")
         n = self._sites(state)
-        u = np.column_stack([state[name].ravel() for name in ("u_x", "u_y", "u_z")])
+        u = np.column_stack([state[name].ravel() for name in DISPLACEMENT])
         y, x = np.divmod(np.arange(n * n), n)
         rest = np.column_stack([self.spacing * (x + 0.5) + state.slide[0], self.spacing * (y + 0.5) + state.slide[1],
                                 np.full(n * n, state.reference_height)])
@@ -234,23 +235,20 @@ class Export:
         write, end = (write_xyz, ".xyz") if xyz else (write_dump, ".dump")
         written = []
 
-        def save(name: str, frames: Iterator[Atoms] | list[Atoms]) -> None:
-            path = self._path(name + end)
+        def save(name: str, frames: Iterable[Atoms], write: Callable[[IO[str], Atoms], None]) -> None:
+            path = self._path(name)
             with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
                 for frame in frames:
                     write(file, frame)
             written.append(path)
 
         for state in self.run.fields.values():
-            atoms = self._state_atoms(state)
-            save(file_name(state.name), [atoms])
+            atoms, name = self._state_atoms(state), file_name(state.name)
+            save(name + end, [atoms], write)
             if not xyz:
-                path = self._path(file_name(state.name) + ".data")
-                with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
-                    write_data(file, atoms, state.name, self._mass)
-                written.append(path)
+                save(name + ".data", [atoms], partial(write_data, name=state.name, mass=self._mass))
         if self._frames():
-            save("trajectory", self._trajectory())
+            save("trajectory" + end, self._trajectory(), write)
         return written
 
     def pictures(self) -> list[Path]:
@@ -268,8 +266,8 @@ class Export:
         for state in self.run.fields.values():
             self._sites(state)
             maps = {_title(name): state[name] for name in state if not name.startswith("u_")}
-            if all(name in state for name in ("u_x", "u_y", "u_z")):
-                maps["displacement (Å)"] = np.dstack([state["u_x"], state["u_y"], state["u_z"]])
+            if set(DISPLACEMENT) <= set(state):
+                maps["displacement (Å)"] = np.dstack([state[name] for name in DISPLACEMENT])
             texts[file_name(state.name)] = image_text(self.spacing, 0.5 * self.spacing, maps)
         written = []
         for name, text in texts.items():

@@ -186,5 +186,5 @@ def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
         run.text("scene.surface.kind"), "")
     end(page, run, "The scene", run.find("scene") if run.part("scene") else {},
         f"Every key with the value that was used. Saved as a file, it runs again{beside}.")
-    page.said = page.write()
+    page.write()
     return page

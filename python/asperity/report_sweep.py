@@ -213,5 +213,5 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
     end(page, Values({"run": sweeps[0].run}),
         f"The scene {sweeps[0].name}" if len(sweeps) > 1 else "The scene that the points vary", sweeps[0].scene,
         "Every key with its value; the swept ones with their first.")
-    page.said = page.write()
+    page.write()
     return page
