@@ -20,10 +20,11 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 from xml.sax.saxutils import quoteattr
 
 import h5py
+import jinja2
 import numpy as np
 
 from . import files
@@ -134,20 +135,21 @@ def write_data(file: IO[str], atoms: Atoms, name: str, mass: float) -> None:
                  *(("%.8g", c) for c in atoms.positions.T)])
 
 
+def _text(template: str, **values: Any) -> str:
+    loader = jinja2.FileSystemLoader(Path(__file__).parent / "templates")
+    environment = jinja2.Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
+    environment.filters |= {"quoted": quoteattr, "short": "{:.9g}".format, "long": "{:.12g}".format}
+    return environment.get_template(template).render(**values)
+
+
 def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> str:
     """VTK's XML image of one layer: maps [y, x], or [y, x, 3] for vectors; values as base64, lengths first."""
-    n = len(next(iter(maps.values())))
-    text = ('<?xml version="1.0"?>\n<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" '
-            f'header_type="UInt64">\n  <ImageData WholeExtent="0 {n - 1} 0 {n - 1} 0 0" '
-            f'Origin="{origin:.12g} {origin:.12g} 0" Spacing="{spacing:.12g} {spacing:.12g} {spacing:.12g}">\n'
-            f'    <Piece Extent="0 {n - 1} 0 {n - 1} 0 0">\n      <PointData>\n')
+    arrays = []
     for name, values in maps.items():
         kind, form = ("Float64", "<f8") if values.dtype.kind == "f" else ("UInt8", "u1")
         data = np.ascontiguousarray(values, form).tobytes()
-        packed = base64.b64encode(struct.pack("<Q", len(data)) + data).decode()
-        text += (f'        <DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{values.ndim * 2 - 3}" '
-                 f'format="binary">{packed}</DataArray>\n')
-    return text + "      </PointData>\n    </Piece>\n  </ImageData>\n</VTKFile>\n"
+        arrays.append((kind, name, values.ndim * 2 - 3, base64.b64encode(struct.pack("<Q", len(data)) + data).decode()))
+    return _text("image.vti", n=len(next(iter(maps.values()))), spacing=spacing, origin=origin, arrays=arrays)
 
 
 class Export:
@@ -278,62 +280,31 @@ class Export:
     def xdmf(self) -> list[Path]:
         """run.xdmf beside run.h5; frames one by one in export/trajectory.h5."""
         n = len(self.run.substrate.height)
-        grids = [_grid("substrate", n, self.run.edge / n, 0.0, [("height (Å)", "/substrate/height", False)])]
+        grids = [("substrate", n, self.run.edge / n, 0.0, [("height (Å)", "/substrate/height", False)])]
         for state in self.run.fields.values():
             maps = [(_title(name), f"/fields/{state.name}/{name}", name == "contact") for name in state]
             if maps:
-                grids.append(_grid(state.name, self._sites(state), self.spacing, 0.5 * self.spacing, maps))
-        written = []
+                grids.append((state.name, self._sites(state), self.spacing, 0.5 * self.spacing, maps))
+        written: list[Path] = []
+        times: list[float] = []
+        points = 0
         if self._frames():
             path = self._path("trajectory.h5")
-            times, points = [], 0
             with files.replacing(path) as beside, h5py.File(beside, "w") as copy:
                 for number, time in enumerate(self.run.file.array(TRAJECTORY + "/position/time", 1)):
                     values = self.run.file.array(TRAJECTORY + "/position/value", 2, number).astype("f4")
                     copy[f"position-{number}"] = values
                     points = len(values)
                     times.append(float(time))
-            grids.append(_collection(points, times))
             written.append(path)
-        text = ('<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" []>\n<Xdmf Version="2.0">\n'
-                "  <Domain>\n" + "".join(grids) + "  </Domain>\n</Xdmf>\n")
-        files.write(self.run.directory / "run.xdmf", text)
-        return [*written, self.run.directory / "run.xdmf"]
+        path = self.run.directory / "run.xdmf"
+        files.write(path, _text("run.xdmf", grids=grids, points=points, times=times))
+        return [*written, path]
 
 
 def _title(name: str) -> str:
     """Of a map, with its unit."""
     return name if name == "contact" else f"{name} ({'GPa' if name == 'pressure' else 'Å'})"
-
-
-def _grid(name: str, n: int, spacing: float, origin: float, maps: list[tuple[str, str, bool]]) -> str:
-    """Maps on a mesh of one layer: ParaView reads 3DCoRectMesh with the slowest index (z) first."""
-    def item(values: str) -> str:
-        return f'        <DataItem Dimensions="3" NumberType="Float" Precision="8" Format="XML">{values}</DataItem>\n'
-
-    text = (f"    <Grid Name={quoteattr(name)} GridType=\"Uniform\">\n"
-            f'      <Topology TopologyType="3DCoRectMesh" Dimensions="1 {n} {n}"/>\n'
-            '      <Geometry GeometryType="ORIGIN_DXDYDZ">\n'
-            + item(f"0 {origin:.9g} {origin:.9g}") + item(f"{spacing:.9g} {spacing:.9g} {spacing:.9g}")
-            + "      </Geometry>\n")
-    for title, dataset, is_bytes in maps:
-        kind, size = ("UChar", 1) if is_bytes else ("Float", 8)
-        text += (f'      <Attribute Name={quoteattr(title)} AttributeType="Scalar" Center="Node">\n'
-                 f'        <DataItem Dimensions="1 {n} {n}" NumberType="{kind}" Precision="{size}" Format="HDF">'
-                 f"run.h5:{dataset}</DataItem>\n      </Attribute>\n")
-    return text + "    </Grid>\n"
-
-
-def _collection(points: int, times: list[float]) -> str:
-    """Frames of points. (Slabs of one data set of all frames are read differently by XDMF 2 and 3.)"""
-    text = '    <Grid Name="lowest layer" GridType="Collection" CollectionType="Temporal">\n'
-    for number, time in enumerate(times):
-        text += (f'      <Grid Name="lowest layer {number}" GridType="Uniform">\n        <Time Value="{time:.9g}"/>\n'
-                 f'        <Topology TopologyType="Polyvertex" NumberOfElements="{points}"/>\n'
-                 f'        <Geometry GeometryType="XYZ">\n          <DataItem Dimensions="{points} 3" NumberType="Float" '
-                 f'Precision="4" Format="HDF">export/trajectory.h5:/position-{number}</DataItem>\n'
-                 "        </Geometry>\n      </Grid>\n")
-    return text + "    </Grid>\n"
 
 
 def export_command(directory: str, kind: str) -> int:
