@@ -29,13 +29,9 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _many(text: str) -> int:
-    try:
-        number = int(text)
-    except ValueError:
-        number = 0
-    if not 1 <= number <= 1024:
+    if not text.strip().isdecimal() or not 1 <= int(text) <= 1024:
         raise argparse.ArgumentTypeError(f"{text} is no number from 1 to 1024")
-    return number
+    return int(text)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -129,12 +125,11 @@ def _carry_out(given: argparse.Namespace) -> int:
         from .convert import convert_command
 
         return convert_command(given.source, given.target)
+    from .commands import cost_command, sweep_command
     from .pool import PoolOptions, executor_of
-    from .terminal import PROGRESS_MODES, parse_duration
+    from .terminal import Progress, parse_duration
 
-    if given.progress not in PROGRESS_MODES:
-        raise SceneError(f"--progress {given.progress}", "is none of its choices",
-                         "choices: " + ", ".join(PROGRESS_MODES))
+    Progress(given.progress)  # refuses what is no mode before anything is done
     scenes = _scenes(given)
     cost = given.command == "cost"
     if cost and len(scenes) > 1:
@@ -148,8 +143,6 @@ def _carry_out(given: argparse.Namespace) -> int:
         if given.executor and executor is None:
             return 0  # a rank that has worked for the first one
         options.executor = executor
-        from .commands import cost_command, sweep_command
-
         if cost:
             return cost_command(scenes[0], given.sets, [k for k in given.parameters.split(",") if k], given.out, options,
                                 given.target)

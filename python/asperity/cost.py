@@ -12,6 +12,7 @@ against the reference is within the target.
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import json
 import math
@@ -47,9 +48,8 @@ def nothing() -> np.ndarray:
 
 def numbers_of(result: Values) -> np.ndarray:
     """One number a quantity; NaN: none."""
-    flat, *numbers = (NAN if (v := result.number(key)) is None else v for key in (
-        "delta_gamma", "binding_energy", "contact_fraction", "work_of_drive.approach", "work_of_drive.pull_off",
-        "pull_off_force"))
+    flat, *numbers = (result.number(key, NAN) for key in ("delta_gamma", "binding_energy", "contact_fraction",
+                      "work_of_drive.approach", "work_of_drive.pull_off", "pull_off_force"))
     flat = flat or NAN
     return np.array(numbers) / (flat, 1.0, flat, flat, 1.0)
 
@@ -77,8 +77,7 @@ def pareto_front(seconds: np.ndarray, errors: np.ndarray) -> np.ndarray:
 
 def cheapest_within(seconds: np.ndarray, errors: np.ndarray, target: float) -> int | None:
     """The one of the least time with an error within the target."""
-    there = [i for i, e in enumerate(errors) if e <= target]
-    return min(there, key=lambda i: seconds[i], default=None)
+    return min((i for i, e in enumerate(errors) if e <= target), key=lambda i: seconds[i], default=None)
 
 
 def order_of(x: list[float], errors: list[float], x0: float | None, floor: float = 1e-6) -> float | None:
@@ -288,8 +287,7 @@ class Runs:
             if row.outcome.status == DONE:
                 result = row.outcome.result
                 row.numbers = numbers_of(result)
-                row.seconds, row.wall = (NAN if (v := result.number(k)) is None else v
-                                         for k in ("run.processor_seconds", "run.wall_seconds"))
+                row.seconds, row.wall = (result.number(f"run.{k}_seconds", NAN) for k in ("processor", "wall"))
         return complete
 
 
@@ -300,11 +298,9 @@ def row_of(parameter: Parameter, value: ParameterValue) -> CostRow:
 
 def target_of(text: str) -> float:
     """"1%" and "0.01" are 0.01. Raises SceneError."""
-    found = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(%?)\s*", text)
-    try:
+    found, target = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(%?)\s*", text), NAN
+    with contextlib.suppress(ValueError):
         target = float(found[1]) * (0.01 if found[2] else 1.0) if found else NAN
-    except ValueError:
-        target = NAN
     if not 0.0 < target < 1.0:
         raise SceneError(f"--target {text}", "is no error to keep", "a relative error is needed, above 0 and below 100 %",
                          "for example --target 1%, or --target 0.01")

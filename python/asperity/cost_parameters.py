@@ -122,7 +122,7 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     _refuse(scene, same_experiment)
 
     def own(key: str) -> float:
-        return scene.number(key) or 0.0
+        return scene.number(key, 0.0)
 
     path = scene.find("drive.path")
     dynamic = scene.text("drive.mode") == "dynamic" and "zero-load" not in path
@@ -149,53 +149,49 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     def with_tail(value: ParameterValue, tail: bool) -> ParameterValue:
         return ParameterValue(value.label + " + tail" * tail, [*value.setting, f"interface.tail={str(tail).lower()}"], value.x)
 
-    parameters = []
+    parameters: list[Parameter] = []
+
+    def vary(*of: Any) -> None:
+        parameters.append(Parameter(*of))
+
     if length:
         cutoffs = [_value("interface.cutoff", f * length, "Å") for f in (2.0, 2.5, 3.0, 4.0, 6.0) if f * length < widest]
         finest = with_tail(_value("interface.cutoff", widest, "Å"), True)
         fades = scene.text("interface.potential") == "lennard-jones"
-        parameters = [Parameter("cutoff", [with_tail(v, False) for v in cutoffs], finest,
-                      "-4: adhesion of what is beyond" if fades else "exponential", "interaction", -4.0 if fades else None, True),
-                 Parameter("tail", [with_tail(v, True) for v in cutoffs if v.x <= 4.0 * length], finest,
-                      "steeper than -4" if fades else "exponential", "interaction",
-                      None, True)]
+        vary("cutoff", [with_tail(v, False) for v in cutoffs], finest,
+             "-4: adhesion of what is beyond" if fades else "exponential", "interaction", -4.0 if fades else None, True)
+        vary("tail", [with_tail(v, True) for v in cutoffs if v.x <= 4.0 * length], finest,
+             "steeper than -4" if fades else "exponential", "interaction", None, True)
     if dynamic:
-        values = [_value("block.layers_per_level", m, "a level") for m in (2, 3, 4, 6, 8)]
-        for value in values:
-            value.setting.append("block.model=multiscale")
-        parameters.append(Parameter("layers", values, ParameterValue("lattice", ["block.model=lattice"]),
-                          "about -2 (docs/explanation/model.md: stiffness of waves)", "block", -2.0, True))
+        vary("layers", [ParameterValue(f"{m} a level", [f"block.layers_per_level={m}", "block.model=multiscale"], m)
+                        for m in (2, 3, 4, 6, 8)], ParameterValue("lattice", ["block.model=lattice"]),
+             "about -2 (docs/explanation/model.md: stiffness of waves)", "block", -2.0, True)
     layers = int(own("block.thickness"))
-    parameters.append(Parameter("thickness", [_value("block.thickness", t, "layers")
-                                    for t in (layers // 4, layers // 2, layers, 2 * layers) if t >= 1],
-                      _value("block.thickness", 8 * layers, "layers"), "none: another solid"))
-    parameters.append(Parameter("precision", [ParameterValue("mixed", ["numerics.precision=mixed"])],
-                      ParameterValue("double", ["numerics.precision=double"]), "none: rounding", "precision", None, True))
+    vary("thickness", [_value("block.thickness", t, "layers") for t in (layers // 4, layers // 2, layers, 2 * layers) if t],
+         _value("block.thickness", 8 * layers, "layers"), "none: another solid")
+    mixed, double = (ParameterValue(word, ["numerics.precision=" + word]) for word in ("mixed", "double"))
+    vary("precision", [mixed], double, "none: rounding", "precision", None, True)
     notes = []
     if dynamic:
-        parameters.append(Parameter("timestep", [v for v in scaled("drive.timestep", "fs", 6, 5, 4, 3, 2, 1)
-                                       if v.x < 0.9 * longest_timestep],
-                          _value("drive.timestep", 0.5 * own("drive.timestep"), "fs"), "2 (velocity Verlet)", "timestep",
-                          2.0))
-        parameters.append(Parameter("velocity", scaled("drive.velocity", "m/s", 4, 2, 1, 0.5, 0.25),
-                          ParameterValue("quasi-static", at_rest), "1: drag and waves; state: none", "velocity", 1.0, True))
+        vary("timestep", [v for v in scaled("drive.timestep", "fs", 6, 5, 4, 3, 2, 1) if v.x < 0.9 * longest_timestep],
+             *scaled("drive.timestep", "fs", 0.5), "2 (velocity Verlet)", "timestep", 2.0)
+        vary("velocity", scaled("drive.velocity", "m/s", 4, 2, 1, 0.5, 0.25), ParameterValue("quasi-static", at_rest),
+             "1: drag and waves; state: none", "velocity", 1.0, True)
         if own("drive.damping") > 0:
-            parameters.append(Parameter("damping", scaled("drive.damping", "1/ps", 4, 2, 1, 0.5),
-                              _value("drive.damping", 0.125 * own("drive.damping"), "1/ps"), "1 while weak; state: none",
-                              "", 1.0))
+            vary("damping", scaled("drive.damping", "1/ps", 4, 2, 1, 0.5), *scaled("drive.damping", "1/ps", 0.125),
+                 "1 while weak; state: none", "", 1.0)
         else:
             notes.append("drive.damping = 0: there is none to vary")
     still = at_rest if dynamic else []
-    parameters.append(Parameter("tolerance", scaled("drive.tolerance", "eV/Å", 100, 10, 1),
-                      _value("drive.tolerance", 0.1 * tolerance, "eV/Å"), "up to 2: a minimum is flat", "tolerance", None,
-                      False, still))
+    vary("tolerance", scaled("drive.tolerance", "eV/Å", 100, 10, 1), *scaled("drive.tolerance", "eV/Å", 0.1),
+         "up to 2: a minimum is flat", "tolerance", None, False, still)
     if moves:
-        parameters.append(Parameter("step", scaled("drive.step", "Å", 4, 2, 1, 0.5), _value("drive.step", 0.25 * step, "Å"),
-                          "none: steps are cut where needed", "step", None, False, still))
+        vary("step", scaled("drive.step", "Å", 4, 2, 1, 0.5), *scaled("drive.step", "Å", 0.25),
+             "none: steps are cut where needed", "step", None, False, still)
     models = [ParameterValue("lattice, in time", ["block.model=lattice"])] if dynamic else []
     if moves:
         models += [ParameterValue("quasi-static", at_rest), ParameterValue("zero load alone", ["drive.path=zero-load"])]
-        parameters.append(Parameter("model", models, None, ""))
+        vary("model", models, None, "")
 
     if same_experiment:
         # Parameters with a base of their own have no effect on the scene as it is.

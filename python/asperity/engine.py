@@ -344,15 +344,13 @@ class Simulation(_engine.Simulation):
                 raise SceneError(str(place), "already holds a result", "results are not written over",
                                  "name another directory, or remove this one")
             with files.replacing(place / "run.h5") as beside, h5py.File(beside, "w") as file:
-                for name, values in self.series.items():
-                    file[f"series/{name}"] = values
-                    if name in units:
-                        file[f"series/{name}"].attrs["unit"] = units[name]
-                for name, unit in MAPS.items():
-                    file[f"fields/now/{name}"] = maps[name]
-                    file[f"fields/now/{name}"].attrs["unit"] = unit
-                file["substrate/height"] = self.substrate.height
-                file["substrate/height"].attrs["unit"] = "Å"
+                parts = {**{f"series/{name}": (values, units.get(name)) for name, values in self.series.items()},
+                         **{f"fields/now/{name}": (maps[name], unit) for name, unit in MAPS.items()},
+                         "substrate/height": (self.substrate.height, "Å")}
+                for name, (values, unit) in parts.items():
+                    file[name] = values
+                    if unit:
+                        file[name].attrs["unit"] = unit
             files.write(place / "result.json", files.sealed_json({
                 "name": self._name, "run": {"version": _engine.version, "steps": self.steps},
                 "scene": tomllib.loads(self._scene)}))

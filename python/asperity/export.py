@@ -16,14 +16,15 @@ from __future__ import annotations
 
 import base64
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 from xml.sax.saxutils import quoteattr
 
 import h5py
+import jinja2
 import numpy as np
 
 from . import files
@@ -37,6 +38,7 @@ TRAJECTORY = "/particles/trajectory"
 ASE_TIME = 0.010180505671156723
 """ASE's unit of time, Å sqrt(u/eV), in ps."""
 FORMATS = ("xyz", "lammps", "xdmf", "vtk", "png")
+DISPLACEMENT = ("u_x", "u_y", "u_z")
 
 
 @dataclass
@@ -133,21 +135,21 @@ def write_data(file: IO[str], atoms: Atoms, name: str, mass: float) -> None:
                  *(("%.8g", c) for c in atoms.positions.T)])
 
 
+def _text(template: str, **values: Any) -> str:
+    loader = jinja2.FileSystemLoader(Path(__file__).parent / "templates")
+    environment = jinja2.Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
+    environment.filters |= {"quoted": quoteattr, "short": "{:.9g}".format, "long": "{:.12g}".format}
+    return environment.get_template(template).render(**values)
+
+
 def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> str:
     """VTK's XML image of one layer: maps [y, x], or [y, x, 3] for vectors; values as base64, lengths first."""
-    kinds = {"f": "Float64", "u": "UInt8"}
-    n = len(next(iter(maps.values())))
-    text = ('<?xml version="1.0"?>\n<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" '
-            f'header_type="UInt64">\n  <ImageData WholeExtent="0 {n - 1} 0 {n - 1} 0 0" '
-            f'Origin="{origin:.12g} {origin:.12g} 0" Spacing="{spacing:.12g} {spacing:.12g} {spacing:.12g}">\n'
-            f'    <Piece Extent="0 {n - 1} 0 {n - 1} 0 0">\n      <PointData>\n')
+    arrays = []
     for name, values in maps.items():
-        kind = kinds["f" if values.dtype.kind == "f" else "u"]
-        data = np.ascontiguousarray(values, "<f8" if kind == "Float64" else "u1").tobytes()
-        packed = base64.b64encode(struct.pack("<Q", len(data)) + data).decode()
-        text += (f'        <DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{values.ndim * 2 - 3}" '
-                 f'format="binary">{packed}</DataArray>\n')
-    return text + "      </PointData>\n    </Piece>\n  </ImageData>\n</VTKFile>\n"
+        kind, form = ("Float64", "<f8") if values.dtype.kind == "f" else ("UInt8", "u1")
+        data = np.ascontiguousarray(values, form).tobytes()
+        arrays.append((kind, name, values.ndim * 2 - 3, base64.b64encode(struct.pack("<Q", len(data)) + data).decode()))
+    return _text("image.vti", n=len(next(iter(maps.values()))), spacing=spacing, origin=origin, arrays=arrays)
 
 
 class Export:
@@ -158,7 +160,7 @@ class Export:
         expect(directory, "run.h5")
         for note in self.run.notes:
             print(f"note: {note}")
-        self.spacing = self.run.number("scene.surface.spacing") or 0.0
+        self.spacing = self.run.number("scene.surface.spacing", 0.0)
         self._mass = self.run.number("scene.block.atom_mass") or 1.0
         if not self.run.substrate or not self.spacing > 0:
             raise InputOutputError(str(directory / "run.h5"), "has nothing to export",
@@ -173,8 +175,11 @@ class Export:
         types = self.run.substrate.types
         self.types = np.ones(len(self.rigid), int) if types is None else types
         if len(self.types) != len(self.rigid):
-            raise InputOutputError(str(self.run.file.path), f"has {len(self.types)} types of {len(self.rigid)} atoms",
-                                   "each atom of the substrate has one", "was the file written by another program?")
+            raise self._strange(f"has {len(self.types)} types of {len(self.rigid)} atoms",
+                                "each atom of the substrate has one")
+
+    def _strange(self, what: str, why: str) -> InputOutputError:
+        return InputOutputError(str(self.run.file.path), what, why, "was the file written by another program?")
 
     def _path(self, name: str) -> Path:
         return files.directory(self.run.directory / "export") / name
@@ -191,18 +196,16 @@ class Export:
         """Of the state's maps, which must be of one size."""
         sizes = {len(state[name]) for name in state}
         if len(sizes) != 1:
-            raise InputOutputError(str(self.run.file.path), f'state "{state.name}" cannot be exported',
-                                   f"its maps have the sizes {sorted(sizes)}", "was the file written by another program?")
+            raise self._strange(f'state "{state.name}" cannot be exported', f"its maps have the sizes {sorted(sizes)}")
         return sizes.pop()
 
     def _state_atoms(self, state: State) -> Atoms:
         """Both layers with the maps as columns, zero for the substrate. Sites stand over its hollows."""
-        missing = [name for name in ("u_x", "u_y", "u_z") if name not in state]
-        if missing:
-            raise InputOutputError(str(self.run.file.path), f'state "{state.name}" cannot be exported',
-                                   f"it has no map {missing[0]}", "was the file written by another program?")
+        for name in DISPLACEMENT:
+            if name not in state:
+                raise self._strange(f'state "{state.name}" cannot be exported', f"it has no map {name}")
         n = self._sites(state)
-        u = np.column_stack([state[name].ravel() for name in ("u_x", "u_y", "u_z")])
+        u = np.column_stack([state[name].ravel() for name in DISPLACEMENT])
         y, x = np.divmod(np.arange(n * n), n)
         rest = np.column_stack([self.spacing * (x + 0.5) + state.slide[0], self.spacing * (y + 0.5) + state.slide[1],
                                 np.full(n * n, state.reference_height)])
@@ -234,23 +237,20 @@ class Export:
         write, end = (write_xyz, ".xyz") if xyz else (write_dump, ".dump")
         written = []
 
-        def save(name: str, frames: Iterator[Atoms] | list[Atoms]) -> None:
-            path = self._path(name + end)
+        def save(name: str, frames: Iterable[Atoms], write: Callable[[IO[str], Atoms], None]) -> None:
+            path = self._path(name)
             with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
                 for frame in frames:
                     write(file, frame)
             written.append(path)
 
         for state in self.run.fields.values():
-            atoms = self._state_atoms(state)
-            save(file_name(state.name), [atoms])
+            atoms, name = self._state_atoms(state), file_name(state.name)
+            save(name + end, [atoms], write)
             if not xyz:
-                path = self._path(file_name(state.name) + ".data")
-                with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
-                    write_data(file, atoms, state.name, self._mass)
-                written.append(path)
+                save(name + ".data", [atoms], partial(write_data, name=state.name, mass=self._mass))
         if self._frames():
-            save("trajectory", self._trajectory())
+            save("trajectory" + end, self._trajectory(), write)
         return written
 
     def pictures(self) -> list[Path]:
@@ -268,8 +268,8 @@ class Export:
         for state in self.run.fields.values():
             self._sites(state)
             maps = {_title(name): state[name] for name in state if not name.startswith("u_")}
-            if all(name in state for name in ("u_x", "u_y", "u_z")):
-                maps["displacement (Å)"] = np.dstack([state["u_x"], state["u_y"], state["u_z"]])
+            if set(DISPLACEMENT) <= set(state):
+                maps["displacement (Å)"] = np.dstack([state[name] for name in DISPLACEMENT])
             texts[file_name(state.name)] = image_text(self.spacing, 0.5 * self.spacing, maps)
         written = []
         for name, text in texts.items():
@@ -280,62 +280,31 @@ class Export:
     def xdmf(self) -> list[Path]:
         """run.xdmf beside run.h5; frames one by one in export/trajectory.h5."""
         n = len(self.run.substrate.height)
-        grids = [_grid("substrate", n, self.run.edge / n, 0.0, [("height (Å)", "/substrate/height", False)])]
+        grids = [("substrate", n, self.run.edge / n, 0.0, [("height (Å)", "/substrate/height", False)])]
         for state in self.run.fields.values():
             maps = [(_title(name), f"/fields/{state.name}/{name}", name == "contact") for name in state]
             if maps:
-                grids.append(_grid(state.name, self._sites(state), self.spacing, 0.5 * self.spacing, maps))
-        written = []
+                grids.append((state.name, self._sites(state), self.spacing, 0.5 * self.spacing, maps))
+        written: list[Path] = []
+        times: list[float] = []
+        points = 0
         if self._frames():
             path = self._path("trajectory.h5")
-            times, points = [], 0
             with files.replacing(path) as beside, h5py.File(beside, "w") as copy:
                 for number, time in enumerate(self.run.file.array(TRAJECTORY + "/position/time", 1)):
                     values = self.run.file.array(TRAJECTORY + "/position/value", 2, number).astype("f4")
                     copy[f"position-{number}"] = values
                     points = len(values)
                     times.append(float(time))
-            grids.append(_collection(points, times))
             written.append(path)
-        text = ('<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" []>\n<Xdmf Version="2.0">\n'
-                "  <Domain>\n" + "".join(grids) + "  </Domain>\n</Xdmf>\n")
-        files.write(self.run.directory / "run.xdmf", text)
-        return [*written, self.run.directory / "run.xdmf"]
+        path = self.run.directory / "run.xdmf"
+        files.write(path, _text("run.xdmf", grids=grids, points=points, times=times))
+        return [*written, path]
 
 
 def _title(name: str) -> str:
     """Of a map, with its unit."""
     return name if name == "contact" else f"{name} ({'GPa' if name == 'pressure' else 'Å'})"
-
-
-def _grid(name: str, n: int, spacing: float, origin: float, maps: list[tuple[str, str, bool]]) -> str:
-    """Maps on a mesh of one layer: ParaView reads 3DCoRectMesh with the slowest index (z) first."""
-    def item(values: str) -> str:
-        return f'        <DataItem Dimensions="3" NumberType="Float" Precision="8" Format="XML">{values}</DataItem>\n'
-
-    text = (f"    <Grid Name={quoteattr(name)} GridType=\"Uniform\">\n"
-            f'      <Topology TopologyType="3DCoRectMesh" Dimensions="1 {n} {n}"/>\n'
-            '      <Geometry GeometryType="ORIGIN_DXDYDZ">\n'
-            + item(f"0 {origin:.9g} {origin:.9g}") + item(f"{spacing:.9g} {spacing:.9g} {spacing:.9g}")
-            + "      </Geometry>\n")
-    for title, dataset, is_bytes in maps:
-        kind, size = ("UChar", 1) if is_bytes else ("Float", 8)
-        text += (f'      <Attribute Name={quoteattr(title)} AttributeType="Scalar" Center="Node">\n'
-                 f'        <DataItem Dimensions="1 {n} {n}" NumberType="{kind}" Precision="{size}" Format="HDF">'
-                 f"run.h5:{dataset}</DataItem>\n      </Attribute>\n")
-    return text + "    </Grid>\n"
-
-
-def _collection(points: int, times: list[float]) -> str:
-    """Frames of points. (Slabs of one data set of all frames are read differently by XDMF 2 and 3.)"""
-    text = '    <Grid Name="lowest layer" GridType="Collection" CollectionType="Temporal">\n'
-    for number, time in enumerate(times):
-        text += (f'      <Grid Name="lowest layer {number}" GridType="Uniform">\n        <Time Value="{time:.9g}"/>\n'
-                 f'        <Topology TopologyType="Polyvertex" NumberOfElements="{points}"/>\n'
-                 f'        <Geometry GeometryType="XYZ">\n          <DataItem Dimensions="{points} 3" NumberType="Float" '
-                 f'Precision="4" Format="HDF">export/trajectory.h5:/position-{number}</DataItem>\n'
-                 "        </Geometry>\n      </Grid>\n")
-    return text + "    </Grid>\n"
 
 
 def export_command(directory: str, kind: str) -> int:

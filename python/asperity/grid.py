@@ -9,6 +9,7 @@ every point. The axes surface.seed and drive.seed are repetitions, which tables 
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import math
 from dataclasses import dataclass
@@ -37,23 +38,22 @@ def is_seed(key: str) -> bool:
     return key.endswith(".seed")
 
 
-def _number(text: str) -> float | None:
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None
+def _number(text: str) -> float:
+    """NaN for what is no number."""
+    with contextlib.suppress(ValueError):
+        return float(text)
+    return math.nan
 
 
-def _range(text: str, where: str, whole: bool) -> list[str] | None:
-    """The values of "0.1:25:0.25"; None if it is no range."""
-    parts = [part.strip() for part in text.split(":")]
-    if len(parts) < 2 or _number(parts[0]) is None or _number(parts[1]) is None:
-        return None
-    if len(parts) != 3 or _number(parts[2]) is None:
+def _range(text: str, where: str, whole: bool) -> list[str]:
+    """The values of "0.1:25:0.25"; none if it is no range."""
+    numbers = [_number(part) for part in text.split(":")]
+    if len(numbers) < 2 or not all(map(math.isfinite, numbers[:2])):
+        return []
+    if len(numbers) != 3 or not math.isfinite(numbers[2]):
         raise SceneError(where, "is no range", "a range is start:stop:step, three plain numbers",
                          "for example surface.rms=0.5:10:0.5")
-    start, stop, step = map(float, parts)
+    start, stop, step = numbers
     steps = (stop - start) / step if step else -1.0
     if not steps >= 0:
         raise SceneError(where, "is a range without values", f"steps of {step:g} do not lead from {start:g} to {stop:g}",
@@ -73,7 +73,7 @@ def _axis(key: str, values: str, where: str) -> Axis:
         if not part:
             raise SceneError(where, "has an empty value", "values stand between commas",
                              f"for example --set {key}=v1,v2")
-        several = _range(part, where, kind == "integer") if kind in ("integer", "number") else None
+        several = _range(part, where, kind == "integer") if kind in ("integer", "number") else []
         axis.values += several or [part]
     return axis
 
@@ -81,9 +81,8 @@ def _axis(key: str, values: str, where: str) -> Axis:
 def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[list[Axis], list[str]]:
     """The axes among "key=values" and the scene's [sweep] (key, values, where), and the fixed overrides."""
     schema = program.schema()
-    found: list[Axis] = []
+    found: dict[str, Axis] = {}
     fixed: list[str] = []
-    seen: list[str] = []
     for assignment in assignments:
         where = "--set " + assignment
         key, equals, values = assignment.partition("=")
@@ -91,20 +90,17 @@ def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[lis
         if not equals or key not in schema or schema[key]["kind"] == "list":
             fixed.append(assignment)  # a list has commas of its own; the program finds mistakes
             continue
-        if key in seen:
+        if key in found:
             raise SceneError(where, f"{key} is given twice", "every key is one axis of the sweep",
                              f"put its values into one list: --set {key}=v1,v2")
-        seen.append(key)
-        found.append(_axis(key, values, where))
-    for variation in of_scene:
-        if variation["key"] in seen:
-            continue
+        found[key] = _axis(key, values, where)
+    for variation in (v for v in of_scene if v["key"] not in found):
         if schema[variation["key"]]["kind"] == "list":
             raise SceneError(variation["where"], f"{variation['key']} cannot be swept",
                              "its value is a list itself", "write one scene for each")
-        found.append(_axis(**variation))
-    fixed += [f"{axis.key}={axis.values[0]}" for axis in found if len(axis.values) == 1]
-    axes = [axis for axis in found if len(axis.values) > 1]
+        found[variation["key"]] = _axis(**variation)
+    fixed += [f"{axis.key}={axis.values[0]}" for axis in found.values() if len(axis.values) == 1]
+    axes = [axis for axis in found.values() if len(axis.values) > 1]
     if math.prod(len(axis.values) for axis in axes) > MOST_POINTS:
         raise SceneError("sweep", f"the grid has more than {MOST_POINTS} points", f"{MOST_POINTS} are the most",
                          "sweep fewer values or fewer keys")

@@ -99,16 +99,13 @@ class Page:
                              "kinds": ", ".join("." + kind for kind in (*self.kinds, "csv"))})
         return True
 
-    def drop_empty(self) -> None:
+    def write(self) -> None:
+        """Writes the page, without sections that hold nothing."""
         self.sections = [s for s in self.sections if s.parts]
-
-    def write(self) -> str:
-        """Writes the page; what was written, in words."""
-        self.drop_empty()
         loader = jinja2.FileSystemLoader(Path(__file__).parent / "templates")
         environment = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True)
         environment.filters["set"] = _set
         text = environment.get_template("page.html").render(page=self)
         files.write(self.path, text)
-        return (f"{self.path}: one page, {len(text.encode()) / 1e6:.1f} MB, nothing else needed; {self.files} files of "
-                f"its figures in {self.directory / 'report'}")
+        self.said = (f"{self.path}: one page, {len(text.encode()) / 1e6:.1f} MB, nothing else needed; {self.files} files of "
+                     f"its figures in {self.directory / 'report'}")

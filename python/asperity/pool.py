@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import math
 import os
 import signal
 import subprocess
@@ -283,13 +284,6 @@ def _fraction(job: Job) -> float:
     return min(1.0, int(head) / 100) if head.isdigit() else 0.0
 
 
-def _submitted(executor: Executor, task: Task) -> Future:
-    try:
-        return executor.submit(run_task, task)
-    except RuntimeError as error:  # all its workers were lost
-        future: Future = Future()
-        future.set_exception(error)
-        return future
 
 
 class Pool:
@@ -316,7 +310,7 @@ class Pool:
             self.going.touch()
             stack.callback(self.going.unlink, missing_ok=True)  # also tells workers, if an error of our own ends this
             stack.callback(self.progress.finish)
-            futures = {_submitted(executor, self._task(i)): i for i in list(self.waiting) if self._prepared(i)}
+            futures = {self._submitted(executor, i): i for i in list(self.waiting) if self._prepared(i)}
             left = set(futures)
             while left:
                 ended, left = wait(left, timeout=0.05, return_when=FIRST_COMPLETED)
@@ -339,14 +333,20 @@ class Pool:
             return False
         return True
 
-    def _task(self, i: int) -> Task:
+    def _submitted(self, executor: Executor, i: int) -> Future:
         job, options = self.jobs[i], self.options
         directory = str(job.directory.resolve())
         words = [*options.launch, program.path(), "run", job.file, "--out", directory, "--progress", "lines", "--resume",
                  "auto", *program.sets(job.overrides)]
         equal = 1 if options.executor else max(1, len(os.sched_getaffinity(0)) // options.jobs)
-        return Task(words, os.getcwd(), directory, options.threads or (0 if options.launch else equal),
+        task = Task(words, os.getcwd(), directory, options.threads or (0 if options.launch else equal),
                     options.threads > 0, str(self.going))
+        try:
+            return executor.submit(run_task, task)
+        except RuntimeError as error:  # all its workers were lost
+            future: Future = Future()
+            future.set_exception(error)
+            return future
 
     def _conclude(self, i: int, future: Future) -> None:
         self.running.pop(i, None)
@@ -420,28 +420,26 @@ class Pool:
 
     def _left(self, fractions: dict[int, float], now: float) -> str:
         """Points of a scene are taken to last alike; those of a scene that none is known of are not counted."""
-        known = {file: (float(points), seconds) for file, (points, seconds) in self.finished.items()}
-        work = longest = 0.0  # seconds that points have left
-        counted = True
-        for i, fraction in fractions.items():
+        known: dict[str, tuple[float, float]] = dict(self.finished)
+
+        def one_takes(i: int) -> float:
+            """Seconds of a point of this scene; NaN: not known."""
             points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
+            return seconds / points if points > 0.02 else math.nan
+
+        left = []  # seconds that points have left
+        for i, fraction in fractions.items():
             spent = now - self.running[i]
             if fraction > 0:
+                points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
                 known[self.jobs[i].file] = points + fraction, seconds + spent
-                left = spent * (1 - fraction) / fraction
-            elif points > 0.02:
-                left = max(0.0, seconds / points - spent)
-            else:
-                left, counted = 0.0, False
-            work += left
-            longest = max(longest, left)
-        for i in self.waiting:
-            points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
-            if points > 0.02:
-                work += seconds / points
-            else:
-                counted = False
-        if work == 0.0:
+            # max() keeps NaN where it stands first.
+            left.append(spent * (1 - fraction) / fraction if fraction > 0 else max(one_takes(i) - spent, 0.0))
+        several = [*left, *map(one_takes, self.waiting)]
+        counted = [seconds for seconds in several if seconds == seconds]
+        if not sum(counted):
             return ""
         side = len(fractions) or 1 if self.options.executor else self.options.jobs
-        return f" | {'' if counted else 'at least '}{duration(max(work / side, longest))} left"
+        longest = max((seconds for seconds in left if seconds == seconds), default=0.0)
+        least = "at least " * (len(counted) < len(several))
+        return f" | {least}{duration(max(sum(counted) / side, longest))} left"

@@ -7,39 +7,75 @@ These files are the report's own: a second report writes them anew.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 
 from . import program, scene, sentences
 from .page import Page, Row, file_name, minus
 from .plots import run as plots
 from .plots.files import KINDS
-from .result import Result, State, Values, load_words
+from .result import Result, State, Values
 from .units import shown
 
 MOST_STATES = 6
 
+FIGURES = {
+    "path": ("Force and contact", (
+        ("separation", "Force and separation", "{path}"),
+        ("contact", "Contact over the path", "{contact} (in contact), and sites whose net normal force is repulsive."))),
+    "states": ("States {at}", (
+        ("states", "Energy of every state", "Binding energy of the states {at} over their mean height."),)),
+    "surface": ("Surface and theory", (
+        ("height", "Height of the substrate", "The substrate from above. The colour bar spans 99\u00a0% of it."),
+        ("spectrum", "Roughness spectrum", "Radially averaged power spectrum of the surface that was made, and what was "
+         "asked for."),
+        ("roughness", "Binding energy and roughness", "Persson’s theory for this scene at other roughnesses, and this "
+         "run’s numbers."))),
+    "energies": ("Energies", (
+        ("energy", "Energies", "Energies over the path. Work is done by the top plane and the moving medium of the damping."),
+        ("balance", "Energy balance", "Work done minus energy gained minus energy damped or radiated, over the largest of "
+         "these terms so far."),
+        ("loading", "Force and displacement of the top plane", "Elastic force on the driven top plane over its "
+         "displacement: what a testing machine would record. Between the curves lies the energy lost in a cycle."),
+        ("friction", "Force against the slides", "Lateral force of the substrate on the lowest layer against each slide, "
+         "over its distance.")))}
+"""Sections of a run: heading, and of each figure its plot, heading and caption."""
 PATH_CAPTIONS = {
     False: "Force of the substrate on the block over the mean separation, the mean height of the lowest layer above the "
            "substrate’s mean plane; negative is attraction. The area under a curve is the work of adhesion of that segment.",
     True: "Force of the substrate on the block over the mean height of the lowest layer above the apex; negative is "
           "attraction. Beside it what a smooth sphere would do: JKR alone, and JKR and Maugis-Dugdale with the sphere’s "
           "periodic images."}
-MAPS = (("gap", "Gap", "Height of each site above the substrate below it."),
+MAPS = (("gap", "Gap", "Height of each site above the substrate below it. The colour bar {bar}."),
         ("pressure", "Pressure", "Normal force of the substrate on a site over its area. Blue is attractive, orange "
                                  "repulsive; the colour bar spans 99\u00a0% of the values."),
-        ("contact", "Contact", ""))
-STATE_COLUMNS = (("binding_energy", "binding energy, meV/Å²"), ("contact_fraction", "contact"),
-                 ("repulsive_fraction", "repulsive"), ("mean_height", "mean height, Å"),
-                 ("elastic_energy", "elastic energy, meV/Å²"), ("barrier", "barrier to the next, MPa"))
+        ("contact", "Contact", "{contact}."))
+DISTRIBUTIONS = (("pressures", "Distribution of pressure", "How the interface’s pressure is distributed over the sites that "
+                  "feel any: the left wing is attractive, the right one repulsive. Per site of the box."),
+                 ("gaps", "Distribution of gaps", "Distribution of the gaps of all sites, normalised to one."))
+STATE_COLUMNS = {"": "state", "binding_energy": "binding energy, meV/Å²", "contact_fraction": "contact",
+                 "repulsive_fraction": "repulsive", "mean_height": "mean height, Å",
+                 "elastic_energy": "elastic energy, meV/Å²", "barrier": "barrier to the next, MPa"}
+SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive, meV/Å²", "lost": "lost, meV/Å²",
+                   "pressure": "ends at, MPa", "mean_height": "mean height, Å", "contact_fraction": "contact",
+                   "friction": "friction, eV/Å"}
 
 
-def _in_contact(run: Result) -> str:
-    """Which sites the program counts as in contact."""
-    if run.key("interface.kind") != "wall":
-        return "Sites nearer to an atom of the substrate than the inflection of the potential"
-    if run.key("interface.law") == "exponential":
-        return "Sites that touch the wall"
-    return "Sites nearer to the wall than the inflection of its potential"
+def _words(run: Result) -> dict[str, str]:
+    """What captions are filled in with; contact: which sites the program counts as in contact."""
+    contact = "Sites nearer to an atom of the substrate than the inflection of the potential"
+    if run.key("interface.kind") == "wall":
+        contact = "Sites that touch the wall" if run.key("interface.law") == "exponential" else \
+            "Sites nearer to the wall than the inflection of its potential"
+    return {"path": PATH_CAPTIONS[run.curved], "contact": contact, "at": run.load_words[0],
+            "bar": "ends at the cutoff" if run.curved else "spans 99\u00a0% of the values"}
+
+
+def _figures(section: str, page: Page, run: Result) -> None:
+    (heading, figures), words = FIGURES[section], _words(run)
+    page.section(section, heading.format(**words))
+    for name, title, caption in figures:
+        page.figure(name, title, caption.format(**words), partial(getattr(plots, name), run))
 
 
 def _top(page: Page, run: Result) -> None:
@@ -52,7 +88,7 @@ def _top(page: Page, run: Result) -> None:
     page.add("numbers", sentences.key_numbers(run))
     for sentence in sentences.results(run):
         page.add("paragraph", sentence)
-    if not isinstance(run.find("scene"), dict):
+    if not run.part("scene"):
         return
     # A result without a path or a state came from the theory alone.
     if run.series or run.fields or run.number("run.steps") is not None:
@@ -61,27 +97,13 @@ def _top(page: Page, run: Result) -> None:
         page.add("lists", [("Computed", ["the theory alone: nothing was simulated"])])
 
 
-def _path(page: Page, run: Result) -> None:
-    page.section("path", "Force and contact")
-    page.figure("separation", "Force and separation", PATH_CAPTIONS[run.curved], partial(plots.separation, run))
-    page.figure("contact", "Contact over the path",
-                f"{_in_contact(run)} (in contact), and sites whose net normal force is repulsive.",
-                partial(plots.contact, run))
-
-
 def _state(page: Page, run: Result, state: State) -> None:
     name = file_name(state.name)
     page.section(f"state-{name}", f"The state {sentences.state_in_words(run, state.name)}")
     for key, heading, caption in MAPS:
-        if key == "gap":
-            caption += " The colour bar ends at the cutoff." if run.curved else \
-                " The colour bar spans 99\u00a0% of the values."
-        page.figure(f"{key}-{name}", heading, caption or f"{_in_contact(run)}.", partial(plots.map_of, run, state, key))
-    page.figure(f"pressures-{name}", "Distribution of pressure",
-                "How the interface’s pressure is distributed over the sites that feel any: the left wing is attractive, "
-                "the right one repulsive. Per site of the box.", partial(plots.pressures, state))
-    page.figure(f"gaps-{name}", "Distribution of gaps", "Distribution of the gaps of all sites, normalised to one.",
-                partial(plots.gaps, state))
+        page.figure(f"{key}-{name}", heading, caption.format(**_words(run)), partial(plots.map_of, run, state, key))
+    for key, heading, caption in DISTRIBUTIONS:
+        page.figure(f"{key}-{name}", heading, caption, partial(plots.OF_STATE[key], state))
 
 
 def _states(page: Page, run: Result) -> None:
@@ -92,61 +114,31 @@ def _states(page: Page, run: Result) -> None:
         _state(page, run, states[i * (n - 1) // (few - 1) if few > 1 else i])
     if few < n:
         page.add("paragraph", f"{few} of the {n} states in run.h5 are shown; `asperity export` writes them all.")
-    at = load_words(run.find("scene"))[0]
-    page.section("states", f"States {at}")
-    page.figure("states", "Energy of every state", f"Binding energy of the states {at} over their mean height.",
-                partial(plots.states, run))
-    found = run.find("states.all")
-    rows = [Row([str(i + 1), *(sentences.general(s.get(k), 6) for k, _ in STATE_COLUMNS)])
-            for i, s in enumerate(found if isinstance(found, list) else []) if isinstance(s, dict)]
-    page.add("table", {"heads": ["state", *(head for _, head in STATE_COLUMNS)], "rows": rows} if rows else None)
+    _figures("states", page, run)
+    _table(page, STATE_COLUMNS, run.listed("states.all", dict), 6)
 
 
-def _surface(page: Page, run: Result) -> None:
-    page.section("surface", "Surface and theory")
-    page.figure("height", "Height of the substrate",
-                "The substrate from above. The colour bar spans 99\u00a0% of it.", partial(plots.height, run))
-    page.figure("spectrum", "Roughness spectrum", "Radially averaged power spectrum of the surface that was made, and "
-                "what was asked for.", partial(plots.spectrum, run))
-    page.figure("roughness", "Binding energy and roughness", "Persson’s theory for this scene at other roughnesses, and "
-                "this run’s numbers.", partial(plots.roughness, run))
-
-
-def _energies(page: Page, run: Result) -> None:
-    page.section("energies", "Energies")
-    page.figure("energy", "Energies", "Energies over the path. Work is done by the top plane and the moving medium of "
-                "the damping.", partial(plots.energy, run))
-    page.figure("balance", "Energy balance", "Work done minus energy gained minus energy damped or radiated, over the largest of "
-                "these terms so far.", partial(plots.balance, run))
-    page.figure("loading", "Force and displacement of the top plane", "Elastic force on the driven top plane over its "
-                "displacement: what a testing machine would record. Between the curves lies the energy lost in a "
-                "cycle.", partial(plots.loading, run))
-    page.figure("friction", "Force against the slides", "Lateral force of the substrate on the lowest layer against each "
-                "slide, over its distance.", partial(plots.friction, run))
-
-
-SEGMENT_COLUMNS = (("name", "segment"), ("work_of_drive", "work of the drive, meV/Å²"), ("lost", "lost, meV/Å²"),
-                   ("pressure", "ends at, MPa"), ("mean_height", "mean height, Å"), ("contact_fraction", "contact"),
-                   ("friction", "friction, eV/Å"))
+def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) -> None:
+    """Numbers by the names of columns; "": of the line itself."""
+    rows = [Row([str(i) if name == "" else line.text(name) or sentences.general(line.find(name), digits) for name in heads])
+            for i, line in enumerate(lines, 1)]
+    page.add("table", {"heads": [*heads.values()], "rows": rows} if rows else None)
 
 
 def _segments(page: Page, run: Result) -> None:
     """Of a path that does more than to approach and to pull off."""
-    found = run.find("segments")
-    if not isinstance(found, list) or set(run.segments) <= {"approach", "pull-off", "zero-load"}:
+    if set(run.segments) <= {"approach", "pull-off", "zero-load"}:
         return
-    columns = [c for c in SEGMENT_COLUMNS if any(isinstance(s, dict) and c[0] in s for s in found)]
+    lines = run.listed("segments", dict)
     page.section("segments", "Segments of the path")
-    page.add("table", {"heads": [head for _, head in columns],
-                       "rows": [Row([str(s.get("name", "")), *(sentences.general(s.get(k), 5) for k, _ in columns[1:])])
-                                for s in found if isinstance(s, dict)]})
+    _table(page, {n: head for n, head in SEGMENT_COLUMNS.items() if any(n in line for line in lines)}, lines, 5)
 
 
 def _numbers(page: Page, run: Result) -> None:
     """Every number of the result, in the order of the file."""
     rows = []
     for key, value in run.numbers().items():
-        if key.split(".")[0] in ("scene", "run", "failure", "units") or run.number(key) is None:
+        if key.split(".")[0] in ("scene", "run", "failure", "units"):
             continue
         known = program.quantity(key)
         unit, meaning, flat = shown(run.unit(key) or known["unit"]), known["meaning"], sentences.reference(run, key)
@@ -160,17 +152,16 @@ def _numbers(page: Page, run: Result) -> None:
 
 
 def _times(page: Page, run: Result) -> None:
-    phases = run.find("run.phases")
-    found = Values(phases if isinstance(phases, dict) else {})
+    found = run.part("run.phases")
     bars = [(name, s, c) for name in found
-            if (s := found.number(f"{name}.seconds")) is not None and (c := found.number(f"{name}.calls")) is not None]
+            if None not in ((s := found.number(f"{name}.seconds")), (c := found.number(f"{name}.calls")))]
     longest = max((s for _, s, _ in bars), default=0.0) or 1.0
     page.section("times", "Time spent")
     page.add("bars", [{"name": name, "fraction": s / longest, "text": f"{s:.3g} s, {c:.0f} ×"}
                       for name, s, c in sorted(bars, key=lambda b: -b[1])])
 
 
-def end(page: Page, result: Values, heading: str, keys: dict | None, note: str) -> None:
+def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> None:
     """The scene, where the numbers come from, and how to cite them."""
     if keys:
         page.section("scene", heading)
@@ -188,12 +179,12 @@ def end(page: Page, result: Values, heading: str, keys: dict | None, note: str) 
 def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
     """DIR/report.html of a run; kinds: of files of its figures."""
     page = Page(run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
-    for part in (_top, _path, _segments, _states, _surface, _energies, _numbers, _times):
+    for part in (_top, partial(_figures, "path"), _segments, _states, partial(_figures, "surface"),
+                 partial(_figures, "energies"), _numbers, _times):
         part(page, run)
-    keys = run.find("scene")
-    beside = {"file": "map", "atoms": "file of atoms"}.get(str(run.key("surface.kind")), "")
-    measured = f", with the {beside} beside it" if beside else ""
-    end(page, run, "The scene", keys if isinstance(keys, dict) else None,
-        f"Every key with the value that was used. Saved as a file, it runs again{measured}.")
-    page.said = page.write()
+    beside = {"file": ", with the map beside it", "atoms": ", with the file of atoms beside it"}.get(
+        run.text("scene.surface.kind"), "")
+    end(page, run, "The scene", run.find("scene") if run.part("scene") else {},
+        f"Every key with the value that was used. Saved as a file, it runs again{beside}.")
+    page.write()
     return page

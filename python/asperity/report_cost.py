@@ -32,10 +32,8 @@ def json_of(cost: Cost) -> dict[str, Any]:
     def by_quantity(values) -> dict[str, float | None]:
         return {name: known(v) for name, v in zip(QUANTITIES, values)}
 
-    settings = [{"parameter": row.parameter, "value": row.label, "set": row.setting,
-                 "processor_seconds": known(row.seconds),
-                 "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers),
-                 "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
+    settings = [{"parameter": row.parameter, "value": row.label, "set": row.setting, "processor_seconds": known(row.seconds),
+                 "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers), "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
                  "pareto": dict(row.front),
                  **({} if math.isnan(row.added) else {"added_error": row.added}),
                  **({"failed": row.outcome.reason} if row.outcome.status == FAILED else {})} for row in cost.rows]
@@ -107,16 +105,14 @@ def text_of(cost: Cost) -> str:
                      f"{ratio:.2f}" if math.isfinite(ratio) else "-",
                      "".join("*" if f else " " for f in row.front.values())])
     parts.append(terminal.table(["parameter", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""],
-                                rows,
-                                left=(0, 1)))
+                                rows, left=(0, 1)))
     if cost.orders:
         parts.append("\nOrder of each parameter's own error (all else as in the scene): the power that fits it.\n")
         parts.append(terminal.table(["parameter", "γ", "contact", "in", "out", "force", "expected"],
                                     [[parameter.name, *("-" if p is None else f"{p:.1f}" for p in measured),
                                       parameter.expected]
                                      for parameter, measured in cost.orders], left=(0, 6)))
-    for question, what in zip(ASKED, ("the state at zero load (γ, contact)",
-                                          "the whole path (works, pull-off force too)")):
+    for question, what in zip(ASKED, ("the state at zero load (γ, contact)", "the whole path (works, pull-off force too)")):
         if cost.asked or not cost.answered(question):
             continue
         parts.append(f"\nCheapest for {what}:")

@@ -32,18 +32,19 @@ from .sentences import KeyNumber
 MOST_POINTS = 24
 MOST_CURVES = 6
 
-CAPTIONS = {
-    "gamma": "Binding energy and works over the binding energy of two flat surfaces: theory, and what was simulated. Of a sphere, γ by JKR from "
-             "the largest attraction and from the energy at zero load. Bars: standard deviation over seeds and uncertainty of a run, "
-             "added in squares.",
-    "area": "Projected contact area over the nominal area.",
-    "separation": "Mean height of the lowest layer above the substrate’s mean plane.",
-    "radius": "Radius of a circle as large as the area in contact.",
-    "pull-off": "What it takes to pull the block off.",
-    "hysteresis": "Energy that approach, pull-off and both lose.",
-    "readings": "Work of the interface’s force on the mean height, approach and pull-off; the work summed atom by atom, "
-                "which is the energy of the pairs and the same both ways; and the state’s energy.",
-    "full-contact": "The full theory, and what it would be if contact were full."}
+FIGURES = {
+    "gamma": ("Binding energy", "Binding energy and works over the binding energy of two flat surfaces: theory, and what was "
+              "simulated. Of a sphere, γ by JKR from the largest attraction and from the energy at zero load. Bars: "
+              "standard deviation over seeds and uncertainty of a run, added in squares."),
+    "area": ("Contact area", "Projected contact area over the nominal area."),
+    "separation": ("Mean separation", "Mean height of the lowest layer above the substrate’s mean plane."),
+    "radius": ("Contact radius", "Radius of a circle as large as the area in contact."),
+    "pull-off": ("Pull-off force", "What it takes to pull the block off."),
+    "hysteresis": ("Energy lost in the cycle", "Energy that approach, pull-off and both lose."),
+    "readings": ("Readings of the work", "Work of the interface’s force on the mean height, approach and pull-off; the work "
+                 "summed atom by atom, which is the energy of the pairs and the same both ways; and the state’s energy."),
+    "full-contact": ("Binding energy, theory and full contact", "The full theory, and what it would be if contact were full.")}
+"""Of each plot its heading and caption."""
 
 
 def holds_sweep(directory: Path) -> bool:
@@ -110,8 +111,7 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
         np.abs(r.series["force"]) > 1e-3 * np.abs(r.series["force"]).max()]]
     if felt:
         ax.set_xlim(min(felt), max(felt))
-    finish(ax, "mean height above the apex (Å)" if runs[0][1].curved else "mean separation (Å)", label)
-    return True
+    return finish(ax, "mean height above the apex (Å)" if runs[0][1].curved else "mean separation (Å)", label)
 
 
 def _half_way(table: Table, column: str) -> float | None:
@@ -159,10 +159,9 @@ def _lead(sweeps: list[Sweep]) -> str:
 
 
 def _notices(page: Page, sweep: Sweep) -> None:
-    for point in sweep.points:
-        if point.get("status") == FAILED:
-            page.notices.append((f"{point.get('directory', '')} failed", Values(point).text("failure.reason")))
-    waiting = sum(p.get("status", "waiting") == "waiting" for p in sweep.points) if sweep.simulated else 0
+    page.notices += [(f"{point.get('directory', '')} failed", Values(point).text("failure.reason"))
+                     for point in sweep.points if point.get("status") == FAILED]
+    waiting = sweep.table.status.count("waiting") if sweep.simulated else 0
     if waiting:
         page.notices.append(("This sweep is not finished", f"{waiting} of {len(sweep.points)} points of {sweep.name} have "
                              "no result yet; the same `asperity sweep` command goes on with them."))
@@ -196,7 +195,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
             page.add("paragraph", f"Note: {note}.")
     page.section("plots", "Adhesion and contact")
     for name in plots.names(sweeps):
-        page.figure(name, plots.TITLES[name], CAPTIONS[name], partial(plots.plot, sweeps, name))
+        page.figure(name, *FIGURES[name], partial(plots.plot, sweeps, name))
     for sweep, some in zip(sweeps, points):
         page.figure("curves" + f"-{file_name(sweep.name)}" * (len(sweeps) > 1), "Force and separation",
                     "Force over the mean separation at some of the points: pull-off drawn through, approach dotted.",
@@ -213,5 +212,5 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
     end(page, Values({"run": sweeps[0].run}),
         f"The scene {sweeps[0].name}" if len(sweeps) > 1 else "The scene that the points vary", sweeps[0].scene,
         "Every key with its value; the swept ones with their first.")
-    page.said = page.write()
+    page.write()
     return page

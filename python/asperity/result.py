@@ -9,6 +9,7 @@ the theory alone has no run.h5. What is not there is absent or empty here; a dam
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import json
 import math
@@ -31,15 +32,21 @@ DEEPEST_JSON = 64
 """Levels; what the program itself reads is no deeper."""
 
 
-class Values(Mapping):
-    """A JSON object whose members are attributes too: v.theory.gamma_eff, v["theory"]["gamma_eff"]."""
+def finite(value: Any) -> float | None:
+    """A value of a JSON file if it is a finite number."""
+    with contextlib.suppress(OverflowError):
+        if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
+            return float(value)
+    return None
+
+
+class Members(Mapping):
+    """Members by name, which are attributes too."""
+
+    _called = "the result"
 
     def __init__(self, members: Mapping[str, Any]):
         self._members = members
-
-    def __getitem__(self, key: str) -> Any:
-        value = self._members[key]
-        return Values(value) if isinstance(value, dict) else value
 
     def __getattr__(self, key: str) -> Any:
         if key.startswith("_"):
@@ -47,7 +54,7 @@ class Values(Mapping):
         try:
             return self[key]
         except KeyError:
-            raise AttributeError(f"the result has no {key!r}; it has {', '.join(self._members)}") from None
+            raise AttributeError(f"{self._called} has no {key!r}; it has {', '.join(self)}") from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._members)
@@ -57,6 +64,14 @@ class Values(Mapping):
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._members]
+
+
+class Values(Members):
+    """A JSON object: v.theory.gamma_eff, v["theory"]["gamma_eff"]."""
+
+    def __getitem__(self, key: str) -> Any:
+        value = self._members[key]
+        return Values(value) if isinstance(value, dict) else value
 
     def __repr__(self) -> str:
         return json.dumps(self._members, indent=2, ensure_ascii=False)
@@ -70,44 +85,45 @@ class Values(Mapping):
             value = value[part]
         return value
 
-    def number(self, name: str) -> float | None:
+    def number(self, name: str, otherwise: float | None = None) -> float | None:
         """The same if it is a finite number."""
-        value = self.find(name)
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            return None
-        try:
-            number = float(value)
-        except OverflowError:
-            return None
-        return number if math.isfinite(number) else None
+        number = finite(self.find(name))
+        return otherwise if number is None else number
 
     def text(self, name: str) -> str:
         """The same if it is a string, else ""."""
         value = self.find(name)
         return value if isinstance(value, str) else ""
 
+    def part(self, name: str) -> Values:
+        """The same if it is an object, else an empty one."""
+        value = self.find(name)
+        return Values(value if isinstance(value, dict) else {})
+
+    def listed(self, name: str, kind: type = object) -> list:
+        """The same if it is a list, else []: its members of a kind, objects as Values."""
+        value = self.find(name)
+        members = [m for m in value if isinstance(m, kind)] if isinstance(value, list) else []
+        return [Values(m) for m in members] if kind is dict else members
+
     def numbers(self) -> dict[str, float]:
-        """All numbers by their paths, in the order of the file."""
+        """All finite numbers by their paths, in the order of the file."""
         found: dict[str, float] = {}
-
-        def collect(members: Mapping[str, Any], before: str) -> None:
-            for key, value in members.items():
-                if isinstance(value, dict):
-                    collect(value, f"{before}{key}.")
-                elif isinstance(value, (int, float)) and not isinstance(value, bool):
-                    found[before + key] = float(value)
-
-        collect(self._members, "")
+        for key, value in self._members.items():
+            if isinstance(value, dict):
+                found |= {f"{key}.{name}": number for name, number in Values(value).numbers().items()}
+            elif (number := finite(value)) is not None:
+                found[key] = number
         return found
 
 
 def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
     """Of a scene, the load of its state, "at zero load" or "under a load of 5 MPa", and that of its theory, "" or
     " under a load of 5 MPa". They differ after an approach: its state carries none. swept: drive.load is an axis."""
-    keys = Values(scene if isinstance(scene, dict) else {})
-    load, path = keys.number("drive.load") or 0.0, keys.find("drive.path")
+    keys = Values({"scene": scene}).part("scene")
+    load = keys.number("drive.load", 0.0)
     under = "under the load" if swept else f"under a load of {load:.4g} MPa".replace("-", "−")
-    carried = (load or swept) and isinstance(path, list) and path[:1] == ["zero-load"]
+    carried = (load or swept) and keys.listed("drive.path")[:1] == ["zero-load"]
     return under if carried else "at zero load", f" {under}" if load and not swept else ""
 
 
@@ -218,8 +234,8 @@ class RunFile:
         return self._read(value)
 
 
-class Group(Mapping):
-    """Arrays of a group of run.h5 by name, also as attributes, read when they are asked for.
+class Group(Members):
+    """Arrays of a group of run.h5, read when they are asked for.
 
     Maps are square, [y, x]; what stands in `lists` has one dimension and is reached by other members.
     """
@@ -228,8 +244,8 @@ class Group(Mapping):
 
     def __init__(self, file: RunFile, path: str):
         self._file, self._path = file, path
-        self._all = file.members(path)
-        self._names = [name for name in self._all if name not in self.lists]
+        self._called, self._all = path, file.members(path)
+        super().__init__(dict.fromkeys(name for name in self._all if name not in self.lists))
         self._read: dict[str, np.ndarray] = {}
 
     def _array(self, name: str) -> np.ndarray:
@@ -240,28 +256,14 @@ class Group(Mapping):
         return values
 
     def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self._names:
-            raise self._file.lacks(f"{name} in {self._path}", self._names)
+        if name not in self._members:
+            raise self._file.lacks(f"{name} in {self._path}", list(self))
         if name not in self._read:
             self._read[name] = self._array(name)
         return self._read[name]
 
-    def __getattr__(self, name: str) -> np.ndarray:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            return self[name]
-        except KeyError:
-            raise AttributeError(f"{self._path} has no {name!r}; it has {', '.join(self)}") from None
-
     def __contains__(self, name: object) -> bool:  # without reading it
-        return name in self._names
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._names)
-
-    def __len__(self) -> int:
-        return len(self._names)
+        return name in self._members
 
     def unit(self, name: str) -> str:
         """The unit of an array; "" of pure numbers."""
@@ -277,7 +279,7 @@ class Series(Group):
 
     def __init__(self, file: RunFile):
         super().__init__(file, "/series")
-        columns = {name: file.array(f"/series/{name}", 1).astype(float) for name in self._names}
+        columns = {name: file.array(f"/series/{name}", 1).astype(float) for name in self}
         rows = min((len(c) for c in columns.values()), default=0)
         self._read = {name: column[:rows] for name, column in columns.items()}
 
@@ -297,18 +299,19 @@ class State(Group):
         super().__init__(file, f"/fields/{name}")
         self.name = name
 
+    def _number(self, key: str) -> float:
+        value = self._file.attribute(self._path, key)
+        return float(value) if isinstance(value, (float, int, np.number)) else 0.0
+
     @functools.cached_property
     def slide(self) -> tuple[float, float]:
         """Place of the block over the substrate along x and y, Å; 0 where it was not slid."""
-        found = (self._file.attribute(self._path, "slide_" + axis) for axis in "xy")
-        x, y = (float(v) if isinstance(v, (float, int, np.number)) else 0.0 for v in found)
-        return x, y
+        return self._number("slide_x"), self._number("slide_y")
 
     @functools.cached_property
     def reference_height(self) -> float:
         """z of undisplaced sites, Å."""
-        value = self._file.attribute(self._path, "reference_height")
-        return float(value) if isinstance(value, (float, int, np.number)) else 0.0
+        return self._number("reference_height")
 
     @property
     def gap_distribution(self) -> list[np.ndarray] | None:
@@ -382,14 +385,12 @@ class Result(Values):
 
     @property
     def units(self) -> Values:
-        units = self._members.get("units")
-        return Values(units if isinstance(units, dict) else {})
+        return self.part("units")
 
     @property
     def segments(self) -> list[str]:
         """The segments of the path, as the scene names them: series["segment"] counts them from 0."""
-        path = self.key("drive.path")
-        return [str(s) for s in path] if isinstance(path, list) else []
+        return [str(s) for s in self.listed("scene.drive.path")]
 
     def unit(self, name: str) -> str:
         """The unit of a number by its path; "" of a pure number or if the file does not tell."""
@@ -411,9 +412,13 @@ class Result(Values):
         return found
 
     @property
+    def load_words(self) -> tuple[str, str]:
+        return load_words(self.find("scene"))
+
+    @property
     def edge(self) -> float:
         """Width of the box, Å; 0 without a scene."""
-        return (self.number("scene.surface.sites") or 0.0) * (self.number("scene.surface.spacing") or 0.0)
+        return self.number("scene.surface.sites", 0.0) * self.number("scene.surface.spacing", 0.0)
 
     @property
     def curved(self) -> bool:

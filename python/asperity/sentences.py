@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .page import minus
-from .result import Result, Values, load_words
+from .result import Result, Values, finite
 from .terminal import duration
 from .units import GIGAPASCAL, NANONEWTON
 
@@ -33,13 +33,12 @@ def energy(gamma: float) -> str:
 
 def general(value: Any, digits: int = 4) -> str:
     """A number of a scene; "?" for what is none."""
-    number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    return f"{value:.{digits}g}" if number else "?"
+    return "?" if (number := finite(value)) is None else f"{number:.{digits}g}"
 
 
 def state_in_words(run: Result, name: str) -> str:
     if name == "zero-load":
-        return load_words(run.find("scene"))[0]
+        return run.load_words[0]
     if name == "pull-off":
         return "at the largest attraction of the pull-off"
     if name.startswith("after-zero-load:"):
@@ -54,9 +53,8 @@ def lead(run: Result) -> str:
     sites = run.number("scene.surface.sites")
     if not sites:
         return ""
-    atoms = run.number("surface.atoms") or 0
     surface = {"flat": "a flat substrate", "file": "a measured substrate",
-               "atoms": f"a substrate of {atoms:.0f} atoms"}.get(
+               "atoms": f"a substrate of {run.number('surface.atoms', 0):.0f} atoms"}.get(
         run.text("scene.surface.kind"), "a self-affine rough substrate")
     rms, slope = run.number("surface.rms"), run.number("surface.rms_slope")
     if rms:
@@ -75,51 +73,46 @@ def smooth_pull_off(run: Result, gamma: float) -> float:
 def reference(run: Result, key: str) -> float:
     """The Δγ that an energy is compared with, meV/Å²; 0: none. Persson's theory may have been given another."""
     own = key.startswith("theory.") and not key.startswith("theory.renormalised.")
-    return (own and run.number("theory.delta_gamma")) or run.number("delta_gamma") or 0.0
+    return (own and run.number("theory.delta_gamma")) or run.number("delta_gamma", 0.0)
 
 
 def key_numbers(run: Result) -> list[KeyNumber]:
     """The numbers that stand at the top of a page."""
     found: list[KeyNumber] = []
-    at, pressed = load_words(run.find("scene"))
+    at, pressed = run.load_words
+
+    def add(value: str, unit: str, name: str, note: str = "") -> None:
+        found.append(KeyNumber(minus(value), unit, name, note))
 
     def gamma(key: str, name: str, symbol: str = "γ_{eff}/Δγ") -> None:
         value, flat = run.number(key), reference(run, key)
         if value is not None and flat > 0:
             parent, _, leaf = key.rpartition(".")
             error = run.number(key + "_uncertainty") or run.number(f"{parent}.uncertainty.{leaf}")
-            note = energy(value) + (f" ± {error:.2g}" if error else "")
-            found.append(KeyNumber(minus(f"{value / flat:.3f}"), symbol, name, note))
+            add(f"{value / flat:.3f}", symbol, name, energy(value) + (f" ± {error:.2g}" if error else ""))
 
     force = run.number("pull_off_force")
     if run.curved:  # energies over the nominal area mean nothing
         gamma("jkr.out", "from the pull-off force, by JKR", "γ_{JKR}/Δγ")
         gamma("jkr.in_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps", "γ_{JKR}/Δγ")
         if force is not None:
-            jkr, maugis = (smooth_pull_off(run, run.number(k) or 0.0) / NANONEWTON
-                           for k in ("sphere.jkr", "sphere.maugis_images"))
-            found.append(KeyNumber(f"{force / NANONEWTON:.4g}", "nN", "pull-off force",
-                                   f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN"
-                                   if jkr > 0 and maugis > 0 else ""))
-        radius = run.number("contact_radius.zero_load")
-        if radius is not None:
-            found.append(KeyNumber(f"{radius:.1f}", "Å", f"contact radius {at}",
-                                   "√(area of the sites in contact / π)"))
+            jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON for k in ("sphere.jkr", "sphere.maugis_images"))
+            add(f"{force / NANONEWTON:.4g}", "nN", "pull-off force",
+                f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN" * (jkr > 0 and maugis > 0))
+        if (radius := run.number("contact_radius.zero_load")) is not None:
+            add(f"{radius:.1f}", "Å", f"contact radius {at}", "√(area of the sites in contact / π)")
     else:
         gamma("binding_energy", f"binding energy {at}")
         contact, theory = run.number("contact_fraction"), run.number("theory.contact_fraction")
         if contact is not None:
-            found.append(KeyNumber(percent(contact), "", f"of the sites in contact {at}",
-                                   f"theory{pressed}: {percent(theory)}" if theory is not None else ""))
+            add(percent(contact), "", f"of the sites in contact {at}",
+                f"theory{pressed}: {percent(theory)}" if theory is not None else "")
         if force is not None and run.edge:
-            found.append(KeyNumber(f"{force / run.edge**2 / GIGAPASCAL:.3g}", "GPa",
-                                   "pull-off stress, the largest attraction on the way out",
-                                   f"{force / NANONEWTON:.4g} nN in all"))
-    lost = run.number("lost.cycle")
-    if lost is not None:
-        found.append(KeyNumber(minus(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}"),
-                               "eV" if run.curved else "meV/Å²", "lost in a cycle (hysteresis)",
-                               "where surfaces snap together and apart"))
+            add(f"{force / run.edge**2 / GIGAPASCAL:.3g}", "GPa", "pull-off stress, the largest attraction on the way out",
+                f"{force / NANONEWTON:.4g} nN in all")
+    if (lost := run.number("lost.cycle")) is not None:
+        add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
+            "lost in a cycle (hysteresis)", "where surfaces snap together and apart")
     if not run.curved:
         for key, name in (("work_of_adhesion", "work of the interface"), ("work_of_drive", "work of the drive")):
             gamma(key + ".approach", name + ", approach")
@@ -128,16 +121,16 @@ def key_numbers(run: Result) -> list[KeyNumber]:
     gamma("theory.renormalised.gamma_eff", f"renormalised theory{pressed}")
     theory = run.number("theory.contact_fraction")
     if theory is not None and run.number("contact_fraction") is None:
-        found.append(KeyNumber(percent(theory), "", f"contact area in theory{pressed}"))
+        add(percent(theory), "", f"contact area in theory{pressed}")
     residual = run.number("energy.balance_error")
     if residual is not None and not run.failure_text:
-        found.append(KeyNumber(f"{abs(residual):.1e}", "", "energy balance", "relative to its largest term"))
+        add(f"{abs(residual):.1e}", "", "energy balance", "relative to its largest term")
     return found
 
 
 def _state_sentence(run: Result, state: float, flat: float) -> str:
     bonds, contact, pushed = (run.number(k) for k in ("work_of_adhesion.pairwise", "contact_fraction", "repulsive_fraction"))
-    at = load_words(run.find("scene"))[0]
+    at = run.load_words[0]
     at = "Without external force" if at == "at zero load" else "U" + at[1:]
     if run.curved:
         text = f"{at} the sphere is bound by {state * run.edge**2 / 1e3:.4g} eV."
@@ -180,7 +173,7 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
 def results(run: Result) -> list[str]:
     """What the run came to, in sentences."""
     text: list[str] = []
-    flat = run.number("delta_gamma") or 0.0
+    flat = run.number("delta_gamma", 0.0)
     state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
     if state is not None and flat > 0:
         text.append(_state_sentence(run, state, flat))
@@ -188,7 +181,7 @@ def results(run: Result) -> list[str]:
         text.append(_cycle_sentence(run, into, out, flat))
     theory = run.number("theory.gamma_eff")
     if theory is not None and flat > 0:
-        (at, pressed), given = load_words(run.find("scene")), reference(run, "theory.gamma_eff")
+        (at, pressed), given = run.load_words, reference(run, "theory.gamma_eff")
         sentence = (f"Persson’s theory{pressed} gives γ_{{eff}} = {energy(theory)} ({percent(theory / given)} of "
                     + ("Δγ)" if math.isclose(given, flat) else f"its Δγ, {energy(given)})"))
         full, renormalised = run.number("theory.gamma_full_contact"), run.number("theory.renormalised.gamma_eff")
@@ -214,9 +207,8 @@ ALWAYS_LEFT_OUT = ("deformation of the substrate: it is rigid", "plastic flow: t
 
 def effects(run: Result, on: bool) -> list[str]:
     """What was simulated or, on = False, what was not, each with the key of the scene that decides it."""
-    found = run.find("run.effects")
-    text = [f"{name}: {one.get('why', '')}" for name, one in (found if isinstance(found, dict) else {}).items()
-            if isinstance(one, dict) and one.get("on") is on]
+    found = run.part("run.effects")
+    text = [f"{name}: {found.text(name + '.why')}" for name in found if found.find(name + ".on") is on]
     return text if on else [*text, *ALWAYS_LEFT_OUT]
 
 

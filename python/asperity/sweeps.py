@@ -146,28 +146,22 @@ def load_sweep(directory: str | os.PathLike) -> Sweep:
         raise InputOutputError(str(directory), "holds a sweep for each of several scenes",
                                ", ".join(p.parent.name for p in several), f"load one of them: {several[0].parent}")
     found = Values(read_json(path))
-
-    def listed(name: str) -> list[dict[str, Any]]:
-        value = found.find(name)
-        points = [p for p in value if isinstance(p, dict)] if isinstance(value, list) else []
-        for point in points:  # what a hand or another program wrote may lack parts
-            for part in ("set", "theory"):
-                if not isinstance(point.get(part), dict):
-                    point[part] = {}
-            if not isinstance(point.get("result", {}), dict):
-                del point["result"]
-        return points
-
     if not isinstance(found.find("points"), list):
         raise InputOutputError(str(path), "is no sweep", "it has no list of points",
                                "run the sweep again into another directory")
+
+    def kept(kind: type, value: Any) -> Any:  # what a hand or another program wrote may lack parts
+        return value if isinstance(value, kind) else kind()
+
+    def listed(name: str) -> list[dict[str, Any]]:
+        return [{**point, **{part: kept(dict, point.get(part)) for part in ("set", "theory", "result")
+                             if part != "result" or part in point}}
+                for point in kept(list, found.find(name)) if isinstance(point, dict)]
+
     points = listed("points")
-    scene, axes, notes, run = (found.find(n) for n in ("scene", "axes", "notes", "run"))
-    return Sweep(found.text("name") or Path(directory).resolve().name, scene if isinstance(scene, dict) else {},
-                 [a for a in axes if isinstance(a, str)] if isinstance(axes, list) else [], points, listed("theory"),
-                 [str(n) for n in notes] if isinstance(notes, list) else [],
-                 any("result" in p or p.get("directory") for p in points), run if isinstance(run, dict) else {},
-                 Path(directory))
+    return Sweep(found.text("name") or Path(directory).resolve().name, kept(dict, found.find("scene")),
+                 found.listed("axes", str), points, listed("theory"), [str(n) for n in found.listed("notes")],
+                 any("result" in p or p.get("directory") for p in points), kept(dict, found.find("run")), Path(directory))
 
 
 def load_sweeps(directory: Path) -> list[Sweep]:

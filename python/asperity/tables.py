@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections import UserDict
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy as np
 from . import program
 from .grid import is_seed, shown
 from .pool import DONE
-from .result import Values
+from .result import Values, finite
 
 RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
 """Columns of a result whose path in result.json is that of a key of the scene."""
@@ -54,9 +55,7 @@ def columns_of(result: Values) -> dict[str, float]:
     if isinstance(states := result.find("states.all"), list):
         found["states.count"] = len(states)
     for path, value in result.numbers().items():
-        if path.split(".")[0] in ("scene", "units", "failure", "theory") or not np.isfinite(value):
-            continue
-        if path.startswith("run.") and path != "run.wall_seconds":
+        if path.split(".")[0] in ("scene", "units", "failure", "theory", "run") and path != "run.wall_seconds":
             continue
         found[RENAMED.get(path, path)] = value
         if path in OVER_FLAT and flat:
@@ -67,18 +66,16 @@ def columns_of(result: Values) -> dict[str, float]:
 def _theory_numbers(point: Mapping[str, Any]) -> dict[str, float]:
     """The numbers of a point's theory, with the ratios to its Δγ."""
     numbers = Values(point["theory"]).numbers()
-    flat = numbers.get("delta_gamma")
-    if flat:
-        if "gamma_eff" in numbers:
-            numbers.setdefault("gamma_eff_ratio", numbers["gamma_eff"] / flat)
-        if "gamma_full_contact" in numbers:
-            numbers["gamma_full_contact_ratio"] = numbers["gamma_full_contact"] / flat
+    if flat := numbers.get("delta_gamma"):
+        for name in ("gamma_eff", "gamma_full_contact"):
+            if name in numbers:
+                numbers.setdefault(name + "_ratio", numbers[name] / flat)
     return numbers
 
 
 def _number(value: Any) -> float:
     """NaN for what is no number."""
-    return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else np.nan
+    return np.nan if (number := finite(value)) is None else number
 
 
 class Average(NamedTuple):
@@ -89,20 +86,8 @@ class Average(NamedTuple):
     count: np.ndarray
 
 
-class Columns(Mapping):
+class Columns(UserDict):
     """Columns by name: numpy arrays of numbers (NaN: none) or, of keys that are words, lists of strings."""
-
-    def __init__(self, columns: dict[str, Any]):
-        self._columns = columns
-
-    def __getitem__(self, name: str) -> Any:
-        return self._columns[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
 
     @property
     def units(self) -> dict[str, str]:
@@ -112,7 +97,7 @@ class Columns(Mapping):
         """The columns as a pandas DataFrame."""
         import pandas
 
-        return pandas.DataFrame(self._columns)
+        return pandas.DataFrame(self.data)
 
 
 class Table(Columns):

@@ -448,7 +448,7 @@ def test_without_the_module(tmp_path):
 def test_stub_names_what_the_module_has():
     """And the other way round; of each class its public members, read-only ones without a setter."""
     tree = ast.parse((ROOT / "python/asperity/_engine.pyi").read_text())
-    module = sys.modules["asperity._engine"]
+    module = sys.modules[asperity.Simulation.__base__.__module__]
     stub = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef) and not node.name.startswith("_")}
     assert stub.keys() == {name for name, value in vars(module).items() if isinstance(value, type)}
     for name, node in stub.items():
@@ -457,9 +457,11 @@ def test_stub_names_what_the_module_has():
         told = {n.name if isinstance(n, ast.FunctionDef) else n.target.id for n in node.body
                 if isinstance(n, (ast.FunctionDef, ast.AnnAssign))} - {"__init__"}
         assert told == there, name
-        setters = {n.name for n in node.body if isinstance(n, ast.FunctionDef)
+        written = {n.name for n in node.body if isinstance(n, ast.FunctionDef)
                    and any(isinstance(d, ast.Attribute) and d.attr == "setter" for d in n.decorator_list)}
-        assert setters == {m for m in there if not m.startswith("_") and getattr(vars(kind)[m], "fset", None)}, name
+        written |= {n.target.id for n in node.body if isinstance(n, ast.AnnAssign)
+                    and not n.target.id.startswith("_") and not ast.unparse(n.annotation).startswith("Final[")}
+        assert written == {m for m in there if not m.startswith("_") and getattr(vars(kind)[m], "fset", None)}, name
 
 
 def test_help_says_units():

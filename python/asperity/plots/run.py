@@ -5,28 +5,28 @@
 from __future__ import annotations
 
 import tempfile
+from functools import partial
 from pathlib import Path
-from typing import Callable
+from typing import Any, Callable
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from .. import program, scene
 from ..errors import Error, InputOutputError
-from ..result import Result, State, Values, load_words
+from ..result import Result, State, Values
 from ..units import GIGAPASCAL, NANONEWTON
 from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into, finish, image
 
 WAYS = {"approach": BLUE, "pull-off": RED}  # other segments of a path have the other colours in turn
 OTHERS = (GREEN, PINK, SKY, YELLOW)
+TOP = "displacement of the top plane (Å)"
 
 
-def _columns(run: Result, *names: str) -> list[np.ndarray] | None:
+def _columns(run: Result, *names: str) -> list[np.ndarray]:
     """Columns of the series, if all are there and there is a curve to draw."""
-    if not all(name in run.series for name in names):
-        return None
-    columns = [run.series[name] for name in names]
-    return columns if len(columns[0]) > 1 else None
+    columns = [run.series[name] for name in names if name in run.series]
+    return columns if len(columns) == len(names) and len(columns[0]) > 1 else []
 
 
 def force_unit(run: Result) -> tuple[float, str]:
@@ -53,10 +53,9 @@ def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str =
 
 def separation(run: Result, ax: Axes) -> bool:
     """Force of the substrate over the mean separation, both ways; of a sphere beside smooth ones."""
-    columns = _columns(run, "segment", "mean_height", "force")
-    if columns is None:
+    if not (columns := _columns(run, "mean_height", "force", "segment")):
         return False
-    _, height, force = columns
+    height, force, _ = columns
     unit, label = force_unit(run)
     for number, (words, x, y) in enumerate(run.curves):
         curve(ax, x, y / unit, words if "theory" in words else "theory: " + words,
@@ -71,36 +70,27 @@ def separation(run: Result, ax: Axes) -> bool:
         lowest = min([least] + [v for _, _, y in run.curves for v in y if v > 1.5 * least])
         room = 0.08 * (greatest - least)
         ax.set_ylim((lowest - room) / unit, (greatest + room) / unit)
-    ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
-    finish(ax, "mean height above the apex (Å)" if run.curved else "mean separation (Å)", label)
-    return True
+    return finish(ax, "mean height above the apex (Å)" if run.curved else "mean separation (Å)", label, zero=True)
 
 
 def loading(run: Result, ax: Axes) -> bool:
     """Force over the displacement of the driven top plane: what a testing machine records."""
-    columns = _columns(run, "segment", "top_displacement", "top_force")
+    columns = _columns(run, "top_displacement", "top_force", "segment")
     # With the mean height prescribed, the top plane follows: the plot of the separation again.
-    if columns is None or run.key("drive.hold") == "mean-height":
+    if not columns or run.key("drive.hold") == "mean-height":
         return False
-    _, top, force = columns
     unit, label = force_unit(run)
-    done = _by_segment(ax, run, top, force / unit)
-    ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
-    finish(ax, "displacement of the top plane (Å)", label)
-    return done
+    return _by_segment(ax, run, columns[0], columns[1] / unit) and finish(ax, TOP, label, zero=True)
 
 
 def contact(run: Result, ax: Axes) -> bool:
     """Contact fraction and fraction of repulsive sites over the displacement of the top plane."""
-    columns = _columns(run, "segment", "top_displacement", "contact_fraction", "repulsive_fraction")
-    if columns is None:
+    columns = _columns(run, "top_displacement", "contact_fraction", "repulsive_fraction", "segment")
+    if not columns or not _by_segment(ax, run, *columns[:2], ", in contact"):
         return False
-    _, top, touching, repulsive = columns
-    done = _by_segment(ax, run, top, touching, ", in contact")
-    _by_segment(ax, run, top, repulsive, ", repulsive", (DASHES[4], DASHES[2]))
+    _by_segment(ax, run, *columns[:3:2], ", repulsive", (DASHES[4], DASHES[2]))
     ax.set_ylim(bottom=0)
-    finish(ax, "displacement of the top plane (Å)", "fraction of the sites")
-    return done
+    return finish(ax, TOP, "fraction of the sites")
 
 
 def friction(run: Result, ax: Axes) -> bool:
@@ -117,16 +107,15 @@ def friction(run: Result, ax: Axes) -> bool:
             sign = np.sign(place[-1] - place[0])
             curve(ax, np.abs(place - place[0]), -sign * force / unit, words, colour=OTHERS[number % len(OTHERS)])
             drawn = True
-    ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
-    finish(ax, "distance of the slide (Å)", "force against it (nN)" if run.curved else "shear stress against it (GPa)")
-    return drawn
+    return drawn and finish(ax, "distance of the slide (Å)", "force against it (nN)" if run.curved else
+                            "shear stress against it (GPa)", zero=True)
 
 
 def energy(run: Result, ax: Axes) -> bool:
     """The energies along the path, per nominal area (meV/Å²) or, of a sphere, whole (eV)."""
     timed = "time" in run.series
     along = _columns(run, "time" if timed else "step")
-    if along is None or not run.edge:
+    if not along or not run.edge:
         return False
     unit = 1.0 if run.curved else 1e3 / run.edge**2
     for name, label, colour, line in (
@@ -135,35 +124,28 @@ def energy(run: Result, ax: Axes) -> bool:
             ("damped", "damped", PINK, DASHES[4]), ("radiated", "radiated", PINK, "-"), ("dissipated", "dissipated", PINK, DASHES[4])):
         if name in run.series:
             curve(ax, along[0], run.series[name] * unit, label, colour=colour, line=line)
-    finish(ax, "time (ps)" if timed else "point of the path",
-           "energy (eV)" if run.curved else "energy per area (meV/Å²)")
-    return True
+    return finish(ax, "time (ps)" if timed else "point of the path",
+                  "energy (eV)" if run.curved else "energy per area (meV/Å²)")
 
 
 def balance(run: Result, ax: Axes) -> bool:
     """The error of the energy balance over time."""
-    columns = _columns(run, "time", "balance_error")
-    if columns is None:
+    if not (columns := _columns(run, "time", "balance_error")):
         return False
     curve(ax, columns[0], columns[1] * 1e6)
-    finish(ax, "time (ps)", "error of the balance ($10^{-6}$ of the largest term)")
-    return True
+    return finish(ax, "time (ps)", "error of the balance ($10^{-6}$ of the largest term)")
 
 
 def spectrum(run: Result, ax: Axes) -> bool:
     """The radially averaged power spectrum C(q) of the surface, realised and target."""
     found = run.substrate.spectrum if run.substrate else None
-    if found is None:
+    if found is None or not (found[1] > 0).any():  # flat
         return False
     q, realised, target = found
-    there = realised > 0
-    if not there.any():
-        return False  # flat
-    curve(ax, q[there], realised[there], "realised")
+    curve(ax, q[realised > 0], realised[realised > 0], "realised")
     if (target > 0).any():
         curve(ax, q[target > 0], target[target > 0], "target", colour=RED, line=DASHES[1])
-    finish(ax, "wavevector $q$ (1/Å)", "$C(q)$ (Å⁴)", log="xy")
-    return True
+    return finish(ax, "wavevector $q$ (1/Å)", "$C(q)$ (Å⁴)", log="xy")
 
 
 def roughness(run: Result, ax: Axes) -> bool:
@@ -171,7 +153,7 @@ def roughness(run: Result, ax: Axes) -> bool:
     flat, rms = run.number("delta_gamma") or 0.0, run.number("surface.rms") or run.number("theory.h_rms") or 0.0
     if flat <= 0 or rms <= 0 or run.key("surface.kind") == "atoms":  # no theory, and Δγ but a unit
         return False
-    at, pressed = load_words(run.find("scene"))
+    at, pressed = run.load_words
     for words, x, y, line in theory_over_roughness(run, rms):
         curve(ax, x, y, words + pressed, colour=GREY, line=line, behind=True)
     names = (("jkr.in_averaged", "approach, by JKR", BLUE, "o"), ("jkr.out", "pull-off, by JKR", RED, "s")) \
@@ -186,20 +168,17 @@ def roughness(run: Result, ax: Axes) -> bool:
     ax.set_xlim(left=0)
     lowest = min([0.0] + [np.nanmin(c.get_ydata()) for c in ax.lines if np.isfinite(c.get_ydata()).any()])
     ax.set_ylim(bottom=1.1 * lowest)
-    ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
-    finish(ax, "rms roughness $h_{\\mathrm{rms}}$ (Å)", "$γ_{\\mathrm{eff}}$ / Δγ")
-    return bool(ax.lines)
+    return bool(ax.lines) and finish(ax, "rms roughness $h_{\\mathrm{rms}}$ (Å)", "$γ_{\\mathrm{eff}}$ / Δγ", zero=True)
 
 
 def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list, object]]:
     """The program's theory of the run's scene at 32 roughnesses up to 1.8 times its own; [] without one."""
-    keys = run.find("scene")
-    if not isinstance(keys, dict) or run.key("surface.kind") == "flat":
+    if not run.part("scene") or run.key("surface.kind") == "flat":
         return []
     values = [1.8 * rms * i / 32 for i in range(1, 33)]
     overrides = []
     try:
-        with scene.scene_file({**keys, "name": "roughness"}) as file, tempfile.TemporaryDirectory() as place:
+        with scene.scene_file({**run.find("scene"), "name": "roughness"}) as file, tempfile.TemporaryDirectory() as place:
             if run.key("surface.kind") == "file":
                 # As run.h5 holds it: the map that it was made from may be gone.
                 if not run.substrate or run.curved:
@@ -211,7 +190,7 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
             points = program.theory_points(file, [[*overrides, f"surface.rms={v!r}"] for v in values])
     except Error:  # a scene that this version refuses, or no program beside the package
         return []
-    if any("theory" not in p for p in points):
+    if not all("theory" in p for p in points):
         return []
     curves = []
     for words, line, key, flat in (("theory", "-", "gamma_eff", "theory.delta_gamma"),
@@ -225,20 +204,18 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
 
 def states(run: Result, ax: Axes) -> bool:
     """Energies of all states at zero load over their mean height (drive.states = "all")."""
-    found = run.find("states.all")
-    points = [(s.get("mean_height"), s.get("binding_energy")) for s in found if isinstance(s, dict)] \
-        if isinstance(found, list) else []
-    points = [p for p in points if all(isinstance(v, (int, float)) for v in p)]
+    points = [(s.number("mean_height"), s.number("binding_energy")) for s in run.listed("states.all", dict)]
+    points = [p for p in points if None not in p]
     if len(points) < 2:
         return False
     x, y = zip(*points)
     curve(ax, x, y, line="-", marker="o")
-    finish(ax, "mean height of the lowest layer (Å)", "binding energy (meV/Å²)")
-    return True
+    return finish(ax, "mean height of the lowest layer (Å)", "binding energy (meV/Å²)")
 
 
-def _steps(ax: Axes, edges: np.ndarray, density: np.ndarray) -> None:
+def _histogram(ax: Axes, edges: np.ndarray, density: np.ndarray, x: str, y: str) -> bool:
     curve(ax, np.repeat(edges, 2)[1:-1], np.repeat(np.where(density > 0, density, np.nan), 2))
+    return finish(ax, x, y, log="y")
 
 
 def gaps(state: State, ax: Axes) -> bool:
@@ -246,9 +223,7 @@ def gaps(state: State, ax: Axes) -> bool:
     found = state.gap_distribution
     if found is None or not (found[1] > 0).any():
         return False
-    _steps(ax, *found)
-    finish(ax, "gap $u$ (Å)", "$P(u)$ (1/Å)", log="y")
-    return True
+    return _histogram(ax, *found, "gap $u$ (Å)", "$P(u)$ (1/Å)")
 
 
 def pressures(state: State, ax: Axes) -> bool:
@@ -260,38 +235,31 @@ def pressures(state: State, ax: Axes) -> bool:
     if felt.size < 100 or not felt.max() > felt.min():
         return False
     count, edges = np.histogram(felt, bins=80)
-    _steps(ax, edges, count / (pressure.size * np.diff(edges)))
-    finish(ax, "pressure $p$ (GPa), positive is repulsive", "$P(p)$ (1/GPa)", log="y")
-    return True
+    return _histogram(ax, edges, count / (pressure.size * np.diff(edges)), "pressure $p$ (GPa), positive is repulsive",
+                      "$P(p)$ (1/GPa)")
 
 
 def height(run: Result, ax: Axes) -> bool:
     """The substrate from above."""
-    if not run.substrate or not run.edge:
-        return False
-    image(ax, run.substrate.height, run.edge, label="height (Å)", cmap=GAP)
-    return True
+    return bool(run.substrate and run.edge) and image(ax, run.substrate.height, run.edge, label="height (Å)", cmap=GAP)
 
 
 def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
     """A map of a state from above: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact."""
     if name not in state or not run.edge:
         return False
-    values = state[name]
+    look: dict[str, Any] = {"label": f"{name} (Å)", "cmap": GAP}
     if name == "contact":
-        image(ax, values, run.edge, label="contact", cmap=CONTACT, words=("apart", "in contact"))
+        look = {"label": name, "cmap": CONTACT, "words": ("apart", "in contact")}
     elif name == "pressure":
-        image(ax, values, run.edge, label="pressure (GPa), positive is repulsive", cmap=PRESSURE)
-    else:
-        # Around a sphere the gap grows without end; beyond the cutoff it does not matter.
-        high = run.number("scene.interface.cutoff") if run.curved and name == "gap" else None
-        image(ax, values, run.edge, label=f"{name} (Å)", cmap=GAP, high=high)
-    return True
+        look = {"label": "pressure (GPa), positive is repulsive", "cmap": PRESSURE}
+    elif name == "gap" and run.curved:  # around a sphere it grows without end; beyond the cutoff it does not matter
+        look["high"] = run.number("scene.interface.cutoff")
+    return image(ax, state[name], run.edge, **look)
 
 
-OF_RUN: dict[str, Callable[[Result, Axes], bool]] = {f.__name__: f for f in (
-    separation, loading, contact, energy, balance, spectrum, roughness, states, height)}
-OF_STATE: dict[str, Callable[[State, Axes], bool]] = {"gaps": gaps, "pressures": pressures}
+OF_RUN = {f.__name__: f for f in (separation, loading, contact, energy, balance, spectrum, roughness, states, height)}
+OF_STATE = {f.__name__: f for f in (gaps, pressures)}
 
 
 class RunPlots:
@@ -304,15 +272,14 @@ class RunPlots:
     def __init__(self, run: Result):
         self._run = run
 
-    def _draw(self, name: str, draw: Callable[[Axes], bool], ax: Axes | None) -> Axes:
-        return drawn_into(ax, draw, str(self._run.directory), name, "the run wrote no such data")
+    def _draw(self, name: str, ax: Axes | None, draw: Callable[..., bool], *of: Any) -> Axes:
+        return drawn_into(ax, partial(draw, *of), str(self._run.directory), name, "the run wrote no such data")
 
     def __getattr__(self, name: str) -> Callable[..., Axes]:
         if name in OF_RUN:
-            return lambda ax=None: self._draw(name, lambda a: OF_RUN[name](self._run, a), ax)
+            return lambda ax=None: self._draw(name, ax, OF_RUN[name], self._run)
         if name in OF_STATE:
-            return lambda ax=None, state="zero-load": self._draw(
-                name, lambda a: OF_STATE[name](self._state(state), a), ax)
+            return lambda ax=None, state="zero-load": self._draw(name, ax, OF_STATE[name], self._state(state))
         raise AttributeError(f"no plot {name!r}; there are {', '.join([*OF_RUN, *OF_STATE, 'map'])}")
 
     def _state(self, name: str) -> State:
@@ -323,7 +290,7 @@ class RunPlots:
 
     def map(self, name: str, ax: Axes | None = None, state: str = "zero-load") -> Axes:
         """A map of a state: "gap", "pressure", "contact", ..."""
-        return self._draw(name, lambda a: map_of(self._run, self._state(state), name, a), ax)
+        return self._draw(name, ax, map_of, self._run, self._state(state), name)
 
     def __dir__(self) -> list[str]:
         return [*OF_RUN, *OF_STATE, "map"]

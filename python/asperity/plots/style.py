@@ -65,7 +65,6 @@ class Curve:
 class Drawn:
     curves: list[Curve] = field(default_factory=list)
     map: np.ndarray | None = None
-    edge: float = 0.0
     unit: str = ""
 
 
@@ -108,13 +107,11 @@ def plain(text: str) -> str:
 
 
 def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-", marker: str = "",
-          filled: bool = True, spread=None, width: float | None = None, behind: bool = False) -> None:
+          filled: bool = True, spread=None, behind: bool = False) -> None:
     """A curve, or points with error bars of the length `spread`. label "": none in the legend."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     options: dict[str, Any] = {"color": colour, "linestyle": line, "label": label or "_", "marker": marker or None,
                                "zorder": 1.8 if behind else 2.5, "markerfacecolor": colour if filled else PAPER}
-    if width:
-        options["linewidth"] = width
     bars = None if spread is None else np.asarray(spread, float)
     if bars is not None and np.isfinite(bars).any():
         ax.errorbar(x, y, np.nan_to_num(bars), capsize=2, elinewidth=0.8, **options)
@@ -123,8 +120,11 @@ def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-
     drawn(ax).curves.append(Curve(plain(label), x, y, bars))
 
 
-def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool = True) -> None:
-    """Labels, minor ticks and the legend. log: "x", "y" or "xy" of the logarithmic axes."""
+def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool = True, zero: bool = False) -> bool:
+    """Labels, minor ticks and the legend; True, as of a plot that is drawn. log: "x", "y" or "xy" of the logarithmic axes;
+    zero: with a line at y = 0."""
+    if zero:
+        ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     ax.set_xlabel(x)
     ax.set_ylabel(y)
     for name, axis in (("x", ax.xaxis), ("y", ax.yaxis)):
@@ -141,11 +141,12 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool = True) -> N
     if legend and len(labels) > 0:
         ax.legend(handles, labels, loc="best", frameon=True, facecolor=PAPER, framealpha=0.8, edgecolor="none",
                   fontsize=7.5 if len(labels) < 5 else 6.5)
+    return True
 
 
-def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, low: float | None = None,
-          high: float | None = None, words: tuple[str, str] | None = None) -> None:
-    """A map [y, x] of a box so wide (Å), with its scale. words: of a map of zeros and ones."""
+def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, high: float | None = None,
+          words: tuple[str, str] | None = None) -> bool:
+    """A map [y, x] of a box so wide (Å), with its scale; True. words: of a map of zeros and ones."""
     from matplotlib.patches import Patch
 
     values = np.asarray(values, float)
@@ -153,9 +154,8 @@ def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, low: f
     if words:
         low, high = 0.0, 1.0
     else:
-        quantiles = np.quantile(finite, [0.005, 0.995]) if finite.size else (0.0, 1.0)
-        low = quantiles[0] if low is None else low
-        high = quantiles[1] if high is None else high
+        low, most = np.quantile(finite, [0.005, 0.995]) if finite.size else (0.0, 1.0)
+        high = most if high is None else high
         if cmap is PRESSURE:
             high = max(abs(low), abs(high))
             low = -high
@@ -175,4 +175,5 @@ def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, low: f
         inside = finite.size and finite.min() >= low and finite.max() <= high
         ax.figure.colorbar(shown, ax=ax, label=label, extend="neither" if inside else "both", aspect=25)
     kept = drawn(ax)
-    kept.map, kept.edge, kept.unit = values, edge, label
+    kept.map, kept.unit = values, label
+    return True

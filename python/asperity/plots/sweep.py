@@ -28,10 +28,6 @@ from ..units import shown as shown_unit
 from . import files
 from .style import BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, finish
 
-TITLES = {"gamma": "Binding energy", "area": "Contact area", "separation": "Mean separation",
-          "radius": "Contact radius", "pull-off": "Pull-off force", "hysteresis": "Energy lost in the cycle",
-          "readings": "Readings of the work",
-          "full-contact": "Binding energy, theory and full contact"}
 MOST_CURVES = len(COLOURS)
 
 
@@ -265,8 +261,7 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
         ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     if x == "surface.rms":
         ax.set_xlim(left=0)
-    finish(ax, _label_of(x), y)
-    return True
+    return finish(ax, _label_of(x), y)
 
 
 def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
