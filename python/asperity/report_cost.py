@@ -33,7 +33,8 @@ def json_of(cost: Cost) -> dict[str, Any]:
         return {name: known(v) for name, v in zip(QUANTITIES, values)}
 
     settings = [{"parameter": row.parameter, "value": row.label, "set": row.setting, "processor_seconds": known(row.seconds),
-                 "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers), "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
+                 "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers),
+                 "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
                  "pareto": dict(row.front),
                  **({} if math.isnan(row.added) else {"added_error": row.added}),
                  **({"failed": row.outcome.reason} if row.outcome.status == FAILED else {})} for row in cost.rows]

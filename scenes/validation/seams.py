@@ -133,18 +133,16 @@ def returned(layers: int, levels: int, lam: float, angle: float, absorbs: bool) 
     phases = kx + 2 * np.pi * np.arange(width[0]) / width[0]
     fourier = np.exp(1j * np.outer(np.arange(width[0]), phases))
     bare = layer(kx)
-    waves, vectors = np.linalg.eigh(bare[:3, :3] + bare[3:, 3:] + bare[:3, 3:] * np.exp(1j * kz)
-                                    + bare[3:, :3] * np.exp(-1j * kz))
+    dynamic = bare[:3, :3] + bare[3:, 3:] + bare[:3, 3:] * np.exp(1j * kz) + bare[3:, :3] * np.exp(-1j * kz)
     along = np.array([np.sin(np.radians(angle)), 0, np.cos(np.radians(angle))])
     across = np.array([along[2], 0, -along[0]])
     found = {}
-    for name, direction in (("P", along), ("SV", across), ("SH", np.array([0, 1, 0]))):
-        n = int(np.argmax(abs(direction @ vectors)))
-        w, shape = np.sqrt(waves[n]), vectors[:, n]
-        if not angle and name != "P":  # both shear waves are one: take the direction itself
-            shape = direction.astype(complex)
-            w = np.sqrt(np.real(shape.conj() @ (bare[:3, :3] + bare[3:, 3:] + bare[:3, 3:] * np.exp(1j * kz)
-                                                + bare[3:, :3] * np.exp(-1j * kz)) @ shape))
+    # SV and SH are nearly one in an isotropic solid, so they are separated by symmetry: SH moves along y alone.
+    for name, direction, part in (("P", along, [0, 2]), ("SV", across, [0, 2]), ("SH", np.array([0, 1, 0]), [1])):
+        waves, vectors = np.linalg.eigh(dynamic[np.ix_(part, part)])
+        n = int(np.argmax(abs(direction[part] @ vectors)))
+        w, shape = np.sqrt(waves[n]), np.zeros(3, complex)
+        shape[part] = vectors[:, n]
         matrix = stiff - 1j * w * damp - np.diag(w * w * mass)
         above = layer(kx * s)
         matrix[-3:, -3:] += (above[:3, :3] + above[:3, 3:] @ leaving(kx * s, w, mass_above, True)) / (1 if angle else s)
