@@ -93,7 +93,9 @@ TEST(Rehearsal, ContinuesWhatGrowsWithSitesAndNodes) {
 TEST(Rehearsal, RanksShareTheBlockAndHaveTheSurfaceEach) {
     const Case one = case_with({"surface.sites=96"}), four = case_with({"surface.sites=96"}, 4);
     const Rehearsal alone(one, Rehearsal::Kind::memory), shared(four, Rehearsal::Kind::memory);
-    EXPECT_EQ(shared.bytes(Part::surface, 3), alone.bytes(Part::surface, 0));
+    // Of an allocation malloc counts 16 bytes more where what is left of a piece is too small to be
+    // one itself.
+    EXPECT_NEAR(shared.bytes(Part::surface, 3), alone.bytes(Part::surface, 0), 256.0);
     EXPECT_LT(shared.bytes(Part::block, 3), 0.5 * alone.bytes(Part::block, 0)) << "halos";
     EXPECT_GT(shared.bytes(Part::block, 3), 0.25 * alone.bytes(Part::block, 0));
     EXPECT_LT(shared.bytes(Part::state, 1), 0.5 * alone.bytes(Part::state, 0));
