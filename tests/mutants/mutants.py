@@ -13,7 +13,7 @@ built there once; the environment says which one is on. Left out is what does no
 computes itself (constants of array sizes, static tables).
 
 The short tests (all without the label "long") run once without a mutant and leave behind which mutants they come
-to. Each mutant then meets the tests that come to it, those of its layer first, until one sees it: it fails, or
+to. Each mutant then meets the tests that come to it, first those of its layer, until one sees it: it fails, or
 takes ten times as long (of a processor) as without it. Tests that fail without a mutant are named and left out.
 Outcomes are kept in BUILD/outcomes.jsonl: started again with the same sources and options, it goes on from there.
 Survivors are to be looked at one by one: some change nothing that anyone could see. Exit code 1 if a smaller
@@ -94,14 +94,16 @@ class Copy:
             self.write(files)
             subprocess.run(["cmake", "-G", "Ninja", "-S", self.source, "-B", self.build, *options], check=True,
                            stdout=subprocess.DEVNULL)
-            made = subprocess.run(["ninja", "-C", self.build, "-j", str(self.jobs), "-k", "0"], capture_output=True, text=True)
-            (self.place / "build.log").write_text(made.stdout)
+            log = self.place / "build.log"
+            with log.open("w") as out:
+                made = subprocess.run(["ninja", "-C", self.build, "-j", str(self.jobs), "-k", "0"], stdout=out)
             if made.returncode == 0:
                 return planted
-            places = set(re.findall(r"(?:^|[ /])((?:engine|kernels|decomposition|theory)/[\w/]+\.[ch]pp):(\d+)", made.stdout))
+            places = set(  # of sources, and of headers as a layer's tests and dependants see them
+                re.findall(r"^(?:\.\./\.\./|.*layers/\w+/)(\w+/[\w/]+\.[ch]pp):(\d+):\d+: error", log.read_text(), re.M))
             wrong = {n for n in planted if any(planted[n].file == f and int(line) in lines[n] for f, line in places)}
             if not wrong:
-                sys.exit(made.stdout[-3000:])
+                sys.exit(f"the copy does not build: {log}")
             print(f"{len(wrong)} of {len(planted)} do not compile", flush=True)
             candidates = {n: m for n, m in candidates.items() if n not in wrong}
             dropped |= {str(planted[n]) for n in wrong}
@@ -189,35 +191,41 @@ class Bench:
                 self.seconds[record["test"]] = record["seconds"]
                 self.reach[record["test"]] = set(record["reached"])
 
-    def outcome(self, number, mutant):
-        """What the tests that come to it say: those of its layer, those of its name, what saw the most, the quick ones."""
-        stem = mutant.file.rsplit("/", 1)[-1].split("_")[0].split(".")[0]
-
-        def order(test):
-            return (self.copy.program(test) not in LAYERS[mutant.folder], stem not in test,
-                    self.seconds[test] / (1 + self.kills.get(test, 0)))
-        tests = sorted((t for t in self.seconds if number in self.reach[t]), key=order)
-        for test in tests:
+    def killer(self, number, tests):
+        """The first of these that sees it: those of its name, what saw the most so far, the quick ones."""
+        stem = self.copy.planted[number].file.rsplit("/", 1)[-1].split("_")[0].split(".")[0]
+        for test in sorted(tests, key=lambda t: (stem not in t, self.seconds[t] / (1 + self.kills.get(t, 0)))):
             with self.busy[test]:
                 passed, _ = self.copy.run(test, 10.0 * self.seconds[test] + 20.0, MUTANT_ON=str(number))
             if not passed:
                 self.kills[test] = self.kills.get(test, 0) + 1
-                return f"killed by {test}"
-        return f"SURVIVES {len(tests)} tests" if tests else "SURVIVES, no test comes to it"
+                return test
+        return None
 
     def meet(self, minutes):
+        """All mutants the tests of their layers, then those that are left the others, the quick ones first."""
         lines = Lines(self.copy.place / f"outcomes-{self.copy.key}.jsonl")
         self.outcomes = {r["number"]: r["outcome"] for r in lines.records}
         end = time.monotonic() + 60.0 * minutes
+        layer, rest = {}, {}
+        for number, mutant in self.copy.planted.items():
+            reaching = [t for t in self.seconds if number in self.reach[t]]
+            layer[number] = [t for t in reaching if self.copy.program(t) in LAYERS[mutant.folder]]
+            rest[number] = [t for t in reaching if t not in layer[number]]
 
-        def one(number):
-            if time.monotonic() < end:
-                mutant = self.copy.planted[number]
-                self.outcomes[number] = self.outcome(number, mutant)
-                lines.add({"number": number, "mutant": str(mutant), "outcome": self.outcomes[number]})
-                print(f"{mutant}    {self.outcomes[number]}", flush=True)
+        def one(number, tests, otherwise):
+            if time.monotonic() > end:
+                return
+            killer = self.killer(number, tests)
+            self.outcomes[number] = f"killed by {killer}" if killer else otherwise
+            lines.add({"number": number, "mutant": str(self.copy.planted[number]), "outcome": self.outcomes[number]})
+            print(f"{self.copy.planted[number]}    {self.outcomes[number]}", flush=True)
         with ThreadPoolExecutor(self.copy.jobs) as pool:
-            list(pool.map(one, [n for n in self.copy.planted if n not in self.outcomes]))
+            list(pool.map(lambda n: one(n, layer[n], "SURVIVES ITS LAYER" if rest[n] else "SURVIVES"),
+                          [n for n in self.copy.planted if n not in self.outcomes]))
+            left = [n for n, outcome in self.outcomes.items() if outcome == "SURVIVES ITS LAYER"]
+            left.sort(key=lambda n: sum(self.seconds[t] for t in rest[n]))
+            list(pool.map(lambda n: one(n, rest[n], "SURVIVES"), left))
 
     def score(self):
         print(f"\n{'folder':<16}{'mutants':>9}{'killed':>9}{'survive':>9}")
