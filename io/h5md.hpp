@@ -37,8 +37,6 @@ public:
                 std::span<const float> velocity);
 
 private:
-    void element(const std::string& name, const std::string& unit);
-
     Hdf5File* file_;
     std::array<double, 3> edges_;
     bool velocities_;

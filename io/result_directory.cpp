@@ -3,6 +3,7 @@
 #include "io/result_directory.hpp"
 
 #include "io/error.hpp"
+#include "io/json.hpp"
 #include "io/output_file.hpp"
 
 #include <cerrno>
@@ -10,14 +11,12 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -27,11 +26,6 @@ namespace asperity::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // What a directory holds.
 
@@ -44,15 +38,12 @@ Holds holds(const fs::path& directory) {
     const bool begun = there(run_file::journal) || there(run_file::checkpoint);
     if (!there("result.json")) return begun ? Holds::unfinished : Holds::nothing;
     if (!begun) return Holds::result;
-    using nlohmann::json;
-    const json result = json::parse(text_of(directory / "result.json"), nullptr, false);
-    if (!result.is_object()) return Holds::result;
-    const json run = result.value("run", json::object());
-    const json stopped = run.is_object() ? run.value("stopped", json("")) : json("");
-    const json failure = result.value("failure", json::object());
-    const json code = failure.is_object() ? failure.value("exit_code", json(0)) : json(0);
-    const bool goes_on =
-        stopped == "wall_limit" || stopped == "signal" || code == exit_code::input_output;
+    std::ifstream stream(directory / "result.json", std::ios::binary);
+    const Json result = Json::parse(stream, nullptr, false);
+    const Json* const stopped = find(result, "run.stopped");
+    const Json* const code = find(result, "failure.exit_code");
+    const bool goes_on = (stopped && (*stopped == "wall_limit" || *stopped == "signal")) ||
+                         (code && *code == exit_code::input_output);
     return goes_on ? Holds::unfinished : Holds::result;
 }
 
