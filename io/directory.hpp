@@ -29,6 +29,13 @@ private:
     int fd_ = -1;
 };
 
+/// Throws FileError: what the system refused, with the reason in errno.
+[[noreturn]] void fail_by_system(
+    const std::string& path, const char* what,
+    const char* fix = "check the permissions of its directory and the space on its disk");
+/// Brings a file, or the entries of a directory, to the disk. False: errno says why not.
+bool bring_to_disk(int fd);
+
 class Directory {
 public:
     /// Opens it; it must exist. Throws FileError.

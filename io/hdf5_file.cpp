@@ -93,8 +93,7 @@ Hdf5File::Hdf5File(const FilePlace& place, Mode mode)
         open_->disk.fd = open_->output->fd();
     } else {
         open_->input = place.open(O_RDONLY);
-        if (!open_->input)
-            throw FileError(path_, "cannot be opened", std::strerror(errno), "check the path");
+        if (!open_->input) fail_by_system(path_, "cannot be opened", "check the path");
         open_->disk.fd = open_->input.get();
         const Seal seal = check_seal(open_->disk.fd);
         if (seal == Seal::none)

@@ -153,8 +153,7 @@ public:
         const Position at{"--set " + assignment, 0, 0};
         const std::size_t equals = assignment.find('=');
         std::string path = assignment.substr(0, equals);
-        const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-        path.erase(std::remove_if(path.begin(), path.end(), blank), path.end());
+        std::erase_if(path, [](char c) { return c == ' ' || c == '\t'; });
         if (equals == std::string::npos)
             return add(at, "there is no =", "an override is section.key=value",
                        "for example --set surface.rms=1.5");
