@@ -3,12 +3,12 @@
 //
 // A TOML reader driven by a schema; it knows no physics.
 //
-// A Schema is a list of keys, each bound to a field of some plain struct. The field's value at the
-// time of binding is the key's default. Reading goes once through the text and once through the
-// overrides (--set section.key=value), writes what is right into the fields and collects what is
-// wrong; nothing is thrown before everything has been looked at. Where each value came from is kept
-// in Positions, so that checks which need several keys, or the mesh, or the number of ranks, can
-// still point to file:line:column.
+// A Schema is a list of keys, each bound to a field of some plain struct. What the field holds
+// before a scene is read is the key's default. Reading goes once through the text and once through
+// the overrides (--set section.key=value), writes what is right into the fields and collects what
+// is wrong; nothing is thrown before everything has been looked at. Where each value came from is
+// kept in Positions, so that checks which need several keys, or the mesh, or the number of ranks,
+// can still point to file:line:column.
 //
 // The same schema writes the struct back as TOML, as JSON and as the reference page in docs/.
 #pragma once

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <random>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -269,19 +268,14 @@ TEST(MapFile, Hdf5ThatIsHostile) {
     const Scratch scratch;
     const auto nothing = [](Hdf5File&) {};
     const std::string whole = contents(hdf5(scratch, 1.0, nothing));
-    // libhdf5 sees no file that is not as it was written: other bytes, cut short, of another
-    // program.
-    std::mt19937_64 random(36);
-    for (int i = 0; i < 300; ++i) {
-        std::string bytes = whole;
-        bytes[8 + random() % (bytes.size() - 8)] ^= static_cast<char>(1 + random() % 255);
-        const Problem p = refused(scratch.write("map.h5", bytes));
-        EXPECT_TRUE(p.what == "is damaged" || p.what == "cannot be opened") << p.what;
-    }
-    for (std::size_t size = 8; size < whole.size(); size += 37)
-        EXPECT_EQ(refused(scratch.write("map.h5", whole.substr(0, size))).fix,
-                  fmt::format("convert it first: asperity convert {} map-converted.h5",
-                              scratch / "map.h5"));
+    // libhdf5 sees no file that is not as it was written: other bytes
+    // (Hdf5File.NoticesEveryDamage), cut short, of another program.
+    std::string bytes = whole;
+    bytes[100] ^= 1;
+    EXPECT_EQ(refused(scratch.write("map.h5", bytes)).what, "is damaged");
+    EXPECT_EQ(
+        refused(scratch.write("map.h5", whole.substr(0, 8))).fix,
+        fmt::format("convert it first: asperity convert {} map-converted.h5", scratch / "map.h5"));
     EXPECT_EQ(refused(scratch.write("map.h5", whole.substr(0, whole.size() - 32))).why,
               "it has no digest at its end: it was cut short, or another program wrote it");
     // Written by us, and no map.
