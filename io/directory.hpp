@@ -18,8 +18,11 @@ public:
     Descriptor() = default;
     explicit Descriptor(int fd) : fd_(fd) {}
     ~Descriptor();
-    Descriptor(Descriptor&& other) noexcept;
-    Descriptor& operator=(Descriptor&& other) noexcept;
+    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(fd_, other.fd_); // other closes what was here
+        return *this;
+    }
     int get() const { return fd_; }
     explicit operator bool() const { return fd_ >= 0; }
     /// Closes now. False: the system reported an error, which is in errno.

@@ -27,7 +27,9 @@ void write_h5md_head(Hdf5File& file, const std::string& creator_version) {
 
 H5mdTrajectory::H5mdTrajectory(Hdf5File& file, std::uint64_t particles, std::array<double, 3> edges,
                                bool velocities)
-    : file_(&file), edges_(edges), velocities_(velocities) {
+    : file_(&file), edges_{}, velocities_(velocities) {
+    for (std::size_t i = 0; i < 3; ++i)
+        edges_[4 * i] = static_cast<float>(edges[i]);
     file.make_group(member("box"));
     file.write_attribute(member("box"), "dimension", std::int64_t{3});
     file.write_attribute(member("box"), "boundary",
@@ -47,15 +49,12 @@ H5mdTrajectory::H5mdTrajectory(Hdf5File& file, std::uint64_t particles, std::arr
 
 void H5mdTrajectory::append(std::int64_t step, double time, std::span<const float> position,
                             std::span<const float> velocity) {
-    std::array<float, 9> edges{};
-    for (std::size_t i = 0; i < 3; ++i)
-        edges[4 * i] = static_cast<float>(edges_[i]);
     const auto write = [&](const std::string& name, std::span<const float> value) {
         file_->append<float>(member(name + "/value"), value);
         file_->append<std::int64_t>(member(name + "/step"), std::span(&step, 1));
         file_->append<double>(member(name + "/time"), std::span(&time, 1));
     };
-    write("box/edges", edges);
+    write("box/edges", edges_);
     write("position", position);
     if (velocities_) write("velocity", velocity);
 }

@@ -38,7 +38,7 @@ public:
 
 private:
     Hdf5File* file_;
-    std::array<double, 3> edges_;
+    std::array<float, 9> edges_; ///< a matrix
     bool velocities_;
 };
 

@@ -166,6 +166,15 @@ std::optional<double> conversion(std::string_view unit, std::string_view base) {
     return scaled(from->factor / to->factor, from->power - to->power);
 }
 
+std::string example_of(std::string_view base) {
+    for (const auto& [unit, text] : examples)
+        if (unit == base) return std::string(text);
+    return base.empty() ? "0.5" : fmt::format("\"1 {}\"", base);
+}
+
+namespace {
+
+/// "a length", "a pressure", "a bare number": what a unit measures.
 std::string measure_of(const Unit& unit) {
     static const std::pair<std::string_view, std::string_view> known[] = {
         {"", "a bare number"},
@@ -185,11 +194,7 @@ std::string measure_of(const Unit& unit) {
     return "something else";
 }
 
-std::string example_of(std::string_view base) {
-    for (const auto& [unit, text] : examples)
-        if (unit == base) return std::string(text);
-    return base.empty() ? "0.5" : fmt::format("\"1 {}\"", base);
-}
+} // namespace
 
 ParsedQuantity parse_quantity(std::string_view text, std::string_view base) {
     ParsedQuantity result;
