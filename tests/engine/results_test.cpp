@@ -26,23 +26,24 @@ namespace {
 
 using io::Json;
 
-/// A run and what it wrote.
-class Written {
+double factor(const std::string& from, const std::string& to) {
+    if (from == to) return 1.0;
+    const auto by = io::conversion(from, to);
+    EXPECT_TRUE(by) << from << " is not in " << to;
+    return by.value_or(NAN);
+}
+
+/// With the units that the files state.
+class Written : public test::Written {
 public:
-    explicit Written(const std::string& scene) : scene_(read_scene_text(scene, "test.toml")) {
-        json = test::run_scene(scene_, scratch_ / "run");
-        file.emplace(scratch_ / "run/run.h5", io::Hdf5File::Mode::read);
-    }
+    using test::Written::Written;
 
     /// A number of result.json ("energy.elastic") in this unit.
-    double number(std::string path, const char* unit) const {
-        std::replace(path.begin(), path.end(), '.', '/');
-        const Json::json_pointer at("/" + path), units("/units/" + path);
-        if (!json.contains(at) || !json.contains(units)) {
-            ADD_FAILURE() << path << " or its unit is missing";
-            return NAN;
-        }
-        return json.at(at).get<double>() * factor(json.at(units).get<std::string>(), unit);
+    double number(const std::string& path, const char* unit) const {
+        const Json* stated = io::find(json, "units." + path);
+        if (stated) return test::number(json, path) * factor(stated->get<std::string>(), unit);
+        ADD_FAILURE() << path << " has no unit";
+        return NAN;
     }
     /// A data set of run.h5 in this unit.
     std::vector<double> data(const std::string& path, const char* unit) const {
@@ -52,22 +53,6 @@ public:
             value *= by;
         return values;
     }
-    double area() const { return scene_.edge() * scene_.edge(); }
-    const Scene& scene() const { return scene_; }
-
-    Json json;
-    std::optional<io::Hdf5File> file;
-
-private:
-    static double factor(const std::string& from, const std::string& to) {
-        if (from == to) return 1.0;
-        const auto factor = io::conversion(from, to);
-        EXPECT_TRUE(factor) << from << " is not in " << to;
-        return factor.value_or(NAN);
-    }
-
-    io::Scratch scratch_;
-    Scene scene_;
 };
 
 double mean(const std::vector<double>& values) {
