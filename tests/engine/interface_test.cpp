@@ -259,7 +259,7 @@ TEST(InterfaceSweep, ReportsSitesThatAreNoNumbers) {
 
 TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
     const int n = 9;
-    Surface s = scattered(n, n * a, 0.0, 1);
+    const Surface s = test::flat_surface(n);
     const Tile tile{0, 0, n, n, n};
     const Interface interface(s, tile, a, {});
     const State still(n, 0.0, 0.0, 1);
