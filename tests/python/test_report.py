@@ -195,9 +195,9 @@ def test_what_is_missing_or_damaged_is_left_out_and_told(path_run, tmp_path):
 
 
 HOSTILE = [
-    "{", "[1, 2]", "null", '{"scene": [1, ', "[" * 50_000, '{"a":' * 50_000, '{"a":' * 500 + "1" + "}" * 500, "\x00\xff",
+    "{", "[1, 2]", "null", '{"scene": [1, ', "[" * 50_000, '{"a":' * 50_000, '{"a":' * 500 + "1" + "}" * 500, "\0\xff",
     '{"scene": 3, "run": {"stopped": 3, "phases": [1]}, "theory": [], "binding_energy": "x", "delta_gamma": 1e999}',
-    '{"name": {}, "scene": {"surface": {"sites": "x", "spacing": [], "rms": {}}, "drive": {"path": 3}}, "failure": [1]}',
+    '{"name": {}, "scene": {"surface": {"sites": "x","spacing": [], "rms": {}}, "drive": {"path": 3}}, "failure": [1]}',
     '{"scene": {"surface": [], "drive": 1, "x": {"y": {"z": [null, {}]}}}, "units": [], "states": {"all": [1, {}]}}',
     '{"delta_gamma": 1e300, "binding_energy": -1e300, "surface": {"rms": 1e-300, "origin": 4}, "run": {"steps": 1}}',
     '{"scene": {"surface": {"sites": 1e300, "spacing": 1e300, "radius": -1.0}}, "pull_off_force": 1.0}',
