@@ -86,7 +86,7 @@ def cluster(tmp_path):
                                                file, "--no-dashboard", *words))
 
         dask("scheduler", "--host", "127.0.0.1", "--port", "0")
-        wait_for(file.exists)
+        wait_for(lambda: file.exists() and file.read_text())  # which is there before it is written
         address = json.loads(file.read_text())["address"]
         workers = [dask("worker", "--nthreads", "1", "--no-nanny", "--local-directory", tmp_path / f"worker{i}")
                    for i in (1, 2)]
