@@ -5,15 +5,15 @@
 #   One GoogleTest program of the suites of tests/<folder>, test_<folder>. Its arguments name the
 #   files whose tests it runs (support/main.cpp).
 #
-# asperity_suite(<name> <folder>/<file> LABELS ... [THREADS n] [RANKS n ...] [KERNELS level ...]
-#                [LONG] [TIMEOUT s] [ENVIRONMENT NAME=VALUE ...])
+# asperity_suite(<folder>/<file> LABELS ... [THREADS n] [RANKS n ...] [KERNELS level ...] [LONG]
+#                [TIMEOUT s] [ENVIRONMENT NAME=VALUE ...])
 #   Adds tests/<folder>/<file>.cpp to the folder's program, and the tests of that file to ctest under
-#   <name>; THREADS is 1 unless given. With RANKS it is run once for each number of ranks, as
-#   <name>_ranks<n>. KERNELS repeats it (on one rank) with the kernels of other processor levels, as <name>_<level>.
-#   LONG repeats it with ASPERITY_LONG=1 and the label "long", as <name less _test>_long.
+#   its name; THREADS is 1 unless given. With RANKS it is run once for each number of ranks, as
+#   <file>_ranks<n>. KERNELS repeats it (on one rank) with the kernels of other processor levels, as <file>_<level>.
+#   LONG repeats it with ASPERITY_LONG=1 and the label "long", as <file less _test>_long.
 #
-# asperity_check_suites()
-#   An error if a file tests/*/*_test.cpp belongs to no suite.
+# asperity_suites(<folder> LABELS ...)
+#   The same for every file tests/<folder>/*_test.cpp that is not a suite yet.
 
 function(asperity_test_program folder)
     cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
@@ -23,10 +23,10 @@ function(asperity_test_program folder)
     target_compile_definitions(test_${folder} PRIVATE ASPERITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endfunction()
 
-function(asperity_suite name file)
+function(asperity_suite file)
     cmake_parse_arguments(ARG "LONG" "THREADS;TIMEOUT" "LABELS;RANKS;KERNELS;ENVIRONMENT" ${ARGN})
     if(ARG_UNPARSED_ARGUMENTS)
-        message(FATAL_ERROR "asperity_suite(${name}): unknown ${ARG_UNPARSED_ARGUMENTS}")
+        message(FATAL_ERROR "asperity_suite(${file}): unknown ${ARG_UNPARSED_ARGUMENTS}")
     endif()
     if(NOT ARG_THREADS)
         set(ARG_THREADS 1)
@@ -35,12 +35,12 @@ function(asperity_suite name file)
         set(ARG_TIMEOUT 300)
     endif()
     get_filename_component(folder ${file} DIRECTORY)
-    get_filename_component(stem ${file} NAME)
+    get_filename_component(name ${file} NAME)
     target_sources(test_${folder} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${file}.cpp)
-    set_property(GLOBAL APPEND PROPERTY ASPERITY_SUITES ${CMAKE_CURRENT_SOURCE_DIR}/${file}.cpp)
+    set_property(GLOBAL APPEND PROPERTY ASPERITY_SUITES ${file}.cpp)
     # Threads that wait must sleep: spinning takes the processor from the thread that is waited for.
     set(environment OMP_NUM_THREADS=${ARG_THREADS} OMP_WAIT_POLICY=passive ${ARG_ENVIRONMENT})
-    set(command $<TARGET_FILE:test_${folder}> ${stem})
+    set(command $<TARGET_FILE:test_${folder}> ${name})
     if(ARG_RANKS)
         # Ranks of MPICH that wait keep their processors busy, also those that others of them need.
         if(ASPERITY_MPI STREQUAL "MPICH")
@@ -73,11 +73,12 @@ function(asperity_suite name file)
     endif()
 endfunction()
 
-function(asperity_check_suites)
+function(asperity_suites folder)
     get_property(listed GLOBAL PROPERTY ASPERITY_SUITES)
-    file(GLOB found ${CMAKE_CURRENT_SOURCE_DIR}/*/*_test.cpp)
-    list(REMOVE_ITEM found ${listed})
-    if(found)
-        message(FATAL_ERROR "Tests that no suite in tests/CMakeLists.txt names: ${found}")
-    endif()
+    file(GLOB found RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${folder}/*_test.cpp)
+    list(REMOVE_ITEM found "" ${listed})
+    list(TRANSFORM found REPLACE "\\.cpp$" "")
+    foreach(file IN LISTS found)
+        asperity_suite(${file} ${ARGN})
+    endforeach()
 endfunction()

@@ -3,7 +3,7 @@
 #include "io/atoms_file.hpp"
 
 #include "io/error.hpp"
-#include "io/map_formats.hpp"
+#include "io/map_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ void check(const std::string& file, const AtomsFile& atoms) {
 }
 
 AtomsFile read(const std::string& name) {
-    if (!starts_with(name, "\x89HDF\r\n\x1a\n"))
+    if (!is_hdf5(name))
         refuse(name, "the file of atoms cannot be read", "it is not an HDF5 file",
                convert_first(name));
     const Hdf5File file = open_hdf5(name);
@@ -85,11 +85,7 @@ AtomsFile read(const std::string& name) {
 } // namespace
 
 AtomsFile read_atoms_file(const std::string& file) {
-    try {
-        return read(file);
-    } catch (const FileError& damaged) {
-        throw SceneError(damaged.problems());
-    }
+    return of_scene([&] { return read(file); });
 }
 
 std::size_t atoms_announced(const std::string& file) {

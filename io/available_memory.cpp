@@ -18,15 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first number of a file; empty if there is none ("max").
-std::optional<double> number_in(const fs::path& path) {
-    std::ifstream file(path);
-    double value = 0.0;
-    if (file >> value) return value;
-    return std::nullopt;
-}
-
-/// Bytes behind a name in a file of "name: value kB" or "name value" lines.
+/// Bytes behind a name in a file of "name: value kB" or "name value" lines, or of the number alone;
+/// empty if there is none ("max").
 std::optional<double> entry(const fs::path& path, const std::string& name) {
     std::ifstream file(path);
     for (std::string line; std::getline(file, line);) {
@@ -59,8 +52,8 @@ AvailableMemory available_memory() {
         const fs::path root = v2 ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
         fs::path group = root / line.substr(std::min(line.size(), second + 2));
         for (int depth = 0; depth < 64; ++depth, group = group.parent_path()) {
-            const auto most = number_in(group / (v2 ? "memory.max" : "memory.limit_in_bytes"));
-            const auto used = number_in(group / (v2 ? "memory.current" : "memory.usage_in_bytes"));
+            const auto most = entry(group / (v2 ? "memory.max" : "memory.limit_in_bytes"), "");
+            const auto used = entry(group / (v2 ? "memory.current" : "memory.usage_in_bytes"), "");
             // File pages count as used and are given back on demand.
             const double files =
                 entry(group / "memory.stat", v2 ? "inactive_file " : "total_inactive_file ")

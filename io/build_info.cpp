@@ -12,25 +12,22 @@ namespace asperity::io {
 
 namespace {
 
-std::string& commit() {
-    static std::string commit = "unknown";
-    return commit;
-}
+std::string commit = "unknown";
 
 } // namespace
 
-void set_commit(const std::string& described) { commit() = described; }
+void set_commit(const std::string& described) { commit = described; }
 
 BuildInfo build_info() {
     unsigned major = 0, minor = 0, release = 0;
-    const bool known = H5get_libversion(&major, &minor, &release) >= 0;
+    H5get_libversion(&major, &minor, &release);
 #if defined(__clang__)
     const std::string compiler = "clang " __clang_version__;
 #else
     const std::string compiler = "g++ " __VERSION__;
 #endif
-    return {ASPERITY_VERSION, commit(), compiler, ASPERITY_FLAGS,
-            known ? fmt::format("{}.{}.{}", major, minor, release) : "unknown"};
+    return {ASPERITY_VERSION, commit, compiler, ASPERITY_FLAGS,
+            fmt::format("{}.{}.{}", major, minor, release)};
 }
 
 std::string machine() {

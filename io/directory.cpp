@@ -20,24 +20,23 @@ Descriptor::~Descriptor() {
     if (fd_ >= 0) ::close(fd_);
 }
 
-Descriptor::Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+bool Descriptor::close() { return ::close(std::exchange(fd_, -1)) == 0; }
 
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-    if (this != &other) {
-        if (fd_ >= 0) ::close(fd_);
-        fd_ = std::exchange(other.fd_, -1);
-    }
-    return *this;
+void fail_by_system(const std::string& path, const char* what, const char* fix) {
+    throw FileError(path, what, std::strerror(errno), fix);
 }
 
-bool Descriptor::close() { return ::close(std::exchange(fd_, -1)) == 0; }
+bool bring_to_disk(int fd) {
+    // Some file systems cannot do this, for directories above all, and say so.
+    return ::fsync(fd) == 0 || errno == EINVAL || errno == EROFS;
+}
 
 Directory::Directory(const std::string& path)
     : path_(path), fd_(std::make_shared<const Descriptor>(
                        ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))) {
     if (!*fd_)
-        throw FileError(path, "cannot be opened as a directory", std::strerror(errno),
-                        "check the path and its permissions");
+        fail_by_system(path, "cannot be opened as a directory",
+                       "check the path and its permissions");
 }
 
 Directory Directory::make(const std::string& path) {
@@ -55,8 +54,7 @@ bool Directory::exists(const std::string& name) const {
     if (::fstatat(fd(), name.c_str(), &status, 0) == 0) return true;
     // A disk that does not answer must not pass for one without the file.
     if (errno != ENOENT && errno != ENOTDIR && errno != ELOOP)
-        throw FileError(*this / name, "cannot be looked at", std::strerror(errno),
-                        "check the disk, or its connection");
+        fail_by_system(*this / name, "cannot be looked at", "check the disk, or its connection");
     return false;
 }
 
@@ -67,21 +65,18 @@ Descriptor Directory::open(const std::string& name, int flags) const {
 
 void Directory::remove(const std::string& name) const {
     if (::unlinkat(fd(), name.c_str(), 0) != 0 && errno != ENOENT)
-        throw FileError(*this / name, "cannot be removed", std::strerror(errno),
-                        "check the permissions of its directory");
+        fail_by_system(*this / name, "cannot be removed", "check the permissions of its directory");
 }
 
 void Directory::rename(const std::string& from, const std::string& to) const {
     if (::renameat(fd(), from.c_str(), fd(), to.c_str()) != 0)
-        throw FileError(*this / to, "cannot be put in its place", std::strerror(errno),
-                        "check the permissions of its directory");
+        fail_by_system(*this / to, "cannot be put in its place",
+                       "check the permissions of its directory");
 }
 
 void Directory::sync() const {
-    // Some file systems cannot do this for directories and say so.
-    if (::fsync(fd()) != 0 && errno != EINVAL && errno != EROFS)
-        throw FileError(path_, "its entries cannot be brought to the disk", std::strerror(errno),
-                        "check the disk");
+    if (!bring_to_disk(fd()))
+        fail_by_system(path_, "its entries cannot be brought to the disk", "check the disk");
 }
 
 std::string FilePlace::name() const {

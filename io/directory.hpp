@@ -18,8 +18,11 @@ public:
     Descriptor() = default;
     explicit Descriptor(int fd) : fd_(fd) {}
     ~Descriptor();
-    Descriptor(Descriptor&& other) noexcept;
-    Descriptor& operator=(Descriptor&& other) noexcept;
+    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(fd_, other.fd_); // other closes what was here
+        return *this;
+    }
     int get() const { return fd_; }
     explicit operator bool() const { return fd_ >= 0; }
     /// Closes now. False: the system reported an error, which is in errno.
@@ -28,6 +31,13 @@ public:
 private:
     int fd_ = -1;
 };
+
+/// Throws FileError: what the system refused, with the reason in errno.
+[[noreturn]] void fail_by_system(
+    const std::string& path, const char* what,
+    const char* fix = "check the permissions of its directory and the space on its disk");
+/// Brings a file, or the entries of a directory, to the disk. False: errno says why not.
+bool bring_to_disk(int fd);
 
 class Directory {
 public:

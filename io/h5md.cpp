@@ -27,38 +27,34 @@ void write_h5md_head(Hdf5File& file, const std::string& creator_version) {
 
 H5mdTrajectory::H5mdTrajectory(Hdf5File& file, std::uint64_t particles, std::array<double, 3> edges,
                                bool velocities)
-    : file_(&file), edges_(edges), velocities_(velocities) {
+    : file_(&file), edges_{}, velocities_(velocities) {
+    for (std::size_t i = 0; i < 3; ++i)
+        edges_[4 * i] = static_cast<float>(edges[i]);
     file.make_group(member("box"));
     file.write_attribute(member("box"), "dimension", std::int64_t{3});
-    file.write_text_list_attribute(member("box"), "boundary", {"periodic", "periodic", "none"});
-    file.make_series<float>(member("box/edges/value"), {3, 3});
-    file.write_attribute(member("box/edges/value"), "unit", "Angstrom");
-    element("box/edges", "");
-    file.make_series<float>(member("position/value"), {particles, 3});
-    element("position", "Angstrom");
-    if (!velocities) return;
-    file.make_series<float>(member("velocity/value"), {particles, 3});
-    element("velocity", "Angstrom ps-1");
-}
-
-void H5mdTrajectory::element(const std::string& name, const std::string& unit) {
-    if (!unit.empty()) file_->write_attribute(member(name + "/value"), "unit", unit);
-    file_->make_series<std::int64_t>(member(name + "/step"));
-    file_->make_series<double>(member(name + "/time"));
-    file_->write_attribute(member(name + "/time"), "unit", "ps");
+    file.write_attribute(member("box"), "boundary",
+                         std::vector<std::string>{"periodic", "periodic", "none"});
+    const auto element = [&](const std::string& name, const char* unit,
+                             const Hdf5File::Shape& row) {
+        file.make_series<float>(member(name + "/value"), row);
+        file.write_attribute(member(name + "/value"), "unit", unit);
+        file.make_series<std::int64_t>(member(name + "/step"));
+        file.make_series<double>(member(name + "/time"));
+        file.write_attribute(member(name + "/time"), "unit", "ps");
+    };
+    element("box/edges", "Angstrom", {3, 3});
+    element("position", "Angstrom", {particles, 3});
+    if (velocities) element("velocity", "Angstrom ps-1", {particles, 3});
 }
 
 void H5mdTrajectory::append(std::int64_t step, double time, std::span<const float> position,
                             std::span<const float> velocity) {
-    std::array<float, 9> edges{};
-    for (std::size_t i = 0; i < 3; ++i)
-        edges[4 * i] = static_cast<float>(edges_[i]);
     const auto write = [&](const std::string& name, std::span<const float> value) {
         file_->append<float>(member(name + "/value"), value);
         file_->append<std::int64_t>(member(name + "/step"), std::span(&step, 1));
         file_->append<double>(member(name + "/time"), std::span(&time, 1));
     };
-    write("box/edges", edges);
+    write("box/edges", edges_);
     write("position", position);
     if (velocities_) write("velocity", velocity);
 }

@@ -37,10 +37,8 @@ public:
                 std::span<const float> velocity);
 
 private:
-    void element(const std::string& name, const std::string& unit);
-
     Hdf5File* file_;
-    std::array<double, 3> edges_;
+    std::array<float, 9> edges_; ///< a matrix
     bool velocities_;
 };
 

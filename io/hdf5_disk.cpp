@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "io/hdf5_disk.hpp"
 
-#include "io/hdf5_handle.hpp"
 #include "io/output_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 
+#include <hdf5.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -37,13 +37,9 @@ void Hdf5Disk::write(std::uint64_t offset, std::span<const std::byte> bytes) {
     kept.emplace_back(offset, std::vector<std::byte>(bytes.begin(), bytes.end()));
 }
 
-void Hdf5Disk::cut(std::uint64_t size) {
-    if (error == 0 && ::ftruncate(fd, static_cast<off_t>(size)) != 0) error = errno;
-}
-
 namespace {
 
-/// The library's view of an open file; what it asks of a driver follows.
+/// The library's view of an open file.
 struct OpenFile {
     H5FD_t head;
     Hdf5Disk* disk;
@@ -51,68 +47,8 @@ struct OpenFile {
     haddr_t end_of_file;
 };
 
-OpenFile& file_of(H5FD_t* file) { return *reinterpret_cast<OpenFile*>(file); }
-const OpenFile& file_of(const H5FD_t* file) { return *reinterpret_cast<const OpenFile*>(file); }
-
-constexpr haddr_t largest = (haddr_t{1} << 62) - 1;
-
-H5FD_t* open_disk(const char*, unsigned, hid_t access, haddr_t) {
-    const auto* disk = static_cast<Hdf5Disk* const*>(H5Pget_driver_info(access));
-    struct stat status {};
-    if (!disk || ::fstat((*disk)->fd, &status) != 0) return nullptr;
-    auto* file = new OpenFile{};
-    file->disk = *disk;
-    file->end_of_file = static_cast<haddr_t>(status.st_size);
-    return &file->head;
-}
-
-herr_t close_disk(H5FD_t* file) {
-    delete &file_of(file);
-    return 0;
-}
-
-int compare_disks(const H5FD_t* a, const H5FD_t* b) {
-    const int x = file_of(a).disk->fd, y = file_of(b).disk->fd;
-    return x < y ? -1 : x > y ? 1 : 0;
-}
-
-herr_t query_disk(const H5FD_t*, unsigned long* flags) {
-    if (flags)
-        *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
-                 H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
-    return 0;
-}
-
-haddr_t end_of_allocation(const H5FD_t* file, H5FD_mem_t) {
-    return file_of(file).end_of_allocation;
-}
-
-herr_t allocate_up_to(H5FD_t* file, H5FD_mem_t, haddr_t end) {
-    file_of(file).end_of_allocation = end;
-    return 0;
-}
-
-haddr_t end_of_file(const H5FD_t* file, H5FD_mem_t) { return file_of(file).end_of_file; }
-
-herr_t read_disk(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void* to) {
-    return file_of(file).disk->read(at, {static_cast<std::byte*>(to), size}) ? 0 : -1;
-}
-
-herr_t write_disk(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, const void* from) {
-    OpenFile& f = file_of(file);
-    f.disk->write(at, {static_cast<const std::byte*>(from), size});
-    f.end_of_file = std::max(f.end_of_file, at + static_cast<haddr_t>(size));
-    return 0;
-}
-
-/// The file ends where the library's data end.
-herr_t truncate_disk(H5FD_t* file, hid_t, hbool_t) {
-    OpenFile& f = file_of(file);
-    if (f.end_of_allocation == f.end_of_file) return 0;
-    f.disk->cut(f.end_of_allocation);
-    f.end_of_file = f.end_of_allocation;
-    return 0;
-}
+OpenFile& of(H5FD_t* file) { return *reinterpret_cast<OpenFile*>(file); }
+const OpenFile& of(const H5FD_t* file) { return *reinterpret_cast<const OpenFile*>(file); }
 
 H5FD_class_t make_driver() {
     const H5FD_mem_t by_kind[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
@@ -124,20 +60,53 @@ H5FD_class_t make_driver() {
     driver.value = static_cast<H5FD_class_value_t>(600); // beyond those that are given out
 #endif
     driver.name = "asperity";
-    driver.maxaddr = largest;
+    driver.maxaddr = (haddr_t{1} << 62) - 1;
     driver.fc_degree = H5F_CLOSE_STRONG;
     driver.fapl_size = sizeof(Hdf5Disk*);
-    driver.open = open_disk;
-    driver.close = close_disk;
-    driver.cmp = compare_disks;
-    driver.query = query_disk;
-    driver.get_eoa = end_of_allocation;
-    driver.set_eoa = allocate_up_to;
-    driver.get_eof = end_of_file;
-    driver.read = read_disk;
-    driver.write = write_disk;
-    driver.truncate = truncate_disk;
     std::copy(std::begin(by_kind), std::end(by_kind), std::begin(driver.fl_map));
+    driver.open = [](const char*, unsigned, hid_t access, haddr_t) -> H5FD_t* {
+        const auto* disk = static_cast<Hdf5Disk* const*>(H5Pget_driver_info(access));
+        struct stat status {};
+        if (!disk || ::fstat((*disk)->fd, &status) != 0) return nullptr;
+        auto* file = new OpenFile{};
+        file->disk = *disk;
+        file->end_of_file = static_cast<haddr_t>(status.st_size);
+        return &file->head;
+    };
+    driver.close = [](H5FD_t* file) {
+        delete &of(file);
+        return 0;
+    };
+    driver.query = [](const H5FD_t*, unsigned long* flags) {
+        if (flags)
+            *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
+                     H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
+        return 0;
+    };
+    driver.get_eoa = [](const H5FD_t* file, H5FD_mem_t) { return of(file).end_of_allocation; };
+    driver.set_eoa = [](H5FD_t* file, H5FD_mem_t, haddr_t end) {
+        of(file).end_of_allocation = end;
+        return 0;
+    };
+    driver.get_eof = [](const H5FD_t* file, H5FD_mem_t) { return of(file).end_of_file; };
+    driver.read = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void* to) {
+        return of(file).disk->read(at, {static_cast<std::byte*>(to), size}) ? 0 : -1;
+    };
+    driver.write = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size,
+                      const void* from) {
+        of(file).disk->write(at, {static_cast<const std::byte*>(from), size});
+        of(file).end_of_file = std::max(of(file).end_of_file, at + static_cast<haddr_t>(size));
+        return 0;
+    };
+    driver.truncate = [](H5FD_t* file, hid_t, hbool_t) { // the file ends where the data end
+        OpenFile& f = of(file);
+        if (f.end_of_allocation == f.end_of_file) return 0;
+        f.end_of_file = f.end_of_allocation;
+        Hdf5Disk& disk = *f.disk;
+        if (disk.error == 0 && ::ftruncate(disk.fd, static_cast<off_t>(f.end_of_file)) != 0)
+            disk.error = errno;
+        return 0;
+    };
     return driver;
 }
 
@@ -148,11 +117,7 @@ std::int64_t hdf5_access(Hdf5Disk& disk) {
     static const hid_t id = H5FDregister(&driver);
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     Hdf5Disk* where = &disk;
-    if (access >= 0 && (id < 0 || H5Pset_driver(access, id, &where) < 0)) {
-        H5Pclose(access);
-        return -1;
-    }
-    return access;
+    return H5Pset_driver(access, id, &where) < 0 ? H5I_INVALID_HID : access;
 }
 
 } // namespace asperity::io

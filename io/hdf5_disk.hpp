@@ -24,11 +24,10 @@ struct Hdf5Disk {
 
     bool read(std::uint64_t offset, std::span<std::byte> bytes);
     void write(std::uint64_t offset, std::span<const std::byte> bytes);
-    void cut(std::uint64_t size);
 };
 
 /// Properties (an HDF5 file access list) with which a file is opened or created on this disk, which
-/// must outlive the file. The caller closes the list. Negative: the library failed.
+/// must outlive the file. The caller closes the list.
 std::int64_t hdf5_access(Hdf5Disk& disk);
 
 } // namespace asperity::io

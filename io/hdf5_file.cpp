@@ -7,10 +7,8 @@
 
 #include "io/error.hpp"
 #include "io/hdf5_disk.hpp"
-#include "io/hdf5_handle.hpp"
 #include "io/output_file.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <functional>
@@ -20,15 +18,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <hdf5.h>
 
 namespace asperity::io {
 
-namespace {
+static_assert(std::is_same_v<hid_t, std::int64_t>);
 
-void silence() {
-    static const herr_t once = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    static_cast<void>(once);
-}
+namespace {
 
 /// What the library says went wrong, from the bottom of its stack.
 std::string cause() {
@@ -43,302 +39,304 @@ std::string cause() {
     return text.empty() ? "the HDF5 library gives no reason" : "HDF5: " + text;
 }
 
-std::uint64_t volume(const Hdf5File::Shape& shape) {
-    return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
-}
-
 std::vector<hsize_t> extents(const Hdf5File::Shape& shape) { return {shape.begin(), shape.end()}; }
-
-} // namespace
-
-/// Where the bytes are: a file under construction, or one that is read.
-class Hdf5File::Storage {
-public:
-    explicit Storage(std::unique_ptr<OutputFile> created) : output(std::move(created)) {
-        disk.fd = output->fd();
-    }
-    explicit Storage(Descriptor opened) : input(std::move(opened)) { disk.fd = input.get(); }
-
-    std::unique_ptr<OutputFile> output; ///< null: the file is read
-    Descriptor input;
-    Hdf5Disk disk;
-};
-
-namespace {
 
 /// Tells readers that the file ended in a digest when it was whole.
 constexpr const char* seal_attribute = "asperity_digest";
 
+template <class... F>
+struct Overloaded : F... {
+    using F::operator()...;
+};
+
 } // namespace
 
-Hdf5File::Hdf5File(const FilePlace& place, Mode mode) : path_(place.path()) {
-    silence();
-    if (mode == Mode::read) {
-        storage_ = std::make_unique<Storage>(place.open(O_RDONLY));
-        open_to_read();
-        return;
+/// One handle, closed by the function of its kind.
+class Hdf5Handle {
+public:
+    Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+    ~Hdf5Handle() {
+        if (id_ >= 0) close_(id_);
     }
-    storage_ = std::make_unique<Storage>(std::make_unique<OutputFile>(place));
-    const Hdf5Handle access(hdf5_access(storage_->disk), H5Pclose);
-    id_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
-    if (id_ < 0)
-        throw FileError(path_, "cannot be created", cause(),
-                        "check its directory and the space on its disk");
-    try {
-        write_attribute("/", seal_attribute, std::int64_t{1});
-    } catch (...) {
-        H5Fclose(std::exchange(id_, -1));
-        throw;
+    Hdf5Handle(const Hdf5Handle&) = delete;
+    Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+    operator hid_t() const { return id_; }
+
+private:
+    hid_t id_;
+    herr_t (*close_)(hid_t);
+};
+
+static bool is_one(const Hdf5Handle& attribute) {
+    const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+    return H5Sget_simple_extent_npoints(space) == 1;
+}
+
+/// Where the bytes are, and the library's handle of the file.
+struct Hdf5File::Open {
+    std::unique_ptr<OutputFile> output; ///< null: the file is read
+    Descriptor input;
+    Hdf5Disk disk;
+    hid_t id = -1;
+    ~Open() {
+        if (id >= 0) H5Fclose(id);
     }
+};
+
+Hdf5File::Hdf5File(const FilePlace& place, Mode mode)
+    : path_(place.path()), open_(std::make_unique<Open>()) {
+    static const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    static_cast<void>(silenced);
+    const bool create = mode == Mode::create;
+    if (create) {
+        open_->output = std::make_unique<OutputFile>(place);
+        open_->disk.fd = open_->output->fd();
+    } else {
+        open_->input = place.open(O_RDONLY);
+        if (!open_->input) fail_by_system(path_, "cannot be opened", "check the path");
+        open_->disk.fd = open_->input.get();
+        const Seal seal = check_seal(open_->disk.fd);
+        if (seal == Seal::none)
+            throw FileError(
+                path_, "cannot be opened",
+                "it has no digest at its end: it was cut short, or another program wrote it",
+                "take a copy that is whole");
+        if (seal == Seal::broken)
+            throw FileError(path_, "is damaged", "its bytes are not those its digest was made of",
+                            "take a copy that is whole");
+    }
+    const Hdf5Handle access(hdf5_access(open_->disk), H5Pclose);
+    open_->id = create ? H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
+                       : H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);
+    if (open_->id < 0)
+        throw FileError(path_, create ? "cannot be created" : "cannot be opened", cause(),
+                        create ? "check its directory and the space on its disk"
+                               : "check that it is whole");
+    if (create) write_attribute("/", seal_attribute, std::int64_t{1});
 }
 
-void Hdf5File::open_to_read() {
-    if (!storage_->input)
-        throw FileError(path_, "cannot be opened", std::strerror(errno), "check the path");
-    const Seal seal = check_seal(storage_->input.get());
-    if (seal == Seal::none)
-        throw FileError(
-            path_, "cannot be opened",
-            "it has no digest at its end: it was cut short, or another program wrote it",
-            "take a copy that is whole");
-    if (seal == Seal::broken)
-        throw FileError(path_, "is damaged", "its bytes are not those its digest was made of",
-                        "take a copy that is whole");
-    const Hdf5Handle access(hdf5_access(storage_->disk), H5Pclose);
-    id_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);
-    if (id_ < 0) throw FileError(path_, "cannot be opened", cause(), "check that it is whole");
-}
+Hdf5File::~Hdf5File() = default;
+Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;
 
-Hdf5File::~Hdf5File() {
-    if (id_ >= 0) H5Fclose(id_);
-}
+std::int64_t Hdf5File::type(double) { return H5T_NATIVE_DOUBLE; }
+std::int64_t Hdf5File::type(float) { return H5T_NATIVE_FLOAT; }
+std::int64_t Hdf5File::type(std::int64_t) { return H5T_NATIVE_INT64; }
+std::int64_t Hdf5File::type(std::int32_t) { return H5T_NATIVE_INT32; }
+std::int64_t Hdf5File::type(std::uint8_t) { return H5T_NATIVE_UINT8; }
 
-Hdf5File::Hdf5File(Hdf5File&& other) noexcept
-    : path_(std::move(other.path_)), storage_(std::move(other.storage_)),
-      id_(std::exchange(other.id_, -1)) {}
+std::uint64_t Hdf5File::volume(const Shape& shape) {
+    return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
+}
 
 void Hdf5File::fail(const std::string& object, const std::string& what) const {
     check_disk();
-    throw FileError(path_, object.empty() ? what : object + " " + what, cause(),
-                    "check that the file is whole");
+    throw FileError(path_, object + " " + what, cause(), "check that the file is whole");
 }
 
 void Hdf5File::check_disk() const {
-    if (storage_ && storage_->disk.error != 0)
-        throw FileError(path_, "cannot be written", std::strerror(storage_->disk.error),
+    if (open_->disk.error != 0)
+        throw FileError(path_, "cannot be written", std::strerror(open_->disk.error),
                         "check the space on its disk");
 }
 
+Hdf5Handle Hdf5File::handle(std::int64_t id, int (*closer)(std::int64_t), const std::string& object,
+                            const std::string& what) const {
+    if (id < 0) fail(object, what);
+    return {id, closer};
+}
+
 void Hdf5File::close() {
-    if (id_ < 0) return;
-    if (H5Fclose(std::exchange(id_, -1)) < 0) fail("", "cannot be closed");
+    if (open_->id < 0) return;
+    if (H5Fclose(std::exchange(open_->id, -1)) < 0) fail("/", "cannot be closed");
     check_disk();
-    if (storage_->output) {
-        storage_->output->seal();
-        storage_->output->commit();
-    }
-    storage_.reset();
+    if (!open_->output) return;
+    open_->output->seal();
+    open_->output->commit();
 }
 
 bool Hdf5File::exists(const std::string& object) const {
     if (object == "/") return true;
     // The library wants every group on the way looked at in turn.
     for (std::size_t slash = object.find('/', 1);; slash = object.find('/', slash + 1)) {
-        if (H5Lexists(id_, object.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+        if (H5Lexists(open_->id, object.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
         if (slash == std::string::npos) return true;
     }
 }
 
-int Hdf5File::kind(const std::string& object) const {
-    if (!exists(object)) return H5I_BADID;
-    const Hdf5Handle handle(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
-    if (!handle.good()) fail(object, "cannot be opened");
-    return H5Iget_type(handle);
+bool Hdf5File::is_dataset(const std::string& object) const {
+    return exists(object) &&
+           H5Iget_type(handle(H5Oopen(open_->id, object.c_str(), H5P_DEFAULT), H5Oclose, object,
+                              "cannot be opened")) == H5I_DATASET;
 }
 
-bool Hdf5File::is_dataset(const std::string& object) const { return kind(object) == H5I_DATASET; }
-
-bool Hdf5File::is_group(const std::string& object) const { return kind(object) == H5I_GROUP; }
-
 Hdf5Handle Hdf5File::open(const std::string& dataset) const {
-    const hid_t set = H5Dopen2(id_, dataset.c_str(), H5P_DEFAULT);
-    if (set < 0) fail(dataset, "is not a data set");
-    return {set, H5Dclose};
+    return handle(H5Dopen2(open_->id, dataset.c_str(), H5P_DEFAULT), H5Dclose, dataset,
+                  "is not a data set");
 }
 
 bool Hdf5File::holds_numbers(const std::string& dataset) const {
-    const Hdf5Handle set = open(dataset), type(H5Dget_type(set), H5Tclose);
-    const H5T_class_t kind = type.good() ? H5Tget_class(type) : H5T_NO_CLASS;
+    const H5T_class_t kind =
+        H5Tget_class(handle(H5Dget_type(open(dataset)), H5Tclose, dataset, "has no type"));
     return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
 
 void Hdf5File::make_group(const std::string& group) {
     if (group.empty() || exists(group)) return;
-    const std::size_t slash = group.rfind('/');
-    if (slash != std::string::npos && slash > 0) make_group(group.substr(0, slash));
-    const Hdf5Handle made(H5Gcreate2(id_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                          H5Gclose);
-    if (!made.good()) fail(group, "cannot be made as a group");
+    make_group(group.substr(0, group.rfind('/')));
+    handle(H5Gcreate2(open_->id, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+           group, "cannot be made as a group");
 }
 
 std::vector<std::string> Hdf5File::members(const std::string& group) const {
-    const Hdf5Handle handle(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
-    if (!handle.good()) fail(group, "cannot be opened as a group");
+    const Hdf5Handle opened = handle(H5Gopen2(open_->id, group.c_str(), H5P_DEFAULT), H5Gclose,
+                                     group, "cannot be opened as a group");
     std::vector<std::string> names;
     const auto each = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
         static_cast<std::vector<std::string>*>(out)->emplace_back(name);
         return 0;
     };
-    if (H5Literate(handle, H5_INDEX_NAME, H5_ITER_INC, nullptr, each, &names) < 0)
+    if (H5Literate(opened, H5_INDEX_NAME, H5_ITER_INC, nullptr, each, &names) < 0)
         fail(group, "cannot be listed");
     return names;
-}
-
-void Hdf5File::create(const std::string& dataset, std::int64_t type, std::int64_t space,
-                      const Shape& chunk) {
-    if (const std::size_t slash = dataset.rfind('/'); slash != std::string::npos && slash > 0)
-        make_group(dataset.substr(0, slash));
-    const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    const int rank = static_cast<int>(chunk.size());
-    // No times in the file: the same data are the same bytes.
-    if (!layout.good() || H5Pset_obj_track_times(layout, false) < 0 ||
-        (rank > 0 && H5Pset_chunk(layout, rank, extents(chunk).data()) < 0))
-        fail(dataset, "cannot be made");
-    const Hdf5Handle set(
-        H5Dcreate2(id_, dataset.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT), H5Dclose);
-    if (!set.good()) fail(dataset, "cannot be made");
-}
-
-template <class T>
-void Hdf5File::make_dataset(const std::string& dataset, const Shape& shape) {
-    const int rank = static_cast<int>(shape.size());
-    const Hdf5Handle space(rank == 0 ? H5Screate(H5S_SCALAR)
-                                     : H5Screate_simple(rank, extents(shape).data(), nullptr),
-                           H5Sclose);
-    create(dataset, hdf5_type<T>(), space, {});
-}
-
-template <class T>
-void Hdf5File::write(const std::string& dataset, const Shape& shape, std::span<const T> data) {
-    if (data.size() != volume(shape))
-        throw FileError(path_, dataset + " cannot be written",
-                        fmt::format("{} values for a shape of {}", data.size(), volume(shape)),
-                        "this is a mistake in the program");
-    make_dataset<T>(dataset, shape);
-    if (!data.empty() &&
-        H5Dwrite(open(dataset), hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
-        fail(dataset, "cannot be written");
-    check_disk();
-}
-
-namespace {
-
-/// The file's side of a slab, and the memory's.
-bool transfer(hid_t set, hid_t type, const Hdf5File::Shape& offset, const Hdf5File::Shape& count,
-              void* read_into, const void* write_from) {
-    const Hdf5Handle file_space(H5Dget_space(set), H5Sclose);
-    const std::vector<hsize_t> start = extents(offset), extent = extents(count);
-    const Hdf5Handle memory(
-        H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
-    if (!file_space.good() || !memory.good() ||
-        H5Sget_simple_extent_ndims(file_space) != static_cast<int>(count.size()) ||
-        H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, extent.data(),
-                            nullptr) < 0 ||
-        H5Sselect_valid(file_space) <= 0)
-        return false;
-    if (read_into) return H5Dread(set, type, memory, file_space, H5P_DEFAULT, read_into) >= 0;
-    return H5Dwrite(set, type, memory, file_space, H5P_DEFAULT, write_from) >= 0;
-}
-
-} // namespace
-
-template <class T>
-void Hdf5File::write_slab(const std::string& dataset, const Shape& offset, const Shape& count,
-                          std::span<const T> data) {
-    if (offset.size() != count.size() || data.size() != volume(count) ||
-        !transfer(open(dataset), hdf5_type<T>(), offset, count, nullptr, data.data()))
-        fail(dataset, fmt::format("does not take a block of {} at {}", count, offset));
-    check_disk();
-}
-
-template <class T>
-void Hdf5File::read_slab(const std::string& dataset, const Shape& offset, const Shape& count,
-                         std::span<T> data) const {
-    if (offset.size() != count.size() || data.size() != volume(count) ||
-        !transfer(open(dataset), hdf5_type<T>(), offset, count, data.data(), nullptr))
-        fail(dataset, fmt::format("does not give a block of {} at {}", count, offset));
-}
-
-template <class T>
-std::vector<T> Hdf5File::read(const std::string& dataset) const {
-    std::vector<T> data(volume(shape(dataset)));
-    if (!data.empty() &&
-        H5Dread(open(dataset), hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
-        fail(dataset, "cannot be read");
-    return data;
 }
 
 Hdf5File::Shape Hdf5File::shape(const std::string& dataset) const {
     if (!exists(dataset))
         throw FileError(path_, "has no data set " + dataset,
                         "the file was written by something else", "check the file");
-    const Hdf5Handle space(H5Dget_space(open(dataset)), H5Sclose);
-    const int rank = space.good() ? H5Sget_simple_extent_ndims(space) : -1;
+    const Hdf5Handle space = handle(H5Dget_space(open(dataset)), H5Sclose, dataset, "has no shape");
+    std::vector<hsize_t> extent(H5S_MAX_RANK);
+    const int rank = H5Sget_simple_extent_dims(space, extent.data(), nullptr);
     if (rank < 0) fail(dataset, "has no shape");
-    std::vector<hsize_t> extent(static_cast<std::size_t>(rank));
-    if (rank > 0 && H5Sget_simple_extent_dims(space, extent.data(), nullptr) < 0)
-        fail(dataset, "has no shape");
-    return {extent.begin(), extent.end()};
+    return {extent.begin(), extent.begin() + rank};
 }
 
-template <class T>
-void Hdf5File::make_series(const std::string& dataset, const Shape& row) {
-    std::vector<hsize_t> extent = {0}, most = {H5S_UNLIMITED};
-    extent.insert(extent.end(), row.begin(), row.end());
-    most.insert(most.end(), row.begin(), row.end());
-    // About 8 kB a chunk for plain series, at least one row for others.
-    const std::uint64_t bytes = std::max<std::uint64_t>(1, volume(row) * sizeof(T));
-    Shape chunk(extent.begin(), extent.end());
-    chunk[0] = std::max<std::uint64_t>(1, 8192 / bytes);
-    const Hdf5Handle space(
-        H5Screate_simple(static_cast<int>(extent.size()), extent.data(), most.data()), H5Sclose);
-    create(dataset, hdf5_type<T>(), space, chunk);
+void Hdf5File::create(const std::string& dataset, std::int64_t type, Shape shape,
+                      std::uint64_t chunk) {
+    make_group(dataset.substr(0, dataset.rfind('/')));
+    const char* const what = "cannot be made";
+    const Hdf5Handle layout = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, dataset, what);
+    // No times in the file: the same data are the same bytes.
+    herr_t done = H5Pset_obj_track_times(layout, false);
+    std::vector<hsize_t> most = extents(shape);
+    if (chunk > 0) {
+        most.insert(most.begin(), chunk);
+        done = std::min(done, H5Pset_chunk(layout, static_cast<int>(most.size()), most.data()));
+        most[0] = H5S_UNLIMITED;
+        shape.insert(shape.begin(), 0);
+    }
+    if (done < 0) fail(dataset, what);
+    const Hdf5Handle space =
+        handle(H5Screate_simple(static_cast<int>(shape.size()), extents(shape).data(), most.data()),
+               H5Sclose, dataset, what);
+    handle(H5Dcreate2(open_->id, dataset.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT),
+           H5Dclose, dataset, what);
 }
 
-template <class T>
-void Hdf5File::append(const std::string& dataset, std::span<const T> rows) {
-    if (rows.empty()) return;
-    Shape now = shape(dataset);
-    const std::uint64_t row = volume(Shape(now.begin() + (now.empty() ? 0 : 1), now.end()));
-    const Hdf5Handle set = open(dataset);
-    if (now.empty() || row == 0 || rows.size() % row != 0)
-        fail(dataset, "does not take these rows");
-    Shape offset(now.size(), 0), count = now;
-    offset[0] = now[0];
-    count[0] = rows.size() / row;
-    now[0] += count[0];
-    const std::vector<hsize_t> extent = extents(now);
-    if (H5Dset_extent(set, extent.data()) < 0 ||
-        !transfer(set, hdf5_type<T>(), offset, count, nullptr, rows.data()))
-        fail(dataset, "cannot be appended to");
+void Hdf5File::transfer(const std::string& dataset, std::int64_t type, const Shape& offset,
+                        const Shape& count, std::size_t values, void* read_into,
+                        const void* write_from) const {
+    const int rank = static_cast<int>(count.size());
+    const Hdf5Handle set = open(dataset), file(H5Dget_space(set), H5Sclose),
+                     memory(H5Screate_simple(rank, extents(count).data(), nullptr), H5Sclose);
+    bool done = offset.size() == count.size() && values == volume(count) &&
+                H5Sget_simple_extent_ndims(file) == rank;
+    if (done && rank > 0)
+        done = H5Sselect_hyperslab(file, H5S_SELECT_SET, extents(offset).data(), nullptr,
+                                   extents(count).data(), nullptr) >= 0 &&
+               H5Sselect_valid(file) > 0;
+    if (done && values > 0)
+        done = (read_into ? H5Dread(set, type, memory, file, H5P_DEFAULT, read_into)
+                          : H5Dwrite(set, type, memory, file, H5P_DEFAULT, write_from)) >= 0;
+    if (!done)
+        fail(dataset, fmt::format("does not {} a block of {} at {}", read_into ? "give" : "take",
+                                  count, offset));
     check_disk();
 }
 
-#define ASPERITY_HDF5_TYPE(T)                                                                      \
-    template void Hdf5File::write<T>(const std::string&, const Shape&, std::span<const T>);        \
-    template void Hdf5File::make_dataset<T>(const std::string&, const Shape&);                     \
-    template void Hdf5File::write_slab<T>(const std::string&, const Shape&, const Shape&,          \
-                                          std::span<const T>);                                     \
-    template void Hdf5File::read_slab<T>(const std::string&, const Shape&, const Shape&,           \
-                                         std::span<T>) const;                                      \
-    template std::vector<T> Hdf5File::read<T>(const std::string&) const;                           \
-    template void Hdf5File::make_series<T>(const std::string&, const Shape&);                      \
-    template void Hdf5File::append<T>(const std::string&, std::span<const T>);
-ASPERITY_HDF5_TYPE(double)
-ASPERITY_HDF5_TYPE(float)
-ASPERITY_HDF5_TYPE(std::int64_t)
-ASPERITY_HDF5_TYPE(std::int32_t)
-ASPERITY_HDF5_TYPE(std::uint8_t)
-#undef ASPERITY_HDF5_TYPE
+void Hdf5File::append(const std::string& dataset, std::int64_t type, std::size_t values,
+                      const void* rows) {
+    Shape now = shape(dataset), offset(now.size(), 0), count = now;
+    offset[0] = std::exchange(count[0], 1);
+    const std::uint64_t row = volume(count);
+    if (values % row != 0) fail(dataset, "does not take these rows");
+    count[0] = values / row;
+    now[0] += count[0];
+    if (H5Dset_extent(open(dataset), extents(now).data()) < 0)
+        fail(dataset, "cannot be appended to");
+    transfer(dataset, type, offset, count, values, nullptr, rows);
+}
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name,
+                               const Attribute& value) {
+    const std::string what = "cannot take the attribute " + name;
+    const auto put = [&](hid_t type, int rank, hsize_t count, const void* data) {
+        const Hdf5Handle owner =
+            handle(H5Oopen(open_->id, object.c_str(), H5P_DEFAULT), H5Oclose, object, what);
+        if (H5Aexists(owner, name.c_str()) > 0) H5Adelete(owner, name.c_str());
+        const Hdf5Handle space(H5Screate_simple(rank, &count, nullptr), H5Sclose);
+        const Hdf5Handle attribute =
+            handle(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                   object, what);
+        if (H5Awrite(attribute, type, data) < 0) fail(object, what);
+    };
+    const auto put_text = [&](std::size_t size, int rank, hsize_t count, const void* data) {
+        const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+        if (H5Tset_size(type, size) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
+            H5Tset_strpad(type, rank == 0 ? H5T_STR_NULLTERM : H5T_STR_NULLPAD) < 0)
+            fail(object, what);
+        put(type, rank, count, data);
+    };
+    const Overloaded write{[&](const std::string& text) {
+                               // Of variable length: such strings are text to Python, fixed ones
+                               // are bytes.
+                               const char* start = text.c_str();
+                               put_text(H5T_VARIABLE, 0, 1, &start);
+                           },
+                           [&](const std::vector<std::string>& list) {
+                               std::size_t longest = 1;
+                               for (const std::string& text : list)
+                                   longest = std::max(longest, text.size());
+                               std::string padded;
+                               for (const std::string& text : list)
+                                   padded += text + std::string(longest - text.size(), '\0');
+                               put_text(longest, 1, list.size(), padded.data());
+                           },
+                           [&](const std::vector<std::int64_t>& list) {
+                               put(type(std::int64_t()), 1, list.size(), list.data());
+                           },
+                           [&](auto number) { put(type(number), 0, 1, &number); }};
+    std::visit(write, value);
+}
+
+Hdf5Handle Hdf5File::open_attribute(const std::string& object, const std::string& name,
+                                    const std::string& what) const {
+    return handle(
+        H5Aopen_by_name(open_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose, object, what);
+}
+
+bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
+    return H5Aexists_by_name(open_->id, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::string Hdf5File::read_text_attribute(const std::string& object,
+                                          const std::string& name) const {
+    const Hdf5Handle attribute = open_attribute(object, name, "has no attribute " + name);
+    const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+    char* data = nullptr;
+    if (H5Tis_variable_str(type) <= 0 || !is_one(attribute) || H5Aread(attribute, type, &data) < 0)
+        fail(object, "has an attribute " + name + " that is not one string");
+    const std::string text = data ? data : "";
+    H5free_memory(data);
+    return text;
+}
+
+void Hdf5File::read_attribute(const std::string& object, const std::string& name, std::int64_t type,
+                              void* value) const {
+    const std::string what = "has no number as attribute " + name;
+    const Hdf5Handle attribute = open_attribute(object, name, what);
+    if (!is_one(attribute) || H5Aread(attribute, type, value) < 0) fail(object, what);
+}
 
 } // namespace asperity::io

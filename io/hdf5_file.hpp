@@ -16,10 +16,12 @@
 
 #include "io/directory.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace asperity::io {
@@ -29,13 +31,15 @@ class Hdf5Handle;
 class Hdf5File {
 public:
     using Shape = std::vector<std::uint64_t>;
+    using Attribute = std::variant<std::int64_t, double, std::string, std::vector<std::int64_t>,
+                                   std::vector<std::string>>;
 
     enum class Mode { create, read };
     /// create: a new file, which replaces an old one. read: throws FileError if the file is damaged
     /// as far as its digest tells, or has none.
     Hdf5File(const FilePlace& place, Mode mode);
     ~Hdf5File();
-    Hdf5File(Hdf5File&& other) noexcept;
+    Hdf5File(Hdf5File&&) noexcept;
 
     const std::string& path() const { return path_; }
     /// Puts a file that was created in its place. Throws FileError.
@@ -47,79 +51,102 @@ public:
     /// Names of the members of a group, in alphabetical order.
     std::vector<std::string> members(const std::string& group) const;
     bool is_dataset(const std::string& object) const;
-    bool is_group(const std::string& object) const;
     /// Of a data set: are its values plain integers or floats?
     bool holds_numbers(const std::string& dataset) const;
 
     /// Attributes of a group or data set; written over if there.
     void write_attribute(const std::string& object, const std::string& name,
-                         const std::string& value);
-    void write_attribute(const std::string& object, const std::string& name, const char* value) {
-        write_attribute(object, name, std::string(value));
-    }
-    /// T: double or std::int64_t.
-    template <class T>
-    void write_attribute(const std::string& object, const std::string& name, T value);
-    template <class T>
-    void write_attribute(const std::string& object, const std::string& name,
-                         const std::vector<T>& value);
-    void write_text_list_attribute(const std::string& object, const std::string& name,
-                                   const std::vector<std::string>& value);
+                         const Attribute& value);
     bool has_attribute(const std::string& object, const std::string& name) const;
     std::string read_text_attribute(const std::string& object, const std::string& name) const;
-    /// T: double or std::int64_t.
     template <class T>
-    T read_attribute(const std::string& object, const std::string& name) const;
+    T read_attribute(const std::string& object, const std::string& name) const {
+        T value{};
+        read_attribute(object, name, type(value), &value);
+        return value;
+    }
 
     /// T: double, float, std::int64_t, std::int32_t or std::uint8_t, in all that follows.
     /// Makes a data set of this shape and writes it; it must not be there yet.
     template <class T>
-    void write(const std::string& dataset, const Shape& shape, std::span<const T> data);
-    template <class T>
-    void write(const std::string& dataset, const Shape& shape, const std::vector<T>& data) {
-        write<T>(dataset, shape, std::span<const T>(data));
+    void write(const std::string& dataset, const Shape& shape, std::span<const T> data) {
+        make_dataset<T>(dataset, shape);
+        write_slab(dataset, Shape(shape.size(), 0), shape, data);
     }
     /// Makes a data set to be filled by write_slab.
     template <class T>
-    void make_dataset(const std::string& dataset, const Shape& shape);
+    void make_dataset(const std::string& dataset, const Shape& shape) {
+        create(dataset, type(T()), shape, 0);
+    }
     /// Writes, reads the block at offset of extent count.
     template <class T>
     void write_slab(const std::string& dataset, const Shape& offset, const Shape& count,
-                    std::span<const T> data);
+                    std::span<const T> data) {
+        transfer(dataset, type(T()), offset, count, data.size(), nullptr, data.data());
+    }
     template <class T>
     void read_slab(const std::string& dataset, const Shape& offset, const Shape& count,
-                   std::span<T> data) const;
+                   std::span<T> data) const {
+        transfer(dataset, type(T()), offset, count, data.size(), data.data(), nullptr);
+    }
     /// The whole data set, converted to T by HDF5.
     template <class T>
-    std::vector<T> read(const std::string& dataset) const;
+    std::vector<T> read(const std::string& dataset) const {
+        const Shape all = shape(dataset);
+        std::vector<T> data(volume(all));
+        read_slab<T>(dataset, Shape(all.size(), 0), all, data);
+        return data;
+    }
     Shape shape(const std::string& dataset) const;
 
     /// A data set whose first index grows; row: the shape of one row ({} : a plain series).
     template <class T>
-    void make_series(const std::string& dataset, const Shape& row = {});
+    void make_series(const std::string& dataset, const Shape& row = {}) {
+        // About 8 kB a chunk for plain series, at least one row for others.
+        const std::uint64_t bytes = std::max<std::uint64_t>(1, volume(row) * sizeof(T));
+        create(dataset, type(T()), row, std::max<std::uint64_t>(1, 8192 / bytes));
+    }
     /// Appends whole rows.
     template <class T>
-    void append(const std::string& dataset, std::span<const T> rows);
+    void append(const std::string& dataset, std::span<const T> rows) {
+        append(dataset, type(T()), rows.size(), rows.data());
+    }
 
 private:
-    class Storage;
-    void open_to_read();
-    /// The kind of object that this is (H5I_type_t); not there: none.
-    int kind(const std::string& object) const;
+    struct Open;
+
+    /// The library's types.
+    static std::int64_t type(double);
+    static std::int64_t type(float);
+    static std::int64_t type(std::int64_t);
+    static std::int64_t type(std::int32_t);
+    static std::int64_t type(std::uint8_t);
+    static std::uint64_t volume(const Shape& shape);
+
+    void read_attribute(const std::string& object, const std::string& name, std::int64_t type,
+                        void* value) const;
+    /// Makes a data set, and the groups above it. chunk > 0: of growing rows of that shape, so many
+    /// in a chunk.
+    void create(const std::string& dataset, std::int64_t type, Shape shape, std::uint64_t chunk);
+    /// A block from or to memory, which holds so many values.
+    void transfer(const std::string& dataset, std::int64_t type, const Shape& offset,
+                  const Shape& count, std::size_t values, void* read_into,
+                  const void* write_from) const;
+    void append(const std::string& dataset, std::int64_t type, std::size_t values,
+                const void* rows);
     Hdf5Handle open(const std::string& dataset) const;
-    /// Makes a data set, and the groups above it; chunk: {} where its size is fixed.
-    void create(const std::string& dataset, std::int64_t type, std::int64_t space,
-                const Shape& chunk);
-    /// Drops an old attribute of that name, makes the new one and writes it.
-    void put_attribute(const std::string& object, const std::string& name, std::int64_t type,
-                       std::int64_t space, const void* data);
+    Hdf5Handle open_attribute(const std::string& object, const std::string& name,
+                              const std::string& what) const;
+    /// Throws FileError: what is wrong with the object, and the library's reason.
     [[noreturn]] void fail(const std::string& object, const std::string& what) const;
     /// Throws FileError if the disk has refused anything so far.
     void check_disk() const;
+    /// The handle of an object; fails where the library gave none.
+    Hdf5Handle handle(std::int64_t id, int (*close)(std::int64_t), const std::string& object,
+                      const std::string& what) const;
 
     std::string path_;
-    std::unique_ptr<Storage> storage_;
-    std::int64_t id_ = -1;
+    std::unique_ptr<Open> open_;
 };
 
 } // namespace asperity::io

@@ -3,8 +3,7 @@
 #include "io/height_map.hpp"
 
 #include "io/error.hpp"
-#include "io/hdf5_file.hpp"
-#include "io/map_formats.hpp"
+#include "io/map_file.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include <fcntl.h>
@@ -39,8 +38,8 @@ void Journal::copy(const Directory& from, const Directory& to, const std::string
     const Descriptor source = from.open(name, O_RDONLY);
     OutputFile target({to, name});
     if (!source || !read_parts(source.get(), mark.bytes, [&](Bytes part) { target.write(part); }))
-        throw FileError(from / name, "cannot be copied", std::strerror(errno),
-                        "keep a checkpoint and its run.journal in one directory");
+        fail_by_system(from / name, "cannot be copied",
+                       "keep a checkpoint and its run.journal in one directory");
     target.commit();
 }
 
@@ -48,14 +47,9 @@ Journal::Journal(const Directory& directory, std::string name, std::uint64_t byt
     : name_(std::move(name)), path_(directory / name_),
       file_(directory.open(name_, O_RDWR | O_CREAT | O_NOFOLLOW)), bytes_(bytes) {
     if (!file_ || ::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0)
-        fail("cannot be written");
+        fail_by_system(path_, "cannot be written");
     if (!read_parts(file_.get(), bytes, [&](Bytes part) { digest_.update(part); }))
-        fail("cannot be read");
-}
-
-void Journal::fail(const char* what) const {
-    throw FileError(path_, what, std::strerror(errno),
-                    "check the permissions of its directory and the space on its disk");
+        fail_by_system(path_, "cannot be read");
 }
 
 void Journal::append(std::uint64_t kind, Bytes payload) {
@@ -65,7 +59,7 @@ void Journal::append(std::uint64_t kind, Bytes payload) {
     if (failed_ || !write_all(file_.get(), first, bytes_) ||
         !write_all(file_.get(), payload, bytes_ + first.size())) {
         failed_ = true;
-        fail("cannot be appended to");
+        fail_by_system(path_, "cannot be appended to");
     }
     digest_.update(first);
     digest_.update(payload);
@@ -73,9 +67,9 @@ void Journal::append(std::uint64_t kind, Bytes payload) {
 }
 
 void Journal::synchronize() {
-    if (::fdatasync(file_.get()) != 0 && errno != EINVAL && errno != EROFS) {
+    if (!bring_to_disk(file_.get())) {
         failed_ = true;
-        fail("cannot be brought to the disk");
+        fail_by_system(path_, "cannot be brought to the disk");
     }
 }
 
@@ -86,10 +80,10 @@ void Journal::replay(const std::function<void(std::uint64_t, Bytes)>& take) cons
         const auto first = std::as_writable_bytes(std::span(&head, 1));
         const bool read = read_some(file_.get(), first, at) == sizeof head;
         at += sizeof head;
-        if (!read || head.size > bytes_ - at) fail("cannot be read back");
+        if (!read || head.size > bytes_ - at) fail_by_system(path_, "cannot be read back");
         payload.resize(head.size);
         if (read_some(file_.get(), payload, at) != static_cast<std::ptrdiff_t>(head.size))
-            fail("cannot be read back");
+            fail_by_system(path_, "cannot be read back");
         take(head.kind, payload);
         at += head.size;
     }

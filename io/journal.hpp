@@ -48,8 +48,6 @@ public:
     void replay(const std::function<void(std::uint64_t kind, Bytes payload)>& take) const;
 
 private:
-    [[noreturn]] void fail(const char* what) const;
-
     std::string name_, path_;
     Descriptor file_;
     std::uint64_t bytes_ = 0;

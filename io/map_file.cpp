@@ -4,10 +4,10 @@
 
 #include "io/available_memory.hpp"
 #include "io/error.hpp"
-#include "io/map_formats.hpp"
 #include "io/units.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -40,10 +40,10 @@ double length_unit(const std::string& unit, const std::string& where) {
 }
 
 /// The map of an HDF5 file of Asperity, as `asperity convert` and `asperity surface` write them.
-RawMap read_map_hdf5(const std::string& path, const std::string& named) {
+MapFile read_map_hdf5(const std::string& path, const std::string& named) {
     const Hdf5File file = open_hdf5(path);
     const std::string dataset = named.empty() ? "/heights" : named;
-    RawMap map;
+    MapFile map;
     map.format = "HDF5";
     map.source = path + ":" + dataset;
     if (!file.is_dataset(dataset))
@@ -84,9 +84,27 @@ RawMap read_map_hdf5(const std::string& path, const std::string& named) {
     return map;
 }
 
-RawMap read_raw(const std::string& file, const std::string& dataset) {
+/// The bytes of a file that a scene names.
+std::string file_contents(const std::string& file) {
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || error)
+        refuse(file, "the height map cannot be opened",
+               error ? error.message() : std::strerror(errno), "check its permissions");
+    // A number takes two bytes of text at least, and eight here. Small files are not worth a look.
+    constexpr std::uintmax_t small = 16u << 20;
+    if (size > small) require_memory(file, "the height map", 6.0 * static_cast<double>(size));
+    std::string text(size, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (stream.bad() || static_cast<std::size_t>(stream.gcount()) != text.size())
+        refuse(file, "the height map cannot be read to its end", std::strerror(errno), "");
+    return text;
+}
+
+MapFile read_raw(const std::string& file, const std::string& dataset) {
     const fs::path name(file);
-    if (starts_with(file, "\x89HDF\r\n\x1a\n")) return read_map_hdf5(file, dataset);
+    if (is_hdf5(file)) return read_map_hdf5(file, dataset);
     if (!dataset.empty() || name.extension() == ".h5")
         refuse(file, "the height map cannot be read", "it is not an HDF5 file",
                "name another file; a text matrix must not be called .h5");
@@ -99,7 +117,7 @@ RawMap read_raw(const std::string& file, const std::string& dataset) {
 }
 
 /// Heights in Å, missing points counted, sizes in Å.
-void complete(RawMap& map, const std::string& unit_wanted) {
+void complete(MapFile& map, const std::string& unit_wanted) {
     const bool given = unit_wanted != "auto";
     if (!given && !map.file_unit && map.size_in_unit)
         refuse(map.source, "the file does not say the unit of its sizes and heights",
@@ -147,9 +165,8 @@ bool is_header(std::string_view comment) {
     std::string name(comment.substr(0, comment.find_first_of(":=")));
     if (name.size() == comment.size()) return false;
     std::erase_if(name, [](char c) { return c == ' ' || c == '\t' || c == '#'; });
-    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
+    for (char& c : name)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const char* known :
          {"width", "height", "edge", "valueunits", "fileformat", "bit2nm", "x-pixels", "y-pixels",
           "x-length", "y-length", "x-unit", "y-unit", "z-unit"})
@@ -169,9 +186,9 @@ std::optional<double> number(std::string_view word) {
 
 } // namespace
 
-RawMap read_map_text(std::string_view text, const std::string& file) {
+MapFile read_map_text(std::string_view text, const std::string& file) {
     constexpr std::string_view blanks = " \t\r";
-    RawMap map;
+    MapFile map;
     map.format = "text matrix";
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     std::size_t first_line = 0;
@@ -242,10 +259,10 @@ std::string convert_first(const std::string& file) {
     return fmt::format("convert it first: asperity convert {} {}", quoted(file), quoted(out));
 }
 
-bool starts_with(const std::string& file, std::string_view bytes) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string head(bytes.size(), '\0');
-    return stream.read(head.data(), static_cast<std::streamsize>(head.size())) && head == bytes;
+bool is_hdf5(const std::string& file) {
+    char head[8] = {};
+    std::ifstream(file, std::ios::binary).read(head, sizeof head);
+    return std::memcmp(head, "\x89HDF\r\n\x1a\n", sizeof head) == 0;
 }
 
 Hdf5File open_hdf5(const std::string& file) {
@@ -267,23 +284,6 @@ void require_memory(const std::string& where, const char* what, double bytes) {
                "cut a piece out of it before");
 }
 
-std::string file_contents(const std::string& file) {
-    std::error_code error;
-    const auto size = fs::file_size(file, error);
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || error)
-        refuse(file, "the height map cannot be opened",
-               error ? error.message() : std::strerror(errno), "check its permissions");
-    // A number takes two bytes of text at least, and eight here. Small files are not worth a look.
-    constexpr std::uintmax_t small = 16u << 20;
-    if (size > small) require_memory(file, "the height map", 6.0 * static_cast<double>(size));
-    std::string text(size, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (stream.bad() || static_cast<std::size_t>(stream.gcount()) != text.size())
-        refuse(file, "the height map cannot be read to its end", std::strerror(errno), "");
-    return text;
-}
-
 MapFile read_map_file(const std::string& name, const std::string& unit) {
     std::string file = name, dataset;
     if (const std::size_t colon = file.find(":/"); colon != std::string::npos) {
@@ -295,12 +295,7 @@ MapFile read_map_file(const std::string& name, const std::string& unit) {
         refuse(file, "the height map cannot be opened",
                fs::exists(file, error) ? "it is no file" : "there is no such file",
                "check surface.file");
-    RawMap map;
-    try {
-        map = read_raw(file, dataset);
-    } catch (const FileError& damaged) {
-        throw SceneError(damaged.problems());
-    }
+    MapFile map = of_scene([&] { return read_raw(file, dataset); });
     if (map.source.empty()) map.source = file;
     if (map.rows == 0 || map.columns == 0)
         refuse(map.source, "the height map is empty", "it holds no numbers", "");

@@ -21,9 +21,13 @@
 // file: io::SceneError.
 #pragma once
 
+#include "io/error.hpp"
+#include "io/hdf5_file.hpp"
+
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace asperity::io {
@@ -41,9 +45,38 @@ struct MapFile {
     std::size_t missing = 0;        ///< points without a finite height
     std::string first_missing;      ///< the place of the first: file:line:column or [row, column]
     std::string first_missing_text; ///< what stands there
+
+    // Until they are applied: the heights are in units of the file.
+    std::optional<std::string> file_unit; ///< of the heights, as the file says it
+    double file_scale = 1.0;   ///< heights are that many units, if the scene does not say otherwise
+    bool size_in_unit = false; ///< width and height are in the unit of the heights too
 };
 
 /// name: a file, or file:/dataset; unit "auto": what the file says, else Å. Throws SceneError.
 MapFile read_map_file(const std::string& name, const std::string& unit = "auto");
+
+// The readers behind it, of bytes rather than files.
+MapFile read_map_text(std::string_view text, const std::string& file);
+MapFile read_map_numpy(std::string_view bytes, const std::string& file);
+
+// For every file that a scene names.
+[[noreturn]] void refuse(std::string where, std::string what, std::string why, std::string fix);
+/// What to do with a file of another format: "convert it first: asperity convert X.gwy X.h5".
+std::string convert_first(const std::string& file);
+/// read(), whose errors of files are mistakes of the scene.
+template <class Read>
+auto of_scene(const Read& read) {
+    try {
+        return read();
+    } catch (const FileError& error) {
+        throw SceneError(error.problems());
+    }
+}
+/// Whether the first bytes are those of HDF5.
+bool is_hdf5(const std::string& file);
+/// Refused if it has no digest: it may come from anywhere, and libhdf5 may crash on it.
+Hdf5File open_hdf5(const std::string& file);
+/// Refuses what is larger than the memory; what: "the height map".
+void require_memory(const std::string& where, const char* what, double bytes);
 
 } // namespace asperity::io

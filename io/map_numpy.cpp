@@ -3,7 +3,7 @@
 //
 // NumPy's .npy (numpy.lib.format, versions 1 to 3): magic, a dictionary of three keys as text, the
 // values. Numbers of the usual kinds, rows or columns first.
-#include "io/map_formats.hpp"
+#include "io/map_file.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -40,26 +41,18 @@ double value_at(const char* from, bool swap) {
     return static_cast<double>(value);
 }
 
-using Reader = double (*)(const char*, bool);
-
-/// For a type like "f8"; nullptr: not one of those.
-Reader reader_of(std::string_view type) {
-    if (type == "f8") return value_at<double>;
-    if (type == "f4") return value_at<float>;
-    if (type == "i1") return value_at<std::int8_t>;
-    if (type == "i2") return value_at<std::int16_t>;
-    if (type == "i4") return value_at<std::int32_t>;
-    if (type == "i8") return value_at<std::int64_t>;
-    if (type == "u1") return value_at<std::uint8_t>;
-    if (type == "u2") return value_at<std::uint16_t>;
-    if (type == "u4") return value_at<std::uint32_t>;
-    if (type == "u8") return value_at<std::uint64_t>;
-    return nullptr;
-}
+/// How a type like "f8" is read.
+constexpr std::pair<std::string_view, double (*)(const char*, bool)> readers[] = {
+    {"f8", value_at<double>},        {"f4", value_at<float>},
+    {"i1", value_at<std::int8_t>},   {"i2", value_at<std::int16_t>},
+    {"i4", value_at<std::int32_t>},  {"i8", value_at<std::int64_t>},
+    {"u1", value_at<std::uint8_t>},  {"u2", value_at<std::uint16_t>},
+    {"u4", value_at<std::uint32_t>}, {"u8", value_at<std::uint64_t>},
+};
 
 } // namespace
 
-RawMap read_map_numpy(std::string_view bytes, const std::string& file) {
+MapFile read_map_numpy(std::string_view bytes, const std::string& file) {
     const auto damaged = [&](const std::string& why) {
         refuse(file, "the height map cannot be read", why,
                "save it again: numpy.save(\"heights.npy\", heights)");
@@ -75,31 +68,29 @@ RawMap read_map_numpy(std::string_view bytes, const std::string& file) {
                            data = bytes.substr(start + length);
 
     const std::string_view type = entry(header, "'descr'"), shape = entry(header, "'shape'");
-    const Reader read = type.size() >= 5 ? reader_of(type.substr(2, 2)) : nullptr;
-    if (!read || type.size() != 5)
+    const auto* const reader = std::find_if(std::begin(readers), std::end(readers), [&](auto& r) {
+        return type.size() == 5 && r.first == type.substr(2, 2);
+    });
+    if (reader == std::end(readers))
         damaged(fmt::format("its numbers are of type {}, and integers or floats are needed",
                             type.substr(0, 40)));
     const bool swap = (type[1] == '>') == (std::endian::native == std::endian::little);
     const bool columns_first = entry(header, "'fortran_order'").starts_with("True");
 
-    std::size_t extent[2] = {0, 0}, count = 0;
-    for (std::size_t at = 0; (at = shape.find_first_of("0123456789", at)) != std::string_view::npos;
-         ++count) {
+    std::vector<std::size_t> extent;
+    for (const char *at = shape.data(), *const end = at + shape.size(); at < end;) {
         std::size_t value = 0;
-        const auto parsed = std::from_chars(shape.data() + at, shape.data() + shape.size(), value);
-        if (parsed.ec != std::errc()) damaged("its shape is no shape");
-        if (count < 2) extent[count] = value;
-        at = static_cast<std::size_t>(parsed.ptr - shape.data());
-        if (at >= shape.size()) {
-            ++count;
-            break;
-        }
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error == std::errc::result_out_of_range) damaged("its shape is no shape");
+        if (error == std::errc()) extent.push_back(value);
+        at = std::max(next, at + 1);
     }
-    if (count != 2)
-        refuse(file, "is no height map", fmt::format("it has {} dimensions, a map has 2", count),
+    if (extent.size() != 2)
+        refuse(file, "is no height map",
+               fmt::format("it has {} dimensions, a map has 2", extent.size()),
                "name another file");
     const std::size_t size = static_cast<std::size_t>(type[3] - '0');
-    RawMap map;
+    MapFile map;
     map.format = "NumPy";
     if (extent[0] == 0 || extent[1] == 0) return map; // empty, whatever the other says
     if (extent[0] > data.size() / size / extent[1])
@@ -110,9 +101,9 @@ RawMap read_map_numpy(std::string_view bytes, const std::string& file) {
     map.heights.resize(map.rows * map.columns);
     for (std::size_t r = 0; r < map.rows; ++r)
         for (std::size_t c = 0; c < map.columns; ++c)
-            map.heights[r * map.columns + c] =
-                read(data.data() + size * (columns_first ? c * map.rows + r : r * map.columns + c),
-                     swap);
+            map.heights[r * map.columns + c] = reader->second(
+                data.data() + size * (columns_first ? c * map.rows + r : r * map.columns + c),
+                swap);
     return map;
 }
 

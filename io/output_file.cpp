@@ -3,7 +3,6 @@
 #include "io/output_file.hpp"
 
 #include "io/digest.hpp"
-#include "io/error.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -94,20 +93,15 @@ OutputFile::OutputFile(const FilePlace& place)
     : path_(place.path()), directory_(place.directory()), name_(place.name()),
       temporary_(name_ + "." + std::to_string(::getpid()) + suffix),
       file_(directory_.open(temporary_, O_RDWR | O_CREAT | O_TRUNC | O_NOFOLLOW)) {
-    if (!file_) fail("cannot be written");
+    if (!file_) fail_by_system(path_, "cannot be written");
 }
 
 OutputFile::~OutputFile() {
     if (!in_place_) ::unlinkat(directory_.fd(), temporary_.c_str(), 0);
 }
 
-void OutputFile::fail(const char* what) const {
-    throw FileError(path_, what, std::strerror(errno),
-                    "check the permissions of its directory and the space on its disk");
-}
-
 void OutputFile::write(std::span<const std::byte> bytes) {
-    if (!write_all(fd(), bytes, size_of(fd()))) fail("cannot be written");
+    if (!write_all(fd(), bytes, size_of(fd()))) fail_by_system(path_, "cannot be written");
 }
 
 void OutputFile::seal() {
@@ -116,18 +110,17 @@ void OutputFile::seal() {
     end.length = size_of(fd());
     Digest digest;
     if (!read_parts(fd(), end.length, [&](auto part) { digest.update(part); }))
-        fail("cannot be read back");
+        fail_by_system(path_, "cannot be read back");
     end.digest = digest.value();
     write(std::as_bytes(std::span(&end, 1)));
 }
 
 void OutputFile::commit() {
     // The name must not point to data that a power cut could still lose.
-    if (::fsync(fd()) != 0 && errno != EINVAL && errno != EROFS)
-        fail("cannot be brought to the disk");
-    if (!file_.close()) fail("cannot be closed");
+    if (!bring_to_disk(fd())) fail_by_system(path_, "cannot be brought to the disk");
+    if (!file_.close()) fail_by_system(path_, "cannot be closed");
     if (::renameat(directory_.fd(), temporary_.c_str(), directory_.fd(), name_.c_str()) != 0)
-        fail("cannot be put in its place");
+        fail_by_system(path_, "cannot be put in its place");
     in_place_ = true;
     directory_.sync();
 }

@@ -41,8 +41,6 @@ public:
     static constexpr const char* suffix = ".part";
 
 private:
-    [[noreturn]] void fail(const char* what) const;
-
     std::string path_;
     Directory directory_;
     std::string name_, temporary_;

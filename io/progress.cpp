@@ -4,10 +4,11 @@
 
 #include "io/table.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <utility>
 
-#include <charconv>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -20,6 +21,10 @@ constexpr double bar_seconds = 0.2;
 /// Lines get rarer as a run gets longer: after 2 s, 10 s, then each 10 % of the time so far.
 double line_seconds(double elapsed) {
     return elapsed < 10.0 ? 2.0 : elapsed < 100.0 ? 10.0 : 0.1 * elapsed;
+}
+
+double seconds(std::chrono::steady_clock::duration time) {
+    return std::chrono::duration<double>(time).count();
 }
 
 std::string amount(double value) {
@@ -53,11 +58,10 @@ std::string fitted(const std::string& text, std::FILE* stream) {
 } // namespace
 
 std::optional<ProgressMode> progress_mode(std::string_view name) {
-    if (name == "auto") return ProgressMode::automatic;
-    if (name == "bar") return ProgressMode::bar;
-    if (name == "lines") return ProgressMode::lines;
-    if (name == "off") return ProgressMode::off;
-    return std::nullopt;
+    static constexpr std::string_view names[] = {"auto", "bar", "lines", "off"};
+    const auto* const at = std::find(std::begin(names), std::end(names), name);
+    if (at == std::end(names)) return std::nullopt;
+    return static_cast<ProgressMode>(at - std::begin(names));
 }
 
 bool is_terminal(std::FILE* stream) {
@@ -79,24 +83,21 @@ void Progress::tell(Listener listener) {
     if (!quiet_) listener_ = std::move(listener);
 }
 
-bool Progress::due() const {
-    const bool telling = static_cast<bool>(listener_);
-    if (mode_ == ProgressMode::off && !telling) return false;
-    const auto now = Clock::now();
-    return print_due(now) ||
-           (telling && std::chrono::duration<double>(now - last_told_).count() >= bar_seconds);
+bool Progress::due() const { return tell_due(Clock::now()) || print_due(Clock::now()); }
+
+bool Progress::tell_due(Clock::time_point now) const {
+    return listener_ && seconds(now - last_told_) >= bar_seconds;
 }
 
 bool Progress::print_due(Clock::time_point now) const {
     if (mode_ == ProgressMode::off) return false;
-    const double since = std::chrono::duration<double>(now - last_print_).count();
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
-    return since >= (mode_ == ProgressMode::bar ? bar_seconds : line_seconds(elapsed));
+    const bool bar = mode_ == ProgressMode::bar;
+    return seconds(now - last_print_) >= (bar ? bar_seconds : line_seconds(seconds(now - start_)));
 }
 
 void Progress::update(const State& state) {
     const auto now = Clock::now();
-    if (listener_ && std::chrono::duration<double>(now - last_told_).count() >= bar_seconds) {
+    if (tell_due(now)) {
         last_told_ = now;
         listener_(state);
     }
@@ -111,10 +112,9 @@ void Progress::update(const State& state) {
     last_steps_ = state.steps;
     if (!print_due(now)) return;
     last_print_ = now;
-    const double seconds = std::chrono::duration<double>(now - start_).count();
     const double fraction_done =
         state.fraction >= 0.0 && first_fraction_ >= 0.0 ? state.fraction - first_fraction_ : -1.0;
-    const std::string line = progress_line(state, seconds, state.steps - first_steps_,
+    const std::string line = progress_line(state, seconds(now - start_), state.steps - first_steps_,
                                            state.time_fs - first_time_, fraction_done);
     if (mode_ == ProgressMode::bar) {
         put("\r\033[K" + fitted(line, to_));
@@ -168,35 +168,27 @@ std::string duration_text(double seconds) {
     return fmt::format("{} d {:02} h", whole / 86400, whole / 3600 % 24);
 }
 
-std::optional<double> parse_duration(std::string_view text) {
+std::optional<double> parse_duration(std::string_view written) {
+    static constexpr std::pair<std::string_view, double> units[] = {
+        {"min", 60.0}, {"m", 60.0}, {"d", 86400.0}, {"h", 3600.0}, {"s", 1.0}};
+    std::string lone(written); // only a lone number may stand without unit
+    if (written.find_first_of("dhms") == std::string_view::npos) lone += 's';
     double total = 0.0, last_unit = 1e30;
-    bool any = false;
-    while (!text.empty()) {
+    for (std::string_view text = lone; !text.empty();) {
         double value = 0.0;
         const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value,
                                             std::chars_format::fixed);
-        if (parsed.ec != std::errc() || !(value >= 0.0) || value > 1e9) return std::nullopt;
         text.remove_prefix(static_cast<std::size_t>(parsed.ptr - text.data()));
-        double unit = 1.0;
-        if (text.starts_with("min"))
-            unit = 60.0, text.remove_prefix(3);
-        else if (text.starts_with("d"))
-            unit = 86400.0, text.remove_prefix(1);
-        else if (text.starts_with("h"))
-            unit = 3600.0, text.remove_prefix(1);
-        else if (text.starts_with("m"))
-            unit = 60.0, text.remove_prefix(1);
-        else if (text.starts_with("s"))
-            text.remove_prefix(1);
-        else if (any || !text.empty())
-            return std::nullopt;                    // only a lone number may stand without unit
-        if (unit >= last_unit) return std::nullopt; // days before hours before minutes
-        last_unit = unit;
-        total += value * unit;
-        any = true;
+        const auto* const unit = std::find_if(std::begin(units), std::end(units),
+                                              [&](auto& u) { return text.starts_with(u.first); });
+        if (parsed.ec != std::errc() || !(value >= 0.0) || value > 1e9 || unit == std::end(units) ||
+            unit->second >= last_unit) // days before hours before minutes
+            return std::nullopt;
+        text.remove_prefix(unit->first.size());
+        last_unit = unit->second;
+        total += value * last_unit;
     }
-    if (!any || total <= 0.0) return std::nullopt;
-    return total;
+    return total > 0.0 ? std::optional(total) : std::nullopt;
 }
 
 } // namespace asperity::io

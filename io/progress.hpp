@@ -57,6 +57,7 @@ private:
     using Clock = std::chrono::steady_clock;
     void put(const std::string& text);
     bool print_due(Clock::time_point now) const;
+    bool tell_due(Clock::time_point now) const;
 
     ProgressMode mode_;
     const bool quiet_;
@@ -79,6 +80,6 @@ std::string progress_line(const Progress::State& state, double seconds, long lon
 /// "1 h 02 min", "3 min 20 s", "12 s".
 std::string duration_text(double seconds);
 /// Seconds of "23h50m", "90s", "1d", "45m30s", "3600"; empty if it is none.
-std::optional<double> parse_duration(std::string_view text);
+std::optional<double> parse_duration(std::string_view written);
 
 } // namespace asperity::io

@@ -95,15 +95,13 @@ Json Result::json() const {
 
 std::string Result::text(int indent) const { return json_text(json(), indent) + "\n"; }
 
-std::string sealed_json(std::string text) {
+void write_result(const Directory& directory, const Result& result) {
+    std::string text = result.text();
     text.resize(text.rfind("\n}"));
     Digest digest;
     digest.update(std::as_bytes(std::span(text)));
-    return text + fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n", digest.value());
-}
-
-void write_result(const Directory& directory, const Result& result) {
-    write_whole({directory, "result.json"}, sealed_json(result.text()));
+    text += fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n", digest.value());
+    write_whole({directory, "result.json"}, text);
 }
 
 } // namespace asperity::io

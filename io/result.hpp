@@ -64,11 +64,8 @@ private:
     std::unique_ptr<nlohmann::ordered_json> values_; ///< with `units` among them
 };
 
-/// The text of a JSON object with a last member `digest`: of all bytes before the comma in front of
-/// it.
-std::string sealed_json(std::string text);
-
-/// Writes result.json, sealed, whole or not at all. Throws FileError.
+/// Writes result.json, whole or not at all, with a last member `digest`: of all bytes before the
+/// comma in front of it. Throws FileError.
 void write_result(const Directory& directory, const Result& result);
 
 } // namespace asperity::io

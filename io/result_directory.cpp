@@ -3,21 +3,18 @@
 #include "io/result_directory.hpp"
 
 #include "io/error.hpp"
+#include "io/json.hpp"
 #include "io/output_file.hpp"
 
 #include <cerrno>
-#include <cstring>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <map>
-#include <sstream>
 
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -27,11 +24,6 @@ namespace asperity::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // What a directory holds.
 
@@ -44,23 +36,22 @@ Holds holds(const fs::path& directory) {
     const bool begun = there(run_file::journal) || there(run_file::checkpoint);
     if (!there("result.json")) return begun ? Holds::unfinished : Holds::nothing;
     if (!begun) return Holds::result;
-    using nlohmann::json;
-    const json result = json::parse(text_of(directory / "result.json"), nullptr, false);
-    if (!result.is_object()) return Holds::result;
-    const json run = result.value("run", json::object());
-    const json stopped = run.is_object() ? run.value("stopped", json("")) : json("");
-    const json failure = result.value("failure", json::object());
-    const json code = failure.is_object() ? failure.value("exit_code", json(0)) : json(0);
-    const bool goes_on =
-        stopped == "wall_limit" || stopped == "signal" || code == exit_code::input_output;
+    std::ifstream stream(directory / "result.json", std::ios::binary);
+    const Json result = Json::parse(stream, nullptr, false);
+    const Json* const stopped = find(result, "run.stopped");
+    const Json* const code = find(result, "failure.exit_code");
+    const bool goes_on = (stopped && (*stopped == "wall_limit" || *stopped == "signal")) ||
+                         (code && *code == exit_code::input_output);
     return goes_on ? Holds::unfinished : Holds::result;
 }
+
+fs::path first_place(const ResultRequest& request) { return fs::path("results") / request.name; }
 
 std::string numbered(const fs::path& first, int i) {
     return i == 1 ? first.string() : fmt::format("{}-{}", first.string(), i);
 }
 
-std::string choose(const ResultRequest& request, std::vector<std::string>& notes) {
+std::string choose(const ResultRequest& request) {
     std::error_code error;
     if (!request.asked.empty()) {
         if (fs::exists(request.asked, error) && !fs::is_directory(request.asked, error))
@@ -72,7 +63,7 @@ std::string choose(const ResultRequest& request, std::vector<std::string>& notes
                                      "name another directory"});
         return request.asked;
     }
-    const fs::path first = fs::path("results") / request.name;
+    const fs::path first = first_place(request);
     int i = 1;
     if (request.resume) // the last of them
         while (fs::exists(numbered(first, i + 1), error))
@@ -80,9 +71,6 @@ std::string choose(const ResultRequest& request, std::vector<std::string>& notes
     else
         while (holds(numbered(first, i)) == Holds::result)
             ++i;
-    if (i > 1 && !request.resume)
-        notes.push_back(fmt::format("{} already holds a result; this one goes to {}",
-                                    first.string(), numbered(first, i)));
     return numbered(first, i);
 }
 
@@ -100,19 +88,15 @@ void check(const ResultRequest& request, const std::string& path) {
                                  "or throw it away: --restart"});
 }
 
-bool is_left_over(const std::string& name) { return name.ends_with(OutputFile::suffix); }
-
-bool is_of_run(const std::string& name) {
-    return name == run_file::journal || name == run_file::checkpoint ||
-           name == run_file::checkpoint_before || name == "run.h5" || name == "result.json";
-}
-
-template <class Which>
-void remove_files(const Directory& directory, const Which& which) {
+/// What was not put in its place, and, to start anew, the files of a run.
+void remove_files(const Directory& directory, bool of_run) {
     std::vector<std::string> names;
+    if (of_run)
+        names = {run_file::journal, run_file::checkpoint, run_file::checkpoint_before, "run.h5",
+                 "result.json"};
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(directory.path(), error))
-        if (which(entry.path().filename().string()))
+        if (entry.path().string().ends_with(OutputFile::suffix))
             names.push_back(entry.path().filename().string());
     for (const std::string& name : names)
         directory.remove(name);
@@ -126,38 +110,36 @@ std::string host_name() {
     return name;
 }
 
-/// Who has a lock, as its file says: host, process, since. Empty: it does not, or not to its end.
-std::map<std::string, std::string> read_lock(int fd) {
-    std::string text(4096, '\0');
-    text.resize(static_cast<std::size_t>(
-        std::max<std::ptrdiff_t>(0, read_some(fd, std::as_writable_bytes(std::span(text)), 0))));
-    std::map<std::string, std::string> holder;
-    if (!text.ends_with('\n')) return holder;
-    std::istringstream lines(text);
-    for (std::string key, rest; lines >> key >> std::ws && std::getline(lines, rest);)
-        holder[key] = rest;
-    if (!holder.contains("since")) holder.clear();
-    return holder;
+/// Who has a lock, as its file says. Empty: it does not, or not to its end.
+struct Holder {
+    std::string host, process, since;
+};
+
+Holder read_lock(int fd) {
+    char text[4096] = "", host[256], process[32], since[64], end = '\0';
+    read_some(fd, std::as_writable_bytes(std::span(text).first(sizeof text - 1)), 0);
+    if (std::sscanf(text, "host %255s process %31s since %63[^\n]%c", host, process, since, &end) <
+        4)
+        return {};
+    return {host, process, since};
 }
 
 } // namespace
 
+ResultDirectory::ResultDirectory(const ResultRequest& request, const std::string& path)
+    : made_(::access(path.c_str(), F_OK) != 0), directory_(Directory::make(path)) {
+    const std::string first = first_place(request).string();
+    if (request.asked.empty() && !request.resume && path != first)
+        notes_.push_back(
+            fmt::format("{} already holds a result; this one goes to {}", first, path));
+}
+
+// Where it throws, the destructor undoes what was done: the other constructor has come to its end.
 ResultDirectory::ResultDirectory(const ResultRequest& request)
-    : directory_([&] {
-          const std::string path = choose(request, notes_);
-          std::error_code error;
-          made_ = !fs::exists(path, error);
-          return Directory::make(path);
-      }()) {
+    : ResultDirectory(request, choose(request)) {
     lock();
-    try {
-        check(request, path());
-        remove_files(directory_, is_left_over);
-        if (request.restart) remove_files(directory_, is_of_run);
-    } catch (...) {
-        unlock();
-        throw;
-    }
+    check(request, path());
+    remove_files(directory_, request.restart);
 }
 
 ResultDirectory::~ResultDirectory() {
@@ -168,48 +150,42 @@ ResultDirectory::~ResultDirectory() {
 
 void ResultDirectory::lock() {
     const std::string file = directory_ / run_file::lock;
-    const auto fail = [&] {
-        const int cause = errno;
-        unlock();
-        throw FileError(file, "cannot be written", std::strerror(cause),
-                        "check the permissions of its directory and the space on its disk");
-    };
-    std::map<std::string, std::string> holder;
+    Holder holder;
     for (bool mine = false; !mine;) {
         lock_ = directory_.open(run_file::lock, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW);
         const bool made = static_cast<bool>(lock_);
         if (!made && errno == EEXIST) lock_ = directory_.open(run_file::lock, O_RDWR | O_NOFOLLOW);
         if (!lock_ && errno == ENOENT) continue; // given back just now
-        if (!lock_) fail();
+        if (!lock_) fail_by_system(file, "cannot be written");
         const bool kept = ::flock(lock_.get(), LOCK_EX | LOCK_NB) == 0;
         const bool by_other = !kept && errno == EWOULDBLOCK;
         if (kept && !is_lock_in_place()) continue; // given back just now
         holder = read_lock(lock_.get());
-        const bool here = holder["host"] == host_name();
+        const bool here = holder.host == host_name();
         // Where the file system knows no such locks, whoever makes the file has it.
-        mine = made ? !by_other : kept && (holder["host"].empty() || here);
+        mine = made ? !by_other : kept && (holder.host.empty() || here);
         if (mine) break;
+        lock_ = Descriptor(); // it stays in its place
         throw FileError(
             path(), "is in use by another process",
-            holder["process"].empty()
-                ? file + " does not say by whom"
-                : fmt::format("process {} on host {} has had it since {} ({})", holder["process"],
-                              holder["host"], holder["since"], file),
+            holder.process.empty() ? file + " does not say by whom"
+                                   : fmt::format("process {} on host {} has had it since {} ({})",
+                                                 holder.process, holder.host, holder.since, file),
             by_other && here
                 ? "wait for its end, stop it, or name another directory: --out"
                 : "wait for its end, or name another directory (--out); where it is certain that "
                   "no such process lives, remove " +
                       file);
     }
-    if (!holder["process"].empty())
+    if (!holder.process.empty())
         notes_.push_back(fmt::format("{}: process {}, which has had it since {}, is gone", path(),
-                                     holder["process"], holder["since"]));
+                                     holder.process, holder.since));
     const std::time_t now = std::time(nullptr);
     const std::string text = fmt::format("host {}\nprocess {}\nsince {:%Y-%m-%d %H:%M:%S}\n",
                                          host_name(), ::getpid(), fmt::localtime(now));
     if (::ftruncate(lock_.get(), 0) != 0 ||
         !write_all(lock_.get(), std::as_bytes(std::span(text)), 0))
-        fail();
+        fail_by_system(file, "cannot be written");
 }
 
 bool ResultDirectory::is_lock_in_place() const {

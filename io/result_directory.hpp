@@ -44,12 +44,13 @@ public:
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
+    ResultDirectory(const ResultRequest& request, const std::string& path);
     void lock();
     bool is_lock_in_place() const;
     void unlock();
 
     std::vector<std::string> notes_;
-    bool made_ = false; ///< by this object
+    bool made_; ///< by this object
     Directory directory_;
     Descriptor lock_;
 };

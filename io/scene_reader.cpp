@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Binding of keys to fields: what a value must be to be stored, and what is said if it is not.
+// Binding of keys to fields: what a value must be to be stored, what is said if it is not, and the
+// fields as TOML, as JSON and as the reference page.
 #include "io/scene_reader.hpp"
 
 #include "io/json.hpp"
@@ -10,8 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -19,31 +18,20 @@ namespace asperity::io {
 
 namespace {
 
-using Value = Schema::Value;
 using Key = Schema::Key;
+using Words = Schema::Words;
+using Choice = Schema::Choice;
 
-std::string quoted_choices(const std::vector<std::string>& choices) {
+/// A choice as it is written; "every:" takes a number.
+std::string quoted(const std::string& choice) {
+    return fmt::format("\"{}{}\"", choice, choice.ends_with(':') ? "N" : "");
+}
+
+std::string quoted_choices(const Words& choices) {
     std::string text;
-    for (const std::string& choice : choices) {
-        if (!text.empty()) text += ", ";
-        text += '"' + choice + (choice.ends_with(':') ? "N\"" : "\"");
-    }
+    for (const std::string& choice : choices)
+        text += (text.empty() ? "" : ", ") + quoted(choice);
     return text;
-}
-
-std::string type_of(const Value& value) {
-    if (value.boolean) return "true or false";
-    if (value.integer) return "a whole number";
-    if (value.number) return "a number";
-    if (value.text) return "a string";
-    if (value.list) return "a list of strings";
-    return "of a type no key has";
-}
-
-Problem wrong_type(std::string needed, const Value& value, std::string example) {
-    return {"", "is of the wrong type",
-            fmt::format("{} is needed, this is {}", needed, type_of(value)),
-            example.empty() ? "" : fmt::format("write, for example, {}", example)};
 }
 
 Problem out_of_range(const Range& range, std::string_view unit, bool other_unit = false) {
@@ -54,110 +42,209 @@ Problem out_of_range(const Range& range, std::string_view unit, bool other_unit 
     return {"", "is out of range", fmt::format("allowed: {}", range.text(unit)), std::move(fix)};
 }
 
-Problem no_such_choice(const std::string& word, const std::vector<std::string>& choices) {
+Problem no_such_choice(const std::string& word, const Words& choices) {
     const std::string near = nearest(word, choices);
     return {"", "is none of its choices", "choices: " + quoted_choices(choices),
             near.empty() ? "take one of them" : fmt::format("did you mean \"{}\"?", near)};
 }
 
-/// The number a value means, in the base unit.
-Problem read_number(const Value& value, const std::string& unit, const Range& range, double& into) {
-    double number = 0.0;
-    if (value.text) {
-        const ParsedQuantity parsed = parse_quantity(*value.text, unit);
-        if (!parsed.why.empty())
-            return {"", "cannot be read as a quantity", parsed.why, parsed.fix};
-        number = parsed.value;
-    } else if (value.number) {
-        number = *value.number;
-    } else if (value.integer) {
-        number = static_cast<double>(*value.integer);
-    } else {
-        return wrong_type(unit.empty() ? "a number"
-                                       : fmt::format("a number or a quantity in {}", unit),
-                          value, unit.empty() ? "0.5" : example_of(unit));
-    }
-    if (!std::isfinite(number))
-        return {"", "is not finite", "allowed: " + range.text(unit), "give a finite number"};
-    if (!range.contains(number))
-        return out_of_range(range, unit, !value.text && number > range.high);
-    into = number;
-    return {};
-}
-
-Problem read_integer(const Value& value, const Range& range, long long& into) {
-    if (value.text && value.text->size() > 18 &&
-        value.text->find_first_not_of("+-0123456789_") == std::string::npos)
-        return out_of_range(range, ""); // it does not fit into 64 bits
-    if (!value.integer) {
-        const std::string example = value.number && std::abs(*value.number) < 1e15
-                                        ? fmt::format("{:.0f}", std::round(*value.number))
-                                        : std::string("512");
-        return wrong_type("a whole number", value, example + " (no quotes, no decimal point)");
-    }
-    if (!range.contains(static_cast<double>(*value.integer))) return out_of_range(range, "");
-    into = *value.integer;
-    return {};
-}
-
-Problem with_word(Problem problem, const std::string& word) {
-    if (!problem.what.empty()) problem.fix += fmt::format("; \"{}\" is allowed too", word);
-    return problem;
-}
-
-Range within_int(Range range) {
-    range.low = std::max(range.low, static_cast<double>(std::numeric_limits<int>::min()));
-    if (range.high > static_cast<double>(std::numeric_limits<int>::max()))
-        range.high = static_cast<double>(std::numeric_limits<int>::max());
-    return range;
-}
-
-/// A key that is written back as the field is.
-template <class T>
-Key make_key(std::string name, Schema::Kind kind, std::string doc, const T& field) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = kind;
-    key.doc = std::move(doc);
-    key.load = [&field] { return Json(field); };
-    return key;
-}
-
-/// The same with a word that stands for an empty field; read(value, number) reads any other value.
-template <class T, class Read>
-Key make_key_or(std::string name, Schema::Kind kind, std::string doc, std::optional<T>& field,
-                const std::string& word, const Read& read) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = kind;
-    key.doc = std::move(doc);
-    key.word = word;
-    key.store = [&field, word, read](const Value& value) -> Problem {
-        if (value.text && *value.text == word) {
-            field.reset();
-            return {};
-        }
-        T number = 0;
-        Problem problem = read(value, number);
-        if (problem.what.empty()) field = number;
-        return with_word(std::move(problem), word);
-    };
-    key.load = [&field, word] { return field ? Json(*field) : Json(word); };
-    return key;
-}
-
 /// A member of a list: one of the choices, or a choice ending in ':' with a positive number behind
 /// it.
-bool fits(const std::string& member, const std::vector<std::string>& choices) {
+bool fits(const std::string& member, const Words& choices) {
     for (const std::string& choice : choices) {
         if (member == choice && !choice.ends_with(':')) return true;
         if (!choice.ends_with(':') || !member.starts_with(choice)) continue;
         const std::string count = member.substr(choice.size());
         if (count.empty() || count.size() > 15 || count[0] == '0') continue;
-        if (std::all_of(count.begin(), count.end(), [](char c) { return c >= '0' && c <= '9'; }))
-            return true;
+        if (count.find_first_not_of("0123456789") == std::string::npos) return true;
     }
     return choices.empty();
+}
+
+/// Stores the value of a key in its field; tells what is wrong where it does not.
+struct Store {
+    const Key& key;
+    const Schema::Value& value;
+
+    template <class T>
+    const T* as() const {
+        return std::get_if<T>(&value);
+    }
+
+    Problem wrong_type(const std::string& needed, const std::string& example) const {
+        static constexpr const char* types[] = {
+            "of a type no key has", "true or false", "a whole number", "a number", "a string",
+            "a list of strings"};
+        return {"", "is of the wrong type",
+                fmt::format("{} is needed, this is {}", needed, types[value.index()]),
+                fmt::format("write, for example, {}", example)};
+    }
+
+    Problem operator()(bool* field) const {
+        if (!as<bool>()) return wrong_type("true or false", "true (no quotes)");
+        *field = *as<bool>();
+        return {};
+    }
+
+    Problem whole(const Range& range, long long& into) const {
+        const auto* text = as<std::string>();
+        if (text && text->size() > 18 &&
+            text->find_first_not_of("+-0123456789_") == std::string::npos)
+            return out_of_range(range, ""); // it does not fit into 64 bits
+        const auto* integer = as<long long>();
+        if (!integer) {
+            const auto* number = as<double>();
+            const std::string example = number && std::abs(*number) < 1e15
+                                            ? fmt::format("{:.0f}", std::round(*number))
+                                            : std::string("512");
+            return wrong_type("a whole number", example + " (no quotes, no decimal point)");
+        }
+        if (!range.contains(static_cast<double>(*integer))) return out_of_range(range, "");
+        into = *integer;
+        return {};
+    }
+    Problem operator()(long long* field) const { return whole(key.range, *field); }
+    Problem operator()(int* field) const {
+        using Limits = std::numeric_limits<int>;
+        Range range = key.range;
+        range.low = std::max(range.low, static_cast<double>(Limits::min()));
+        range.high = std::min(range.high, static_cast<double>(Limits::max()));
+        long long number = *field;
+        Problem problem = whole(range, number);
+        *field = static_cast<int>(number);
+        return problem;
+    }
+
+    /// The number in the base unit.
+    Problem operator()(double* field) const {
+        double number = 0.0;
+        const auto* text = as<std::string>();
+        if (text) {
+            const ParsedQuantity parsed = parse_quantity(*text, key.unit);
+            if (!parsed.why.empty())
+                return {"", "cannot be read as a quantity", parsed.why, parsed.fix};
+            number = parsed.value;
+        } else if (as<double>()) {
+            number = *as<double>();
+        } else if (as<long long>()) {
+            number = static_cast<double>(*as<long long>());
+        } else if (key.unit.empty()) {
+            return wrong_type("a number", "0.5");
+        } else {
+            return wrong_type("a number or a quantity in " + key.unit, example_of(key.unit));
+        }
+        if (!std::isfinite(number))
+            return {"", "is not finite", "allowed: " + key.range.text(key.unit),
+                    "give a finite number"};
+        if (!key.range.contains(number))
+            return out_of_range(key.range, key.unit, !text && number > key.range.high);
+        *field = number;
+        return {};
+    }
+
+    template <class T>
+    Problem operator()(std::optional<T>* field) const {
+        const auto* text = as<std::string>();
+        if (text && *text == key.word) {
+            field->reset();
+            return {};
+        }
+        T number = 0;
+        Problem problem = (*this)(&number);
+        if (problem.what.empty())
+            *field = number;
+        else
+            problem.fix += fmt::format("; \"{}\" is allowed too", key.word);
+        return problem;
+    }
+
+    Problem operator()(std::string* field) const {
+        const auto* text = as<std::string>();
+        if (!text) return wrong_type("a string", "\"heights.h5\" (in quotes)");
+        if (text->empty()) return {"", "is empty", "a string with something in it is needed", ""};
+        *field = *text;
+        return {};
+    }
+
+    Problem operator()(const Choice& field) const {
+        std::string word;
+        if (as<std::string>())
+            word = *as<std::string>();
+        else if (key.numerals && as<long long>())
+            word = std::to_string(*as<long long>());
+        else
+            return wrong_type("one of " + quoted_choices(key.choices), quoted(key.choices[0]));
+        const auto at = std::find(key.choices.begin(), key.choices.end(), word);
+        if (at == key.choices.end()) return no_such_choice(word, key.choices);
+        field.set(static_cast<std::size_t>(at - key.choices.begin()));
+        return {};
+    }
+
+    Problem operator()(Words* field) const {
+        const auto* list = as<Words>();
+        if (!list)
+            return wrong_type("a list of strings",
+                              fmt::format("[\"{}\"]", key.choices.empty() ? "a" : key.choices[0]));
+        for (const std::string& member : *list)
+            if (!fits(member, key.choices)) {
+                Problem problem = no_such_choice(member, key.choices);
+                problem.what =
+                    fmt::format("has a member \"{}\" that is none of its choices", member);
+                return problem;
+            }
+        *field = *list;
+        return {};
+    }
+};
+
+struct Load {
+    const Key& key;
+    Json operator()(const Choice& field) const { return key.choices.at(field.get()); }
+    template <class T>
+    Json operator()(std::optional<T>* field) const {
+        return *field ? Json(**field) : Json(key.word);
+    }
+    template <class T>
+    Json operator()(T* field) const {
+        return *field;
+    }
+};
+
+/// As it stands in a scene. Numbers have all digits, and a point, so that they stay numbers.
+std::string toml_value(const Json& value) {
+    if (value.is_number_float()) {
+        std::string text = fmt::format("{}", value.get<double>());
+        if (text.find_first_of(".einf") == std::string::npos) text += ".0";
+        return text;
+    }
+    if (!value.is_array()) return json_text(value);
+    std::string text;
+    for (const Json& item : value)
+        text += (text.empty() ? "" : ", ") + toml_value(item);
+    return "[" + text + "]";
+}
+
+/// What may stand there: a range with its unit, or choices, or a kind.
+std::string allowed(const Key& key, const std::string& quote) {
+    std::string text;
+    for (const std::string& choice : key.choices)
+        text += (text.empty() ? "" : " | ") + quote + quoted(choice) + quote;
+    const std::string kind = key.kind();
+    if (!text.empty()) return kind == "list" ? "list of " + text : text;
+    const bool limited = std::isfinite(key.range.low) || std::isfinite(key.range.high);
+    text = kind == "boolean"   ? "true | false"
+           : kind == "number"  ? key.range.text(key.unit)
+           : kind != "integer" ? "text"
+           : limited           ? "whole number, " + key.range.text("")
+                               : "whole number";
+    if (!key.word.empty()) text += " | " + quote + quoted(key.word) + quote;
+    return text;
+}
+
+std::string escaped_bars(std::string text) { // a bar would end the cell of a Markdown table
+    for (std::size_t i = 0; (i = text.find('|', i)) != std::string::npos; i += 2)
+        text.insert(i, "\\");
+    return text;
 }
 
 } // namespace
@@ -208,16 +295,6 @@ Schema& Schema::section(std::string name, std::string doc) {
     return *this;
 }
 
-Key& Schema::boolean(std::string name, bool& field, std::string doc) {
-    Key key = make_key(std::move(name), Kind::boolean, std::move(doc), field);
-    key.store = [&field](const Value& value) -> Problem {
-        if (!value.boolean) return wrong_type("true or false", value, "true (no quotes)");
-        field = *value.boolean;
-        return {};
-    };
-    return add(std::move(key));
-}
-
 Schema& Schema::removed(Removed what) {
     removed_.push_back(std::move(what));
     return *this;
@@ -235,127 +312,81 @@ Schema& Schema::variations(std::string name, std::string doc, std::string exampl
     return *this;
 }
 
-Key& Schema::integer(std::string name, int& field, Range range, std::string doc) {
-    Key key = make_key(std::move(name), Kind::integer, std::move(doc), field);
-    key.range = range;
-    key.store = [&field, range](const Value& value) {
-        long long number = field;
-        Problem problem = read_integer(value, within_int(range), number);
-        field = static_cast<int>(number);
-        return problem;
-    };
-    return add(std::move(key));
-}
-
-Key& Schema::integer(std::string name, long long& field, Range range, std::string doc) {
-    Key key = make_key(std::move(name), Kind::integer, std::move(doc), field);
-    key.range = range;
-    key.store = [&field, range](const Value& value) { return read_integer(value, range, field); };
-    return add(std::move(key));
-}
-
-Key& Schema::number(std::string name, double& field, std::string unit, Range range,
-                    std::string doc) {
-    Key key = make_key(std::move(name), Kind::number, std::move(doc), field);
-    key.unit = unit;
-    key.range = range;
-    key.store = [&field, unit, range](const Value& value) {
-        return read_number(value, unit, range, field);
-    };
-    return add(std::move(key));
-}
-
-Key& Schema::number_or(std::string name, std::optional<double>& field, std::string word,
-                       std::string unit, Range range, std::string doc) {
-    Key key = make_key_or(std::move(name), Kind::number, std::move(doc), field, word,
-                          [unit, range](const Value& value, double& number) {
-                              return read_number(value, unit, range, number);
-                          });
-    key.unit = unit;
-    key.range = range;
-    return add(std::move(key));
-}
-
-Key& Schema::integer_or(std::string name, std::optional<long long>& field, std::string word,
-                        Range range, std::string doc) {
-    Key key = make_key_or(std::move(name), Kind::integer, std::move(doc), field, word,
-                          [range](const Value& value, long long& number) {
-                              return read_integer(value, range, number);
-                          });
-    key.range = range;
-    return add(std::move(key));
-}
-
-Key& Schema::text(std::string name, std::string& field, std::string doc) {
-    Key key = make_key(std::move(name), Kind::text, std::move(doc), field);
-    key.store = [&field](const Value& value) -> Problem {
-        if (!value.text) return wrong_type("a string", value, "\"heights.h5\" (in quotes)");
-        if (value.text->empty())
-            return {"", "is empty", "a string with something in it is needed", ""};
-        field = *value.text;
-        return {};
-    };
-    return add(std::move(key));
-}
-
-Key& Schema::choice_of(std::string name, std::vector<std::string> words,
-                       std::function<void(std::size_t)> set, std::function<std::size_t()> get,
-                       std::string doc) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = Kind::choice;
-    key.choices = words;
-    key.doc = std::move(doc);
-    key.store = [words, set](const Value& value) -> Problem {
-        if (!value.text)
-            return wrong_type("one of " + quoted_choices(words), value, '"' + words.front() + '"');
-        const auto at = std::find(words.begin(), words.end(), *value.text);
-        if (at == words.end()) return no_such_choice(*value.text, words);
-        set(static_cast<std::size_t>(at - words.begin()));
-        return {};
-    };
-    key.load = [words, get] { return Json(words.at(get())); };
-    return add(std::move(key));
-}
-
-Key& Schema::list(std::string name, std::vector<std::string>& field,
-                  std::vector<std::string> choices, std::string doc) {
-    return list_with(
-        std::move(name), std::move(choices),
-        [&field](const std::vector<std::string>& list) { field = list; },
-        [&field] { return field; }, std::move(doc));
-}
-
-Key& Schema::list_with(std::string name, std::vector<std::string> choices,
-                       std::function<void(const std::vector<std::string>&)> set,
-                       std::function<std::vector<std::string>()> get, std::string doc) {
-    Key key;
-    key.name = std::move(name);
-    key.kind = Kind::list;
-    key.choices = choices;
-    key.doc = std::move(doc);
-    key.store = [set, choices](const Value& value) -> Problem {
-        if (!value.list)
-            return wrong_type("a list of strings", value,
-                              fmt::format("[\"{}\"]", choices.empty() ? "a" : choices.front()));
-        for (const std::string& member : *value.list)
-            if (!fits(member, choices)) {
-                Problem problem = no_such_choice(member, choices);
-                problem.what =
-                    fmt::format("has a member \"{}\" that is none of its choices", member);
-                return problem;
-            }
-        set(*value.list);
-        return {};
-    };
-    key.load = [get] { return Json(get()); };
-    return add(std::move(key));
-}
-
 const Key* Schema::find(std::string_view path) const {
     for (const Key& key : keys_)
         if (key.path() == path) return &key;
     return nullptr;
+}
+
+std::string Key::kind() const {
+    static constexpr const char* kinds[] = {"boolean", "integer", "integer", "integer", "number",
+                                            "number",  "text",    "choice",  "list"};
+    static_assert(std::size(kinds) == std::variant_size_v<Schema::Field>);
+    return kinds[field.index()];
+}
+
+Problem Key::store(const Schema::Value& value) const {
+    return std::visit(Store{*this, value}, field);
+}
+
+Json Key::load() const { return std::visit(Load{*this}, field); }
+
+Key& Schema::add(Key key) {
+    key.section = sections_.empty() ? "" : sections_.back().first;
+    return keys_.emplace_back(std::move(key));
+}
+
+std::string Schema::toml(bool with_docs) const {
+    std::string text;
+    for (const auto& [section, section_doc] : sections_) {
+        if (!text.empty()) text += '\n';
+        if (with_docs) text += "# " + section_doc + "\n";
+        text += "[" + section + "]\n";
+        for (const Key& key : keys_) {
+            if (key.section != section || !key.written()) continue;
+            std::string line = key.name + " = " + toml_value(key.load());
+            if (with_docs) line = fmt::format("{:<36} # {}: {}", line, allowed(key, ""), key.doc);
+            text += line + '\n';
+        }
+    }
+    if (with_docs && !variations_.name.empty())
+        text += fmt::format("\n# {}\n# [{}]\n# {}\n", variations_.doc, variations_.name,
+                            variations_.example);
+    return text;
+}
+
+Json Schema::json() const {
+    Json root = Json::object();
+    for (const Key& key : keys_)
+        if (key.written()) root[key.section][key.name] = key.load();
+    return root;
+}
+
+Json Schema::units() const {
+    Json root = Json::object();
+    for (const Key& key : keys_) {
+        const bool number = key.kind() == "number" || key.kind() == "integer";
+        if (key.written())
+            root[key.section][key.name] = !number ? "" : key.unit.empty() ? "1" : key.unit;
+    }
+    return root;
+}
+
+std::string Schema::markdown() const {
+    std::string text;
+    for (const auto& [section, section_doc] : sections_) {
+        text += fmt::format(
+            "\n## [{}]\n\n{}\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n",
+            section, section_doc);
+        for (const Key& key : keys_)
+            if (key.section == section)
+                text += fmt::format("| `{}` | `{}` | {} | {} |\n", key.name, toml_value(key.load()),
+                                    escaped_bars(allowed(key, "`")), escaped_bars(key.doc));
+    }
+    if (!variations_.name.empty())
+        text += fmt::format("\n## [{}]\n\n{}\n\n    {}\n", variations_.name, variations_.doc,
+                            variations_.example);
+    return text;
 }
 
 } // namespace asperity::io

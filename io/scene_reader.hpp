@@ -3,12 +3,12 @@
 //
 // A TOML reader driven by a schema; it knows no physics.
 //
-// A Schema is a list of keys, each bound to a field of some plain struct. The field's value at the
-// time of binding is the key's default. Reading goes once through the text and once through the
-// overrides (--set section.key=value), writes what is right into the fields and collects what is
-// wrong; nothing is thrown before everything has been looked at. Where each value came from is kept
-// in Positions, so that checks which need several keys, or the mesh, or the number of ranks, can
-// still point to file:line:column.
+// A Schema is a list of keys, each bound to a field of some plain struct. What the field holds
+// before a scene is read is the key's default. Reading goes once through the text and once through
+// the overrides (--set section.key=value), writes what is right into the fields and collects what
+// is wrong; nothing is thrown before everything has been looked at. Where each value came from is
+// kept in Positions, so that checks which need several keys, or the mesh, or the number of ranks,
+// can still point to file:line:column.
 //
 // The same schema writes the struct back as TOML, as JSON and as the reference page in docs/.
 #pragma once
@@ -18,13 +18,13 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <functional>
-#include <initializer_list>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace asperity::io {
@@ -102,97 +102,89 @@ struct Variation {
 
 class Schema {
 public:
-    enum class Kind { boolean, integer, number, text, choice, list };
+    using Words = std::vector<std::string>;
 
-    /// A value as it stands in a scene, before it is bound.
-    struct Value {
-        std::optional<bool> boolean;
-        std::optional<long long> integer;
-        std::optional<double> number;
-        std::optional<std::string> text;
-        std::optional<std::vector<std::string>> list;
+    /// A value as it stands in a scene, before it is bound. Empty: of a type no key has.
+    using Value = std::variant<std::monostate, bool, long long, double, std::string, Words>;
+
+    /// A field of some enumeration, by the number of its word.
+    struct Choice {
+        std::function<void(std::size_t)> set;
+        std::function<std::size_t()> get;
     };
+    using Field = std::variant<bool*, int*, long long*, std::optional<long long>*, double*,
+                               std::optional<double>*, std::string*, Choice, Words*>;
 
     struct Key {
-        std::string section;
         std::string name;
-        Kind kind = Kind::text;
-        std::string unit; ///< base unit of a quantity; empty: a bare number
-        Range range;
-        std::string word;                 ///< the word that stands for "no number", e.g. "none"
-        std::vector<std::string> choices; ///< of a choice, or of a list's members
-        std::string doc;                  ///< one line, for people
-        std::string default_toml;         ///< default, as it would stand in a scene
-        std::function<Problem(const Value&)> store; ///< what is empty: stored; else what is wrong
-        std::function<nlohmann::ordered_json()> load;
-        std::function<bool()>
-            omitted; ///< set: true when writing the key back would change the meaning
+        Field field;
+        std::string doc;    ///< one line, for people
+        std::string unit{}; ///< base unit of a quantity; empty: a bare number
+        Range range{};
+        std::string word{};    ///< the word that stands for an empty field, e.g. "none"
+        Words choices{};       ///< of a choice, or of a list's members
+        bool numerals = false; ///< a choice may be a whole number without quotes, too
+        std::string section{};
+        std::function<bool()> omitted{}; ///< set: true when writing the key back would change the
+                                         ///< meaning
 
         std::string path() const { return section + "." + name; }
+        std::string kind() const; ///< boolean, integer, number, text, choice or list
+        bool written() const { return !omitted || !omitted(); }
+        /// What is empty: stored; else what is wrong.
+        Problem store(const Value& value) const;
+        nlohmann::ordered_json load() const;
     };
 
     /// Keys that follow belong to this section.
     Schema& section(std::string name, std::string doc);
 
-    Key& boolean(std::string name, bool& field, std::string doc);
-    Key& integer(std::string name, int& field, Range range, std::string doc);
-    Key& integer(std::string name, long long& field, Range range, std::string doc);
+    Key& boolean(std::string name, bool& field, std::string doc) {
+        return add({name, &field, doc});
+    }
+    Key& integer(std::string name, int& field, Range range, std::string doc) {
+        return add({.name = name, .field = &field, .doc = doc, .range = range});
+    }
+    Key& integer(std::string name, long long& field, Range range, std::string doc) {
+        return add({.name = name, .field = &field, .doc = doc, .range = range});
+    }
     /// A quantity (number in the unit, or string with any unit of that dimension); unit "" : a bare
     /// number.
-    Key& number(std::string name, double& field, std::string unit, Range range, std::string doc);
+    Key& number(std::string name, double& field, std::string unit, Range range, std::string doc) {
+        return add({.name = name, .field = &field, .doc = doc, .unit = unit, .range = range});
+    }
     /// A quantity or a word: radius = "none".
     Key& number_or(std::string name, std::optional<double>& field, std::string word,
-                   std::string unit, Range range, std::string doc);
+                   std::string unit, Range range, std::string doc) {
+        return add({name, &field, doc, unit, range, word});
+    }
     Key& integer_or(std::string name, std::optional<long long>& field, std::string word,
-                    Range range, std::string doc);
-    Key& text(std::string name, std::string& field, std::string doc);
+                    Range range, std::string doc) {
+        return add({name, &field, doc, "", range, word});
+    }
+    Key& text(std::string name, std::string& field, std::string doc) {
+        return add({name, &field, doc});
+    }
+    /// A list of strings. A member is right if it equals a choice, or starts with a choice that
+    /// ends in ':' and goes on with a positive whole number ("every:1000"). No choices: anything.
+    Key& list(std::string name, Words& field, Words choices, std::string doc) {
+        return add({.name = name, .field = &field, .doc = doc, .choices = choices});
+    }
     /// An enumeration, by its names.
     template <class E>
     Key& choice(std::string name, E& field, std::vector<std::pair<std::string, E>> names,
                 std::string doc) {
-        std::vector<std::string> words;
+        Words words;
         for (const auto& [word, value] : names)
             words.push_back(word);
-        return choice_of(
-            std::move(name), std::move(words),
-            [&field, names](std::size_t i) { field = names[i].second; },
-            [&field, names] {
-                std::size_t i = 0;
-                while (i < names.size() && names[i].second != field)
-                    ++i;
-                return i;
-            },
-            std::move(doc));
-    }
-    /// A list of strings. A member is right if it equals a choice, or starts with a choice that
-    /// ends in
-    /// ':' and goes on with a positive whole number ("every:1000"). No choices: anything.
-    Key& list(std::string name, std::vector<std::string>& field, std::vector<std::string> choices,
-              std::string doc);
-
-    /// The same with the members of an enumeration.
-    template <class E>
-    Key& list_of(std::string name, std::vector<E>& field,
-                 std::vector<std::pair<std::string, E>> names, std::string doc) {
-        std::vector<std::string> words;
-        for (const auto& [word, value] : names)
-            words.push_back(word);
-        return list_with(
-            std::move(name), std::move(words),
-            [&field, names](const std::vector<std::string>& list) {
-                field.clear();
-                for (const std::string& member : list)
-                    for (const auto& [word, value] : names)
-                        if (word == member) field.push_back(value);
-            },
-            [&field, names] {
-                std::vector<std::string> list;
-                for (const E member : field)
-                    for (const auto& [word, value] : names)
-                        if (value == member) list.push_back(word);
-                return list;
-            },
-            std::move(doc));
+        const Choice choice{[&field, names](std::size_t i) { field = names[i].second; },
+                            [&field, names] {
+                                std::size_t i = 0;
+                                while (i < names.size() && names[i].second != field)
+                                    ++i;
+                                return i;
+                            }};
+        return add({.name = name, .field = choice, .doc = doc, .choices = words});
     }
 
     /// What scenes of earlier releases have and this one refuses.
@@ -231,12 +223,6 @@ public:
 
 private:
     Key& add(Key key);
-    Key& list_with(std::string name, std::vector<std::string> choices,
-                   std::function<void(const std::vector<std::string>&)> set,
-                   std::function<std::vector<std::string>()> get, std::string doc);
-    Key& choice_of(std::string name, std::vector<std::string> words,
-                   std::function<void(std::size_t)> set, std::function<std::size_t()> get,
-                   std::string doc);
 
     std::vector<Key> keys_;
     std::vector<Removed> removed_;

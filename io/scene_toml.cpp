@@ -62,21 +62,19 @@ Position position_of(const toml::source_region& region, const std::string& file)
 }
 
 Schema::Value value_of(const toml::node& node) {
-    Schema::Value value;
-    if (const auto* boolean = node.as_boolean()) value.boolean = boolean->get();
-    if (const auto* integer = node.as_integer()) value.integer = integer->get();
-    if (const auto* number = node.as_floating_point()) value.number = number->get();
-    if (const auto* text = node.as_string()) value.text = text->get();
-    if (const auto* array = node.as_array()) {
-        std::vector<std::string> list;
-        for (const toml::node& member : *array) {
-            const auto* text = member.as_string();
-            if (!text) return value;
-            list.push_back(text->get());
-        }
-        value.list = std::move(list);
+    if (const auto* boolean = node.as_boolean()) return boolean->get();
+    if (const auto* integer = node.as_integer()) return static_cast<long long>(integer->get());
+    if (const auto* number = node.as_floating_point()) return number->get();
+    if (const auto* text = node.as_string()) return text->get();
+    const auto* array = node.as_array();
+    if (!array) return {};
+    Schema::Words list;
+    for (const toml::node& member : *array) {
+        const auto* text = member.as_string();
+        if (!text) return {};
+        list.push_back(text->get());
     }
-    return value;
+    return list;
 }
 
 std::string cut(std::string text) {
@@ -155,8 +153,7 @@ public:
         const Position at{"--set " + assignment, 0, 0};
         const std::size_t equals = assignment.find('=');
         std::string path = assignment.substr(0, equals);
-        const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-        path.erase(std::remove_if(path.begin(), path.end(), blank), path.end());
+        std::erase_if(path, [](char c) { return c == ' ' || c == '\t'; });
         if (equals == std::string::npos)
             return add(at, "there is no =", "an override is section.key=value",
                        "for example --set surface.rms=1.5");
@@ -183,15 +180,15 @@ public:
             node = root.get("v");
         }
         Schema::Value value = value_of(*node);
-        if (key->kind == Schema::Kind::list && value.text) {
-            value.list.emplace();
-            std::istringstream members(*value.text);
+        if (const auto* text = std::get_if<std::string>(&value); text && key->kind() == "list") {
+            Schema::Words list;
+            std::istringstream members(*text);
             for (std::string member; std::getline(members, member, ',');) {
                 member.erase(0, member.find_first_not_of(" \t"));
                 member.erase(member.find_last_not_of(" \t") + 1);
-                value.list->push_back(member);
+                list.push_back(member);
             }
-            value.text.reset();
+            value = list;
         }
         store(*key, value, shown(*node), at);
     }
@@ -287,7 +284,8 @@ private:
     void store(const Schema::Key& key, const Schema::Value& value, const std::string& text,
                const Position& at) {
         positions_.set(key.path(), at);
-        if (const auto* gone = schema_.find_removed(key.path(), value.text.value_or("")))
+        const auto* word = std::get_if<std::string>(&value);
+        if (const auto* gone = schema_.find_removed(key.path(), word ? *word : ""))
             return add(at, fmt::format("{} = {} is not a choice any more", key.path(), text),
                        gone->why, gone->fix);
         const Problem problem = key.store(value);
@@ -310,15 +308,13 @@ private:
             everywhere.push_back(key.name);
             if (key.name == name) same_name = key.path();
         }
-        std::string meant;
-        if (const std::string near = nearest(name, here); !near.empty())
+        std::string meant = same_name;
+        if (const std::string near = nearest(name, here); meant.empty() && !near.empty())
             meant = section + "." + near;
-        if (!same_name.empty()) meant = same_name;
         if (meant.empty()) meant = nearest(path, paths_);
-        if (meant.empty())
-            if (const std::string near = nearest(name, everywhere); !near.empty())
-                for (const Schema::Key& key : schema_.keys())
-                    if (key.name == near) meant = key.path();
+        if (const std::string near = nearest(name, everywhere); meant.empty())
+            for (const Schema::Key& key : schema_.keys())
+                if (key.name == near) meant = key.path();
         add(at, cut(path) + " is no key of a scene",
             section.empty() ? "every key stands in a [section]"
             : here.empty()  ? fmt::format("there is no section [{}]", section)

@@ -3,9 +3,7 @@
 #include "io/spelling.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdlib>
 
 namespace asperity::io {
 
@@ -39,20 +37,6 @@ int distance(const std::string& a, const std::string& b) {
     return table.back();
 }
 
-/// No more than their distance: letters that one of them has more often than the other. Spares most
-/// words of a list the table.
-int least_distance(const std::string& a, const std::string& b) {
-    std::array<int, 32> more{};
-    for (const char c : a)
-        ++more[static_cast<unsigned char>(c) % more.size()];
-    for (const char c : b)
-        --more[static_cast<unsigned char>(c) % more.size()];
-    int of_a = 0, of_b = 0;
-    for (const int n : more)
-        (n > 0 ? of_a : of_b) += std::abs(n);
-    return std::max(of_a, of_b);
-}
-
 } // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
@@ -63,8 +47,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     int best_distance = 1 + static_cast<int>(wanted.size()) / 3; // at most a third may be wrong
     for (const std::string& candidate : candidates) {
         const std::string other = plain(candidate);
-        int d = least_distance(wanted, other);
-        if (d <= best_distance) d = distance(wanted, other);
+        int d = distance(wanted, other);
         if (wanted.size() >= 3 && (other.starts_with(wanted) || wanted.starts_with(other)))
             d = std::min(d, 1); // "temp" for "temperature"
         if (d < best_distance || (d == best_distance && best.empty())) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -61,12 +62,9 @@ std::string Table::text(bool with_colours) const {
         text.erase(text.find_last_not_of(' ') + 1);
         return text;
     };
-    int total = 0;
-    for (const int w : width)
-        total += w + 2;
-    std::string rule_text = "  ";
-    for (int i = 2; i < total; ++i)
-        rule_text += "─";
+    const int total =
+        std::accumulate(width.begin(), width.end(), 2 * static_cast<int>(width.size()));
+    const std::string rule_text = fmt::format("  {:─<{}}", "", std::max(0, total - 2));
 
     std::string text;
     const bool headed = std::any_of(heads_.begin(), heads_.end(),

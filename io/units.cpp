@@ -6,6 +6,7 @@
 // minute and "Pa" no peta-annum.
 #include "io/units.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -111,10 +112,9 @@ std::string_view take_symbol(std::string_view& text) {
         const std::string_view rest = text.substr(end);
         if (std::string_view(" \t*/^").find(rest[0]) != std::string_view::npos) break;
         if (rest.starts_with("·") || rest.starts_with("⁻")) break;
-        bool raised = false;
-        for (const std::string_view digit : superscripts)
-            raised = raised || rest.starts_with(digit);
-        if (raised) break;
+        if (std::any_of(std::begin(superscripts), std::end(superscripts),
+                        [&](std::string_view digit) { return rest.starts_with(digit); }))
+            break;
         ++end;
     }
     const std::string_view symbol = text.substr(0, end);
@@ -122,22 +122,12 @@ std::string_view take_symbol(std::string_view& text) {
     return symbol;
 }
 
-double power_of_ten(int n) { // exact up to 10^22
-    double result = 1.0;
-    for (int i = 0; i < std::abs(n); ++i)
-        result *= 10.0;
-    return result;
+double scaled(double value, int power) { // powers of ten are exact up to 10^22
+    return power >= 0 ? value * std::pow(10.0, power) : value / std::pow(10.0, -power);
 }
 
-double scaled(double value, int power) {
-    return power >= 0 ? value * power_of_ten(power) : value / power_of_ten(power);
-}
-
-struct Example {
-    std::string_view base;
-    std::string_view text;
-};
-constexpr Example examples[] = {
+/// For a base unit, a value that a key of it could have.
+constexpr std::pair<std::string_view, std::string_view> examples[] = {
     {"Å", "\"0.3 nm\""},       {"eV", "\"100 meV\""},     {"GPa", "\"77.2 GPa\""},
     {"MPa", "\"1 kPa\""},      {"m/s", "\"5 m/s\""},      {"fs", "\"0.01 ps\""},
     {"ps", "\"20 ps\""},       {"1/ps", "\"0.05 1/ps\""}, {"K", "\"300 K\""},
@@ -176,6 +166,15 @@ std::optional<double> conversion(std::string_view unit, std::string_view base) {
     return scaled(from->factor / to->factor, from->power - to->power);
 }
 
+std::string example_of(std::string_view base) {
+    for (const auto& [unit, text] : examples)
+        if (unit == base) return std::string(text);
+    return base.empty() ? "0.5" : fmt::format("\"1 {}\"", base);
+}
+
+namespace {
+
+/// "a length", "a pressure", "a bare number": what a unit measures.
 std::string measure_of(const Unit& unit) {
     static const std::pair<std::string_view, std::string_view> known[] = {
         {"", "a bare number"},
@@ -195,11 +194,7 @@ std::string measure_of(const Unit& unit) {
     return "something else";
 }
 
-std::string example_of(std::string_view base) {
-    for (const Example& example : examples)
-        if (example.base == base) return std::string(example.text);
-    return base.empty() ? "0.5" : fmt::format("\"1 {}\"", base);
-}
+} // namespace
 
 ParsedQuantity parse_quantity(std::string_view text, std::string_view base) {
     ParsedQuantity result;

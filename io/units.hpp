@@ -34,8 +34,6 @@ struct ParsedQuantity {
 ParsedQuantity parse_quantity(std::string_view text, std::string_view base);
 /// How many base units one of these units is; empty if they are of different dimension.
 std::optional<double> conversion(std::string_view unit, std::string_view base);
-/// "a length", "a pressure", "a bare number": what a unit measures.
-std::string measure_of(const Unit& unit);
 /// A value that a key of this base unit could have: "\"0.3 nm\"".
 std::string example_of(std::string_view base);
 

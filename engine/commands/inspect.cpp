@@ -264,29 +264,6 @@ int defaults_command(bool markdown, bool plain, bool results, const Communicator
     return io::exit_code::done;
 }
 
-namespace {
-
-const char* name_of(io::Schema::Kind kind) {
-    using Kind = io::Schema::Kind;
-    switch (kind) {
-    case Kind::boolean:
-        return "boolean";
-    case Kind::integer:
-        return "integer";
-    case Kind::number:
-        return "number";
-    case Kind::choice:
-        return "choice";
-    case Kind::list:
-        return "list";
-    case Kind::text:
-        break;
-    }
-    return "text";
-}
-
-} // namespace
-
 int schema_command(bool results, const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
     io::Json all;
@@ -298,7 +275,7 @@ int schema_command(bool results, const Communicator& world) {
         const io::Schema schema = bind(defaults);
         for (const io::Schema::Key& key : schema.keys()) {
             io::Json& one = all[key.path()];
-            one["kind"] = name_of(key.kind);
+            one["kind"] = key.kind();
             one["unit"] = key.unit;
             one["default"] = key.load();
             one["doc"] = key.doc;

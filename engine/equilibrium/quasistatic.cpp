@@ -57,7 +57,7 @@ void QuasistaticPath::first_point(double top) {
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
                                fmt::format("the largest force left is {:.2e} eV/Å", state.residual),
-                               "a looser drive.tolerance");
+                               "a looser drive.tolerance, or a height further from the substrate");
     points_.replace();
     record_.step = 0;
     energy_at_start_ = state.interface_energy + state.elastic_energy;
@@ -168,7 +168,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
                 fmt::format("the largest force left is {:.2e} eV/Å after {} iterations, and {:.2e} "
                             "is asked for (a quarter of drive.tolerance)",
                             state.residual, state.iterations, 0.25 * options_.tolerance),
-                "a looser drive.tolerance");
+                "a looser drive.tolerance, or a height further from the substrate");
         if (state.converged && to_load && passes_load(state, aim) && !last_try) {
             const double part = (aim - record_.force) / (state.force - record_.force);
             length_ *= std::clamp(part, 0.02, 0.98);

@@ -87,10 +87,10 @@ struct NumberLists {
         });
     }
     void write(io::Hdf5File& file) {
-        each([&](const std::string& set, auto& list) {
+        each([&]<class T>(const std::string& set, const NumberList<T>& list) {
             if (list.values.empty()) return;
-            file.write(set, {list.values.size()}, list.values);
-            file.write(set + "_names", {list.names.size()}, list.names);
+            file.write<T>(set, {list.values.size()}, list.values);
+            file.write<std::uint8_t>(set + "_names", {list.names.size()}, list.names);
         });
     }
     void broadcast(const Communicator& ranks) {

@@ -276,15 +276,12 @@ io::Schema bind(Scene& scene) {
         {"none", no_device}, {"emulated", emulated_device_asked}, {"auto", any_device}};
     for (int n = 0; n < 8; ++n)
         devices.emplace_back(std::to_string(n), n);
-    auto& device = schema.choice<int>("device", numerics.device, devices,
-                                      "that takes the steps in time: a CUDA device by its number "
-                                      "(further ranks of a machine take "
-                                      "the next ones in turn); \"auto\": one if there is one; "
-                                      "\"emulated\": on the processor, for tests");
-    device.store = [store = device.store](io::Schema::Value value) {
-        if (value.integer) value.text = std::to_string(*value.integer); // a number without quotes
-        return store(value);
-    };
+    schema
+        .choice<int>("device", numerics.device, devices,
+                     "that takes the steps in time: a CUDA device by its number (further ranks of "
+                     "a machine take the next ones in turn); \"auto\": one if there is one; "
+                     "\"emulated\": on the processor, for tests")
+        .numerals = true;
 
     auto& output = scene.output;
     schema.section("output", "What is written.");

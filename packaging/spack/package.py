@@ -30,6 +30,7 @@ class Asperity(CMakePackage):
 
     depends_on("mpi@3:")
     depends_on("hdf5@1.10:")
+    depends_on("zlib-api")
     depends_on("fftw@3.3: precision=double,float")
     depends_on("boost@1.74:")
     depends_on("fmt@9:")

@@ -14,6 +14,7 @@ import os
 import signal
 import sys
 import time
+from pathlib import Path
 
 from . import program
 from .errors import Error, SceneError
@@ -80,8 +81,8 @@ def _parser() -> argparse.ArgumentParser:
     export.add_argument("directory", metavar="DIR", help="the result directory")
     export.add_argument("--to", required=True, metavar="FORMAT", dest="format", help="xyz, lammps, xdmf, vtk or png")
     convert = add("convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names",
-                  "Maps: text with headers, ESRI grids, XYZ, HDF5 (FILE:/dataset), and by SurfaceTopography Gwyddion and\n"
-                  "instruments' files. Atoms: LAMMPS data, and by ASE extended XYZ.")
+                  "Maps: text with headers, ESRI grids, XYZ, HDF5 (FILE:/dataset), and by SurfaceTopography Gwyddion "
+                  "and\ninstruments' files. Atoms: LAMMPS data, and by ASE extended XYZ.")
     convert.add_argument("source", metavar="FILE", help="the file to convert")
     convert.add_argument("target", metavar="OUT.h5", help="the file to write")
     return parser
@@ -114,19 +115,23 @@ def _scenes(given: argparse.Namespace) -> list[str]:
 
 def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "report":
-        from .commands import report_command
+        from .report_sweep import write_page
 
-        return report_command(given.directory)
+        print(write_page(Path(given.directory)).said)
+        return 0
     if given.command == "export":
-        from .export import export_command
+        from .export import export
 
-        return export_command(given.directory, given.format)
+        print(*export(Path(given.directory), given.format), sep="\n")
+        return 0
     if given.command == "convert":
-        from .convert import convert_command
+        from .convert import convert
 
-        return convert_command(given.source, given.target)
-    from .commands import cost_command, sweep_command
+        print(convert(given.source, given.target))
+        return 0
     from .pool import PoolOptions, executor_of
+    from .report_cost import cost_command
+    from .report_sweep import sweep_command
     from .terminal import Progress, parse_duration
 
     Progress(given.progress)  # refuses what is no mode before anything is done
@@ -144,8 +149,8 @@ def _carry_out(given: argparse.Namespace) -> int:
             return 0  # a rank that has worked for the first one
         options.executor = executor
         if cost:
-            return cost_command(scenes[0], given.sets, [k for k in given.parameters.split(",") if k], given.out, options,
-                                given.target)
+            names = [name for name in given.parameters.split(",") if name]
+            return cost_command(scenes[0], given.sets, names, given.out, options, given.target)
         return sweep_command(scenes, given.sets, given.out, given.theory_only, options)
 
 
@@ -170,8 +175,9 @@ def main(words: list[str]) -> int:
     try:
         if not leads:
             program.refuse_ranks()
-        # Options and scenes in any order.
-        return _carry_out(commands[words[0]].parse_intermixed_args(_spelt_out(words[1:]), argparse.Namespace(command=words[0])))
+        given = argparse.Namespace(command=words[0])
+        commands[words[0]].parse_intermixed_args(_spelt_out(words[1:]), given)  # options and scenes in any order
+        return _carry_out(given)
     except Error as error:
         if leads and rank != 0:
             return _after_the_first(error.code)

@@ -338,8 +338,3 @@ def convert(source: str | Path, target: str | Path) -> str:
                         "outside of the box and were folded back")
         files.seal_hdf5(beside)
     return text
-
-
-def convert_command(source: str, target: str) -> int:
-    print(convert(source, target))
-    return 0

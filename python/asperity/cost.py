@@ -25,25 +25,14 @@ from typing import Any
 import numpy as np
 
 from . import program
-from .cost_parameters import Base, CostCase, Parameter, ParameterValue, Setting, joined
+from .cost_parameters import ASKED, NAN, QUANTITIES, Base, CostCase, Parameter, Row, joined, nothing
 from .errors import SceneError
-from .pool import DONE, WAITING, Job, Outcome, Pool, PoolOptions, look_at_all
+from .pool import DONE, WAITING, Job, Pool, PoolOptions, look_at_all
 from .result import Values
 
-QUANTITIES = ("gamma", "contact", "approach", "pull-off", "force")
-"""What is compared: binding energy at zero load over flat, contact fraction there, works of the two branches over flat,
-largest attraction of the pull-off (eV/Å). Energies are compared over the flat reference of the same interaction, so
-that a cutoff is not blamed for the adhesion that it takes from both."""
-ASKED = {"state": 2, "path": len(QUANTITIES)}
-"""What a setting can be asked for: the relaxed state (the first two quantities), or all of the path too."""
 TARGETS = (0.05, 0.01, 0.001)
 TRIES = 4
 """combinations that are run for a target of the user"""
-NAN = math.nan
-
-
-def nothing() -> np.ndarray:
-    return np.full(len(QUANTITIES), NAN)
 
 
 def numbers_of(result: Values) -> np.ndarray:
@@ -97,50 +86,20 @@ def order_of(x: list[float], errors: list[float], x0: float | None, floor: float
 
 
 @dataclass
-class CostRow:
-    """A setting that was run. parameter: its name, or "reference", "scene", "combination"."""
-
-    parameter: str
-    label: str
-    setting: Setting
-    """in full"""
-    own: Setting
-    """the part of it that is the parameter's value"""
-    x: float = 0.0
-    compared: bool = True
-    """its error is one of settings: not the reference, not another solid"""
-    outcome: Outcome = field(default_factory=Outcome)
-    numbers: np.ndarray = field(default_factory=nothing)
-    own_error: np.ndarray = field(default_factory=nothing)
-    error: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ASKED, NAN))
-    front: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(ASKED, False))
-    seconds: float = NAN
-    """of the processor"""
-    wall: float = NAN
-    added: float = NAN
-    """of a combination: the sum of its own errors"""
-
-    @property
-    def text(self) -> str:
-        """The setting as a user would give it."""
-        return "--set " + " ".join(self.setting) if self.setting else "the scene as it is"
-
-
-@dataclass
 class Combination:
     """A row of each part of a base: own errors add, factors of time multiply."""
 
-    rows: tuple[CostRow, ...]
+    rows: tuple[Row, ...]
     error: float
     time: float
     """over that of the reference runs"""
 
-    def row(self, base: Base) -> CostRow:
+    def row(self, base: Base) -> Row:
         setting = base.setting
         for one in self.rows:
             setting = joined(setting, one.own)
         label = ", ".join([*filter(None, [base.label]), *(one.label for one in self.rows)])
-        return CostRow("combination", label, setting, [], added=self.error)
+        return Row("combination", label, setting, [], added=self.error)
 
 
 @dataclass
@@ -154,9 +113,9 @@ class Search:
     smallest: float
     """smallest error: measured, or sum of own errors if none was run"""
     tried: int = 0
-    chosen: CostRow | None = None
+    chosen: Row | None = None
 
-    def look_at(self, row: CostRow) -> None:
+    def look_at(self, row: Row) -> None:
         """row: of the first that is left, after its run."""
         error = row.error[self.base.question]
         self.smallest = error if self.tried == 0 else float(np.fmin(error, self.smallest))
@@ -176,7 +135,7 @@ class Cost:
     name: str
     scene: dict[str, Any]
     case: CostCase
-    rows: list[CostRow] = field(default_factory=list)
+    rows: list[Row] = field(default_factory=list)
     asked: Search | None = None
     """for a target of the user"""
     orders: list[tuple[Parameter, list[float | None]]] = field(default_factory=list)
@@ -184,10 +143,6 @@ class Cost:
 
     def answered(self, question: str) -> bool:
         return any(r.compared and not math.isnan(r.error[question]) for r in self.rows)
-
-    def reference_of(self, parameter: Parameter) -> CostRow | None:
-        return next((r for r in self.rows if parameter.reference and r.parameter == parameter.name
-                     and r.own == parameter.reference.setting), None)
 
     def compare(self) -> None:
         """Errors, fronts, orders and cheapest settings of the rows that are there."""
@@ -202,13 +157,13 @@ class Cost:
             self.cheapest[question] = [cheapest_within(seconds, errors, t) for t in TARGETS]
         self.orders = []
         for parameter in self.case.parameters:
-            reference = self.reference_of(parameter)
-            if reference is None or parameter.reference is None:
+            reference = parameter.reference
+            if reference is None:
                 continue
-            others = [r for r in self.rows if r.parameter == parameter.name and r is not reference]
+            others = [row for row in parameter.rows if row is not reference]
             for row in others:
                 row.own_error = errors_of(row.numbers, reference.numbers)
-            x0 = None if parameter.reference_is_exact else parameter.reference.x
+            x0 = None if parameter.reference_is_exact else reference.x
             self.orders.append((parameter, [order_of([r.x for r in others], [r.own_error[q] for r in others], x0)
                                        for q in range(len(QUANTITIES))]))
 
@@ -216,10 +171,10 @@ class Cost:
         """The values of a part's parameters, those that have an error."""
         found = []
         for parameter in self.case.parameters:
-            reference = self.reference_of(parameter)
+            reference = parameter.reference
             if parameter.part != part or reference is None:
                 continue
-            for row in (r for r in self.rows if r.parameter == parameter.name):
+            for row in parameter.rows:
                 # Without time the velocity is another base.
                 if row is reference and (not parameter.reference_is_exact or parameter.name == "velocity"):
                     continue
@@ -236,9 +191,9 @@ class Cost:
         return Search(base, target, sorted((c for c in every if c.error <= target), key=lambda c: c.time),
                       min((c.error for c in every), default=NAN))
 
-    def choose(self, searches: list[Search], run: Callable[[list[CostRow]], bool]) -> bool:
+    def choose(self, searches: list[Search], run: Callable[[list[Row]], bool]) -> bool:
         """Runs the first combination of each, and the next of those that missed. False: stopped before."""
-        there: list[CostRow] = []
+        there: list[Row] = []
         for _ in range(TRIES):
             tried, new = [], []
             for search in (s for s in searches if s.left):
@@ -267,7 +222,7 @@ class Runs:
         self.common = joined(overrides, ["output.fields=zero-load", "output.trajectory=none"])
         self.made: dict[str, Job] = {}
 
-    def run(self, rows: list[CostRow]) -> bool:
+    def run(self, rows: list[Row]) -> bool:
         """Runs the rows and fills in their numbers. False: stopped before the end."""
         overrides = [joined(self.common, row.setting) for row in rows]
         points = program.theory_points(self.scene, overrides, runnable=True)
@@ -276,7 +231,7 @@ class Runs:
         for row, given, point in zip(rows, overrides, points):
             name = ",".join(one.partition(".")[2] for one in sorted(row.setting)) or "scene"
             key = json.dumps(point["scene"])
-            jobs[key] = self.made.setdefault(key, Job.of(name, self.directory / name, self.scene, given, point))
+            jobs[key] = self.made.setdefault(key, Job(name, self.directory / name, self.scene, given, point))
         outcomes = look_at_all(list(jobs.values()), print)
         there = sum(o.status != WAITING for o in outcomes)
         print(f"{len(jobs)} runs in {self.directory}" + (f"; {there} are there already" if there else ""), flush=True)
@@ -291,17 +246,13 @@ class Runs:
         return complete
 
 
-def row_of(parameter: Parameter, value: ParameterValue) -> CostRow:
-    return CostRow(parameter.name, value.label, joined(parameter.base, value.setting), value.setting, value.x,
-                   compared=parameter.name != "thickness")
-
-
 def target_of(text: str) -> float:
     """"1%" and "0.01" are 0.01. Raises SceneError."""
     found, target = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(%?)\s*", text), NAN
     with contextlib.suppress(ValueError):
         target = float(found[1]) * (0.01 if found[2] else 1.0) if found else NAN
     if not 0.0 < target < 1.0:
-        raise SceneError(f"--target {text}", "is no error to keep", "a relative error is needed, above 0 and below 100 %",
+        raise SceneError(f"--target {text}", "is no error to keep",
+                         "a relative error is needed, above 0 and below 100 %",
                          "for example --target 1%, or --target 0.01")
     return target

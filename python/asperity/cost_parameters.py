@@ -11,33 +11,77 @@ target it is the same experiment with the best numerics.
 from __future__ import annotations
 
 import difflib
+import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from .errors import SceneError
+from .pool import Outcome
 from .result import Values
 
 Setting = list[str]
 """Keys of the scene and what they are set to: "section.key=value"."""
+QUANTITIES = ("gamma", "contact", "approach", "pull-off", "force")
+"""What is compared: binding energy at zero load over flat, contact fraction there, works of the two branches over flat,
+largest attraction of the pull-off (eV/Å). Energies are compared over the flat reference of the same interaction, so
+that a cutoff is not blamed for the adhesion that it takes from both."""
+ASKED = {"state": 2, "path": len(QUANTITIES)}
+"""What a setting can be asked for: the relaxed state (the first two quantities), or all of the path too."""
+NAN = math.nan
 NUMERICS = ("block", "precision", "timestep", "tolerance", "step")
 """Parts that change no experiment: what a target may choose."""
 
 
-@dataclass
-class ParameterValue:
+class Value(NamedTuple):
     label: str
     setting: Setting
     x: float = 0.0
     """for the order of the error; 0: none"""
 
 
+def nothing() -> np.ndarray:
+    return np.full(len(QUANTITIES), NAN)
+
+
+@dataclass(eq=False)
+class Row:
+    """A setting to run and what came of it. parameter: its name, or "reference", "scene", "combination"."""
+
+    parameter: str
+    label: str
+    setting: Setting
+    """in full"""
+    own: Setting
+    """the part of it that is the parameter's value"""
+    x: float = 0.0
+    compared: bool = True
+    """its error is one of settings: not the reference, not another solid"""
+    outcome: Outcome = field(default_factory=Outcome)
+    numbers: np.ndarray = field(default_factory=nothing)
+    own_error: np.ndarray = field(default_factory=nothing)
+    error: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ASKED, NAN))
+    front: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(ASKED, False))
+    seconds: float = NAN
+    """of the processor"""
+    wall: float = NAN
+    added: float = NAN
+    """of a combination: the sum of its own errors"""
+
+    @property
+    def text(self) -> str:
+        """The setting as a user would give it."""
+        return "--set " + " ".join(self.setting) if self.setting else "the scene as it is"
+
+
 @dataclass
 class Parameter:
     name: str
-    values: list[ParameterValue]
+    rows: list[Row]
     """from coarse to fine"""
-    reference: ParameterValue | None
-    """what they are compared with; None: with the reference alone"""
+    reference: Row | None
+    """the last of them, what they are compared with; None: with the reference alone"""
     expected: str
     """order of its error in x, in words"""
     part: str = ""
@@ -45,8 +89,8 @@ class Parameter:
     order: float | None = None
     reference_is_exact: bool = False
     """nothing of the parameter's error is left in its reference: it may be chosen too"""
-    base: Setting = field(default_factory=list)
-    """of all its runs, where it has no effect on the scene as it is"""
+    without_effect: bool = False
+    """on the scene as it is: its runs have a base of their own"""
 
 
 @dataclass
@@ -76,8 +120,8 @@ def joined(first: Setting, then: Setting) -> Setting:
     return [one for one in first if one.partition("=")[0] not in later] + then
 
 
-def _value(key: str, v: float, unit: str) -> ParameterValue:
-    return ParameterValue(f"{v:.6g} {unit}".strip(), [f"{key}={v:.6g}"], v)
+def _value(key: str, v: float, unit: str) -> Value:
+    return Value(f"{v:.6g} {unit}".strip(), [f"{key}={v:.6g}"], v)
 
 
 def _refuse(scene: Values, same_experiment: bool) -> None:
@@ -143,19 +187,22 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     text = (f"without time, {path_text}{reach}double precision, "
             f"tolerance {0.1 * tolerance:.6g} eV/Å")
 
-    def scaled(key: str, unit: str, *factors: float) -> list[ParameterValue]:
+    def scaled(key: str, unit: str, *factors: float) -> list[Value]:
         return [_value(key, f * own(key), unit) for f in factors]
 
-    def with_tail(value: ParameterValue, tail: bool) -> ParameterValue:
-        return ParameterValue(value.label + " + tail" * tail, [*value.setting, f"interface.tail={str(tail).lower()}"], value.x)
+    def with_tail(value: Value, tail: bool) -> Value:
+        return Value(value.label + " + tail" * tail, [*value.setting, f"interface.tail={str(tail).lower()}"], value.x)
 
     parameters: list[Parameter] = []
 
-    def vary(*of: Any) -> None:
-        parameters.append(Parameter(*of))
+    def vary(name: str, values: list[Value], best: Value | None, expected: str, part: str = "",
+             order: float | None = None, exact: bool = False, base: Setting | None = None) -> None:
+        rows = [Row(name, label, joined(base or [], setting), setting, x, compared=name != "thickness")
+                for label, setting, x in [*values, *([best] if best else [])]]
+        parameters.append(Parameter(name, rows, rows[-1] if best else None, expected, part, order, exact, bool(base)))
 
     if length:
-        cutoffs = [_value("interface.cutoff", f * length, "Å") for f in (2.0, 2.5, 3.0, 4.0, 6.0) if f * length < widest]
+        cutoffs = [_value("interface.cutoff", f * length, "Å") for f in (2, 2.5, 3, 4, 6) if f * length < widest]
         finest = with_tail(_value("interface.cutoff", widest, "Å"), True)
         fades = scene.text("interface.potential") == "lennard-jones"
         vary("cutoff", [with_tail(v, False) for v in cutoffs], finest,
@@ -163,19 +210,20 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
         vary("tail", [with_tail(v, True) for v in cutoffs if v.x <= 4.0 * length], finest,
              "steeper than -4" if fades else "exponential", "interaction", None, True)
     if dynamic:
-        vary("layers", [ParameterValue(f"{m} a level", [f"block.layers_per_level={m}", "block.model=multiscale"], m)
-                        for m in (2, 3, 4, 6, 8)], ParameterValue("lattice", ["block.model=lattice"]),
+        vary("layers", [Value(f"{m} a level", [f"block.layers_per_level={m}", "block.model=multiscale"], m)
+                        for m in (2, 3, 4, 6, 8)], Value("lattice", ["block.model=lattice"]),
              "about -2 (docs/explanation/model.md: stiffness of waves)", "block", -2.0, True)
     layers = int(own("block.thickness"))
-    vary("thickness", [_value("block.thickness", t, "layers") for t in (layers // 4, layers // 2, layers, 2 * layers) if t],
-         _value("block.thickness", 8 * layers, "layers"), "none: another solid")
-    mixed, double = (ParameterValue(word, ["numerics.precision=" + word]) for word in ("mixed", "double"))
+    thicknesses = [_value("block.thickness", t, "layers")
+                   for t in (layers // 4, layers // 2, layers, 2 * layers, 8 * layers) if t]
+    vary("thickness", thicknesses[:-1], thicknesses[-1], "none: another solid")
+    mixed, double = (Value(word, ["numerics.precision=" + word]) for word in ("mixed", "double"))
     vary("precision", [mixed], double, "none: rounding", "precision", None, True)
     notes = []
     if dynamic:
         vary("timestep", [v for v in scaled("drive.timestep", "fs", 6, 5, 4, 3, 2, 1) if v.x < 0.9 * longest_timestep],
              *scaled("drive.timestep", "fs", 0.5), "2 (velocity Verlet)", "timestep", 2.0)
-        vary("velocity", scaled("drive.velocity", "m/s", 4, 2, 1, 0.5, 0.25), ParameterValue("quasi-static", at_rest),
+        vary("velocity", scaled("drive.velocity", "m/s", 4, 2, 1, 0.5, 0.25), Value("quasi-static", at_rest),
              "1: drag and waves; state: none", "velocity", 1.0, True)
         if own("drive.damping") > 0:
             vary("damping", scaled("drive.damping", "1/ps", 4, 2, 1, 0.5), *scaled("drive.damping", "1/ps", 0.125),
@@ -188,16 +236,15 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     if moves:
         vary("step", scaled("drive.step", "Å", 4, 2, 1, 0.5), *scaled("drive.step", "Å", 0.25),
              "none: steps are cut where needed", "step", None, False, still)
-    models = [ParameterValue("lattice, in time", ["block.model=lattice"])] if dynamic else []
+    models = [Value("lattice, in time", ["block.model=lattice"])] if dynamic else []
     if moves:
-        models += [ParameterValue("quasi-static", at_rest), ParameterValue("zero load alone", ["drive.path=zero-load"])]
+        models += [Value("quasi-static", at_rest), Value("zero load alone", ["drive.path=zero-load"])]
         vary("model", models, None, "")
 
     if same_experiment:
-        # Parameters with a base of their own have no effect on the scene as it is.
-        parameters = _chosen([k for k in parameters if k.part in NUMERICS and not k.base], names or [])
+        parameters = _chosen([k for k in parameters if k.part in NUMERICS and not k.without_effect], names or [])
         best = [k.reference for k in parameters if k.reference]
-        return CostCase([key for one in best for key in one.setting],
+        return CostCase([key for one in best for key in one.own],
                         "the scene with " + ", ".join(one.label for one in best), parameters,
                         [Base("", [], [k.part for k in parameters], "path" if moves else "state")], [])
     bases = []

@@ -109,21 +109,13 @@ class Top:
             self._simulation._top_velocity = v
 
 
-class Substrate:
+class Substrate(NamedTuple):
     """The rigid substrate."""
 
-    def __init__(self, simulation: Simulation):
-        self._simulation = simulation
-
-    @property
-    def height(self) -> numpy.ndarray:
-        """Heights of its atoms, Å, a view [y, x] to be read."""
-        return self._simulation._substrate_height
-
-    @property
-    def edge(self) -> float:
-        """Edge of the periodic box, Å."""
-        return self._simulation._substrate_edge
+    height: numpy.ndarray
+    """Heights of its atoms, Å, a view [y, x] to be read."""
+    edge: float
+    """Edge of the periodic box, Å."""
 
 
 MAPS = {"gap": "Å", "contact": "1", "pressure": "GPa"}
@@ -140,30 +132,25 @@ SERIES: dict[str, tuple[str, Callable[[Simulation], float]]] = {
 @contextlib.contextmanager
 def _bar(steps: int) -> Iterator[Callable[[Simulation, int], None]]:
     """A bar of tqdm, in a notebook one of its own kind, or lines of text; to be told how many steps were made."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # a notebook without ipywidgets has bars of text
-            from tqdm.auto import tqdm
+    bar, text = None, Progress()
+    with contextlib.suppress(ImportError), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # a notebook without ipywidgets has bars of text
+        from tqdm.auto import tqdm
 
-            bar = tqdm(total=steps, unit="step")
-    except ImportError:
-        text = Progress()
+        bar = tqdm(total=steps, unit="step")
 
-        def tell(simulation: Simulation, made: int) -> None:
-            if text.due() or made == steps:
-                text.update(f"{made} of {steps} steps, {simulation.time:.1f} ps, {simulation.force:.4g} eV/Å")
-
-        try:
-            yield tell
-        finally:
-            text.finish()
-    else:
-        def tell(simulation: Simulation, made: int) -> None:
-            bar.set_postfix_str(f"{simulation.time:.1f} ps, {simulation.force:.4g} eV/Å", refresh=False)
+    def tell(simulation: Simulation, made: int) -> None:
+        said = f"{simulation.time:.1f} ps, {simulation.force:.4g} eV/Å"
+        if bar is not None:
+            bar.set_postfix_str(said, refresh=False)
             bar.update(made - bar.n)
+        elif text.due() or made == steps:
+            text.update(f"{made} of {steps} steps, {said}")
 
-        with bar:
-            yield tell
+    try:
+        yield tell
+    finally:
+        (text.finish if bar is None else bar.close)()
 
 
 def _number(comm: Any) -> int | None:
@@ -263,7 +250,7 @@ class Simulation(_engine.Simulation):
     @property
     def substrate(self) -> Substrate:
         """The substrate: .height (Å, [y, x]) and .edge (Å)."""
-        return Substrate(self)
+        return Substrate(self._substrate_height, self._substrate_edge)
 
     def every(self, n: int, observer: Callable[[Simulation], Any], name: str | None = None) -> None:
         """Calls observer(simulation) after each step whose number divides by n, the first one included.
@@ -309,32 +296,24 @@ class Simulation(_engine.Simulation):
         """Writes a result directory for asperity.load(): the scene, `series`, and the maps of the sites as they are,
         as the state "now". With `comm` the first rank writes them, with its own series and the maps of all. Raises
         SceneError where there is a result already."""
-        maps = self._whole_maps()
-        if self._comm is None:
-            return self._write(directory, maps)
+        maps, comm = self.maps(), self._comm
+        mine = {name: getattr(maps, name) for name in MAPS}
+        if comm is None:
+            return self._write(directory, mine)
+        whole = {name: numpy.empty(self.substrate.height.shape, values.dtype) for name, values in mine.items()}
+        for tile, part in comm.gather((self.tile, mine)) or []:
+            for name, values in part.items():
+                whole[name][tile] = values
         place = failed = None
-        if self._comm.rank == 0:
+        if comm.rank == 0:
             try:
-                place = self._write(directory, maps)
+                place = self._write(directory, whole)
             except Exception as error:
                 failed = error
-        place, failed = self._comm.bcast((place, failed))
+        place, failed = comm.bcast((place, failed))
         if failed:
             raise failed
         return place
-
-    def _whole_maps(self) -> dict[str, numpy.ndarray]:
-        """Those of all sites, on the first rank."""
-        maps = self.maps()
-        mine = {name: getattr(maps, name) for name in MAPS}
-        if self._comm is None:
-            return mine
-        parts = self._comm.gather((self.tile, mine)) or []
-        whole = {name: numpy.empty(self.substrate.height.shape, values.dtype) for name, values in mine.items()}
-        for tile, part in parts:
-            for name, values in part.items():
-                whole[name][tile] = values
-        return whole
 
     def _write(self, directory: str | os.PathLike, maps: dict[str, numpy.ndarray]) -> Path:
         place = files.chosen(os.fspath(directory), "")

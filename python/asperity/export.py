@@ -30,21 +30,20 @@ import numpy as np
 from . import files
 from .errors import InputOutputError, SceneError
 from .page import file_name
-from .plots import files as figures
+from .plots import style as figures
 from .plots.run import map_of
 from .result import Result, State, expect
 
 TRAJECTORY = "/particles/trajectory"
 ASE_TIME = 0.010180505671156723
 """ASE's unit of time, Å sqrt(u/eV), in ps."""
-FORMATS = ("xyz", "lammps", "xdmf", "vtk", "png")
 DISPLACEMENT = ("u_x", "u_y", "u_z")
 
 
 @dataclass
 class Atoms:
-    """One frame. positions [atom, 3] (Å); types: the substrate's from 1, the last one is the block's; columns: [atom] or
-    [atom, 3] by name."""
+    """One frame. positions [atom, 3] (Å); types: the substrate's from 1, the last one is the block's; columns: [atom]
+    or [atom, 3] by name."""
 
     positions: np.ndarray
     types: np.ndarray
@@ -67,19 +66,16 @@ class Atoms:
         return z.min() - 1.0, z.max() + 1.0
 
 
-def _rows(file: IO[str], parts: list[tuple[str, np.ndarray]]) -> None:
-    """Lines of columns, each with its format."""
-    line = " ".join(form for form, _ in parts) + "\n"
-    columns = [c.tolist() for _, c in parts]
+def _rows(file: IO[str], atoms: Atoms, before: list[np.ndarray], after: list[np.ndarray]) -> None:
+    """Lines of columns: those before the positions, these with more digits, and those behind."""
+    forms, columns = [], []
+    for values in [*before, atoms.positions, *after]:
+        form = {"U": "%s", "f": "%.8g" if values is atoms.positions else "%.6g"}.get(values.dtype.kind, "%d")
+        for column in values.T if values.ndim == 2 else [values]:
+            forms.append(form)
+            columns.append(column.tolist())
+    line = " ".join(forms) + "\n"
     file.writelines(line % row for row in zip(*columns))
-
-
-def _columns(columns: dict[str, np.ndarray]) -> list[tuple[str, np.ndarray]]:
-    parts = []
-    for values in columns.values():
-        form = "%d" if values.dtype.kind in "iub" else "%.6g"
-        parts += [(form, c) for c in (values.T if values.ndim == 2 else [values])]
-    return parts
 
 
 def _xyz_columns(atoms: Atoms) -> dict[str, np.ndarray]:
@@ -102,8 +98,7 @@ def write_xyz(file: IO[str], atoms: Atoms) -> None:
     for name, values in columns.items():
         head += f":{name}:{'I' if values.dtype.kind in 'iub' else 'R'}:{3 if values.ndim == 2 else 1}"
     file.write(f"{head} step={atoms.step} time={atoms.time:.8g}\n")
-    _rows(file, [("%s", atoms.species), *(("%.8g", c) for c in atoms.positions.T), ("%d", atoms.types),
-                 *_columns(columns)])
+    _rows(file, atoms, [atoms.species], [atoms.types, *columns.values()])
 
 
 LAMMPS_NAMES = {"velocity": ("vx", "vy", "vz")}
@@ -117,11 +112,10 @@ def write_dump(file: IO[str], atoms: Atoms) -> None:
         vector = LAMMPS_NAMES.get(name, tuple(f"{name}[{k + 1}]" for k in range(3)))
         names += " " + (" ".join(vector) if values.ndim == 2 else name)
     # The order of `dump_modify time yes`: LAMMPS' reader refuses a time behind the step.
-    file.write(f"ITEM: TIME\n{atoms.time:.8g}\nITEM: TIMESTEP\n{atoms.step}\nITEM: NUMBER OF ATOMS\n{len(atoms.types)}\n"
-               f"ITEM: BOX BOUNDS pp pp ff\n0 {atoms.edge:.8g}\n0 {atoms.edge:.8g}\n{low:.8g} {high:.8g}\n"
-               f"ITEM: ATOMS {names}\n")
-    _rows(file, [("%d", np.arange(1, len(atoms.types) + 1)), ("%d", atoms.types), ("%s", atoms.species),
-                 *(("%.8g", c) for c in atoms.positions.T), *_columns(atoms.columns)])
+    file.write(f"ITEM: TIME\n{atoms.time:.8g}\nITEM: TIMESTEP\n{atoms.step}\n"
+               f"ITEM: NUMBER OF ATOMS\n{len(atoms.types)}\nITEM: BOX BOUNDS pp pp ff\n0 {atoms.edge:.8g}\n"
+               f"0 {atoms.edge:.8g}\n{low:.8g} {high:.8g}\nITEM: ATOMS {names}\n")
+    _rows(file, atoms, [np.arange(1, len(atoms.types) + 1), atoms.types, atoms.species], list(atoms.columns.values()))
 
 
 def write_data(file: IO[str], atoms: Atoms, name: str, mass: float) -> None:
@@ -129,10 +123,10 @@ def write_data(file: IO[str], atoms: Atoms, name: str, mass: float) -> None:
     low, high = atoms.box_z
     types = atoms.types.max()
     masses = "".join(f"{t} {mass:.8g} # {'substrate' if t < types else 'block'}\n" for t in range(1, types + 1))
-    file.write(f"{name} (asperity export)\n\n{len(atoms.types)} atoms\n{types} atom types\n\n0 {atoms.edge:.8g} xlo xhi\n"
-               f"0 {atoms.edge:.8g} ylo yhi\n{low:.8g} {high:.8g} zlo zhi\n\nMasses\n\n{masses}\nAtoms # atomic\n\n")
-    _rows(file, [("%d", np.arange(1, len(atoms.types) + 1)), ("%d", atoms.types),
-                 *(("%.8g", c) for c in atoms.positions.T)])
+    file.write(f"{name} (asperity export)\n\n{len(atoms.types)} atoms\n{types} atom types\n\n"
+               f"0 {atoms.edge:.8g} xlo xhi\n0 {atoms.edge:.8g} ylo yhi\n{low:.8g} {high:.8g} zlo zhi\n\n"
+               f"Masses\n\n{masses}\nAtoms # atomic\n\n")
+    _rows(file, atoms, [np.arange(1, len(atoms.types) + 1), atoms.types], [])
 
 
 def _text(template: str, **values: Any) -> str:
@@ -172,8 +166,9 @@ class Export:
         self.rigid = self.run.substrate.atoms
         if self.rigid is None:
             self.rigid = np.column_stack([x * self.run.edge / n, y * self.run.edge / n, height.ravel()])
-        types = self.run.substrate.types
-        self.types = np.ones(len(self.rigid), int) if types is None else types
+        self.types = self.run.substrate.types
+        if self.types is None:
+            self.types = np.ones(len(self.rigid), int)
         if len(self.types) != len(self.rigid):
             raise self._strange(f"has {len(self.types)} types of {len(self.rigid)} atoms",
                                 "each atom of the substrate has one")
@@ -188,16 +183,17 @@ class Export:
         steps = self.run.file.members(TRAJECTORY + "/position")
         return len(self.run.file.array(TRAJECTORY + "/position/step", 1)) if "step" in steps else 0
 
-    def _types(self, sites: int) -> np.ndarray:
-        """Of the substrate's atoms and the block's."""
-        return np.concatenate([self.types, np.full(sites, self.types.max() + 1)])
-
     def _sites(self, state: State) -> int:
         """Of the state's maps, which must be of one size."""
         sizes = {len(state[name]) for name in state}
         if len(sizes) != 1:
             raise self._strange(f'state "{state.name}" cannot be exported', f"its maps have the sizes {sorted(sizes)}")
         return sizes.pop()
+
+    def _atoms(self, layer: np.ndarray, *more: Any) -> Atoms:
+        """Of the substrate, and of the block's lowest layer."""
+        types = np.concatenate([self.types, np.full(len(layer), self.types.max() + 1)])
+        return Atoms(np.vstack([self.rigid, layer]), types, self.run.edge, *more)
 
     def _state_atoms(self, state: State) -> Atoms:
         """Both layers with the maps as columns, zero for the substrate. Sites stand over its hollows."""
@@ -217,7 +213,7 @@ class Export:
                 if values.dtype.kind == "f":
                     values = np.where(np.isfinite(values), values, -1.0)  # no atom in reach
                 columns[name] = np.concatenate([np.zeros(rigid, values.dtype), values])
-        return Atoms(np.vstack([self.rigid, rest + u]), self._types(n * n), self.run.edge, columns)
+        return self._atoms(rest + u, columns)
 
     def _trajectory(self) -> Iterator[Atoms]:
         file = self.run.file
@@ -229,8 +225,7 @@ class Export:
             if moving:
                 v = file.array(TRAJECTORY + "/velocity/value", 2, frame).astype(float)
                 columns["velocity"] = np.vstack([np.zeros_like(self.rigid), v])
-            yield Atoms(np.vstack([self.rigid, layer]), self._types(len(layer)), self.run.edge,
-                        columns, int(steps[frame]), float(times[frame]), self._mass)
+            yield self._atoms(layer, columns, int(steps[frame]), float(times[frame]), self._mass)
 
     def atoms(self, xyz: bool) -> list[Path]:
         """Every state, and the trajectory."""
@@ -271,11 +266,9 @@ class Export:
             if set(DISPLACEMENT) <= set(state):
                 maps["displacement (Å)"] = np.dstack([state[name] for name in DISPLACEMENT])
             texts[file_name(state.name)] = image_text(self.spacing, 0.5 * self.spacing, maps)
-        written = []
         for name, text in texts.items():
             files.write(self._path(name + ".vti"), text)
-            written.append(self._path(name + ".vti"))
-        return written
+        return [self._path(name + ".vti") for name in texts]
 
     def xdmf(self) -> list[Path]:
         """run.xdmf beside run.h5; frames one by one in export/trajectory.h5."""
@@ -285,21 +278,17 @@ class Export:
             maps = [(_title(name), f"/fields/{state.name}/{name}", name == "contact") for name in state]
             if maps:
                 grids.append((state.name, self._sites(state), self.spacing, 0.5 * self.spacing, maps))
-        written: list[Path] = []
-        times: list[float] = []
-        points = 0
+        path, frames, times, points = self.run.directory / "run.xdmf", [], [], 0
         if self._frames():
-            path = self._path("trajectory.h5")
-            with files.replacing(path) as beside, h5py.File(beside, "w") as copy:
-                for number, time in enumerate(self.run.file.array(TRAJECTORY + "/position/time", 1)):
+            frames = [self._path("trajectory.h5")]
+            times = self.run.file.array(TRAJECTORY + "/position/time", 1).tolist()
+            with files.replacing(frames[0]) as beside, h5py.File(beside, "w") as copy:
+                for number in range(len(times)):
                     values = self.run.file.array(TRAJECTORY + "/position/value", 2, number).astype("f4")
                     copy[f"position-{number}"] = values
                     points = len(values)
-                    times.append(float(time))
-            written.append(path)
-        path = self.run.directory / "run.xdmf"
         files.write(path, _text("run.xdmf", grids=grids, points=points, times=times))
-        return [*written, path]
+        return [*frames, path]
 
 
 def _title(name: str) -> str:
@@ -307,18 +296,19 @@ def _title(name: str) -> str:
     return name if name == "contact" else f"{name} ({'GPa' if name == 'pressure' else 'Å'})"
 
 
-def export_command(directory: str, kind: str) -> int:
-    """Returns the exit code. Raises InputOutputError for a directory with nothing to export."""
+FORMATS: dict[str, Callable[[Export], list[Path]]] = {
+    "xyz": partial(Export.atoms, xyz=True), "lammps": partial(Export.atoms, xyz=False), "xdmf": Export.xdmf,
+    "vtk": Export.images, "png": Export.pictures}
+
+
+def export(directory: Path, kind: str) -> list[Path]:
+    """The files that were written. Raises InputOutputError for a directory with nothing to export."""
     if kind not in FORMATS:
         raise SceneError(f"--to {kind}", "is no format of export", "formats: " + ", ".join(FORMATS),
                          f"for example: asperity export {directory} --to xyz")
-    export = Export(Path(directory))
-    written = {"xyz": lambda: export.atoms(True), "lammps": lambda: export.atoms(False), "xdmf": export.xdmf,
-               "vtk": export.images, "png": export.pictures}[kind]()
+    written = FORMATS[kind](Export(directory))
     if not written:
-        raise InputOutputError(str(Path(directory) / "run.h5"), "has nothing to export",
+        raise InputOutputError(str(directory / "run.h5"), "has nothing to export",
                                "it holds neither maps of a state nor a trajectory",
                                "a run that reaches its state at zero load has maps; output.trajectory asks for frames")
-    for path in written:
-        print(path)
-    return 0
+    return written

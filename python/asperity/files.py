@@ -12,6 +12,7 @@ import contextlib
 import csv
 import fcntl
 import io
+import itertools
 import json
 import math
 import os
@@ -19,7 +20,7 @@ import re
 import socket
 import time
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -89,11 +90,18 @@ def chosen(out: str | None, otherwise: str) -> Path:
     if out == "":
         raise SceneError("--out", "is empty", "it names the directory of the results", f"leave it out for {otherwise}")
     if place.exists() and not place.is_dir():
-        raise SceneError(f"--out {place}", "is not a directory", "a file of that name is there", "name another directory")
+        raise SceneError(f"--out {place}", "is not a directory", "a file of that name is there",
+                         "name another directory")
     if place.resolve() == Path("/"):
         raise SceneError(f"--out {place}", "is the root of all directories", "results have a directory of their own",
                          "name another directory")
     return place
+
+
+def numbered(first: Path, taken: Callable[[Path], bool]) -> Path:
+    """This one, or else the first of first-2, first-3, ... that is not taken."""
+    others = (first.with_name(f"{first.name}-{number}") for number in itertools.count(2))
+    return next(place for place in itertools.chain([first], others) if not taken(place))
 
 
 LOCK = "run.lock"

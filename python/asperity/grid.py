@@ -29,10 +29,6 @@ class Axis:
     where: str = ""
     """the place of the list of values, for messages"""
 
-    @property
-    def is_seed(self) -> bool:
-        return is_seed(self.key)
-
 
 def is_seed(key: str) -> bool:
     return key.endswith(".seed")
@@ -56,7 +52,8 @@ def _range(text: str, where: str, whole: bool) -> list[str]:
     start, stop, step = numbers
     steps = (stop - start) / step if step else -1.0
     if not steps >= 0:
-        raise SceneError(where, "is a range without values", f"steps of {step:g} do not lead from {start:g} to {stop:g}",
+        raise SceneError(where, "is a range without values",
+                         f"steps of {step:g} do not lead from {start:g} to {stop:g}",
                          "give start:stop:step with a step towards stop")
     if not steps < MOST_POINTS:
         raise SceneError(where, f"asks for {math.floor(steps) + 1:.3g} values",

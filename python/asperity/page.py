@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 
 from . import files
 from .errors import Error
-from .plots import files as figures
+from .plots import style as figures
 
 
 def file_name(text: str) -> str:
@@ -33,14 +33,6 @@ def _set(text: Any) -> Markup:
     """Escaped, with its subscripts γ_{eff}, and units that stay with their numbers."""
     out = re.sub(r"_\{([^}]*)\}", r"<sub>\1</sub>", str(escape(str(text))))
     return Markup(out.replace(" meV/Å", "\u00a0meV/\u2060Å"))
-
-
-class Row(list):
-    """A row of a table; link: where its first cell leads."""
-
-    def __init__(self, cells: list[str], link: str = ""):
-        super().__init__(cells)
-        self.link = link
 
 
 @dataclass
@@ -77,6 +69,10 @@ class Page:
         if content:
             self.sections[-1].parts.append((kind, content))
 
+    def table(self, heads: list[str], rows: list[list[str]], links: list[str] | None = None) -> None:
+        """links: where the first cell of each row leads."""
+        self.add("table", rows and {"heads": heads, "rows": list(zip(rows, links or [""] * len(rows)))})
+
     def figure(self, id: str, heading: str, caption: str, draw: Callable[[Axes], bool]) -> bool:
         """A figure in the section, with PNG, PDF, SVG and CSV. False: there was nothing to draw."""
         try:
@@ -107,5 +103,5 @@ class Page:
         environment.filters["set"] = _set
         text = environment.get_template("page.html").render(page=self)
         files.write(self.path, text)
-        self.said = (f"{self.path}: one page, {len(text.encode()) / 1e6:.1f} MB, nothing else needed; {self.files} files of "
-                     f"its figures in {self.directory / 'report'}")
+        self.said = (f"{self.path}: one page, {len(text.encode()) / 1e6:.1f} MB, nothing else needed; "
+                     f"{self.files} files of its figures in {self.directory / 'report'}")

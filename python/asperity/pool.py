@@ -21,11 +21,12 @@ import subprocess
 import threading
 import time
 import uuid
+from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from . import files, program
 from .errors import Error, InputOutputError, SceneError
@@ -48,16 +49,8 @@ class Job:
     file: str
     """of the scene"""
     overrides: list[str]
-    scene: dict[str, Any]
-    """what these make of the file"""
-    digests: dict[str, str] = field(default_factory=dict)
-    """of the files that the scene reads, as they are now; "": it reads none of this kind"""
-
-    @classmethod
-    def of(cls, name: str, directory: Path, file: str, overrides: list[str], answer: dict[str, Any]) -> Job:
-        """answer: of program.theory_points(runnable=True)."""
-        return cls(name, directory, file, overrides, answer["scene"],
-                   {key: Values(answer).text(key) for key in FILE_DIGESTS})
+    answer: dict[str, Any]
+    """of program.theory_points(runnable=True): the scene that they make of the file, digests of the files it reads"""
 
 
 @dataclass
@@ -98,15 +91,15 @@ def look_at(job: Job) -> Outcome:
     if not path.exists():
         return Outcome()
     try:
-        result = Values(read_json(path))
+        result = read_json(path)
     except InputOutputError as error:
         return Outcome(damaged=str(error).split("why: ")[-1].splitlines()[0])
     remedy = "name another directory (--out), or remove this one"
-    if result.find("scene") != job.scene:
+    if result.find("scene") != job.answer["scene"]:
         raise SceneError(str(job.directory), "holds the result of another scene",
                          "results that are there are used again, and this one does not belong here", remedy)
     for key, file in FILE_DIGESTS.items():
-        digest, now = result.text(key), job.digests.get(key, "")
+        digest, now = result.text(key), Values(job.answer).text(key)
         if digest != now:
             raise SceneError(str(job.directory), f"holds the result of another content of {result.text(file)}",
                              f"the file's digest is {now} now, and was {digest} then" if digest else
@@ -133,45 +126,32 @@ def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
 
 # What a worker does.
 
-@dataclass(frozen=True)
-class Task:
-    """A run, for a worker: it is pickled."""
-
-    words: list[str]
-    folder: str
-    """where the words are meant"""
-    directory: str
-    """of the result"""
-    threads: int
-    """if the worker's OMP_NUM_THREADS says nothing; 0: none is set"""
-    overrule: bool
-    """whatever it says"""
-    going: str
-    """a file: the run goes on while it exists; it is killed where "kill" is in it"""
-
-
-@dataclass(frozen=True)
-class Ended:
+class Ended(NamedTuple):
     code: int
     seconds: float = 0.0
     reason: str = ""
 
 
-def _told(task: Task) -> str:
+def _told(going: str) -> str:
     """"stop", "kill" or nothing."""
     try:
-        return Path(task.going).read_text()
+        return Path(going).read_text()
     except FileNotFoundError:
         return "stop"
     except OSError:  # of a network's disk
         return ""
 
 
-def run_task(task: Task) -> Ended:
-    """Runs a task to its end, or until it is told to stop."""
-    place, start = Path(task.directory), time.monotonic()
+def run_task(words: list[str], folder: str, directory: str, threads: str, overrule: bool, going: str) -> Ended:
+    """Runs a point to its end, or until it is told to stop. All that it is given can be pickled.
+
+    words, directory   the command, which is meant in `folder`; the directory of its result
+    threads            if the worker's OMP_NUM_THREADS says nothing or is overruled; "": none is set
+    going              a file: the run goes on while it exists; it is killed where "kill" is in it
+    """
+    place, start = Path(directory), time.monotonic()
     # A run whose worker was killed writes its checkpoint meanwhile.
-    while not (told := _told(task)) and time.monotonic() - start < 60 and files.kept(place):
+    while not (told := _told(going)) and time.monotonic() - start < 60 and files.kept(place):
         time.sleep(0.1)
     if told:
         return Ended(STOPPED)
@@ -180,12 +160,12 @@ def run_task(task: Task) -> Ended:
     except Error as error:
         return Ended(error.code, 0.0, str(error).splitlines()[0])
     environment = environment_alone()
-    if task.threads and (task.overrule or "OMP_NUM_THREADS" not in environment):
-        environment["OMP_NUM_THREADS"] = str(task.threads)
-    parent = os.getpid()
+    if threads and (overrule or "OMP_NUM_THREADS" not in environment):
+        environment["OMP_NUM_THREADS"] = threads
+    parent, is_run = os.getpid(), words[1] == "run"  # else a launcher
 
     def prepare() -> None:  # in the child: a signal that comes early waits until the run can catch it
-        if task.words[1] == "run":  # not a launcher
+        if is_run:
             signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGUSR1, signal.SIGTERM, signal.SIGINT})
         _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGUSR1)
         if os.getppid() != parent:
@@ -195,11 +175,10 @@ def run_task(task: Task) -> Ended:
     try:
         with open(place / "log.txt", "ab") as log:
             # A session of its own: Ctrl-C goes to the pool, and from there on as USR1.
-            child = subprocess.Popen(task.words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd=task.folder,
+            child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd=folder,
                                      env=environment, start_new_session=True, preexec_fn=prepare)
     except FileNotFoundError:
-        launcher = "" if task.words[1] == "run" else " of --launch"
-        return Ended(127, 0.0, f"'{task.words[0]}'{launcher} cannot be started")
+        return Ended(127, 0.0, f"'{words[0]}'{'' if is_run else ' of --launch'} cannot be started")
     except OSError as error:
         return Ended(InputOutputError.code, 0.0, f"cannot be run: {error.strerror}; start fewer points at once")
     try:
@@ -207,7 +186,7 @@ def run_task(task: Task) -> Ended:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 child.wait(0.2)
                 break
-            last, told = told, _told(task)
+            last, told = told, _told(going)
             if told == "kill":
                 os.killpg(child.pid, signal.SIGKILL)
             elif told and not last:
@@ -247,43 +226,35 @@ def executor_of(text: str) -> Iterator[Executor | None]:
 
 # What the sweep does.
 
-class _Signals:
-    """Counts INT, TERM and USR1 while it is entered."""
-
-    def __init__(self) -> None:
-        self.count = 0
-
-    def __enter__(self) -> _Signals:
-        def note(*_: Any) -> None:
-            self.count += 1
-
-        self._main = threading.current_thread() is threading.main_thread()
-        if self._main:
-            self._before = {s: signal.signal(s, note) for s in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1)}
-        return self
-
-    def __exit__(self, *_: Any) -> None:
-        if self._main:
-            for number, handler in self._before.items():
-                signal.signal(number, handler)
+@contextlib.contextmanager
+def _signals() -> Iterator[list[int]]:
+    """Those of INT, TERM and USR1 that come meanwhile."""
+    came: list[int] = []
+    if threading.current_thread() is not threading.main_thread():
+        yield came
+        return
+    before = {number: signal.signal(number, lambda caught, _: came.append(caught))
+              for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1)}
+    try:
+        yield came
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _last_line(job: Job) -> str:
+    """Of what its run has said."""
     try:
-        with open(job.directory / "log.txt", "rb") as log:
-            log.seek(max(0, log.seek(0, os.SEEK_END) - 400))
-            lines = [line for line in log.read().decode("utf-8", "replace").splitlines() if line.strip()]
+        text = (job.directory / "log.txt").read_text("utf-8", "replace")
     except OSError:
         return ""
-    return lines[-1].strip() if lines else ""
+    return text.rstrip().rpartition("\n")[2].strip()
 
 
 def _fraction(job: Job) -> float:
     """How far a run has come, by its last line (" 45 %  approach, ..."); 0: not known."""
     head = _last_line(job).split(" %")[0].strip()
     return min(1.0, int(head) / 100) if head.isdigit() else 0.0
-
-
 
 
 class Pool:
@@ -294,61 +265,56 @@ class Pool:
         self.progress = Progress(options.progress)
         self.waiting = [i for i, outcome in enumerate(outcomes) if outcome.status == WAITING]
         self.running: dict[int, float] = {}  # since when
-        self.finished: dict[str, tuple[int, float]] = {}  # points of a scene and the seconds they took
+        # Of each scene, the points that were done and the seconds that they took.
+        self.done: Counter[str] = Counter()
+        self.seconds: Counter[str] = Counter()
         self.stopping = self.killed = False
         self.start_time = time.monotonic()
         self.place = place.resolve()
         self.going = self.place / f"going-{uuid.uuid4().hex}"
 
-    def run(self, done: Callable[[int], None] = lambda i: None) -> bool:
-        """done(i) is called after each. False: stopped before all of them had run."""
+    def run(self, done: Callable[[], None] = lambda: None) -> bool:
+        """done() is called after each. False: stopped before all of them had run."""
         for old in self.place.glob("going-*"):  # of one that was killed, whose workers may live
             old.unlink()
         with contextlib.ExitStack() as stack:
-            signals = stack.enter_context(_Signals())
+            signals = stack.enter_context(_signals())
             executor = self.options.executor or stack.enter_context(ThreadPoolExecutor(self.options.jobs))
             self.going.touch()
             stack.callback(self.going.unlink, missing_ok=True)  # also tells workers, if an error of our own ends this
             stack.callback(self.progress.finish)
-            futures = {self._submitted(executor, i): i for i in list(self.waiting) if self._prepared(i)}
+            futures = {self._submitted(executor, i): i for i in self.waiting}
             left = set(futures)
             while left:
                 ended, left = wait(left, timeout=0.05, return_when=FIRST_COMPLETED)
                 for i, future in sorted((futures[f], f) for f in ended):
                     self._conclude(i, future)
-                    done(i)
-                left -= self._stop_if_told(signals.count, {f: futures[f] for f in left})
+                    done()
+                left -= self._stop_if_told(len(signals), {f: futures[f] for f in left})
                 if self.progress.due():
                     self._look_for_running()
                     self.progress.update(self._state())
         return not self.stopping and all(o.status != WAITING for o in self.outcomes)
 
-    def _prepared(self, i: int) -> bool:
-        """A damaged result is moved away, or its run would be refused."""
-        try:
-            if self.outcomes[i].damaged:
-                files.set_aside(self.jobs[i].directory / RESULT)
-        except Error as error:
-            self._fail(i, error.code, str(error).splitlines()[0])
-            return False
-        return True
-
     def _submitted(self, executor: Executor, i: int) -> Future:
         job, options = self.jobs[i], self.options
         directory = str(job.directory.resolve())
-        words = [*options.launch, program.path(), "run", job.file, "--out", directory, "--progress", "lines", "--resume",
-                 "auto", *program.sets(job.overrides)]
+        words = [*options.launch, program.path(), "run", job.file, "--out", directory, "--progress", "lines",
+                 "--resume", "auto", *program.sets(job.overrides)]
         equal = 1 if options.executor else max(1, len(os.sched_getaffinity(0)) // options.jobs)
-        task = Task(words, os.getcwd(), directory, options.threads or (0 if options.launch else equal),
-                    options.threads > 0, str(self.going))
+        threads = options.threads or (0 if options.launch else equal)
         try:
-            return executor.submit(run_task, task)
-        except RuntimeError as error:  # all its workers were lost
+            if self.outcomes[i].damaged:  # moved away, or its run would be refused
+                files.set_aside(job.directory / RESULT)
+            return executor.submit(run_task, words, os.getcwd(), directory, str(threads or ""), options.threads > 0,
+                                   str(self.going))
+        except (Error, RuntimeError) as error:  # RuntimeError: all workers were lost
             future: Future = Future()
             future.set_exception(error)
             return future
 
     def _conclude(self, i: int, future: Future) -> None:
+        job = self.jobs[i]
         self.running.pop(i, None)
         if i in self.waiting:
             self.waiting.remove(i)
@@ -356,27 +322,25 @@ class Pool:
             return
         try:
             ended = future.result()
+        except Error as error:
+            ended = Ended(error.code, 0.0, str(error).splitlines()[0])
         except Exception as error:
             ended = Ended(1, 0.0, f"its worker was lost: {type(error).__name__}: {error}".splitlines()[0])
-        code = ended.code
-        outcome = self.outcomes[i] = look_at(self.jobs[i])
-        died = code < 0
+        code, died = ended.code, ended.code < 0
+        outcome = self.outcomes[i] = look_at(job)
         if outcome.status == DONE:
-            points, before = self.finished.get(self.jobs[i].file, (0, 0.0))
-            self.finished[self.jobs[i].file] = points + 1, before + ended.seconds
-            self._say(i, "done in " + duration(ended.seconds))
+            self.done[job.file] += 1
+            self.seconds[job.file] += ended.seconds
+            self._say(job, "done in " + duration(ended.seconds))
         elif code == STOPPED or (self.stopping and died):
             if ended.seconds:
-                saved = (self.jobs[i].directory / "checkpoint.h5").exists()
-                self._say(i, "stopped, with a checkpoint" if saved else "stopped before its first checkpoint")
+                saved = (job.directory / "checkpoint.h5").exists()
+                self._say(job, "stopped, with a checkpoint" if saved else "stopped before its first checkpoint")
         else:
-            self._fail(i, code if code > 0 else 1, ended.reason or outcome.reason or outcome.damaged or (
-                f"ended by signal {-code} ({signal.strsignal(-code)})" if died else _last_line(self.jobs[i])))
-
-    def _fail(self, i: int, code: int, reason: str) -> None:
-        outcome = self.outcomes[i]
-        outcome.status, outcome.exit_code, outcome.reason = FAILED, code, reason
-        self._say(i, f"FAILED (exit {code}): {reason}")
+            outcome.status, outcome.exit_code = FAILED, max(code, 1)
+            outcome.reason = ended.reason or outcome.reason or outcome.damaged or (
+                f"ended by signal {-code} ({signal.strsignal(-code)})" if died else _last_line(job))
+            self._say(job, f"FAILED (exit {outcome.exit_code}): {outcome.reason}")
 
     def _stop_if_told(self, interruptions: int, left: dict[Future, int]) -> set[Future]:
         """Returns those that nothing will come of."""
@@ -391,15 +355,15 @@ class Pool:
                               f"running, {len(left) - n} not started")
             # What a worker has taken meanwhile stops too: the file is gone.
             return {future for future, i in left.items() if i not in self.running and future.cancel()}
-        if interruptions > 1 and not self.killed:  # told twice: without checkpoints, and lost workers are not waited for
+        if interruptions > 1 and not self.killed:  # told twice: without checkpoints; lost workers are not waited for
             self.killed = True
             self.going.write_text("kill")
             return {future for future in left if future.cancel()}
         return set()
 
-    def _say(self, i: int, what: str) -> None:
+    def _say(self, job: Job, what: str) -> None:
         over = sum(o.status != WAITING for o in self.outcomes)
-        self.progress.say(f"[{over}/{len(self.jobs)}] {self.jobs[i].name}: {what}")
+        self.progress.say(f"[{over}/{len(self.jobs)}] {job.name}: {what}")
 
     def _look_for_running(self) -> None:
         """Executors start in order, and not all of them tell what they have started: runs lock their directories."""
@@ -420,26 +384,26 @@ class Pool:
 
     def _left(self, fractions: dict[int, float], now: float) -> str:
         """Points of a scene are taken to last alike; those of a scene that none is known of are not counted."""
-        known: dict[str, tuple[float, float]] = dict(self.finished)
+        points, seconds = self.done.copy(), self.seconds.copy()
 
         def one_takes(i: int) -> float:
             """Seconds of a point of this scene; NaN: not known."""
-            points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
-            return seconds / points if points > 0.02 else math.nan
+            file = self.jobs[i].file
+            return seconds[file] / points[file] if points[file] > 0.02 else math.nan
 
         left = []  # seconds that points have left
         for i, fraction in fractions.items():
             spent = now - self.running[i]
             if fraction > 0:
-                points, seconds = known.get(self.jobs[i].file, (0.0, 0.0))
-                known[self.jobs[i].file] = points + fraction, seconds + spent
+                points[self.jobs[i].file] += fraction
+                seconds[self.jobs[i].file] += spent
             # max() keeps NaN where it stands first.
             left.append(spent * (1 - fraction) / fraction if fraction > 0 else max(one_takes(i) - spent, 0.0))
         several = [*left, *map(one_takes, self.waiting)]
-        counted = [seconds for seconds in several if seconds == seconds]
+        counted = [one for one in several if one == one]
         if not sum(counted):
             return ""
         side = len(fractions) or 1 if self.options.executor else self.options.jobs
-        longest = max((seconds for seconds in left if seconds == seconds), default=0.0)
+        longest = max((one for one in left if one == one), default=0.0)
         least = "at least " * (len(counted) < len(several))
         return f" | {least}{duration(max(sum(counted) / side, longest))} left"

@@ -55,8 +55,8 @@ def refuse_ranks() -> None:
     if launched()[1]:
         raise SceneError("asperity", "this command is one process, not one of several ranks of mpirun or srun",
                          "it starts its runs itself, each as a program of its own",
-                         'start it alone (srun -n 1); for ranks of each point: asperity sweep SCENE --launch "mpirun -n 2"; '
-                         "for points on the ranks: --executor mpi")
+                         "start it alone (srun -n 1); for ranks of each point: asperity sweep SCENE --launch "
+                         '"mpirun -n 2"; for points on the ranks: --executor mpi')
 
 
 def call(arguments: Iterable[str], *, text: str | None = None) -> str:

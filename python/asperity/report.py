@@ -11,48 +11,54 @@ from collections.abc import Mapping
 from functools import partial
 
 from . import program, scene, sentences
-from .page import Page, Row, file_name, minus
+from .page import Page, file_name, minus
 from .plots import run as plots
-from .plots.files import KINDS
+from .plots.style import KINDS
 from .result import Result, State, Values
 from .units import shown
 
 MOST_STATES = 6
+OF_AREA = ("binding_energy", "work_of_adhesion", "work_of_drive", "lost", "states", "zero_load")
+"""Energies over the nominal area, which says nothing of a sphere."""
 
 FIGURES = {
     "path": ("Force and contact", (
         ("separation", "Force and separation", "{path}"),
-        ("contact", "Contact over the path", "{contact} (in contact), and sites whose net normal force is repulsive."))),
+        ("contact", "Contact over the path",
+         "{contact} (in contact), and sites whose net normal force is repulsive."))),
     "states": ("States {at}", (
         ("states", "Energy of every state", "Binding energy of the states {at} over their mean height."),)),
     "surface": ("Surface and theory", (
         ("height", "Height of the substrate", "The substrate from above. The colour bar spans 99\u00a0% of it."),
-        ("spectrum", "Roughness spectrum", "Radially averaged power spectrum of the surface that was made, and what was "
-         "asked for."),
+        ("spectrum", "Roughness spectrum",
+         "Radially averaged power spectrum of the surface that was made, and what was asked for."),
         ("roughness", "Binding energy and roughness", "Persson’s theory for this scene at other roughnesses, and this "
          "run’s numbers."))),
     "energies": ("Energies", (
-        ("energy", "Energies", "Energies over the path. Work is done by the top plane and the moving medium of the damping."),
-        ("balance", "Energy balance", "Work done minus energy gained minus energy damped or radiated, over the largest of "
-         "these terms so far."),
+        ("energy", "Energies",
+         "Energies over the path. Work is done by the top plane and the moving medium of the damping."),
+        ("balance", "Energy balance", "Work done minus energy gained minus energy damped or radiated, over the largest "
+         "of these terms so far."),
         ("loading", "Force and displacement of the top plane", "Elastic force on the driven top plane over its "
          "displacement: what a testing machine would record. Between the curves lies the energy lost in a cycle."),
-        ("friction", "Force against the slides", "Lateral force of the substrate on the lowest layer against each slide, "
-         "over its distance.")))}
+        ("friction", "Force against the slides", "Lateral force of the substrate on the lowest layer against each "
+         "slide, over its distance.")))}
 """Sections of a run: heading, and of each figure its plot, heading and caption."""
 PATH_CAPTIONS = {
-    False: "Force of the substrate on the block over the mean separation, the mean height of the lowest layer above the "
-           "substrate’s mean plane; negative is attraction. The area under a curve is the work of adhesion of that segment.",
+    False: "Force of the substrate on the block over the mean separation, the mean height of the lowest layer above "
+           "the substrate’s mean plane; negative is attraction. The area under a curve is the work of adhesion of that "
+           "segment.",
     True: "Force of the substrate on the block over the mean height of the lowest layer above the apex; negative is "
-          "attraction. Beside it what a smooth sphere would do: JKR alone, and JKR and Maugis-Dugdale with the sphere’s "
-          "periodic images."}
+          "attraction. Beside it what a smooth sphere would do: JKR alone, and JKR and Maugis-Dugdale with the "
+          "sphere’s periodic images."}
 MAPS = (("gap", "Gap", "Height of each site above the substrate below it. The colour bar {bar}."),
         ("pressure", "Pressure", "Normal force of the substrate on a site over its area. Blue is attractive, orange "
                                  "repulsive; the colour bar spans 99\u00a0% of the values."),
         ("contact", "Contact", "{contact}."))
-DISTRIBUTIONS = (("pressures", "Distribution of pressure", "How the interface’s pressure is distributed over the sites that "
-                  "feel any: the left wing is attractive, the right one repulsive. Per site of the box."),
-                 ("gaps", "Distribution of gaps", "Distribution of the gaps of all sites, normalised to one."))
+DISTRIBUTIONS = (
+    ("pressures", "Distribution of pressure", "How the interface’s pressure is distributed over the sites that feel "
+     "any: the left wing is attractive, the right one repulsive. Per site of the box."),
+    ("gaps", "Distribution of gaps", "Distribution of the gaps of all sites, normalised to one."))
 STATE_COLUMNS = {"": "state", "binding_energy": "binding energy, meV/Å²", "contact_fraction": "contact",
                  "repulsive_fraction": "repulsive", "mean_height": "mean height, Å",
                  "elastic_energy": "elastic energy, meV/Å²", "barrier": "barrier to the next, MPa"}
@@ -92,7 +98,8 @@ def _top(page: Page, run: Result) -> None:
         return
     # A result without a path or a state came from the theory alone.
     if run.series or run.fields or run.number("run.steps") is not None:
-        page.add("lists", [("Simulated", sentences.effects(run, True)), ("Not simulated", sentences.effects(run, False))])
+        page.add("lists", [("Simulated", sentences.effects(run, True)),
+                           ("Not simulated", sentences.effects(run, False))])
     else:
         page.add("lists", [("Computed", ["the theory alone: nothing was simulated"])])
 
@@ -120,9 +127,9 @@ def _states(page: Page, run: Result) -> None:
 
 def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) -> None:
     """Numbers by the names of columns; "": of the line itself."""
-    rows = [Row([str(i) if name == "" else line.text(name) or sentences.general(line.find(name), digits) for name in heads])
-            for i, line in enumerate(lines, 1)]
-    page.add("table", {"heads": [*heads.values()], "rows": rows} if rows else None)
+    page.table([*heads.values()], [
+        [str(i) if name == "" else line.text(name) or sentences.general(line.find(name), digits) for name in heads]
+        for i, line in enumerate(lines, 1)])
 
 
 def _segments(page: Page, run: Result) -> None:
@@ -142,13 +149,12 @@ def _numbers(page: Page, run: Result) -> None:
             continue
         known = program.quantity(key)
         unit, meaning, flat = shown(run.unit(key) or known["unit"]), known["meaning"], sentences.reference(run, key)
-        # Of a sphere, the nominal area says nothing, and so does an energy over it.
-        nominal = key.split(".")[0] in ("binding_energy", "work_of_adhesion", "work_of_drive", "lost", "states", "zero_load")
+        nominal = key.split(".")[0] in OF_AREA
         over = unit == "meV/Å²" and flat > 0 and not (run.curved and nominal)
-        rows.append(Row([f"{key}: {meaning}" if meaning else key, minus(f"{value:.6g}"), "" if unit == "1" else unit,
-                         minus(f"{value / flat:.4f}") if over else ""]))
+        rows.append([f"{key}: {meaning}" if meaning else key, minus(f"{value:.6g}"), "" if unit == "1" else unit,
+                     minus(f"{value / flat:.4f}") if over else ""])
     page.section("numbers", "All numbers")
-    page.add("table", {"heads": ["", "value", "unit", "over Δγ"], "rows": rows} if rows else None)
+    page.table(["", "value", "unit", "over Δγ"], rows)
 
 
 def _times(page: Page, run: Result) -> None:
@@ -168,11 +174,10 @@ def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> N
         page.add("paragraph", note)
         page.add("preformatted", scene.toml_of(keys).strip())
     page.section("provenance", "Provenance")
-    rows = sentences.provenance(result)
-    page.add("table", {"heads": [], "rows": [Row(r) for r in rows]} if rows else None)
+    page.table([], sentences.provenance(result))
     page.section("cite", "How to cite")
-    page.add("paragraph", "Name the program with its version, and the paper whose system it simulates; with the theory’s "
-             "numbers, also the theory.")
+    page.add("paragraph", "Name the program with its version, and the paper whose system it simulates; with the "
+             "theory’s numbers, also the theory.")
     page.add("lists", [("", sentences.citations(result))])
 
 

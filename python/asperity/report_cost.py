@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What `asperity cost` leaves behind: cost.csv, cost.json, its figures, and the tables on the terminal."""
+"""`asperity cost`, and what it leaves behind: cost.csv, cost.json, its figures, and the tables on the terminal."""
 
 from __future__ import annotations
 
@@ -9,11 +9,37 @@ import math
 from pathlib import Path
 from typing import Any
 
-from . import files, terminal
-from .cost import ASKED, NAN, QUANTITIES, TARGETS, Cost, Search, errors_of
-from .plots import cost as plots
-from .plots import files as figures
-from .pool import FAILED
+from matplotlib.axes import Axes
+
+from . import files, program, terminal
+from .cost import TARGETS, Cost, Runs, Search, errors_of, target_of
+from .cost_parameters import ASKED, NAN, QUANTITIES, Row, cost_case
+from .errors import SceneError
+from .plots import style as figures
+from .plots.style import BLUE, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, finish
+from .pool import FAILED, PHYSICS, STOPPED, PoolOptions
+
+GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"),
+          ("layers, block model", ("layers", "model"), RED, "s"), ("time step", ("timestep",), GREEN, "^"),
+          ("velocity, damping", ("velocity", "damping"), PINK, "D"),
+          ("tolerance and step, quasi-static", ("tolerance", "step"), YELLOW, "v"),
+          ("the scene as it is", ("scene",), GREY, "X"), ("combinations", ("combination",), SKY, "P"))
+
+
+def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
+    """The largest error of a question ("state", "path") over the processor time of each setting that was run."""
+    rows = [r for r in cost.rows if r.compared and r.error[question] > 0 and r.seconds > 0]
+    for label, parameters, colour, marker in GROUPS:
+        some = [r for r in rows if r.parameter in parameters]
+        if some:
+            curve(ax, [r.seconds for r in some], [100 * r.error[question] for r in some], label, colour=colour, line="",
+                  marker=marker, filled=marker != "P")
+    front = sorted((r.seconds, 100 * r.error[question]) for r in rows if r.front[question])
+    if front:
+        curve(ax, *zip(*front), "nothing is better in both", colour=GREY, line=DASHES[1], behind=True)
+    finish(ax, "processor time (s)", "largest error of γ and contact (%)" if question == "state" else
+           "largest error of γ, contact, works and force (%)", log="xy")
+    return bool(rows)
 
 
 def csv_of(cost: Cost) -> str:
@@ -32,9 +58,10 @@ def json_of(cost: Cost) -> dict[str, Any]:
     def by_quantity(values) -> dict[str, float | None]:
         return {name: known(v) for name, v in zip(QUANTITIES, values)}
 
-    settings = [{"parameter": row.parameter, "value": row.label, "set": row.setting, "processor_seconds": known(row.seconds),
-                 "wall_seconds": known(row.wall), "measured": by_quantity(row.numbers),
-                 "error": {q: known(e) for q, e in row.error.items()}, "own_error": by_quantity(row.own_error),
+    settings = [{"parameter": row.parameter, "value": row.label, "set": row.setting,
+                 "processor_seconds": known(row.seconds), "wall_seconds": known(row.wall),
+                 "measured": by_quantity(row.numbers), "error": {q: known(e) for q, e in row.error.items()},
+                 "own_error": by_quantity(row.own_error),
                  "pareto": dict(row.front),
                  **({} if math.isnan(row.added) else {"added_error": row.added}),
                  **({"failed": row.outcome.reason} if row.outcome.status == FAILED else {})} for row in cost.rows]
@@ -67,7 +94,7 @@ def write(cost: Cost, directory: Path) -> list[str]:
     files.write(directory / "cost.csv", csv_of(cost))
     for question in ASKED:
         if cost.answered(question):
-            fig = figures.make(lambda ax: plots.error_against_time(cost, question, ax))
+            fig = figures.make(lambda ax: error_against_time(cost, question, ax))
             if fig is not None:
                 figures.save(fig, directory / f"cost-{question}")
                 written.append(f"cost-{question}.svg")
@@ -105,15 +132,16 @@ def text_of(cost: Cost) -> str:
                      "-" if math.isnan(row.seconds) else f"{row.seconds:.2f} s",
                      f"{ratio:.2f}" if math.isfinite(ratio) else "-",
                      "".join("*" if f else " " for f in row.front.values())])
-    parts.append(terminal.table(["parameter", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""],
-                                rows, left=(0, 1)))
+    heads = ["parameter", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""]
+    parts.append(terminal.table(heads, rows, left=(0, 1)))
     if cost.orders:
         parts.append("\nOrder of each parameter's own error (all else as in the scene): the power that fits it.\n")
         parts.append(terminal.table(["parameter", "γ", "contact", "in", "out", "force", "expected"],
                                     [[parameter.name, *("-" if p is None else f"{p:.1f}" for p in measured),
                                       parameter.expected]
                                      for parameter, measured in cost.orders], left=(0, 6)))
-    for question, what in zip(ASKED, ("the state at zero load (γ, contact)", "the whole path (works, pull-off force too)")):
+    for question, what in (("state", "the state at zero load (γ, contact)"),
+                           ("path", "the whole path (works, pull-off force too)")):
         if cost.asked or not cost.answered(question):
             continue
         parts.append(f"\nCheapest for {what}:")
@@ -139,6 +167,44 @@ def answer_of(cost: Cost, asked: Search) -> str:
         return (f"No settings keep {target}: {best} ({varied}).\n"
                 "Ask for more, or start from a scene with finer settings.")
     scene, reference = cost.rows[1].seconds, cost.rows[0].seconds
-    return (f"The cheapest settings within {target} ({varied}): error {percent(row.error[asked.base.question])} % of the "
-            f"reference,\n{row.seconds:.2f} s: {row.seconds / scene:.2f} of the scene's time, {row.seconds / reference:.2f} of "
-            f"the reference's.\n{row.text}")
+    return (f"The cheapest settings within {target} ({varied}): error {percent(row.error[asked.base.question])} % of "
+            f"the reference,\n{row.seconds:.2f} s: {row.seconds / scene:.2f} of the scene's time, "
+            f"{row.seconds / reference:.2f} of the reference's.\n{row.text}")
+
+
+def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
+                 target: str | None = None) -> int:
+    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the
+    target."""
+    asked = None if target is None else target_of(target)
+    found = program.check(scene, overrides)
+    case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
+    if found["problems"]:
+        raise SceneError("\n".join(found["problems"]))
+    cost = Cost(found["name"], found["scene"], case)
+    cost.rows = [Row("reference", "reference", case.reference, case.reference, compared=False),
+                 Row("scene", "as it is", [], []), *(row for parameter in case.parameters for row in parameter.rows)]
+    directory = files.chosen(out, f"results/{cost.name}-cost")
+    print(f"reference: {case.reference_text}", flush=True)
+    with files.in_use(directory):
+        runs = Runs(scene, overrides, directory, options)
+        complete = runs.run(cost.rows)
+        reference = cost.rows[0].outcome
+        if complete and reference.status == FAILED:
+            print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
+            return reference.exit_code
+        cost.compare()
+        searches = [cost.search(base, t) for base in case.bases for t in (TARGETS if asked is None else [asked])]
+        if asked is not None:
+            cost.asked = searches[0]
+        complete = complete and cost.choose(searches, runs.run)
+        written = write(cost, directory)
+    print(text_of(cost))
+    print(f"in {directory}:" + "".join(f" {name}" for name in written))
+    if not complete:
+        print("Stopped early: the same command goes on from here.")
+        return STOPPED
+    if cost.asked is None:
+        return 0
+    print("\n" + answer_of(cost, cost.asked))
+    return 0 if cost.asked.chosen else PHYSICS

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The page of a sweep: its plots and table from sweep.json; of the points' own directories, one point for all
-seeds: contact maps, force curves, and pages to go to."""
+"""What a sweep says when it has ended, and its page: its plots and table from sweep.json; of the points' own
+directories, one point for all seeds: contact maps, force curves, and pages to go to."""
 
 from __future__ import annotations
 
@@ -16,16 +16,15 @@ from matplotlib.axes import Axes
 
 from .errors import Error
 from .grid import is_seed, shown
-from .page import Page, Row, file_name, minus
+from .page import Page, file_name, minus
 from .plots import run as run_plots
 from .plots import sweep as plots
-from .plots.files import KINDS
-from .plots.style import COLOURS, CONTACT, DASHES, GREY, curve, finish
-from .pool import DONE, FAILED
+from .plots.style import COLOURS, CONTACT, DASHES, GREY, KINDS, curve, finish
+from .pool import DONE, FAILED, STOPPED, PoolOptions
 from .report import end, write_run_page
-from .result import Result, Values
+from .result import Result, Values, expect
 from .scene import toml_of
-from .sweeps import Sweep, load_sweeps
+from .sweeps import TABLES, Carried, Sweep, load_sweeps
 from .tables import Table, text_of
 from .sentences import KeyNumber
 
@@ -33,25 +32,21 @@ MOST_POINTS = 24
 MOST_CURVES = 6
 
 FIGURES = {
-    "gamma": ("Binding energy", "Binding energy and works over the binding energy of two flat surfaces: theory, and what was "
-              "simulated. Of a sphere, γ by JKR from the largest attraction and from the energy at zero load. Bars: "
-              "standard deviation over seeds and uncertainty of a run, added in squares."),
+    "gamma": ("Binding energy",
+              "Binding energy and works over the binding energy of two flat surfaces: theory, and what was simulated. "
+              "Of a sphere, γ by JKR from the largest attraction and from the energy at zero load. Bars: standard "
+              "deviation over seeds and uncertainty of a run, added in squares."),
     "area": ("Contact area", "Projected contact area over the nominal area."),
     "separation": ("Mean separation", "Mean height of the lowest layer above the substrate’s mean plane."),
     "radius": ("Contact radius", "Radius of a circle as large as the area in contact."),
     "pull-off": ("Pull-off force", "What it takes to pull the block off."),
     "hysteresis": ("Energy lost in the cycle", "Energy that approach, pull-off and both lose."),
-    "readings": ("Readings of the work", "Work of the interface’s force on the mean height, approach and pull-off; the work "
-                 "summed atom by atom, which is the energy of the pairs and the same both ways; and the state’s energy."),
-    "full-contact": ("Binding energy, theory and full contact", "The full theory, and what it would be if contact were full.")}
+    "readings": ("Readings of the work", "Work of the interface’s force on the mean height, approach and pull-off; the "
+                 "work summed atom by atom, which is the energy of the pairs and the same both ways; and the state’s "
+                 "energy."),
+    "full-contact": ("Binding energy, theory and full contact",
+                     "The full theory, and what it would be if contact were full.")}
 """Of each plot its heading and caption."""
-
-
-def holds_sweep(directory: Path) -> bool:
-    """Whether it holds a sweep, or those of several scenes in its folders."""
-    if (directory / "sweep.json").exists():
-        return True
-    return not (directory / "result.json").exists() and any(directory.glob("*/sweep.json"))
 
 
 class _Points:
@@ -104,7 +99,8 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
             here = run.series["segment"] == number
             if here.sum() > 1:
                 curve(ax, run.series["mean_height"][here], run.series["force"][here] / unit,
-                      name if words == "pull-off" else "", colour=COLOURS[k], line=DASHES[4] if words == "approach" else "-")
+                      name if words == "pull-off" else "", colour=COLOURS[k],
+                      line=DASHES[4] if words == "approach" else "-")
     ax.plot([], [], color=GREY, linestyle="-", label="pull-off")
     ax.plot([], [], color=GREY, linestyle=DASHES[4], label="approach")
     felt = [h for _, r in runs for h in r.series["mean_height"][
@@ -140,7 +136,8 @@ def _key_numbers(sweep: Sweep) -> list[KeyNumber]:
         expected = {words: x for words, column in lines.items()
                     if (x := _half_way(curves, "theory." + column)) is not None}
         if measured is not None:
-            found.append(KeyNumber(f"{measured:.2f}", "Å", name, ", ".join(f"{w}: {x:.2f} Å" for w, x in expected.items())))
+            note = ", ".join(f"{words}: {x:.2f} Å" for words, x in expected.items())
+            found.append(KeyNumber(f"{measured:.2f}", "Å", name, note))
         elif expected:
             words, x = next(iter(expected.items()))
             found.append(KeyNumber(f"{x:.2f}", "Å", name, words))
@@ -163,16 +160,15 @@ def _notices(page: Page, sweep: Sweep) -> None:
                      for point in sweep.points if point.get("status") == FAILED]
     waiting = sweep.table.status.count("waiting") if sweep.simulated else 0
     if waiting:
-        page.notices.append(("This sweep is not finished", f"{waiting} of {len(sweep.points)} points of {sweep.name} have "
-                             "no result yet; the same `asperity sweep` command goes on with them."))
+        page.notices.append(("This sweep is not finished", f"{waiting} of {len(sweep.points)} points of {sweep.name} "
+                             "have no result yet; the same `asperity sweep` command goes on with them."))
 
 
 def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
     heads, rows, meaning = text_of(sweep.table)
     stride = max(1, (len(rows) + 39) // 40)
     page.section("points-" + file_name(sweep.name), f"The points of {sweep.name}" if several else "All points")
-    page.add("table", {"heads": heads, "rows": [Row([minus(c) for c in row], link)
-                                                for row, link in list(zip(rows, points.links))[::stride]]})
+    page.table(heads, [[minus(cell) for cell in row] for row in rows[::stride]], points.links[::stride])
     if meaning:
         page.add("paragraph", f"In the table: {meaning}.")
     if stride > 1:
@@ -214,3 +210,40 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
         "Every key with its value; the swept ones with their first.")
     page.write()
     return page
+
+
+def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
+    """DIR/report.html of what it holds: a sweep, those of several scenes in its folders, or a run."""
+    run = (directory / "result.json").exists()
+    if (directory / "sweep.json").exists() or not run and any(directory.glob("*/sweep.json")):
+        return write_sweep_page(directory, kinds)
+    expect(directory, "result.json", "sweep.json")
+    return write_run_page(Result(directory), kinds)
+
+
+def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
+    """`asperity sweep`: its exit code, 75 if stopped before the end, else that of the first failure."""
+    done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True))
+    written, note = plots.write_plots(done.place, done.sweeps)
+    for sweep in done.sweeps:
+        print()
+        sweep.print_table()
+        for said in sweep.notes:
+            print(f"note: {said}")
+        if len(sweep.run.get("programs", {})) > 1:
+            print("note: points are by several programs: "
+                  + ", ".join(f"{git} ({count})" for git, count in sweep.run["programs"].items()))
+    if note:
+        print(f"note: {note}")
+    failed = [(job, outcome) for job, outcome in zip(done.jobs, done.outcomes) if outcome.status == FAILED]
+    for job, outcome in failed:
+        print(f"failed: {job.name} (exit {outcome.exit_code}): {outcome.reason}")
+    if theory_only:
+        print(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
+    else:
+        print(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
+    print(f"tables: {TABLES}; plots:" + "".join(f" {path.name}" for path in written))
+    if not done.complete:
+        print("Stopped early: the same command goes on from here.")
+        return STOPPED
+    return next((outcome.exit_code for _, outcome in failed), 0)

@@ -26,27 +26,22 @@ from .errors import InputOutputError
 
 LARGEST_ARRAY = 2**28
 """Values; a data set that claims to be larger is not read."""
-
-
 DEEPEST_JSON = 64
 """Levels; what the program itself reads is no deeper."""
 
 
-def finite(value: Any) -> float | None:
+def finite(value: Any, otherwise: float | None = None) -> float | None:
     """A value of a JSON file if it is a finite number."""
     with contextlib.suppress(OverflowError):
         if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
             return float(value)
-    return None
+    return otherwise
 
 
-class Members(Mapping):
-    """Members by name, which are attributes too."""
+class Attributes:
+    """Members by name are attributes too."""
 
     _called = "the result"
-
-    def __init__(self, members: Mapping[str, Any]):
-        self._members = members
 
     def __getattr__(self, key: str) -> Any:
         if key.startswith("_"):
@@ -56,29 +51,19 @@ class Members(Mapping):
         except KeyError:
             raise AttributeError(f"{self._called} has no {key!r}; it has {', '.join(self)}") from None
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._members)
-
-    def __len__(self) -> int:
-        return len(self._members)
-
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self._members]
+        return [*super().__dir__(), *self]
 
 
-class Values(Members):
+class Values(Attributes, dict):
     """A JSON object: v.theory.gamma_eff, v["theory"]["gamma_eff"]."""
 
-    def __getitem__(self, key: str) -> Any:
-        value = self._members[key]
-        return Values(value) if isinstance(value, dict) else value
-
     def __repr__(self) -> str:
-        return json.dumps(self._members, indent=2, ensure_ascii=False)
+        return json.dumps(self, indent=2, ensure_ascii=False)
 
     def find(self, name: str) -> Any:
         """A value by its path, "theory.gamma_eff"; None where there is none."""
-        value: Any = self._members
+        value: Any = self
         for part in name.split("."):
             if not isinstance(value, dict) or part not in value:
                 return None
@@ -87,8 +72,7 @@ class Values(Members):
 
     def number(self, name: str, otherwise: float | None = None) -> float | None:
         """The same if it is a finite number."""
-        number = finite(self.find(name))
-        return otherwise if number is None else number
+        return finite(self.find(name), otherwise)
 
     def text(self, name: str) -> str:
         """The same if it is a string, else ""."""
@@ -98,18 +82,17 @@ class Values(Members):
     def part(self, name: str) -> Values:
         """The same if it is an object, else an empty one."""
         value = self.find(name)
-        return Values(value if isinstance(value, dict) else {})
+        return Values(value) if isinstance(value, dict) else Values()
 
     def listed(self, name: str, kind: type = object) -> list:
-        """The same if it is a list, else []: its members of a kind, objects as Values."""
+        """The same if it is a list, else []: its members of a kind."""
         value = self.find(name)
-        members = [m for m in value if isinstance(m, kind)] if isinstance(value, list) else []
-        return [Values(m) for m in members] if kind is dict else members
+        return [member for member in value if isinstance(member, kind)] if isinstance(value, list) else []
 
     def numbers(self) -> dict[str, float]:
         """All finite numbers by their paths, in the order of the file."""
         found: dict[str, float] = {}
-        for key, value in self._members.items():
+        for key, value in self.items():
             if isinstance(value, dict):
                 found |= {f"{key}.{name}": number for name, number in Values(value).numbers().items()}
             elif (number := finite(value)) is not None:
@@ -132,13 +115,13 @@ def _deeper_than(value: Any, levels: int) -> bool:
     return any(levels == 0 or _deeper_than(m, levels - 1) for m in members if isinstance(m, (dict, list)))
 
 
-def read_json(path: Path) -> dict[str, Any]:
+def read_json(path: Path) -> Values:
     """A file with a JSON object, as its digest says if it has one. Raises InputOutputError for anything else."""
     def refuse(why: str, remedy: str = "was it damaged, or written by hand?") -> InputOutputError:
         return InputOutputError(str(path), "cannot be read", why, remedy)
     try:
         content = path.read_bytes()
-        value = json.loads(content)
+        value = json.loads(content, object_hook=Values)
     except OSError as error:
         raise InputOutputError(str(path), "cannot be read", error.strerror or str(error),
                                "check the path and its permissions") from None
@@ -149,7 +132,7 @@ def read_json(path: Path) -> dict[str, Any]:
     if _deeper_than(value, DEEPEST_JSON):
         raise refuse("it is nested too deeply")
     if not isinstance(value, dict):
-        return {}
+        return Values()
     if "digest" in value and not files.json_is_whole(content):
         raise refuse("its content is not what its digest was made of: it was damaged or changed",
                      "take a copy that is whole; of a file changed on purpose, remove the member \"digest\"")
@@ -175,9 +158,8 @@ class RunFile:
     """
 
     def __init__(self, path: Path, unread: str = ""):
-        self.path = path
-        self.unread = unread
-        """why nothing of it is here"""
+        """unread: why nothing of it is here"""
+        self.path, self.unread = path, unread
 
     def lacks(self, what: str, there: list[str]) -> KeyError:
         return KeyError(f"no {what}" + (f"; there are {', '.join(there)}" if there else "") +
@@ -187,7 +169,8 @@ class RunFile:
     def _whole(self) -> bool | None:
         return files.hdf5_is_whole(self.path)
 
-    def _read(self, action):
+    @contextlib.contextmanager
+    def _opened(self) -> Iterator[h5py.File]:
         if not self.path.exists():
             raise InputOutputError(str(self.path), "cannot be read", "there is no such file",
                                    "the theory alone and a run that failed early have none")
@@ -197,7 +180,7 @@ class RunFile:
             with h5py.File(self.path, "r") as file:
                 if self._whole is None and "asperity_digest" in file.attrs:
                     raise ValueError("the digest at its end is missing")
-                return action(file)
+                yield file
         except Exception as error:  # h5py raises OSError, KeyError, RuntimeError, ValueError, TypeError
             why = str(error).splitlines()[0] if str(error) else type(error).__name__
             if not h5py.is_hdf5(self.path):
@@ -207,14 +190,15 @@ class RunFile:
 
     def members(self, group: str) -> list[str]:
         """Names in a group; none if there is no such group."""
-        def names(file):
+        if not self.path.exists():
+            return []
+        with self._opened() as file:
             found = file.get(group)
             return list(found) if isinstance(found, h5py.Group) else []
-        return self._read(names) if self.path.exists() else []
 
     def array(self, name: str, dimensions: int, frame: int | None = None) -> np.ndarray:
         """A data set of numbers of so many dimensions; of a frame, that element of the first one."""
-        def values(file):
+        with self._opened() as file:
             found = file[name]
             if not isinstance(found, h5py.Dataset) or found.dtype.kind not in "fiub":
                 raise ValueError(f"{name} is no data set of numbers")
@@ -224,17 +208,15 @@ class RunFile:
             if math.prod(shape) > LARGEST_ARRAY:
                 raise ValueError(f"{name} has {math.prod(shape)} values")
             return np.asarray(found[()] if frame is None else found[frame])
-        return self._read(values)
 
     def attribute(self, name: str, key: str) -> Any:
         """An attribute of a data set or group; None if there is none."""
-        def value(file):
+        with self._opened() as file:
             found = file[name].attrs.get(key)
             return found.decode() if isinstance(found, bytes) else found
-        return self._read(value)
 
 
-class Group(Members):
+class Group(Attributes, Mapping):
     """Arrays of a group of run.h5, read when they are asked for.
 
     Maps are square, [y, x]; what stands in `lists` has one dimension and is reached by other members.
@@ -243,27 +225,29 @@ class Group(Members):
     lists: tuple[str, ...] = ()
 
     def __init__(self, file: RunFile, path: str):
-        self._file, self._path = file, path
-        self._called, self._all = path, file.members(path)
-        super().__init__(dict.fromkeys(name for name in self._all if name not in self.lists))
-        self._read: dict[str, np.ndarray] = {}
-
-    def _array(self, name: str) -> np.ndarray:
-        values = self._file.array(f"{self._path}/{name}", 2)
-        if values.shape[0] != values.shape[1] or not values.size:
-            raise InputOutputError(str(self._file.path), f"{self._path}/{name} is no square map",
-                                   f"its shape is {values.shape}", "was the file written by another program?")
-        return values
+        self._file = file
+        self._called = self._path = path
+        self._all = file.members(path)
+        self._read: dict[str, np.ndarray | None] = dict.fromkeys(name for name in self._all if name not in self.lists)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self._members:
-            raise self._file.lacks(f"{name} in {self._path}", list(self))
         if name not in self._read:
-            self._read[name] = self._array(name)
-        return self._read[name]
+            raise self._file.lacks(f"{name} in {self._path}", list(self))
+        if (values := self._read[name]) is None:
+            values = self._read[name] = self._file.array(f"{self._path}/{name}", 2)
+            if values.shape[0] != values.shape[1] or not values.size:
+                raise InputOutputError(str(self._file.path), f"{self._path}/{name} is no square map",
+                                       f"its shape is {values.shape}", "was the file written by another program?")
+        return values
 
     def __contains__(self, name: object) -> bool:  # without reading it
-        return name in self._members
+        return name in self._read
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._read)
+
+    def __len__(self) -> int:
+        return len(self._read)
 
     def unit(self, name: str) -> str:
         """The unit of an array; "" of pure numbers."""
@@ -321,8 +305,8 @@ class State(Group):
 
 
 class Substrate(Group):
-    """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4); where they stand anywhere,
-    atoms [atom, 3] (Å) and types [atom] (from 1, by interface.pairs), else None."""
+    """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4); where they stand
+    anywhere, atoms [atom, 3] (Å) and types [atom] (from 1, by interface.pairs), else None."""
 
     lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms", "type")
 
@@ -342,7 +326,9 @@ class Substrate(Group):
     def types(self) -> np.ndarray | None:
         if self.atoms is None:
             return None
-        return self._file.array(f"{self._path}/type", 1).astype(int) if "type" in self._all else np.ones(len(self.atoms), int)
+        if "type" not in self._all:
+            return np.ones(len(self.atoms), int)
+        return self._file.array(f"{self._path}/type", 1).astype(int)
 
 
 class States(dict):
@@ -380,8 +366,7 @@ class Result(Values):
 
     def _open(self, name: str, unread: str = "") -> None:
         file = self.file = RunFile(self.directory / name, unread)
-        self.series, self.substrate = Series(file), Substrate(file)
-        self.fields = States(file)
+        self.series, self.substrate, self.fields = Series(file), Substrate(file), States(file)
 
     @property
     def units(self) -> Values:
@@ -432,9 +417,9 @@ class Result(Values):
     @property
     def failure_text(self) -> str:
         """Why the run failed; "" if it did not."""
-        if "failure" not in self._members:
+        if "failure" not in self:
             return ""
-        return self.text("failure.reason") or json.dumps(self._members["failure"])[:2000]
+        return self.text("failure.reason") or json.dumps(self["failure"])[:2000]
 
     @property
     def stopped(self) -> str:

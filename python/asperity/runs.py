@@ -17,15 +17,6 @@ from .result import Result
 from .scene import Overrides, SceneLike, assignments, scene_file
 
 
-def default_directory(name: str) -> Path:
-    """results/<name>, or the first of results/<name>-2, -3, ... that does not exist yet."""
-    first = place = Path("results") / name
-    number = 2
-    while place.exists():
-        place, number = first.with_name(f"{first.name}-{number}"), number + 1
-    return place
-
-
 def launcher(ranks: int) -> list[str]:
     """The words before the program for so many ranks: those of $ASPERITY_MPIRUN ("srun --mpi=pmix"), or the mpirun of
     the MPI that the program was built with, where several are installed. Raises InputOutputError if it is not there."""
@@ -61,7 +52,8 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
     if ranks < 1:
         raise SceneError(f"ranks = {ranks}", "is no number of ranks", "a run has at least one", "leave it out for one")
     with scene_file(scene) as file:
-        place = default_directory(Path(file).stem) if out is None else files.chosen(str(out), "")
+        first = Path("results") / Path(file).stem
+        place = files.numbered(first, Path.exists) if out is None else files.chosen(str(out), "")
         words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "off",
                  *program.sets(assignments(overrides))]
         with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as said:

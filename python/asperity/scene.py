@@ -48,7 +48,7 @@ def assignments(overrides: Overrides | None) -> list[str]:
 
 @contextlib.contextmanager
 def scene_file(scene: SceneLike, folder: str = "") -> Iterator[str]:
-    """The file of a scene; of a dictionary a temporary one, named by its entry "name", in the folder if one is given."""
+    """The file of a scene; of a dictionary a temporary one, named by its entry "name", in the folder if it is given."""
     if not isinstance(scene, Mapping):
         yield str(scene)
         return

@@ -96,9 +96,10 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         gamma("jkr.out", "from the pull-off force, by JKR", "γ_{JKR}/Δγ")
         gamma("jkr.in_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps", "γ_{JKR}/Δγ")
         if force is not None:
-            jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON for k in ("sphere.jkr", "sphere.maugis_images"))
-            add(f"{force / NANONEWTON:.4g}", "nN", "pull-off force",
-                f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN" * (jkr > 0 and maugis > 0))
+            jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON
+                           for k in ("sphere.jkr", "sphere.maugis_images"))
+            smooth = f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN"
+            add(f"{force / NANONEWTON:.4g}", "nN", "pull-off force", smooth * (jkr > 0 and maugis > 0))
         if (radius := run.number("contact_radius.zero_load")) is not None:
             add(f"{radius:.1f}", "Å", f"contact radius {at}", "√(area of the sites in contact / π)")
     else:
@@ -108,8 +109,8 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             add(percent(contact), "", f"of the sites in contact {at}",
                 f"theory{pressed}: {percent(theory)}" if theory is not None else "")
         if force is not None and run.edge:
-            add(f"{force / run.edge**2 / GIGAPASCAL:.3g}", "GPa", "pull-off stress, the largest attraction on the way out",
-                f"{force / NANONEWTON:.4g} nN in all")
+            add(f"{force / run.edge**2 / GIGAPASCAL:.3g}", "GPa",
+                "pull-off stress, the largest attraction on the way out", f"{force / NANONEWTON:.4g} nN in all")
     if (lost := run.number("lost.cycle")) is not None:
         add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
             "lost in a cycle (hysteresis)", "where surfaces snap together and apart")
@@ -129,7 +130,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
 
 
 def _state_sentence(run: Result, state: float, flat: float) -> str:
-    bonds, contact, pushed = (run.number(k) for k in ("work_of_adhesion.pairwise", "contact_fraction", "repulsive_fraction"))
+    bonds, contact, pushed = map(run.number, ("work_of_adhesion.pairwise", "contact_fraction", "repulsive_fraction"))
     at = run.load_words[0]
     at = "Without external force" if at == "at zero load" else "U" + at[1:]
     if run.curved:
@@ -165,8 +166,8 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
         text += f" The difference, {energy(lost)}, is lost where the surfaces snap together and apart (hysteresis)."
     own = [run.number("work_of_adhesion." + k) for k in ("approach", "pull_off")]
     if None not in own and run.find("dissipated") is None:  # in time; without it is the same work
-        text += (f" The work of the interface’s force on the mean height is {energy(own[0])} and {energy(own[1])}: a snap "
-                 "of the block as a whole changes nothing of it.")
+        text += (f" The work of the interface’s force on the mean height is {energy(own[0])} and {energy(own[1])}: a "
+                 "snap of the block as a whole changes nothing of it.")
     return text
 
 

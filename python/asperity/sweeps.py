@@ -145,23 +145,20 @@ def load_sweep(directory: str | os.PathLike) -> Sweep:
     if not path.exists() and (several := sorted(path.parent.glob("*/sweep.json"))):
         raise InputOutputError(str(directory), "holds a sweep for each of several scenes",
                                ", ".join(p.parent.name for p in several), f"load one of them: {several[0].parent}")
-    found = Values(read_json(path))
+    found = read_json(path)
     if not isinstance(found.find("points"), list):
         raise InputOutputError(str(path), "is no sweep", "it has no list of points",
                                "run the sweep again into another directory")
 
-    def kept(kind: type, value: Any) -> Any:  # what a hand or another program wrote may lack parts
-        return value if isinstance(value, kind) else kind()
-
-    def listed(name: str) -> list[dict[str, Any]]:
-        return [{**point, **{part: kept(dict, point.get(part)) for part in ("set", "theory", "result")
-                             if part != "result" or part in point}}
-                for point in kept(list, found.find(name)) if isinstance(point, dict)]
+    def listed(name: str) -> list[dict[str, Any]]:  # what a hand or another program wrote may lack parts
+        parts = ("set", "theory", "result")
+        return [{**point, **{part: point.part(part) for part in parts if part in point or part != "result"}}
+                for point in found.listed(name, dict)]
 
     points = listed("points")
-    return Sweep(found.text("name") or Path(directory).resolve().name, kept(dict, found.find("scene")),
-                 found.listed("axes", str), points, listed("theory"), [str(n) for n in found.listed("notes")],
-                 any("result" in p or p.get("directory") for p in points), kept(dict, found.find("run")), Path(directory))
+    return Sweep(found.text("name") or Path(directory).resolve().name, found.part("scene"), found.listed("axes", str),
+                 points, listed("theory"), [str(n) for n in found.listed("notes")],
+                 any("result" in p or p.get("directory") for p in points), found.part("run"), Path(directory))
 
 
 def load_sweeps(directory: Path) -> list[Sweep]:
@@ -190,7 +187,7 @@ def _axes(file: str, sets: list[str], of_scene: list[dict[str, str]], theory_onl
     axes, fixed = axes_of(sets, of_scene)
     base = program.check(file, fixed + points_of(axes)[0])
     if theory_only and not base["theory_needs_surface"]:
-        axes = [axis for axis in axes if not axis.is_seed]  # the theory of a target spectrum knows no seeds
+        axes = [axis for axis in axes if not is_seed(axis.key)]  # the theory of a target spectrum knows no seeds
     if not axes:
         nothing = "there is nothing to sweep"
         if not theory_only:
@@ -223,7 +220,7 @@ def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[d
         return []
     finer = []
     for axis in axes:
-        one = axis.is_seed and not (needs_surface and axis.key == "surface.seed")
+        one = is_seed(axis.key) and not (needs_surface and axis.key == "surface.seed")
         values = axis.values[:1] if one else axis.values
         if axis.key == x and program.schema()[x]["kind"] == "number":
             low, high = (pick(p["set"][x] for p in points) for pick in (min, max))
@@ -259,7 +256,7 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
         if name in jobs:
             raise SceneError("asperity sweep", f"two points are the same: {name}",
                              "every point has a directory of its own", "give every value once")
-        jobs[name] = Job.of(prefix + name, place / name, file, given, answer)
+        jobs[name] = Job(prefix + name, place / name, file, given, answer)
     sweep.theory = _theory_curves(file, axes, fixed, sweep.points, base["theory_needs_surface"])
     return sweep, list(jobs.values())
 
@@ -274,11 +271,9 @@ def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[s
     if asked is not None:
         raise SceneError(f"--out {asked}", "already holds a sweep", "results are not written over",
                          "name another directory, or remove this one")
-    first, number = place, 2
-    while (place / "sweep.json").exists():
-        place, number = first.with_name(f"{first.name}-{number}"), number + 1
-    say(f"note: {first} already holds a sweep; this one goes to {place}")
-    return place
+    free = files.numbered(place, lambda one: (one / "sweep.json").exists())
+    say(f"note: {place} already holds a sweep; this one goes to {free}")
+    return free
 
 
 class Carried:
@@ -310,7 +305,7 @@ class Carried:
                 self.complete = Pool(self.jobs, self.outcomes, options, self.place).run(self._write_sometimes)
             self._write()
 
-    def _write_sometimes(self, _: int) -> None:
+    def _write_sometimes(self) -> None:
         if time.monotonic() - self.written >= 1.0:  # else points are short; all are written at the end
             self._write()
 
@@ -338,7 +333,8 @@ def _values(given: Any) -> str:
     given = given.tolist() if hasattr(given, "tolist") else given  # numpy's
     if isinstance(given, (str, os.PathLike)) or not isinstance(given, Iterable):
         given = [given]
-    return ",".join(str(v) if isinstance(v, os.PathLike) else shown(v.item() if hasattr(v, "item") else v) for v in given)
+    plain = (v.item() if hasattr(v, "item") else v for v in given)
+    return ",".join(str(v) if isinstance(v, os.PathLike) else shown(v) for v in plain)
 
 
 def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | os.PathLike | None = None,

@@ -35,7 +35,8 @@ THEORY_FIRST = ("delta_gamma", "gamma_eff", "gamma_eff_ratio", "contact_fraction
                 "gamma_full_contact_ratio", "theta", "gamma_eff_ratio_error", "contact_fraction_error")
 OF_AREA = ("binding_energy_ratio", "work_of_adhesion.approach_ratio", "work_of_adhesion.pull_off_ratio",
            "work_of_drive.approach_ratio", "work_of_drive.pull_off_ratio", "lost.cycle_ratio",
-           "work_of_adhesion.pairwise_ratio", "states.deepest.binding_energy_ratio", "contact_fraction", "zero_load.mean_height")
+           "work_of_adhesion.pairwise_ratio", "states.deepest.binding_energy_ratio", "contact_fraction",
+           "zero_load.mean_height")
 """Columns over the nominal area, which means nothing for a sphere."""
 
 
@@ -71,11 +72,6 @@ def _theory_numbers(point: Mapping[str, Any]) -> dict[str, float]:
             if name in numbers:
                 numbers.setdefault(name + "_ratio", numbers[name] / flat)
     return numbers
-
-
-def _number(value: Any) -> float:
-    """NaN for what is no number."""
-    return np.nan if (number := finite(value)) is None else number
 
 
 class Average(NamedTuple):
@@ -119,15 +115,16 @@ class Table(Columns):
         columns: dict[str, Any] = {}
         for key in axes:
             values = [p["set"].get(key) for p in points]
-            numbers = np.array([_number(v) for v in values])
+            numbers = np.array([finite(v, np.nan) for v in values])
             columns[key] = numbers if np.isfinite(numbers).all() else [shown(v) for v in values]
         self._before = "theory." if simulated else ""
         results = [p.get("result", {}) for p in points] if simulated else []
-        for rows, first, before in ((results, FIRST, ""), ([_theory_numbers(p) for p in points], THEORY_FIRST, self._before)):
+        theory = [_theory_numbers(point) for point in points]
+        for rows, first, before in ((results, FIRST, ""), (theory, THEORY_FIRST, self._before)):
             there = dict.fromkeys(name for row in rows for name in row)
             order = [n for f in first for n in (f, f + "_ratio") if n in there]
             for name in dict.fromkeys([*order, *there]):
-                columns[before + name] = np.array([_number(row.get(name)) for row in rows])
+                columns[before + name] = np.array([finite(row.get(name), np.nan) for row in rows])
         super().__init__(columns)
 
     @property
@@ -150,7 +147,7 @@ class Table(Columns):
 
     def at(self, key: str) -> np.ndarray:
         """The value of a key for each group; NaN where it is no number."""
-        return np.array([_number(values.get(key)) for values, _ in self.groups])
+        return np.array([finite(values.get(key), np.nan) for values, _ in self.groups])
 
     def average(self, values: np.ndarray) -> Average:
         """Over the seeds of each group, of the points that have a number."""
@@ -165,8 +162,10 @@ class Table(Columns):
 
     def means(self) -> Columns:
         """A row a group: mean, .deviation and .count of every column."""
-        columns = {key: (np.array if isinstance(self[key], np.ndarray) else list)([self[key][rows[0]] for _, rows in self.groups])
-                   for key in self.axes if not is_seed(key)}
+        columns: dict[str, Any] = {}
+        for key in (key for key in self.axes if not is_seed(key)):
+            column = [self[key][rows[0]] for _, rows in self.groups]
+            columns[key] = np.array(column) if isinstance(self[key], np.ndarray) else column
         for name, (mean, deviation, count) in self.averages().items():
             columns |= {name: mean, name + ".deviation": deviation, name + ".count": count}
         return Columns(columns)
@@ -197,7 +196,8 @@ def _status(words: list[str]) -> str:
 def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
     """Heads, a row for all seeds of a point, and what the numbers are."""
     axes = [key for key in table.axes if not is_seed(key)]
-    cells = [(head, table.average(column), digits) for head, name, digits in (OF_SIMULATION if table.simulated else OF_THEORY)
+    cells = [(head, table.average(column), digits)
+             for head, name, digits in (OF_SIMULATION if table.simulated else OF_THEORY)
              if np.isfinite(column := table.values(name)).any()]
     rows = []
     for group, (values, places) in enumerate(table.groups):

@@ -68,7 +68,8 @@ def environment_alone() -> dict[str, str]:
     """The environment for a program that is one process, also where this one is a rank that a launcher has started."""
     if not launched()[1]:
         return dict(os.environ)
-    of_rank = re.compile(r"OMPI_(?!ALLOW|MCA)|OMPI_MCA_(orte|ess|pmix|plm|shmem)|PMI|HYDRA_|MPI_LOCAL|SLURM_(STEP|PROCID)")
+    of_rank = re.compile("OMPI_(?!ALLOW|MCA)|OMPI_MCA_(orte|ess|pmix|plm|shmem)|PMI|HYDRA_|MPI_LOCAL|"
+                         "SLURM_(STEP|PROCID)")
     return {name: value for name, value in os.environ.items() if not of_rank.match(name)}
 
 

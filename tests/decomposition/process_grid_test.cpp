@@ -4,6 +4,7 @@
 // Who owns what: every node of every level has one owner, and cells of the cut levels are whole.
 #include "decomposition/process_grid.hpp"
 #include "kernels/views.hpp"
+#include "support/message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,8 +49,7 @@ TEST_P(Cuts, EveryNodeHasOneOwnerAndCoarseCellsAreWhole) {
                     ++owners.at(static_cast<std::size_t>(y * n + x));
             EXPECT_EQ(grid.tile(level, r).x0, mine.x0);
         }
-        for (int count : owners)
-            ASSERT_EQ(count, 1);
+        ASSERT_EQ(owners, std::vector<int>(owners.size(), 1));
     }
     // Neighbourhood is mutual.
     for (int r = 0; r < ranks; ++r) {
@@ -82,12 +82,7 @@ TEST(ProcessGrid, KnownCuts) {
 }
 
 TEST(ProcessGrid, TooManyRanksAreRefusedWithTheNumbers) {
-    try {
-        const ProcessGrid grid(16, 0, 7, 1);
-        FAIL() << "7 x 7 sites in 4 x 4 tiles";
-    } catch (const std::invalid_argument& e) {
-        const std::string text = e.what();
-        EXPECT_NE(text.find("7 x 7"), std::string::npos);
-        EXPECT_NE(text.find("4 x 4"), std::string::npos);
-    }
+    const std::string text =
+        test::message_of<std::invalid_argument>([] { const ProcessGrid grid(16, 0, 7, 1); });
+    EXPECT_TRUE(test::has(text, "7 x 7") && test::has(text, "4 x 4")) << text;
 }

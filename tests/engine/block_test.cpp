@@ -11,7 +11,7 @@
 // sqrt(nodes) more.
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
-#include "support/rotation.hpp"
+#include "support/nodes.hpp"
 #include "support/spectral_lattice.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,6 @@
 
 using namespace asperity;
 using test::ElasticOperator;
-using test::Matrix;
 using test::Vector;
 
 namespace {
@@ -59,6 +58,36 @@ protected:
     BlockOptions options = GetParam().options();
 };
 
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+std::array<double, 3> apply(const Matrix& m, const std::array<double, 3>& v) {
+    std::array<double, 3> result{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            result[i] += m[i][j] * v[j];
+    return result;
+}
+
+Matrix product(const Matrix& a, const Matrix& b) {
+    Matrix result{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            for (std::size_t k = 0; k < 3; ++k)
+                result[i][j] += a[i][k] * b[k][j];
+    return result;
+}
+
+/// About an axis of any length (Rodrigues).
+Matrix rotation(const std::array<double, 3>& axis, double degrees) {
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    const double x = axis[0] / length, y = axis[1] / length, z = axis[2] / length;
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const double c = std::cos(angle), s = std::sin(angle), d = 1.0 - c;
+    return {{{c + d * x * x, d * x * y - s * z, d * x * z + s * y},
+             {d * x * y + s * z, c + d * y * y, d * y * z - s * x},
+             {d * x * z - s * y, d * y * z + s * x, c + d * z * z}}};
+}
+
 double length(const Vector& v) { return std::sqrt(test::dot(v, v)); }
 
 /// Energy density of a uniform deformation, straight from the definition: springs as long as F
@@ -71,7 +100,7 @@ double energy_density(const BlockOptions& o, const Matrix& F) {
             for (int z = -1; z <= 1; ++z) {
                 const int square = x * x + y * y + z * z;
                 if (square != 1 && square != 2) continue;
-                const auto r = test::apply(F, {double(x), double(y), double(z)});
+                const auto r = apply(F, {double(x), double(y), double(z)});
                 const double stretch = std::hypot(r[0], r[1], r[2]) - std::sqrt(double(square));
                 sum += 0.25 * mu * stretch * stretch; // each direction is met twice
             }
@@ -149,10 +178,10 @@ TEST_P(BlockLaws, PatchTest) {
         force.emplace_back(level.tile, level.shape.cells);
     const double a = options.spacing;
     const Matrix stretch = {{{1.05, 0.02, 0.1}, {0.0, 0.97, -0.05}, {0.03, 0.0, 0.9}}};
-    const Matrix turn = test::rotation({1.0, 2.0, -0.5}, 25.0);
-    std::vector<Matrix> gradients = {stretch, turn, test::product(turn, stretch)};
+    const Matrix turn = rotation({1.0, 2.0, -0.5}, 25.0);
+    std::vector<Matrix> gradients = {stretch, turn, product(turn, stretch)};
     if (!options.finite_strain) {
-        gradients.assign(9, test::rotation({0.0, 0.0, 1.0}, 0.0));
+        gradients.assign(9, rotation({0.0, 0.0, 1.0}, 0.0));
         for (std::size_t k = 0; k < 9; ++k)
             gradients[k][k / 3][k % 3] += 1e-2;
     }
@@ -169,7 +198,7 @@ TEST_P(BlockLaws, PatchTest) {
                     for (int x = -halo_width; x < level.tile.nx + halo_width; ++x) {
                         const std::array<double, 3> at = {a * scale * x, a * scale * y,
                                                           a * (level.depth + scale * z)};
-                        const auto moved = test::apply(F, at);
+                        const auto moved = apply(F, at);
                         to.x(x, y, z) = moved[0] - at[0] + 0.3;
                         to.y(x, y, z) = moved[1] - at[1] - 0.2;
                         to.z(x, y, z) = moved[2] - at[2] + 0.1;
@@ -188,11 +217,10 @@ TEST_P(BlockLaws, PatchTest) {
                 for (int y = 0; y < block.levels()[l].tile.ny; ++y)
                     for (int x = 0; x < block.levels()[l].tile.nx; ++x) {
                         const double on = l == 0 && z == 0 ? 1.0 : 0.0;
-                        const auto f = std::as_const(force[l]).view();
+                        const auto f = test::components(force[l].view(), x, y, z);
                         // The traction is a numerical derivative, good to 1e-11.
-                        ASSERT_NEAR(f.x(x, y, z), on * pull[0], rounding + on * 1e-10) << l << z;
-                        ASSERT_NEAR(f.y(x, y, z), on * pull[1], rounding + on * 1e-10) << l << z;
-                        ASSERT_NEAR(f.z(x, y, z), on * pull[2], rounding + on * 1e-10) << l << z;
+                        for (std::size_t i = 0; i < 3; ++i)
+                            ASSERT_NEAR(*f[i], on * pull[i], rounding + on * 1e-10) << l << z;
                     }
     }
 }
@@ -232,32 +260,13 @@ TEST_P(BlockLaws, ForceIsMinusTheGradientOfTheEnergy) {
     }
 }
 
-TEST_P(BlockLaws, InternalForcesSumToZero) {
-    ElasticOperator k(options);
-    Vector u = test::random_vector(k.size(), 7);
-    for (double& x : u)
-        x *= 0.3;
-    k.set(u, 0.5);
-    const Vector f = k.force();
-    auto total = k.top_force();
-    for (int c = 0; c < 3; ++c) {
-        const Vector one = k.tabulate([&](const Block::Level&, int component, int, int, int) {
-            return component == c ? 1.0 : 0.0;
-        });
-        EXPECT_NEAR(test::dot(f, one) + total[static_cast<std::size_t>(c)], 0.0,
-                    1e-14 * length(f) * length(one));
-    }
-}
-
 TEST_P(BlockLaws, MassIsThatOfTheAtoms) {
     // Thickness planes of full atoms move, the lowest a whole one instead of half: with half a
     // cell's mass on the top plane that makes (thickness + 1/2) N^2 atoms, however the levels are
     // cut.
     const Block block(options, Communicator(), test::serial_grid(options));
     double mass = 0.0;
-    for (const auto& level : block.levels())
-        for (int z = 0; z < level.shape.cells; ++z)
-            mass += level.mass(z) * level.shape.sites * level.shape.sites;
+    test::each_node(block, [&](const Block::Level& l, int, int, int z) { mass += l.mass(z); });
     const auto& last = block.levels().back();
     mass += 0.5 * last.node_mass * last.shape.sites * last.shape.sites;
     const double atoms = (options.thickness + 0.5) * options.sites * options.sites;
@@ -298,25 +307,6 @@ TEST_P(BlockLaws, EnergyIsPositiveAndNoModeIsFasterThanTheBulk) {
             EXPECT_GE(std::sqrt(w2), 0.8 * options.highest_frequency(0.0)) << "should be near";
         }
     }
-}
-
-TEST_P(BlockLaws, FiniteStrainCostsMemoryOnlyWhereItIsAskedFor) {
-    const auto bytes_after_a_step = [this](bool finite) {
-        BlockOptions o = options;
-        o.finite_strain = finite;
-        Block block(o, Communicator(), test::serial_grid(o));
-        block.set_uniform(0.0, 0.0);
-        const std::size_t before = block.bytes();
-        KickSums sums;
-        block.advance({10.0}, sums);
-        return block.bytes() - before;
-    };
-    EXPECT_EQ(bytes_after_a_step(false), 0u);
-    // Two planes of a band of at most a dozen rows with their padding, three components, a thread.
-    const auto most = static_cast<std::size_t>(omp_get_max_threads()) * 2 * 3 * sizeof(double) *
-                      12 * static_cast<std::size_t>(options.sites + 40);
-    EXPECT_GT(bytes_after_a_step(true), 0u);
-    EXPECT_LT(bytes_after_a_step(true), most);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, BlockLaws, testing::ValuesIn(shapes));

@@ -21,8 +21,10 @@ using namespace asperity;
 
 namespace {
 
+const std::string rough = "[surface]\nsites = 32\nrms = 1.0\n";
+
 Case case_with(const std::vector<std::string>& overrides) {
-    return read_case_text("[surface]\nsites = 32\nrms = 1.0\n", "test.toml", overrides);
+    return read_case_text(rough, "test.toml", overrides);
 }
 
 Effects effects_with(const std::vector<std::string>& overrides) {
@@ -46,24 +48,6 @@ Simulation follow(const Case& c, int steps) {
         s.step(n % 10 == 0);
     return s;
 }
-
-/// What a run left, to be looked at.
-struct Left {
-    std::string directory, json;
-    std::vector<std::string> groups; ///< of run.h5
-
-    Left(std::string where, const std::vector<std::string>& overrides)
-        : directory(std::move(where)) {
-        json = io::json_text(test::run_scene(case_with(overrides), directory), 2);
-        groups = io::Hdf5File(directory + "/run.h5", io::Hdf5File::Mode::read).members("/");
-    }
-    bool has_group(const char* name) const {
-        return std::find(groups.begin(), groups.end(), name) != groups.end();
-    }
-    bool has_file(const char* name) const {
-        return std::filesystem::exists(directory + "/" + name);
-    }
-};
 
 /// The most that the state of a scene takes at once.
 double relaxing_bytes(const std::vector<std::string>& overrides) {
@@ -190,6 +174,7 @@ TEST(Effects, OnInAStepTakesPlace) {
     EXPECT_EQ(s.phases()[Phase::interpolate].calls, 20);
     EXPECT_GT(s.block().coarse_bytes(), 0u);
     EXPECT_GT(s.block().finite_bytes(), 0u);
+    EXPECT_LT(s.block().finite_bytes(), s.block().bytes() / 10) << "bands of rows, no field";
     EXPECT_GT(s.interface().tail_bytes(), 0u);
     EXPECT_GT(s.balance().damped, 0.0);
     EXPECT_NE(s.balance().drag_work, 0.0);
@@ -288,23 +273,20 @@ TEST(Effects, WithoutFrictionThereAreNoLateralDisplacements) {
 }
 
 TEST(Effects, OffInARunLeavesNothing) {
-    const std::vector<std::string> small = {"surface.sites=16", "block.thickness=8",
-                                            "drive.max_steps=20", "output.series=10"};
-    std::vector<std::string> off = small, on = small;
-    for (const char* key : {"output.fields=[]", "output.checkpoint=0"})
-        off.emplace_back(key);
-    for (const char* key : {"output.fields=[\"every:5\"]", "output.trajectory=5"})
-        on.emplace_back(key);
-    const io::Scratch scratch;
-    const Left without(scratch / "without", off), with(scratch / "with", on);
-    EXPECT_FALSE(without.has_group("fields"));
-    EXPECT_FALSE(without.has_group("particles"));
-    EXPECT_FALSE(without.has_file("checkpoint.h5"));
-    EXPECT_EQ(without.json.find("\"checkpoint\": {"), std::string::npos) << "a phase";
-    EXPECT_TRUE(with.has_group("fields"));
-    EXPECT_TRUE(with.has_group("particles"));
-    EXPECT_TRUE(with.has_file("checkpoint.h5"));
-    EXPECT_NE(with.json.find("\"checkpoint\": {"), std::string::npos);
-    EXPECT_NE(without.json.find("\"why\": \"output.trajectory = \\\"none\\\"\""),
-              std::string::npos);
+    const auto run_with = [](std::vector<std::string> keys) {
+        keys.insert(keys.end(), {"surface.sites=16", "block.thickness=8", "drive.max_steps=20",
+                                 "output.series=10"});
+        return read_scene_text(rough, "test.toml", keys);
+    };
+    const test::Written without(run_with({"output.fields=[]", "output.checkpoint=0"})),
+        with(run_with({"output.fields=[\"every:5\"]", "output.trajectory=5"}));
+    for (const auto* run : {&without, &with}) {
+        const bool on = run == &with;
+        EXPECT_EQ(run->file->exists("/fields"), on);
+        EXPECT_EQ(run->file->exists("/particles"), on);
+        EXPECT_EQ(std::filesystem::exists(run->directory + "/checkpoint.h5"), on);
+        EXPECT_EQ(run->holds("run.phases.checkpoint"), on);
+    }
+    EXPECT_TRUE(
+        test::has(io::json_text(without.json, 2), "\"why\": \"output.trajectory = \\\"none\\\"\""));
 }

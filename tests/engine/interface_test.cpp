@@ -1,97 +1,33 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The fast sweeps against the reference, forces against energies, and the same bits whatever the
-// decomposition. States are rough and displaced at random, some far beyond what a run allows.
+// The fast sweeps against the reference in double and mixed precision, forces against energies, and
+// the same bits whatever the decomposition. States are rough and displaced at random, some far
+// beyond what a run allows. (Motion in mixed precision: stability/motion_limits_test.)
 #include "engine/interface/interface.hpp"
 #include "engine/interface/interface_stiffness.hpp"
 #include "support/cases.hpp"
+#include "support/swept.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <string>
+#include <tuple>
 
 namespace asperity {
 namespace {
 
 constexpr double a = 2.6;
 constexpr double r0 = 3.28;
+using test::Outcome, test::same_bits, test::scattered, test::State, test::sweep;
 
 // Boxes of a few sites: threads would only wait for each other, but where they are what is tested.
 [[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
-
-Surface rough(int sites, double length, double amplitude, unsigned seed) {
-    Surface s;
-    s.sites = sites;
-    s.length = length;
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> height(-amplitude, amplitude);
-    for (int i = 0; i < sites * sites; ++i)
-        s.height.push_back(height(random));
-    return s;
-}
-
-/// A whole box of displacements, copied into the fields of a tile.
-struct State {
-    int n;
-    std::vector<double> u[3];
-
-    State(int sites, double sideways, double up, unsigned seed) : n(sites) {
-        std::mt19937_64 random(seed);
-        std::uniform_real_distribution<double> unit(-1.0, 1.0);
-        for (int i = 0; i < n * n; ++i)
-            for (int k = 0; k < 3; ++k)
-                u[k].push_back((k < 2 ? sideways : up) * unit(random));
-    }
-    double& at(int k, int x, int y) { return u[k][static_cast<std::size_t>(y * n + x)]; }
-    VectorField<double> on(const Tile& tile) const {
-        VectorField<double> field(tile, 1);
-        Field<double>* component[3] = {&field.x, &field.y, &field.z};
-        for (int k = 0; k < 3; ++k)
-            for (int y = -halo_width; y < tile.ny + halo_width; ++y)
-                for (int x = -halo_width; x < tile.nx + halo_width; ++x)
-                    component[k]->plane(0)(x, y) = u[k][static_cast<std::size_t>(
-                        periodic(tile.y0 + y, n) * n + periodic(tile.x0 + x, n))];
-        return field;
-    }
-};
-
-struct Outcome {
-    std::vector<double> force[3]; // [y * n + x] of the box
-    InterfaceSums sums;
-};
-
-/// Sweeps the box cut into tiles of at most nx * ny sites.
-Outcome sweep(const Surface& substrate, const State& state, const InterfaceOptions& options,
-              double z, bool observe, int nx = 1 << 20, int ny = 1 << 20) {
-    Outcome out;
-    const int n = state.n;
-    for (auto& f : out.force)
-        f.assign(static_cast<std::size_t>(n * n), 1e99);
-    for (int y0 = 0; y0 < n; y0 += ny)
-        for (int x0 = 0; x0 < n; x0 += nx) {
-            const Tile tile{x0, y0, std::min(nx, n - x0), std::min(ny, n - y0), n};
-            const Interface interface(substrate, tile, a, options);
-            const VectorField<double> u = state.on(tile);
-            VectorField<double> f(tile, 1);
-            out.sums.merge(interface.sweep(u.plane(0), f.plane(0), z, {.observe = observe}));
-            for (int y = 0; y < tile.ny; ++y)
-                for (int x = 0; x < tile.nx; ++x) {
-                    const auto i = static_cast<std::size_t>((y0 + y) * n + x0 + x);
-                    out.force[0][i] = f.x.plane(0)(x, y);
-                    out.force[1][i] = f.y.plane(0)(x, y);
-                    out.force[2][i] = f.z.plane(0)(x, y);
-                }
-        }
-    return out;
-}
 
 void expect_close(const Outcome& reference, const Outcome& other, const std::string& what) {
     double worst = 0.0;
@@ -112,18 +48,10 @@ void expect_close(const Outcome& reference, const Outcome& other, const std::str
     } else {
         EXPECT_EQ(other.sums.closest_r2, no_pair) << what;
     }
+    const double total = std::accumulate(other.force[2].begin(), other.force[2].end(), 0.0);
+    EXPECT_NEAR(other.sums.force_z.value(), total, 1e-10 * (1.0 + std::abs(total))) << what;
     const double energy = reference.sums.energy.value();
     EXPECT_NEAR(energy, other.sums.energy.value(), 1e-12 * (10.0 + std::abs(energy))) << what;
-}
-
-bool same_bits(const Outcome& p, const Outcome& q) {
-    for (int k = 0; k < 3; ++k)
-        if (std::memcmp(p.force[k].data(), q.force[k].data(), p.force[k].size() * sizeof(double)))
-            return false;
-    return p.sums.force_z.value() == q.sums.force_z.value() &&
-           p.sums.energy.value() == q.sums.energy.value() &&
-           p.sums.in_contact == q.sums.in_contact && p.sums.repulsive == q.sums.repulsive &&
-           p.sums.closest_r2 == q.sums.closest_r2;
 }
 
 InterfaceOptions with(InterfaceMethod method, const PairPotential& potential = LennardJones{}) {
@@ -151,46 +79,24 @@ TEST(InterfaceSweep, AgreesWithTheReference) {
                         const auto swept = [&](const Surface& surface, InterfaceMethod method) {
                             return sweep(surface, state, with(method, potential), z, true);
                         };
-                        const Surface same = rough(n, n * a, 2.0, seed);
+                        const Surface same = scattered(n, n * a, 2.0, seed);
                         const Outcome reference = swept(same, InterfaceMethod::reference);
                         expect_close(reference, swept(same, InterfaceMethod::lattice),
                                      "lattice " + what);
                         expect_close(reference, swept(same, InterfaceMethod::rows), "rows " + what);
-                        const Surface other = rough(substrate_sites(n, 1.618), n * a, 2.0, seed);
+                        const Surface other =
+                            scattered(substrate_sites(n, 1.618), n * a, 2.0, seed);
                         expect_close(swept(other, InterfaceMethod::reference),
                                      swept(other, InterfaceMethod::automatic),
                                      "incommensurate " + what);
                     }
 }
 
-TEST(InterfaceSweep, MixedAgreesWithDoubleForEveryPotential) {
-    const int n = 24;
-    const State state(n, 0.5, 1.0, 3);
-    for (const PairPotential& potential : test::potentials())
-        for (int m : {24, 38}) {
-            const Surface surface = rough(m, n * a, 1.5, 8);
-            InterfaceOptions options = with(InterfaceMethod::automatic, potential);
-            const Outcome exact = sweep(surface, state, options, 4.5, true);
-            options.mixed = true;
-            const Outcome mixed = sweep(surface, state, options, 4.5, true);
-            double most = 0.0, largest = 0.0;
-            for (int k = 0; k < 3; ++k)
-                for (std::size_t i = 0; i < exact.force[k].size(); ++i) {
-                    most = std::max(most, std::abs(exact.force[k][i] - mixed.force[k][i]));
-                    largest = std::max(largest, std::abs(exact.force[k][i]));
-                }
-            EXPECT_LT(most, 1e-5 * largest) << potential.index() << " " << m;
-            EXPECT_GT(most, 0.0);
-            EXPECT_NEAR(exact.sums.energy.value(), mixed.sums.energy.value(),
-                        1e-6 * std::abs(exact.sums.energy.value()) + 1e-4);
-        }
-}
-
 TEST(InterfaceSweep, ForceOnlyGivesTheBitsOfTheObservedSweep) {
     const int n = 19;
     const State state(n, 0.8, 1.0, 3);
     for (auto [m, mixed] : {std::pair{19, false}, {31, false}, {19, true}, {31, true}}) {
-        const Surface s = rough(m, n * a, 1.0, 4);
+        const Surface s = scattered(m, n * a, 1.0, 4);
         InterfaceOptions o = with(InterfaceMethod::automatic);
         o.mixed = mixed;
         Outcome quick = sweep(s, state, o, 4.0, false);
@@ -212,7 +118,7 @@ TEST(InterfaceSweep, ForceIsMinusTheGradient) {
                  {InterfaceMethod::automatic, InterfaceMethod::reference, InterfaceMethod::rows}) {
                 for (const PairPotential& potential : test::potentials()) {
                     if (tail && std::holds_alternative<Tabulated>(potential)) continue;
-                    const Surface s = rough(m, n * a, 0.5, 5);
+                    const Surface s = scattered(m, n * a, 0.5, 5);
                     State state(n, 0.6, 0.6, 6);
                     InterfaceOptions o = with(method, potential);
                     o.tail = tail;
@@ -240,7 +146,7 @@ TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
     const int n = 9;
     const Tile tile{0, 0, n, n, n};
     for (const PairPotential& potential : test::potentials(15.5)) {
-        const Interface interface(rough(n, n * a, 0.5, 11), tile, a,
+        const Interface interface(scattered(n, n * a, 0.5, 11), tile, a,
                                   with(InterfaceMethod::automatic, potential));
         const State state(n, 0.4, 0.3, 12), way(n, 1.0, 1.0, 13);
         const double z = 3.6, h = 5e-4;
@@ -292,53 +198,6 @@ TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
     }
 }
 
-TEST(InterfaceSweep, TotalForceIsMinusTheGradientOfARigidShift) {
-    // Newton's third law: what pushes the block sideways or up pushes the substrate back.
-    const int n = 12;
-    const Surface s = rough(n, n * a, 0.8, 7);
-    State state(n, 0.3, 0.3, 8);
-    const InterfaceOptions o = with(InterfaceMethod::automatic);
-    const Outcome out = sweep(s, state, o, 4.0, true);
-    for (int k = 0; k < 3; ++k) {
-        double total = 0.0;
-        for (double f : out.force[k])
-            total += f;
-        if (k == 2) {
-            EXPECT_NEAR(total, out.sums.force_z.value(), 1e-10);
-        }
-        const double h = 1e-6;
-        double energy[2];
-        for (int side : {0, 1}) {
-            State moved = state;
-            for (double& u : moved.u[k])
-                u += side ? h : -h;
-            energy[side] = sweep(s, moved, o, 4.0, true).sums.energy.value();
-        }
-        // Up to the small steps of the force at the cutoff.
-        EXPECT_NEAR(total, -(energy[1] - energy[0]) / (2.0 * h), 1e-3) << k;
-    }
-}
-
-TEST(InterfaceSweep, IsTheSameOnAShiftedLattice) {
-    // A displacement by whole spacings over a substrate moved along: the same forces.
-    const int n = 14;
-    const Surface s = rough(n, n * a, 1.0, 9);
-    Surface moved = s;
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
-            moved.height[static_cast<std::size_t>(periodic(y - 1, n) * n + periodic(x + 1, n))] =
-                s.height[static_cast<std::size_t>(y * n + x)];
-    const State state(n, 0.4, 0.5, 10);
-    State shifted = state;
-    for (double& u : shifted.u[0])
-        u += a;
-    for (double& u : shifted.u[1])
-        u -= a;
-    for (auto method : {InterfaceMethod::lattice, InterfaceMethod::rows})
-        expect_close(sweep(s, state, with(method), 3.5, true),
-                     sweep(moved, shifted, with(method), 3.5, true), "shifted");
-}
-
 TEST(InterfaceSweep, GivesTheSameBitsOnAnyTilesAndThreads) {
     for (int n : {33, 40}) {
         State state(n, 0.9, 2.0, 11);
@@ -346,7 +205,7 @@ TEST(InterfaceSweep, GivesTheSameBitsOnAnyTilesAndThreads) {
         state.at(1, 32, 1) = -6.0;
         for (int m : {n, substrate_sites(n, 1.618)})
             for (auto [tail, mixed] : {std::pair{false, false}, {true, false}, {false, true}}) {
-                const Surface s = rough(m, n * a, 3.0, 12);
+                const Surface s = scattered(m, n * a, 3.0, 12);
                 InterfaceOptions o = with(InterfaceMethod::automatic);
                 o.tail = tail;
                 o.mixed = mixed;
@@ -367,10 +226,10 @@ TEST(InterfaceSweep, GivesTheSameBitsOnAnyTilesAndThreads) {
 TEST(InterfaceSweep, SkipsWhatIsOutOfReach) {
     const int n = 32;
     const State still(n, 0.0, 0.0, 1);
-    Surface s = rough(n, n * a, 1.0, 2);
+    Surface s = scattered(n, n * a, 1.0, 2);
     const Tile tile{0, 0, n, n, n};
     for (int m : {n, 52}) {
-        if (m != n) s = rough(m, n * a, 1.0, 2);
+        if (m != n) s = scattered(m, n * a, 1.0, 2);
         const Interface interface(s, tile, a, {});
         EXPECT_EQ(interface.method(), m == n ? InterfaceMethod::lattice : InterfaceMethod::rows);
         const double z = interface.start_height();
@@ -391,7 +250,7 @@ TEST(InterfaceSweep, ReportsSitesThatAreNoNumbers) {
     state.at(0, 3, 3) = std::nan("");
     state.at(2, 9, 4) = std::numeric_limits<double>::infinity();
     for (int m : {16, 26}) {
-        const Outcome out = sweep(rough(m, n * a, 0.5, 1), state, {}, 4.0, false);
+        const Outcome out = sweep(scattered(m, n * a, 0.5, 1), state, {}, 4.0, false);
         EXPECT_TRUE(std::isnan(out.force[2][3 * 16 + 3]));
         EXPECT_TRUE(std::isnan(out.force[2][4 * 16 + 9]));
         EXPECT_TRUE(std::isfinite(out.force[2][3 * 16 + 4]));
@@ -400,7 +259,7 @@ TEST(InterfaceSweep, ReportsSitesThatAreNoNumbers) {
 
 TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
     const int n = 9;
-    Surface s = rough(n, n * a, 0.0, 1);
+    const Surface s = test::flat_surface(n);
     const Tile tile{0, 0, n, n, n};
     const Interface interface(s, tile, a, {});
     const State still(n, 0.0, 0.0, 1);
@@ -424,7 +283,7 @@ TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
 }
 
 TEST(InterfaceOptionsCheck, SaysWhatIsWrong) {
-    const Surface s = rough(8, 8 * a, 0.0, 1);
+    const Surface s = scattered(8, 8 * a, 0.0, 1);
     const Tile tile{0, 0, 8, 8, 8};
     InterfaceOptions o;
     std::get<LennardJones>(o.potential).cutoff = 300.0;
@@ -432,9 +291,9 @@ TEST(InterfaceOptionsCheck, SaysWhatIsWrong) {
     std::get<LennardJones>(o.potential).cutoff = -1.0;
     EXPECT_THROW(Interface(s, tile, a, o), std::invalid_argument);
     std::get<LennardJones>(o.potential).cutoff = 35.0; // some 150 rows of atoms a tenth of a apart
-    EXPECT_THROW(Interface(rough(320, 32 * a, 0.0, 1), {0, 0, 32, 32, 32}, a, o),
+    EXPECT_THROW(Interface(scattered(320, 32 * a, 0.0, 1), {0, 0, 32, 32, 32}, a, o),
                  std::invalid_argument);
-    EXPECT_THROW(Interface(rough(13, 8 * a, 0.0, 1), tile, a, with(InterfaceMethod::lattice)),
+    EXPECT_THROW(Interface(scattered(13, 8 * a, 0.0, 1), tile, a, with(InterfaceMethod::lattice)),
                  std::invalid_argument);
 }
 
@@ -445,12 +304,7 @@ TEST(InterfaceMaps, TheGapIsBilinearBetweenTheAtomsBelow) {
     const auto height = [](double i, double j) {
         return 0.3 + 0.05 * i - 0.02 * j + 0.011 * i * j;
     };
-    Surface surface;
-    surface.sites = n;
-    surface.length = n * a;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-            surface.height.push_back(height(i, j));
+    const Surface surface = test::surface_from(n, height);
     const Tile tile{0, 0, n, n, n};
     const Interface interface(surface, tile, a, {});
     const State state(n, 1.9, 0.5, 7);
@@ -468,7 +322,7 @@ TEST(InterfaceTail, RepulsiveSitesAreCountedWithTheTail) {
     // The tail attracts: with it fewer sites are repelled, and the count is that of the forces.
     InterfaceOptions options;
     std::get<LennardJones>(options.potential).cutoff = 6.0;
-    const Surface surface = rough(16, 16 * a, 0.5, 3);
+    const Surface surface = scattered(16, 16 * a, 0.5, 3);
     const State state(16, 0.3, 0.4, 4);
     const auto repulsive = [](const Outcome& o) {
         return std::count_if(o.force[2].begin(), o.force[2].end(),
@@ -488,6 +342,108 @@ TEST(InterfaceTail, RepulsiveSitesAreCountedWithTheTail) {
         fewer += without - with.sums.repulsive;
     }
     EXPECT_GT(fewer, 0) << "no site at which the tail decides";
+}
+
+// What to expect of a force in mixed precision: positions are rounded to 1.2e-7 Å (half of
+// fixed_quantum) on both sides, and r^2 by three float roundings: about 3e-7 of r^2. Where a pair
+// repels, t^7 - t^4 is half of t^7 and takes fourteen times that, 4e-6; five roundings on the way
+// to t^7 add 3e-6. So 1e-5 bounds the error in units of a pair's force (7e-6 is the worst seen, on
+// any processor level). The pairs of a site pull against each other: the unit is the largest of
+// their forces, not the sum. Likewise for energies: t^6 and t^3, of a unit that is the well's depth
+// or more.
+constexpr double force_bound = 1e-5, energy_bound = 2e-6;
+
+/// The mixed sweep against pair sums in double; returns the worst error of a force.
+double expect_mixed_close(const Surface& substrate, const State& state, double z,
+                          const PairPotential& potential = LennardJones{}) {
+    InterfaceOptions options = with(InterfaceMethod::automatic, potential);
+    options.mixed = true;
+    const Outcome mixed = sweep(substrate, state, options, z, true);
+    options = with(InterfaceMethod::reference, potential);
+    const Outcome reference = sweep(substrate, state, options, z, true);
+    const Tile tile{0, 0, state.n, state.n, state.n};
+    const VectorField<double> u = state.on(tile);
+    const InterfaceMaps maps = Interface(substrate, tile, a, options).maps(u.plane(0), z);
+    double worst = 0.0, energies = 1e-3;
+    for (std::size_t i = 0; i < maps.distance.size(); ++i) {
+        const double r = maps.distance[i];
+        // The nearest atom's force; at the minimum of the pair potential, its well's steepest.
+        const auto [pair, depth] = std::visit(
+            [r](const auto& p) {
+                const auto force = [&](double at) {
+                    return std::abs(Pair(p).force_over_distance(at * at)) * at;
+                };
+                return std::pair(force(r) + (r < 6.0 ? 0.958 * force(p.inflection()) : 1e-3),
+                                 p.depth());
+            },
+            potential);
+        for (int k = 0; k < 3; ++k)
+            if (std::isfinite(r))
+                worst = std::max(worst, std::abs(mixed.force[k][i] - reference.force[k][i]) / pair);
+            else
+                EXPECT_EQ(mixed.force[k][i], 0.0);
+        energies += std::isfinite(r) ? depth : 0.0;
+    }
+    // Cubics of a table round twice as much.
+    EXPECT_LT(worst,
+              std::holds_alternative<Tabulated>(potential) ? 2.0 * force_bound : force_bound);
+    const double energy = reference.sums.energy.value();
+    EXPECT_NEAR(mixed.sums.energy.value(), energy,
+                energy_bound * std::max(energies, std::abs(energy)));
+    EXPECT_EQ(mixed.sums.in_contact, reference.sums.in_contact);
+    EXPECT_EQ(mixed.sums.repulsive, reference.sums.repulsive);
+    return worst;
+}
+
+TEST(MixedPrecision, ForcesAndEnergiesOfRoughStates) {
+    unsigned seed = 1;
+    double force = 0.0;
+    for (int n : {16, 33})
+        for (int m : {n, substrate_sites(n, 1.618)})
+            for (double sideways : {0.1, 1.5})
+                // Flat, rough, and a box as high as a mountain: only differences matter.
+                for (auto [amplitude, level, gap] : {std::tuple{0.05, 0.0, 3.1},
+                                                     {1.0, 0.0, 4.0},
+                                                     {2.0, -4321.0, 5.0},
+                                                     {8.0, 9876.5, 10.0}})
+                    for (const PairPotential& potential : test::potentials()) {
+                        SCOPED_TRACE(std::to_string(n) + " " + std::to_string(m) + " " +
+                                     std::to_string(amplitude) + " " +
+                                     std::to_string(potential.index()));
+                        const Surface s = scattered(m, n * a, amplitude, ++seed, level);
+                        const State state(n, sideways, 0.5, seed);
+                        force =
+                            std::max(force, expect_mixed_close(s, state, level + gap, potential));
+                    }
+    EXPECT_GT(force, 1e-9) << "is it mixed at all?";
+}
+
+TEST(MixedPrecision, LeavesDepthsBeyondTheFixedRangeToTheReference) {
+    // A pit 400 Å deep, and sites at its bottom: atoms there are beyond the 250 Å of fixed depth.
+    for (int m : {16, 26}) {
+        Surface pit = scattered(m, 16 * a, 0.3, 5);
+        for (std::size_t i = 0; i < pit.height.size() / 2; ++i)
+            pit.height[i] -= 400.0;
+        for (double z : {3.0, -100.0, -238.0, -247.0, -300.0, -396.8}) {
+            SCOPED_TRACE(z);
+            expect_mixed_close(pit, State(16, 0.2, 0.2, 6), z);
+        }
+    }
+}
+
+TEST(MixedPrecision, BindsLikeDouble) {
+    for (auto [map, sites, thickness] :
+         {std::tuple{"n8_b_rms1.0", 8, 6}, {"c2_N16_T8_rms1.5", 16, 8}}) {
+        InterfaceOptions interface = test::paper_interface();
+        const BlockOptions block = test::paper_block(sites, thickness, 0);
+        const Surface surface = test::reference_surface(map);
+        const auto relaxed = [&] { return test::relax_levels(block, interface, surface, 1e-5); };
+        const test::Relaxed exact = relaxed();
+        interface.mixed = true;
+        const test::Relaxed mixed = relaxed();
+        EXPECT_NEAR(mixed.binding_energy / exact.binding_energy, 1.0, 1e-6) << map;
+        EXPECT_NEAR(mixed.mean_height, exact.mean_height, 1e-4) << map;
+    }
 }
 
 } // namespace

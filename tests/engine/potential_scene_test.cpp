@@ -17,6 +17,7 @@
 #include <vector>
 
 using namespace asperity;
+using test::number;
 
 namespace {
 
@@ -41,10 +42,6 @@ std::string refusal(const std::vector<std::string>& keys) {
     return test::message_of<io::SceneError>([&] { case_of(keys).require_runnable(); });
 }
 
-double number(const io::Json& result, const char* group, const char* name) {
-    return result[group][name].get<double>();
-}
-
 TEST(PotentialOfAScene, TableOfLennardJonesIsLennardJones) {
     const io::Scratch scratch;
     const io::Json exact = test::run_scene(case_of({}), scratch / "exact");
@@ -52,16 +49,15 @@ TEST(PotentialOfAScene, TableOfLennardJonesIsLennardJones) {
         case_of({"interface.potential=table", "interface.table=" + table(scratch, 1500)}),
         scratch / "made");
     for (const char* name : {"delta_gamma", "binding_energy", "contact_fraction"})
-        EXPECT_NEAR(made[name].get<double>() / exact[name].get<double>(), 1.0, 1e-6) << name;
+        EXPECT_NEAR(number(made, name) / number(exact, name), 1.0, 1e-6) << name;
     // A path with instabilities is known to what it states.
-    for (const char* part : {"approach", "pull_off"})
-        EXPECT_NEAR(number(made, "work_of_drive", part), number(exact, "work_of_drive", part),
-                    number(exact["work_of_drive"], "uncertainty", part) +
-                        number(made["work_of_drive"], "uncertainty", part));
-    for (const char* theory : {"gamma_eff", "contact_fraction"})
-        EXPECT_NEAR(number(made["theory"], "renormalised", theory) /
-                        number(exact["theory"], "renormalised", theory),
-                    1.0, 1e-5);
+    const std::string work = "work_of_drive.", theory = "theory.renormalised.";
+    for (const std::string part : {"approach", "pull_off"})
+        EXPECT_NEAR(number(made, work + part), number(exact, work + part),
+                    number(exact, work + "uncertainty." + part) +
+                        number(made, work + "uncertainty." + part));
+    for (const char* name : {"gamma_eff", "contact_fraction"})
+        EXPECT_NEAR(number(made, theory + name) / number(exact, theory + name), 1.0, 1e-5);
     EXPECT_TRUE(made["interface"]["table_digest"].is_string());
     EXPECT_FALSE(exact.contains("interface"));
 }
@@ -73,13 +69,14 @@ TEST(PotentialOfAScene, EnergiesOfAPathBalanceForEveryPotential) {
              {"interface.potential=morse", "interface.kind=wall", "interface.law=smeared"},
              {"interface.potential=table", "interface.table=" + table(scratch, 300, 0.07)}}) {
         const io::Json r = test::run_scene(case_of(keys), scratch / keys.back().substr(10, 6));
-        const double state = r["binding_energy"].get<double>();
+        const double state = number(r, "binding_energy");
         EXPECT_GT(state, 10.0);
         for (const auto& [part, sign] : {std::pair{"approach", 1.0}, {"pull_off", -1.0}})
-            EXPECT_NEAR(number(r, "work_of_drive", part) + sign * number(r, "lost", part), state,
-                        1e-3 * state)
+            EXPECT_NEAR(number(r, fmt::format("work_of_drive.{}", part)) +
+                            sign * number(r, fmt::format("lost.{}", part)),
+                        state, 1e-3 * state)
                 << keys[0] << part;
-        EXPECT_LT(std::abs(number(r, "energy", "balance_error")), 1e-3);
+        EXPECT_LT(std::abs(number(r, "energy.balance_error")), 1e-3);
     }
 }
 

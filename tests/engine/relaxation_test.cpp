@@ -16,19 +16,16 @@ using namespace asperity;
 
 namespace {
 
-struct Contact {
-    BlockOptions options = test::paper_block(8, 6, 0);
-    Surface surface = test::reference_surface("n8_b_rms1.0");
-    SpectralBlock block{options, Communicator()};
-    Interface interface { surface, block.tile(), options.spacing, test::paper_interface() };
+struct Contact : test::PathCase {
     double height = height_of_strongest_attraction(block, interface, surface.statistics.lowest);
     Phases phases;
 
+    Contact() : PathCase(test::paper_block(8, 6, 0), test::reference_surface("n8_b_rms1.0")) {}
     RelaxedState relax_with(double tolerance, double load = 0.0, long long most = 200000) {
         RelaxOptions o;
         o.tolerance = tolerance;
         o.max_iterations = most;
-        return relax(block, interface, height, Constraint::load(load), o, phases);
+        return asperity::relax(block, interface, height, Constraint::load(load), o, phases);
     }
 };
 
@@ -46,7 +43,7 @@ TEST(Relaxation, ReleasesTheWorkOfTheLoad) {
     const auto enthalpy = [](double load) {
         Contact c;
         const auto s = c.relax_with(1e-8, load);
-        return s.interface_energy + s.elastic_energy + load * c.block.top();
+        return test::energy(s) + load * c.block.top();
     };
     Contact c;
     c.relax_with(1e-8);

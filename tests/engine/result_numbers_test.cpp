@@ -3,7 +3,6 @@
 //
 // Numbers of a result against closed forms and against the other numbers of the same run; and each
 // of them is the same after a stop and a resume with instabilities behind it.
-#include "io/hdf5_file.hpp"
 #include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -90,16 +89,12 @@ TEST(ResultNumbers, AreTheSameAfterAResume) {
 }
 
 TEST(ResultNumbers, AnInstabilityLiesBetweenTwoRowsOfTheSeries) {
-    const io::Scratch scratch;
-    const Json result = test::run_scene(read_scene_text(unstable, "s.toml"), scratch / "run");
-    const io::Hdf5File file(scratch / "run/run.h5", io::Hdf5File::Mode::read);
-    const auto column = [&](const char* name) {
-        return file.read<double>(std::string("/series/") + name);
-    };
+    const test::Written run(unstable);
+    const auto column = [&](const char* name) { return run.series(name); };
     const auto top = column("top_displacement"), lost = column("dissipated"),
                segment = column("segment"), force = column("top_force"),
                height = column("mean_height"), contact = column("contact_fraction");
-    const Json& jumps = *io::find(result, listed_instabilities);
+    const Json& jumps = *io::find(run.json, listed_instabilities);
     ASSERT_GT(jumps.size(), 1u);
     double strongest = 0.0;
     for (const Json& jump : jumps) {
@@ -124,19 +119,17 @@ TEST(ResultNumbers, AnInstabilityLiesBetweenTwoRowsOfTheSeries) {
 TEST(ResultNumbers, TheErrorOfAStateIsThatOfTheSoftestWave) {
     // A wave of the length of the box with the pressure p = tolerance / a² has the energy p² / 2k a
     // nominal area, of a surface with the stiffness k = E* q / 2, q = 2 pi / L.
-    const io::Scratch scratch;
     double before = 0.0;
     for (const double tolerance : {1e-4, 1e-3}) {
-        const Scene scene =
+        const test::Written run(
             read_scene_text("[surface]\nsites = 16\nrms = 0.7\nspacing = 3.1\n[block]\n"
                             "young = 50.0\npoisson = 0.3\n[drive]\npath = [\"zero-load\"]\n",
-                            "s.toml", {"drive.tolerance=" + std::to_string(tolerance)});
-        const Json result = test::run_scene(scene, scratch / std::to_string(tolerance));
+                            "s.toml", {"drive.tolerance=" + std::to_string(tolerance)}));
         const double modulus = 50.0 / 160.2176634 / (1.0 - 0.3 * 0.3); // E*, eV/Å^3
         const double pressure = tolerance / (3.1 * 3.1);
         const double stiffness = 0.5 * modulus * 2.0 * std::numbers::pi / (16 * 3.1);
         const double expected = 1e3 * pressure * pressure / (2.0 * stiffness); // meV/Å^2
-        const double stated = io::find(result, "binding_energy_uncertainty")->get<double>();
+        const double stated = run("binding_energy_uncertainty");
         EXPECT_NEAR(stated, expected, 1e-6 * expected);
         EXPECT_GT(stated, 50.0 * before);
         before = stated;
@@ -144,17 +137,12 @@ TEST(ResultNumbers, TheErrorOfAStateIsThatOfTheSoftestWave) {
 }
 
 TEST(ResultNumbers, TheDensityOfGapsIsTheHistogramOfTheirMap) {
-    const io::Scratch scratch;
-    test::run_scene(read_scene_text("[surface]\nsites = 48\nrms = 2.0\n"
-                                    "[block]\n"
-                                    "[drive]\npath = [\"zero-load\"]\n",
-                                    "s.toml"),
-                    scratch / "run");
-    const io::Hdf5File file(scratch / "run/run.h5", io::Hdf5File::Mode::read);
+    const test::Written run("[surface]\nsites = 48\nrms = 2.0\n[block]\n"
+                            "[drive]\npath = [\"zero-load\"]\n");
     const std::string state = "/fields/zero-load/";
-    const auto gap = file.read<double>(state + "gap"),
-               edges = file.read<double>(state + "gap_edges"),
-               density = file.read<double>(state + "gap_density");
+    const auto gap = run.file->read<double>(state + "gap"),
+               edges = run.file->read<double>(state + "gap_edges"),
+               density = run.file->read<double>(state + "gap_density");
     const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
     ASSERT_EQ(edges.size(), density.size() + 1);
     const double width = (*greatest - *least) / static_cast<double>(density.size());

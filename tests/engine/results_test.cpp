@@ -26,23 +26,24 @@ namespace {
 
 using io::Json;
 
-/// A run and what it wrote.
-class Written {
+double factor(const std::string& from, const std::string& to) {
+    if (from == to) return 1.0;
+    const auto by = io::conversion(from, to);
+    EXPECT_TRUE(by) << from << " is not in " << to;
+    return by.value_or(NAN);
+}
+
+/// With the units that the files state.
+class Written : public test::Written {
 public:
-    explicit Written(const std::string& scene) : scene_(read_scene_text(scene, "test.toml")) {
-        json = test::run_scene(scene_, scratch_ / "run");
-        file.emplace(scratch_ / "run/run.h5", io::Hdf5File::Mode::read);
-    }
+    using test::Written::Written;
 
     /// A number of result.json ("energy.elastic") in this unit.
-    double number(std::string path, const char* unit) const {
-        std::replace(path.begin(), path.end(), '.', '/');
-        const Json::json_pointer at("/" + path), units("/units/" + path);
-        if (!json.contains(at) || !json.contains(units)) {
-            ADD_FAILURE() << path << " or its unit is missing";
-            return NAN;
-        }
-        return json.at(at).get<double>() * factor(json.at(units).get<std::string>(), unit);
+    double number(const std::string& path, const char* unit) const {
+        const Json* stated = io::find(json, "units." + path);
+        if (stated) return test::number(json, path) * factor(stated->get<std::string>(), unit);
+        ADD_FAILURE() << path << " has no unit";
+        return NAN;
     }
     /// A data set of run.h5 in this unit.
     std::vector<double> data(const std::string& path, const char* unit) const {
@@ -52,22 +53,6 @@ public:
             value *= by;
         return values;
     }
-    double area() const { return scene_.edge() * scene_.edge(); }
-    const Scene& scene() const { return scene_; }
-
-    Json json;
-    std::optional<io::Hdf5File> file;
-
-private:
-    static double factor(const std::string& from, const std::string& to) {
-        if (from == to) return 1.0;
-        const auto factor = io::conversion(from, to);
-        EXPECT_TRUE(factor) << from << " is not in " << to;
-        return factor.value_or(NAN);
-    }
-
-    io::Scratch scratch_;
-    Scene scene_;
 };
 
 double mean(const std::vector<double>& values) {
@@ -101,10 +86,15 @@ void datasets(const io::Hdf5File& file, const std::string& group, std::vector<st
     }
 }
 
-void expect_units_everywhere(const Written& run) {
-    std::vector<std::string> bare, all;
+void expect_units_in_json(const Written& run) {
+    std::vector<std::string> bare;
     without_unit(run.json, run.json.at("units"), "", bare);
     EXPECT_EQ(bare, std::vector<std::string>());
+}
+
+void expect_units_everywhere(const Written& run) {
+    expect_units_in_json(run);
+    std::vector<std::string> all;
     datasets(*run.file, "", all);
     EXPECT_GT(all.size(), 15u);
     for (const std::string& path : all)
@@ -202,17 +192,13 @@ TEST(Results, OfAPathWithoutInstabilitiesListNone) {
     EXPECT_EQ(lost.at("events"), 0);
     EXPECT_EQ(lost.at("jumps"), Json::array());
     EXPECT_EQ(run.json.at("units").at("dissipated").at("jumps").at("energy"), "eV");
-    std::vector<std::string> bare;
-    without_unit(run.json, run.json.at("units"), "", bare);
-    EXPECT_EQ(bare, std::vector<std::string>());
+    expect_units_in_json(run);
 }
 
 TEST(Results, OfAStateAreEnergiesPerArea) {
     const Written run("[surface]\nsites = 16\nrms = 0.7\n[drive]\npath = [\"zero-load\"]\n"
                       "[block]\nthickness = 16\n");
-    std::vector<std::string> bare;
-    without_unit(run.json, run.json.at("units"), "", bare);
-    EXPECT_EQ(bare, std::vector<std::string>());
+    expect_units_in_json(run);
     EXPECT_NEAR(run.number("energy.elastic", "eV"),
                 run.area() * run.number("zero_load.elastic_energy", "eV/Å^2"), 1e-9);
     EXPECT_NEAR(run.number("energy.interface", "eV"),

@@ -5,7 +5,6 @@
 // its height depends on x alone, so that nothing moves along y and every column of a map is
 // constant.
 #include "engine/scene/scene.hpp"
-#include "io/hdf5_file.hpp"
 #include "support/run_scene.hpp"
 
 #include <algorithm>
@@ -21,8 +20,6 @@
 namespace asperity {
 namespace {
 
-using io::Scratch;
-
 constexpr std::size_t n = 16;
 constexpr double a = 2.6;
 
@@ -30,31 +27,29 @@ double ridge(double x) { // in units of the box
     return 1.2 * std::sin(2.0 * std::numbers::pi * x) + 0.6 * std::cos(4.0 * std::numbers::pi * x);
 }
 
-/// Runs a scene over the ridge into "out". Returns its result.
-io::Json run_over_ridge(const Scratch& scratch, const std::string& drive,
-                        const std::string& output) {
+/// A scene over the ridge, run.
+test::Written run_over_ridge(const std::string& drive, const std::string& output) {
+    const io::Scratch scratch;
     std::ofstream map(scratch / "ridge.txt");
     for (std::size_t y = 0; y < n; ++y)
         for (std::size_t x = 0; x < n; ++x)
             map << ridge(static_cast<double>(x) / n) << (x + 1 < n ? ' ' : '\n');
     map.close();
-    const Scene scene = read_scene(
+    return test::Written(read_scene(
         scratch.write("ridge.toml", "[surface]\nkind = \"file\"\nfile = \"ridge.txt\"\nsites = 16\n"
                                     "[block]\nmodel = \"lattice\"\nthickness = 8\n"
                                     "[interface]\ncutoff = 5.0\ntail = true\n[drive]\n" +
-                                        drive + "[output]\n" + output));
-    return test::run_scene(scene, scratch / "out");
+                                        drive + "[output]\n" + output)));
 }
 
 TEST(RunFiles, TheVelocityOfAFrameIsThatOfItsStep) {
     // Frames of every step: the velocity of one is the central difference of its neighbours, whose
     // error is of the order dt^2, to the single precision of positions. That of half a step before
     // is another.
-    const Scratch scratch;
-    run_over_ridge(
-        scratch, "velocity = \"800 m/s\"\ntimestep = \"10 fs\"\nramp = \"0 ps\"\nmax_steps = 300\n",
+    const test::Written run = run_over_ridge(
+        "velocity = \"800 m/s\"\ntimestep = \"10 fs\"\nramp = \"0 ps\"\nmax_steps = 300\n",
         "trajectory = 1\nvelocities = true\n");
-    const io::Hdf5File file(scratch / "out/run.h5", io::Hdf5File::Mode::read);
+    const io::Hdf5File& file = *run.file;
     const auto position = file.read<float>("/particles/trajectory/position/value");
     const auto velocity = file.read<float>("/particles/trajectory/velocity/value");
     const auto time = file.read<double>("/particles/trajectory/position/time");
@@ -77,10 +72,10 @@ TEST(RunFiles, TheVelocityOfAFrameIsThatOfItsStep) {
 }
 
 TEST(RunFiles, ThePathOverARidgeMovesAcrossItAndNotAlong) {
-    const Scratch scratch;
-    run_over_ridge(scratch, "velocity = \"50 m/s\"\ntimestep = \"20 fs\"\n",
-                   "series = 10\ntrajectory = 20\nvelocities = true\nfields = [\"zero-load\"]\n");
-    const io::Hdf5File file(scratch / "out/run.h5", io::Hdf5File::Mode::read);
+    const test::Written run = run_over_ridge(
+        "velocity = \"50 m/s\"\ntimestep = \"20 fs\"\n",
+        "series = 10\ntrajectory = 20\nvelocities = true\nfields = [\"zero-load\"]\n");
+    const io::Hdf5File& file = *run.file;
     const auto position = file.read<float>("/particles/trajectory/position/value");
     const auto velocity = file.read<float>("/particles/trajectory/velocity/value");
     ASSERT_EQ(position.size() % (3 * n * n), 0u);

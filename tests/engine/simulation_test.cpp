@@ -115,10 +115,7 @@ TEST(Drive, SegmentsThatWereNotAskedForAreLeftOut) {
 
 TEST(Simulation, TheForceAndHeightOfARigidBlockAreThoseOfTheFlatSum) {
     // First step, nothing displaced yet: N^2 times the force of one site over a flat substrate.
-    SimulationOptions options;
-    options.block = test::paper_block(8, 4, 0);
-    options.interface = test::paper_interface();
-    options.drive.velocity = 0.0;
+    const SimulationOptions options = test::free_contact(10.0, 0);
     Simulation simulation = test::simulation(options, test::flat_surface(8));
     for (double gap : {3.0, 3.6, 5.0, 13.0}) {
         simulation.start(gap);
@@ -135,9 +132,8 @@ TEST(Simulation, TheForceAndHeightOfARigidBlockAreThoseOfTheFlatSum) {
 
 TEST(Simulation, NothingHappensOutOfReach) {
     // The whole block comes down rigidly with the drive: no force, no strain, mean height v t.
-    SimulationOptions options;
-    options.block = test::paper_block(8, 7, 2);
-    options.interface = test::paper_interface();
+    SimulationOptions options = test::free_contact(10.0);
+    options.drive = both_ways();
     options.damping = 1e-3; // against a medium that moves along: no drag
     Simulation simulation = test::simulation(options, test::flat_surface(8));
     simulation.start(20.0);
@@ -154,9 +150,8 @@ TEST(Simulation, NothingHappensOutOfReach) {
 TEST(Simulation, TheTopMovesByTheIntegralOfItsVelocity) {
     // From rest along half a cosine: half the ramp at full velocity. The midpoint rule is exact,
     // for every step of the ramp has its mirror image.
-    SimulationOptions options;
-    options.block = test::paper_block(8, 4, 0);
-    options.interface = test::paper_interface();
+    SimulationOptions options = test::free_contact(10.0, 0);
+    options.drive = both_ways();
     options.drive.path = {Segment{Segment::pull_off}};
     options.drive.ramp = 40 * options.dt;
     Simulation simulation = test::simulation(options, test::flat_surface(8));

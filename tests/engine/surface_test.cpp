@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 namespace asperity {
@@ -27,17 +29,30 @@ SurfaceOptions self_affine(int sites) {
 }
 
 double rms_of(const std::vector<double>& h) {
-    double sum = 0.0;
-    for (double v : h)
-        sum += v * v;
-    return std::sqrt(sum / static_cast<double>(h.size()));
+    return std::sqrt(std::inner_product(h.begin(), h.end(), h.begin(), 0.0) /
+                     static_cast<double>(h.size()));
 }
 
 double mean_of(const std::vector<double>& h) {
-    double sum = 0.0;
-    for (double v : h)
-        sum += v;
-    return sum / static_cast<double>(h.size());
+    return std::accumulate(h.begin(), h.end(), 0.0) / static_cast<double>(h.size());
+}
+
+/// Of a map from a file, taken as high as it is.
+SurfaceOptions measured(int sites) {
+    SurfaceOptions o = self_affine(sites);
+    o.kind = SurfaceKind::file;
+    o.rms = 0.0;
+    return o;
+}
+
+/// nx * ny heights, height(x, y).
+template <class Height>
+std::vector<double> map_of(int nx, int ny, const Height& height) {
+    std::vector<double> h;
+    for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x)
+            h.push_back(height(x, y));
+    return h;
 }
 
 TEST(SelfAffineSurface, HasTheRmsAskedForAndNoMean) {
@@ -165,14 +180,11 @@ TEST(SelfAffineSurface, SaysThatItClips) {
 }
 
 TEST(FlatSurface, IsFlat) {
-    SurfaceOptions o = self_affine(8);
-    o.kind = SurfaceKind::flat;
-    for (double h : make_surface(o).height)
-        EXPECT_EQ(h, 0.0);
-    o.kind = SurfaceKind::self_affine;
-    o.rms = 0.0;
-    for (double h : make_surface(o).height)
-        EXPECT_EQ(h, 0.0);
+    SurfaceOptions flat = self_affine(8), smooth = self_affine(8);
+    flat.kind = SurfaceKind::flat;
+    smooth.rms = 0.0;
+    for (const SurfaceOptions& o : {flat, smooth})
+        EXPECT_EQ(make_surface(o).height, std::vector<double>(64));
 }
 
 TEST(CurvedSurface, IsTheSphericalCap) {
@@ -196,38 +208,27 @@ TEST(CurvedSurface, IsTheSphericalCap) {
 }
 
 std::vector<double> wavy(int nx, int ny) {
-    std::vector<double> h;
-    for (int y = 0; y < ny; ++y)
-        for (int x = 0; x < nx; ++x) {
-            const double px = 2.0 * pi * x / nx, py = 2.0 * pi * y / ny;
-            h.push_back(0.3 + std::cos(2.0 * px - py) + 0.5 * std::sin(3.0 * py) +
-                        0.2 * std::sin(4.0 * px + 3.0 * py + 0.4));
-        }
-    return h;
+    return map_of(nx, ny, [=](int x, int y) {
+        const double px = 2.0 * pi * x / nx, py = 2.0 * pi * y / ny;
+        return 0.3 + std::cos(2.0 * px - py) + 0.5 * std::sin(3.0 * py) +
+               0.2 * std::sin(4.0 * px + 3.0 * py + 0.4);
+    });
 }
 
 TEST(MeasuredSurface, IsTakenAsItIsWhereItFits) {
-    SurfaceOptions o = self_affine(16);
-    o.kind = SurfaceKind::file;
-    o.rms = 0.0;
-    const Surface s = surface_from_heights(o, wavy(16, 16), 16, 16);
+    const Surface s = surface_from_heights(measured(16), wavy(16, 16), 16, 16);
     EXPECT_EQ(s.height, wavy(16, 16));
     EXPECT_TRUE(s.notes.empty());
 }
 
 TEST(MeasuredSurface, ResamplesBandLimitedMapsExactly) {
-    SurfaceOptions o = self_affine(12);
-    o.kind = SurfaceKind::file;
-    o.rms = 0.0;
     for (auto [from_x, from_y, to] : {std::tuple{12, 12, 30},
                                       {30, 30, 12},
                                       {17, 17, 33},
                                       {33, 33, 14},
                                       {20, 15, 16},
                                       {11, 24, 45}}) {
-        o.sites = to;
-        o.length = 2.6 * to;
-        const Surface s = surface_from_heights(o, wavy(from_x, from_y), from_x, from_y);
+        const Surface s = surface_from_heights(measured(to), wavy(from_x, from_y), from_x, from_y);
         const std::vector<double> exact = wavy(to, to);
         for (std::size_t i = 0; i < exact.size(); ++i)
             ASSERT_NEAR(s.height[i], exact[i], 1e-12) << from_x << ' ' << to;
@@ -238,22 +239,16 @@ TEST(MeasuredSurface, ResamplesBandLimitedMapsExactly) {
 TEST(MeasuredSurface, LosesItsPlaneAndIsScaledOnRequest) {
     const int n = 20;
     std::vector<double> h = wavy(n, n);
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
-            h[static_cast<std::size_t>(y * n + x)] += 0.7 * x - 0.2 * y + 5.0;
-    SurfaceOptions o = self_affine(n);
-    o.kind = SurfaceKind::file;
-    o.rms = 0.0;
+    const auto plane = map_of(n, n, [](int x, int y) { return 0.7 * x - 0.2 * y + 5.0; });
+    std::transform(h.begin(), h.end(), plane.begin(), h.begin(), std::plus());
+    SurfaceOptions o = measured(n);
     o.detrend = true;
     Surface s = surface_from_heights(o, h, n, n);
-    double slope_x = 0.0, slope_y = 0.0;
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            slope_x += (x - 9.5) * s.height[static_cast<std::size_t>(y * n + x)];
-            slope_y += (y - 9.5) * s.height[static_cast<std::size_t>(y * n + x)];
-        }
-    EXPECT_NEAR(slope_x, 0.0, 1e-9);
-    EXPECT_NEAR(slope_y, 0.0, 1e-9);
+    const auto moment = [&](const std::vector<double>& arm) {
+        return std::inner_product(arm.begin(), arm.end(), s.height.begin(), 0.0);
+    };
+    EXPECT_NEAR(moment(map_of(n, n, [](int x, int) { return x - 9.5; })), 0.0, 1e-9);
+    EXPECT_NEAR(moment(map_of(n, n, [](int, int y) { return y - 9.5; })), 0.0, 1e-9);
     EXPECT_NEAR(mean_of(s.height), 0.0, 1e-12);
     o.rms = 2.5;
     s = surface_from_heights(o, h, n, n);
@@ -266,14 +261,9 @@ TEST(MapFromAFile, KeepsItsWidth) {
     const auto wave = [](double x, double y) {
         return std::sin(2 * pi * x / 8) + 0.5 * std::cos(2 * pi * y / 12);
     };
-    std::vector<double> h;
-    for (int y = 0; y < m; ++y)
-        for (int x = 0; x < m; ++x)
-            h.push_back(wave(x, y));
-    SurfaceOptions o = self_affine(24);
-    o.kind = SurfaceKind::file;
+    const std::vector<double> h = map_of(m, m, wave);
+    SurfaceOptions o = measured(24);
     o.length = 48.0;
-    o.rms = 0.0;
     o.map_edge = 96.0;
     EXPECT_EQ(sites_of_map(o), 48);
     const Surface s = surface_from_heights(o, h, m, m);
@@ -292,18 +282,16 @@ TEST(MapFromAFile, KeepsItsWidth) {
 }
 
 TEST(MapFromAFile, LosesItsJumpsAndNothingElse) {
-    const int n = 48;
-    SurfaceOptions o = self_affine(n);
-    o.kind = SurfaceKind::file;
-    o.rms = 0.0;
+    constexpr int n = 48;
+    SurfaceOptions o = measured(n);
     o.periodic = true;
-    std::vector<double> even, tilted;
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const double wave = std::sin(2 * pi * 5 * x / n) * std::cos(2 * pi * 3 * y / n);
-            even.push_back(wave);
-            tilted.push_back(wave + 0.3 * x + 0.002 * y * y);
-        }
+    const auto wave = [](int x, int y) {
+        return std::sin(2 * pi * 5 * x / n) * std::cos(2 * pi * 3 * y / n);
+    };
+    const std::vector<double> even = map_of(n, n, wave),
+                              tilted = map_of(n, n, [&](int x, int y) {
+                                  return wave(x, y) + 0.3 * x + 0.002 * y * y;
+                              });
     const auto jump = [&](const std::vector<double>& h) { // between the first and the last column
         double sum = 0.0;
         for (int y = 0; y < n; ++y)
@@ -333,13 +321,9 @@ TEST(MapFromAFile, SaysHowItsEdgesJump) {
         return note == s.notes.end() ? std::string() : *note;
     };
     const int n = 32;
-    SurfaceOptions o = self_affine(n);
-    o.kind = SurfaceKind::file;
-    o.rms = 0.0;
+    SurfaceOptions o = measured(n);
     // A ramp along x: steps of 0.3 Å along x and none along y, and jumps of 31 times as much.
-    std::vector<double> ramp;
-    for (int i = 0; i < n * n; ++i)
-        ramp.push_back(0.3 * (i % n));
+    const std::vector<double> ramp = map_of(n, n, [](int x, int) { return 0.3 * x; });
     const Surface tilted = surface_from_heights(o, ramp, n, n);
     EXPECT_NE(jump_note(tilted).find("jump by 6.58 Å (rms)"), std::string::npos)
         << jump_note(tilted) << ": 31 x 0.3 Å / sqrt 2";
@@ -391,10 +375,9 @@ TEST(SubstrateSites, AreWholeAtoms) {
 TEST(MapStatistics, OfOneWave) {
     const int n = 48, k = 5, m = 3; // waves along x and y
     const double length = 96.0, a = 1.5, pixel = length / n;
-    std::vector<double> h;
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
-            h.push_back(7.0 + a * std::cos(2.0 * pi * (k * x + m * y) / n + 0.3));
+    const std::vector<double> h = map_of(n, n, [=](int x, int y) {
+        return 7.0 + a * std::cos(2.0 * pi * (k * x + m * y) / n + 0.3);
+    });
     const double qx = 2.0 * pi * k / length, qy = 2.0 * pi * m / length, rms = a / std::sqrt(2.0);
     const auto differences = [&](double q) { return 2.0 / pixel * std::sin(0.5 * q * pixel); };
     const double dx = differences(qx), dy = differences(qy);
@@ -405,11 +388,8 @@ TEST(MapStatistics, OfOneWave) {
     EXPECT_NEAR(s.rms_curvature, 0.5 * rms * (dx * dx + dy * dy), 1e-12);
     EXPECT_NEAR(s.highest - s.lowest, 2.0 * a, 0.02);
 
-    SurfaceOptions o;
-    o.kind = SurfaceKind::file;
-    o.sites = n;
+    SurfaceOptions o = measured(n);
     o.length = length;
-    o.rms = 0.0;
     const SurfaceStatistics spectral = surface_from_heights(o, h, n, n).statistics;
     EXPECT_NEAR(spectral.rms_slope, rms * std::hypot(qx, qy), 1e-12);
     EXPECT_NEAR(spectral.rms_curvature, 0.5 * rms * (qx * qx + qy * qy), 1e-12);
@@ -434,10 +414,7 @@ TEST(MapStatistics, OfOneWave) {
 }
 
 TEST(MapStatistics, OfAPlaneThatDoesNotRepeat) {
-    std::vector<double> h;
-    for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 7; ++x)
-            h.push_back(3.0 * x + 8.0 * y);
+    std::vector<double> h = map_of(7, 4, [](int x, int y) { return 3.0 * x + 8.0 * y; });
     MapStatistics s = map_statistics(h, 7, 4, 1.0, 2.0, false);
     EXPECT_NEAR(s.rms_slope, 5.0, 1e-12);
     EXPECT_NEAR(s.rms_curvature, 0.0, 1e-12);

@@ -90,7 +90,6 @@ static void* next(const char* name) { return dlsym(RTLD_NEXT, name); }
         return real arguments;                                                                     \
     }
 DESCRIPTOR_CALL(fsync, 1, (int fd), (fd))
-DESCRIPTOR_CALL(fdatasync, 1, (int fd), (fd))
 DESCRIPTOR_CALL(ftruncate, 1, (int fd, off_t size), (fd, size))
 DESCRIPTOR_CALL(ftruncate64, 1, (int fd, off64_t size), (fd, size))
 
@@ -154,13 +153,6 @@ int rename(const char* from, const char* to) {
     if (!real) real = (int (*)(const char*, const char*))next("rename");
     if (counted(AT_FDCWD, to) && decide("rename", to, 1) != go_on) return -1;
     return real(from, to);
-}
-
-int linkat(int from_fd, const char* from, int to_fd, const char* to, int flags) {
-    static int (*real)(int, const char*, int, const char*, int);
-    if (!real) real = (int (*)(int, const char*, int, const char*, int))next("linkat");
-    if (counted(to_fd, to) && decide("linkat", to, 1) != go_on) return -1;
-    return real(from_fd, from, to_fd, to, flags);
 }
 
 int unlinkat(int fd, const char* path, int flags) {

@@ -44,7 +44,7 @@ TEST(Hdf5File, Attributes) {
     file.write_attribute("/g", "empty", "");
     file.write_attribute("/g", "x", 0.1);
     file.write_attribute("/g", "n", std::int64_t{1} << 60);
-    file.write_attribute("/", "list", std::vector<double>{1.0, 2.0});
+    file.write_attribute("/", "list", std::vector<std::int64_t>{1, 2});
     EXPECT_EQ(file.read_text_attribute("/g", "unit"), "meV/Å²");
     EXPECT_EQ(file.read_text_attribute("/g", "empty"), "");
     EXPECT_EQ(file.read_attribute<double>("/g", "x"), 0.1);

@@ -25,54 +25,6 @@ Json at(const Json& json, std::string path) {
     return json.contains(pointer) ? json.at(pointer) : Json();
 }
 
-TEST(Result, HasTheNamesOfTheContract) {
-    // The result file of the interface's contract, name by name with its unit.
-    const std::pair<const char*, const char*> contract[] = {
-        {"surface.rms", "Å"},
-        {"surface.rms_slope", "1"},
-        {"surface.min", "Å"},
-        {"surface.max", "Å"},
-        {"delta_gamma", "meV/Å^2"},
-        {"binding_energy", "meV/Å^2"},
-        {"work_of_adhesion.approach", "meV/Å^2"},
-        {"work_of_adhesion.pull_off", "meV/Å^2"},
-        {"work_of_adhesion.pairwise", "meV/Å^2"},
-        {"contact_fraction", "1"},
-        {"repulsive_fraction", "1"},
-        {"pull_off_force", "eV/Å"},
-        {"jkr.in", "meV/Å^2"},
-        {"jkr.out", "meV/Å^2"},
-        {"theory.gamma_eff", "meV/Å^2"},
-        {"theory.contact_fraction", "1"},
-        {"theory.gamma_full_contact", "meV/Å^2"},
-        {"energy.balance_error", "1"},
-        {"energy.work", "eV"},
-        {"energy.kinetic", "eV"},
-        {"energy.elastic", "eV"},
-        {"energy.interface", "eV"},
-        {"energy.damped", "eV"},
-        {"run.wall_seconds", "s"},
-        {"run.steps", "1"},
-        {"run.iterations", "1"},
-        {"run.ranks", "1"},
-        {"run.threads", "1"},
-        {"run.phases.*.seconds", "s"},
-        {"run.phases.*.calls", "1"},
-        {"run.version", ""},
-        {"run.git", ""},
-        {"run.compiler", ""},
-        {"run.flags", ""},
-        {"run.stopped", ""},
-    };
-    for (const auto& [name, unit] : contract) {
-        const auto found =
-            std::find_if(std::begin(result_quantities), std::end(result_quantities),
-                         [name = name](const Quantity& q) { return q.name == name; });
-        ASSERT_NE(found, std::end(result_quantities)) << name;
-        EXPECT_EQ(found->unit, unit) << name;
-    }
-}
-
 TEST(Result, PutsValuesAndUnitsAtTheSamePlace) {
     Result result;
     result.set("work_of_adhesion.pairwise", 8.0);

@@ -24,7 +24,7 @@ struct Teapot {
     Glaze glaze = Glaze::celadon;
     std::optional<double> crack;
     std::optional<long long> chips;
-    std::vector<Glaze> coats = {Glaze::raku};
+    std::vector<std::string> coats = {"raku"};
     std::vector<std::string> marks = {"seal"};
     double heat = 0.5;
 };
@@ -43,8 +43,7 @@ Schema bind(Teapot& t) {
         {{"none", Glaze::none}, {"celadon", Glaze::celadon}, {"raku", Glaze::raku}}, "its glaze");
     schema.number_or("crack", t.crack, "none", "m", positive(), "length of the crack");
     schema.integer_or("chips", t.chips, "some", at_least(0), "how many");
-    schema.list_of<Glaze>("coats", t.coats, {{"raku", Glaze::raku}, {"celadon", Glaze::celadon}},
-                          "in order");
+    schema.list("coats", t.coats, {"raku", "celadon"}, "in order");
     schema.list("marks", t.marks, {"seal", "every:"}, "on the foot");
     schema.number("heat", t.heat, "", Range{0.0, 1.0, true, true}, "of the kiln");
     return schema;
@@ -94,7 +93,7 @@ heat = "60 %"
     EXPECT_EQ(r.pot.glaze, Glaze::raku);
     EXPECT_EQ(r.pot.crack, 0.001);
     EXPECT_EQ(r.pot.chips, 3);
-    EXPECT_EQ(r.pot.coats, (std::vector{Glaze::celadon, Glaze::raku}));
+    EXPECT_EQ(r.pot.coats, (std::vector<std::string>{"celadon", "raku"}));
     EXPECT_EQ(r.pot.marks, (std::vector<std::string>{"seal", "every:20"}));
     EXPECT_EQ(r.pot.heat, 0.6);
     EXPECT_TRUE(r.positions.is_set("body.cups"));
@@ -273,7 +272,7 @@ TEST(SceneReader, Overrides) {
     EXPECT_EQ(r.pot.cups, 5);
     EXPECT_EQ(r.pot.height, 0.12);
     EXPECT_EQ(r.pot.maker, "Leach");
-    EXPECT_EQ(r.pot.coats, (std::vector{Glaze::celadon, Glaze::raku}));
+    EXPECT_EQ(r.pot.coats, (std::vector<std::string>{"celadon", "raku"}));
     EXPECT_EQ(r.pot.glaze, Glaze::none);
     EXPECT_EQ(r.pot.marks, (std::vector<std::string>{"every:3"}));
     EXPECT_EQ(r.pot.heat, 0.25);

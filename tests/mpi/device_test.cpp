@@ -19,13 +19,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
-#include <filesystem>
 #include <span>
-#include <vector>
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -34,7 +31,7 @@ using namespace asperity;
 
 namespace {
 
-const Communicator& world() { return test::world(); }
+using test::Trace, test::world;
 
 struct Variant {
     const char* stack;
@@ -111,29 +108,6 @@ Simulation make(const Variant& c, const Communicator& ranks, bool on_device) {
     return Simulation(options, surface, ranks, test::grid_for(options.block, ranks));
 }
 
-/// Every number of every record, as one; and the state.
-struct Trace {
-    std::uint64_t records = 1, state = 0;
-    long long in_contact = 0;
-    double force = 0.0; ///< of the last step
-    bool operator==(const Trace&) const = default;
-};
-
-void advance(Simulation& s, int steps, Trace& trace) {
-    for (int n = 0; n < steps; ++n) {
-        const StepRecord& now = s.step(s.steps() % 10 == 0);
-        s.drive().observe({now.time, now.force, 0.0, false}); // turns round on contact
-        trace.force = now.force;
-        trace.records = test::mix(trace.records, now);
-        if (!now.observed) continue;
-        trace.in_contact = std::max(trace.in_contact, now.in_contact);
-    }
-}
-void conclude(Simulation& s, Trace& trace) {
-    trace.records = test::mix(trace.records, s.balance());
-    trace.state = test::fingerprint(s.block());
-}
-
 constexpr double height = 6.0;
 /// Atoms that do not stand below the hollows of the block's lattice are met earlier.
 double height_of(const Variant& c) { return c.ratio == 1.0 ? height : height + 1.2; }
@@ -143,23 +117,15 @@ Trace run(const Variant& c, const Communicator& ranks, bool on_device, int count
     Simulation s = make(c, ranks, on_device);
     s.start(height_of(c));
     Trace trace;
-    advance(s, count, trace);
-    conclude(s, trace);
+    trace.follow(s, count);
+    trace.conclude(s);
     return trace;
 }
 
 /// The reference, on every rank.
 Trace on_processor(const Variant& c) {
-    Trace trace;
-    if (world().root()) trace = run(c, Communicator(), false);
-    std::array<std::uint64_t, 4> all = {trace.records, trace.state,
-                                        std::bit_cast<std::uint64_t>(trace.in_contact),
-                                        std::bit_cast<std::uint64_t>(trace.force)};
-    world().broadcast(std::as_writable_bytes(std::span(all)));
-    return {all[0], all[1], std::bit_cast<long long>(all[2]), std::bit_cast<double>(all[3])};
+    return test::from_root([&] { return run(c, Communicator(), false); });
 }
-
-bool fuses() { return asperity::fuses(processor_level()); }
 
 /// Settings of the emulated device for as long as it lives.
 class Emulated {
@@ -170,12 +136,19 @@ public:
     Emulated& operator=(const Emulated&) = delete;
 };
 
-class Device : public testing::TestWithParam<Variant> {};
+template <class Test>
+class WhereItFuses : public Test {
+    void SetUp() override {
+        if (!fuses(processor_level()))
+            GTEST_SKIP() << "refused on this processor: no fused multiply-add";
+    }
+};
+class Device : public WhereItFuses<testing::TestWithParam<Variant>> {};
+class OneDevice : public WhereItFuses<testing::Test> {};
 
 } // namespace
 
 TEST_P(Device, StepsHaveTheBitsOfTheProcessor) {
-    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
     const Variant& c = GetParam();
     if (world().size() > 1 && !c.on_ranks) return;
     const Trace expected = on_processor(c);
@@ -191,69 +164,64 @@ TEST_P(Device, StepsHaveTheBitsOfTheProcessor) {
 }
 INSTANTIATE_TEST_SUITE_P(Stacks, Device, testing::ValuesIn(cases));
 
-TEST(Device, CheckpointsCrossBetweenDeviceAndProcessor) {
-    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
+TEST_F(OneDevice, CheckpointsCrossBetweenDeviceAndProcessor) {
     const Variant& c = cases[0];
     const Trace expected = on_processor(c);
     for (const bool device_first : {true, false}) {
-        const std::string path = "device_test_ranks" + std::to_string(world().size()) + ".h5";
+        const test::SharedScratch scratch("device_test");
         Trace trace;
         {
             Simulation s = make(c, world(), device_first);
             s.start(height);
-            advance(s, steps / 2, trace);
-            write_checkpoint(path, s, {}, "");
+            trace.follow(s, steps / 2);
+            write_checkpoint(scratch.file, s, {}, "");
             Trace beyond; // the state goes on after it has been read
-            advance(s, 10, beyond);
+            beyond.follow(s, 10);
         }
         Simulation s = make(c, world(), !device_first);
-        read_checkpoint(path, s, "");
-        advance(s, steps - steps / 2, trace);
-        conclude(s, trace);
+        read_checkpoint(scratch.file, s, "");
+        trace.follow(s, steps - steps / 2);
+        trace.conclude(s);
         EXPECT_EQ(trace, expected) << (device_first ? "device first" : "processor first");
-        world().barrier();
-        if (world().root()) std::filesystem::remove(path);
     }
 }
 
-TEST(Device, WhatTheHostWritesReachesTheDevice) {
-    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
+TEST_F(OneDevice, WhatTheHostWritesReachesTheDevice) {
     std::array<Trace, 2> traces;
     for (const bool on_device : {false, true}) {
         Simulation s = make(cases[0], world(), on_device);
         Trace& trace = traces[on_device];
         s.start(height);
-        advance(s, 15, trace);
+        trace.follow(s, 15);
         Block& block = s.block_to_write();
         block.fields(block.levels()[0]).v.view().x(1, 2, 0) =
             1e-3; // all ranks, each in its own tile
-        advance(s, 15, trace);
-        conclude(s, trace);
+        trace.follow(s, 15);
+        trace.conclude(s);
     }
     EXPECT_EQ(traces[0], traces[1]);
 }
 
-TEST(Device, ReadingCostsNoUploadAndNoLaunch) {
+TEST_F(OneDevice, ReadingCostsNoUploadAndNoLaunch) {
     // The one upload is of the start. Looking at the state, in a checkpoint or a snapshot too, adds
     // none, and throws away no forces that were launched for the next step.
-    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
     Simulation s = make(cases[0], world(), true);
     s.start(height);
     Trace trace;
     Snapshot snapshot;
     for (int n = 0; n < 4; ++n) {
-        advance(s, 5, trace);
+        trace.follow(s, 5);
         trace.state = test::fingerprint(s.block());
         snapshot.take(s);
     }
     EXPECT_EQ(s.phases()[Phase::exchange].calls, 20 + 1);
     s.block_to_write();
-    advance(s, 1, trace);
+    trace.follow(s, 1);
     EXPECT_EQ(s.phases()[Phase::exchange].calls, 21 + 2);
 }
 
-TEST(Device, NoResultDependsOnTheOrderOfItsThreads) {
-    if (!fuses() || world().size() > 1) return;
+TEST_F(OneDevice, NoResultDependsOnTheOrderOfItsThreads) {
+    if (world().size() > 1) return;
     const Trace expected = run(cases[0], world(), true, 60);
     for (unsigned order : {1u, 2u, 77u}) {
         const Emulated in_order({.order = order});
@@ -263,22 +231,21 @@ TEST(Device, NoResultDependsOnTheOrderOfItsThreads) {
 
 // Late (all other tests) and at once: what lies between has the same bits if every read waits for
 // its write, and every write for the reads before it.
-TEST(Device, NoResultDependsOnWhenItsQueueIsWorkedOff) {
-    if (!fuses()) GTEST_SKIP() << "refused on this processor: no fused multiply-add";
+TEST_F(OneDevice, NoResultDependsOnWhenItsQueueIsWorkedOff) {
     const Trace late = run(cases[3], world(), true, 60);
     const Emulated at_once({.at_once = true});
     EXPECT_EQ(run(cases[3], world(), true, 60), late);
 }
 
-TEST(Device, MpiMayTakeItsMemory) {
-    if (!fuses() || world().size() == 1) return;
+TEST_F(OneDevice, MpiMayTakeItsMemory) {
+    if (world().size() == 1) return;
     const Trace by_way_of_the_host = run(cases[3], world(), true, 60);
     const Emulated direct({.open_to_mpi = true});
     EXPECT_EQ(run(cases[3], world(), true, 60), by_way_of_the_host);
 }
 
-TEST(Device, ThatIsLostOrTooSmallIsSaid) {
-    if (!fuses() || world().size() > 1) return;
+TEST_F(OneDevice, ThatIsLostOrTooSmallIsSaid) {
+    if (world().size() > 1) return;
     const auto message = [](auto&& work) { return test::message_of<io::FileError>(work); };
     {
         const Emulated small({.memory = 1 << 16});
@@ -289,16 +256,16 @@ TEST(Device, ThatIsLostOrTooSmallIsSaid) {
     Simulation s = make(cases[0], world(), true);
     s.start(height);
     Trace trace;
-    advance(s, 5, trace);
+    trace.follow(s, 5);
     const Emulated lost({.lost_after = 7});
-    const std::string text = message([&] { advance(s, 5, trace); });
+    const std::string text = message([&] { trace.follow(s, 5); });
     EXPECT_NE(text.find("the device is lost"), std::string::npos) << text;
     EXPECT_NE(text.find("resume from the last checkpoint"), std::string::npos) << text;
 }
 
-TEST(Device, ItsMemoryIsGivenBackWhereTheConstructorFails) {
+TEST_F(OneDevice, ItsMemoryIsGivenBackWhereTheConstructorFails) {
     // The copies of the tables fail. The emulated device has room for 64 blocks at a time.
-    if (!fuses() || world().size() > 1) return;
+    if (world().size() > 1) return;
     for (int n = 0; n < 100; ++n) {
         const Emulated lost({.lost_after = 0});
         EXPECT_THROW(make(cases[0], world(), true), io::FileError);
@@ -306,26 +273,25 @@ TEST(Device, ItsMemoryIsGivenBackWhereTheConstructorFails) {
     EXPECT_NO_THROW(make(cases[0], world(), true));
 }
 
-TEST(Device, TimesEveryStepByItsOwnClock) {
-    if (!fuses()) return;
+TEST_F(OneDevice, TimesEveryStepByItsOwnClock) {
     Simulation s = make(cases[3], world(), true);
     s.start(height);
     Trace trace;
-    advance(s, 25, trace);
+    trace.follow(s, 25);
     for (Phase phase : {Phase::interpolate, Phase::interface, Phase::advance, Phase::sums})
         EXPECT_EQ(s.phases()[phase].calls, 25) << static_cast<int>(phase);
     EXPECT_GT(s.phases()[Phase::advance].seconds, 0.0);
-    advance(s, 5, trace);
+    trace.follow(s, 5);
     EXPECT_EQ(s.phases()[Phase::advance].calls, 30) << "none twice";
 }
 
-TEST(Device, NeverTouchesTheFieldsOfTheHost) {
-    if (!fuses() || world().size() > 1) return;
+TEST_F(OneDevice, NeverTouchesTheFieldsOfTheHost) {
+    if (world().size() > 1) return;
     const auto end = [](const Variant& c) { // in a process of its own, for the pages stay closed
         Simulation s = make(c, Communicator(), true);
         s.start(height);
         Trace trace;
-        advance(s, 1, trace);
+        trace.follow(s, 1);
         const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
         int closed = 0;
         const auto close = [&](const auto& values) {
@@ -348,7 +314,7 @@ TEST(Device, NeverTouchesTheFieldsOfTheHost) {
         if (const auto* p = std::get_if<Tabulated>(&s.interface().options().potential))
             close(std::span(p->cubics, 4 * static_cast<std::size_t>(p->intervals)));
         if (fields < 6 || closed != fields + 3) _exit(1);
-        advance(s, 20, trace);
+        trace.follow(s, 20);
         _exit(0);
     };
     // With a tail, and with a table for a potential.
@@ -356,7 +322,7 @@ TEST(Device, NeverTouchesTheFieldsOfTheHost) {
         EXPECT_EXIT(end(c), testing::ExitedWithCode(0), "") << testing::PrintToString(c);
 }
 
-TEST(Device, AHostThatReadsItsMemoryStops) {
+TEST(EmulatedDevice, AHostThatReadsItsMemoryStops) {
     if (world().size() > 1) return;
     const DeviceFunctions& device = emulated_device();
     std::byte* memory = nullptr;
@@ -375,8 +341,7 @@ TEST(Device, AHostThatReadsItsMemoryStops) {
     device.release(memory);
 }
 
-TEST(Device, TakesTheMemoryThatWasCounted) {
-    if (!fuses()) return;
+TEST_F(OneDevice, TakesTheMemoryThatWasCounted) {
     for (const Variant& c : cases) {
         const SimulationOptions options = options_of(c, true);
         const Simulation s = make(c, world(), true);

@@ -10,13 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <bit>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <random>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +19,7 @@ using namespace asperity;
 
 namespace {
 
-const Communicator& world() { return test::world(); }
+using test::world;
 
 struct Kind {
     const char* name = "top";
@@ -127,7 +122,8 @@ std::vector<std::uint64_t> cycle(const Communicator& ranks, const Kind& kind, st
 } // namespace
 
 TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
-    const std::string file = "quasistatic_ranks" + std::to_string(world().size()) + ".h5";
+    const test::SharedScratch scratch("quasistatic");
+    const std::string& file = scratch.file;
     std::mt19937 random(7);
     for (const Kind& kind :
          {Kind{}, Kind{.name = "mean height", .along = Constraint::Of::mean_height},
@@ -169,14 +165,13 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
         EXPECT_GT(stops, 6) << kind.name;
         EXPECT_GT(within, 0) << kind.name;
     }
-    world().barrier();
-    if (world().root()) std::filesystem::remove(file);
 }
 
 TEST(QuasistaticRanks, StoppedOnItsWayIntoAnInstabilityItIsTheSameBits) {
     // Around these looks a step is relaxed all the way to a place that earlier steps have found.
     using Outcome = QuasistaticPath::Outcome;
-    const std::string file = "quasistatic_stopped" + std::to_string(world().size()) + ".h5";
+    const test::SharedScratch scratch("quasistatic_stopped");
+    const std::string& file = scratch.file;
     const Kind kind{.along = Constraint::Of::mean_height, .sites = 64, .thickness = 64};
     const std::vector<std::uint64_t> whole = cycle(world(), kind, 100);
     for (const long long look : {112, 116, 120}) {
@@ -194,5 +189,4 @@ TEST(QuasistaticRanks, StoppedOnItsWayIntoAnInstabilityItIsTheSameBits) {
         EXPECT_EQ(resumed.trace(), whole[point + 1]) << "stopped at look " << look;
         world().barrier();
     }
-    if (world().root()) std::filesystem::remove(file);
 }

@@ -17,19 +17,15 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <functional>
 #include <span>
-#include <vector>
 
 using namespace asperity;
 
 namespace {
 
-const Communicator& world() { return test::world(); }
+using test::from_root, test::Trace, test::world;
 
 struct Stack {
     const char* name;
@@ -96,30 +92,15 @@ SimulationOptions options_of(const Stack& stack) {
     return options;
 }
 
-/// What a run leaves behind, bit by bit.
-struct Trace {
-    std::vector<std::uint64_t> numbers; ///< of each record, the balance at last
-    std::uint64_t state = 0;
-    long long in_contact = 0;
-    bool operator==(const Trace&) const = default;
-};
-
 Trace run(const Stack& stack, const Communicator& ranks) {
     const SimulationOptions options = options_of(stack);
     const Surface surface = surface_of(stack, "c3_N32_T32_rms1.5");
     Simulation s(options, surface, ranks, test::grid_for(options.block, ranks));
     s.start(7.0);
     Trace trace;
-    for (int n = 0; n < (stack.slides ? 500 : 300); ++n) {
-        const StepRecord& now = s.step(n % 10 == 0);
-        s.drive().observe({now.time, now.force, 0.0, false}); // turns round on contact
-        trace.numbers.push_back(test::mix(1, now));
-        if (!now.observed) continue;
-        trace.in_contact = std::max(trace.in_contact, now.in_contact);
-    }
+    trace.follow(s, stack.slides ? 500 : 300);
     EXPECT_EQ(s.interface().place()[0] < -1.3, stack.slides);
-    trace.numbers.push_back(test::mix(1, s.balance()));
-    trace.state = test::fingerprint(s.block());
+    trace.conclude(s);
     return trace;
 }
 
@@ -138,7 +119,7 @@ Trace relaxation(const Stack& stack, const Communicator& ranks) {
     const ZeroLoad& z = rest.numbers.value();
     for (double value : {z.binding_energy, z.pairwise, z.mean_height, z.residual,
                          static_cast<double>(z.iterations), z.repulsive_fraction})
-        trace.numbers.push_back(test::mix(1, value));
+        trace.records = test::mix(trace.records, value);
     trace.in_contact = std::llround(1024.0 * z.contact_fraction);
     // Every rank has its tile of the layer.
     const auto layer = std::as_const(rest.layer).view()[0];
@@ -152,28 +133,10 @@ Trace relaxation(const Stack& stack, const Communicator& ranks) {
     return trace;
 }
 
-/// The root's serial trace on every rank, so that each compares its own.
-Trace from_root(const std::function<Trace()>& make) {
-    Trace trace;
-    if (world().root()) trace = make();
-    std::array<std::int64_t, 3> head = {static_cast<std::int64_t>(trace.numbers.size()),
-                                        std::bit_cast<std::int64_t>(trace.state), trace.in_contact};
-    world().broadcast(std::as_writable_bytes(std::span(head)));
-    trace.numbers.resize(static_cast<std::size_t>(head[0]));
-    trace.state = std::bit_cast<std::uint64_t>(head[1]);
-    trace.in_contact = head[2];
-    world().broadcast(std::as_writable_bytes(std::span(trace.numbers)));
-    return trace;
-}
-
 void expect_same(const Trace& mine, const Trace& expected) {
     EXPECT_EQ(mine.state, expected.state) << "displacements and velocities";
     EXPECT_EQ(mine.in_contact, expected.in_contact);
-    ASSERT_EQ(mine.numbers.size(), expected.numbers.size());
-    const auto differs =
-        std::mismatch(mine.numbers.begin(), mine.numbers.end(), expected.numbers.begin());
-    EXPECT_EQ(differs.first, mine.numbers.end())
-        << "record " << differs.first - mine.numbers.begin() << " is the first that differs";
+    EXPECT_EQ(mine.records, expected.records);
 }
 
 /// OpenMP threads for as long as it lives.

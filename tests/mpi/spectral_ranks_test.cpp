@@ -85,19 +85,6 @@ TEST(Slabs, AreOfTheRanksTheyAreGiven) {
                         static_cast<double>(sites) * sites * before[0].view()(x, y, 0), 1e-9);
 }
 
-TEST(Slabs, HoldEveryRowOnce) {
-    const Communicator& world = test::world();
-    for (int sites : {8, 15, 16, 49}) {
-        const Slab slab(sites, world);
-        std::array<std::int64_t, 2> sums = {slab.rows, 0};
-        for (int y = slab.first; y < slab.first + slab.rows; ++y)
-            sums[1] += static_cast<std::int64_t>(y) * y;
-        world.sum(sums);
-        EXPECT_EQ(sums[0], sites);
-        EXPECT_EQ(sums[1], static_cast<std::int64_t>(sites - 1) * sites * (2 * sites - 1) / 6);
-    }
-}
-
 template <class T>
 void transform_like_one_rank(double tolerance) {
     for (int sites : {8, 15, 16, 49}) {

@@ -7,6 +7,7 @@
 
 #include "engine/equilibrium/zero_load.hpp"
 #include "engine/units.hpp"
+#include "support/cases.hpp"
 #include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -86,23 +87,16 @@ TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
     const io::Json result = test::run_scene(c.setup, scratch / "run");
     Simulation s(c.setup.simulation, c.surface, c.ranks, c.grid);
     s.start(c.interface.start_height());
-    double strongest = 0.0, turn = 0.0; // eV/Å, eV
-    while (!s.drive().done()) {
-        const StepRecord& now = s.step(true);
-        strongest = std::max(strongest, -now.force);
-        const std::size_t segment = s.drive().segment();
-        if (s.drive().observe(
-                {now.time, now.force, now.top, out_of_reach(now.top, now.force, strongest)}) &&
-            segment == 0)
-            turn = s.balance().interface;
-        ASSERT_LT(s.steps(), 100000);
-    }
+    double turn = 0.0; // eV
+    test::lead(s, [&](const StepRecord&, std::size_t segment, bool over) {
+        if (over && segment == 0) turn = s.balance().interface;
+    });
     const double per_area = units::milli_per_unit / std::pow(c.setup.scene.edge(), 2);
-    const double approach = io::find(result, "work_of_adhesion.approach")->get<double>(),
-                 pull_off = io::find(result, "work_of_adhesion.pull_off")->get<double>();
+    const double approach = test::number(result, "work_of_adhesion.approach"),
+                 pull_off = test::number(result, "work_of_adhesion.pull_off");
     EXPECT_NEAR(approach, per_area * turn, 1e-5 * approach);
     EXPECT_NEAR(pull_off, -per_area * (s.balance().interface - turn), 1e-4 * pull_off);
-    EXPECT_LT(io::find(result, "run.steps")->get<double>(), 0.9 * static_cast<double>(s.steps()));
+    EXPECT_LT(test::number(result, "run.steps"), 0.9 * static_cast<double>(s.steps()));
 }
 
 TEST(ApproachStart, AWarmBlockStartsOutOfReach) {
@@ -112,7 +106,7 @@ TEST(ApproachStart, AWarmBlockStartsOutOfReach) {
     for (const double temperature : {0.0, 300.0}) {
         Solids c(once + "temperature = " + std::to_string(temperature) + "\n");
         const io::Json result = test::run_scene(c.setup, scratch / std::to_string(temperature));
-        const double energy = io::find(result, "energy.interface")->get<double>();
+        const double energy = test::number(result, "energy.interface");
         EXPECT_EQ(energy == 0.0, temperature > 0.0) << temperature;
     }
 }

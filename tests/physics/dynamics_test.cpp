@@ -7,6 +7,7 @@
 #include "engine/units.hpp"
 #include "support/cases.hpp"
 #include "support/elastic_operator.hpp"
+#include "support/nodes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,29 +21,25 @@ using namespace asperity;
 namespace {
 
 /// A small rough contact with its top held, released from a strained state.
-class FreeContact {
-public:
-    FreeContact(const SimulationOptions& options, const char* map = "n8_b_rms1.0",
-                double height = 4.5)
-        : simulation(test::simulation(options, test::reference_surface(map))) {
-        simulation.start(height);
-    }
-    /// Energy at the whole step, eV.
-    double step() {
-        const StepRecord& now = simulation.step(true);
-        return now.interface_energy + now.elastic_energy + now.kinetic_energy;
-    }
-    Simulation simulation;
-};
+Simulation released(const SimulationOptions& options, double height = 4.5) {
+    Simulation s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
+    s.start(height);
+    return s;
+}
+/// Energy at the whole step, eV.
+double energy_of_step(Simulation& s) {
+    const StepRecord& now = s.step(true);
+    return now.interface_energy + now.elastic_energy + now.kinetic_energy;
+}
 
 /// Least and greatest energy over a stretch of time.
 double energy_ripple(double dt, double duration, bool finite_strain) {
     SimulationOptions options = test::free_contact(dt);
     options.block.finite_strain = finite_strain;
-    FreeContact contact(options);
+    Simulation s = released(options);
     double least = 1e300, most = -1e300;
     for (int n = 0; n * dt < duration; ++n) {
-        const double energy = contact.step();
+        const double energy = energy_of_step(s);
         least = std::min(least, energy), most = std::max(most, energy);
     }
     return most - least;
@@ -83,73 +80,47 @@ TEST(Verlet, EnergyErrorFallsAsTheSquareOfTheStep) {
     }
 }
 
-namespace {
-
-struct Retraced {
-    double moved, off; ///< largest displacement there, largest error back, Å
-};
-
-/// Leapfrog is its own mirror image: with v(n+1/2) reversed and the drift undone, the same steps
-/// lead back. What remains is rounding, grown by the contact's instability over 200 steps.
-Retraced retrace(const SimulationOptions& options) {
-    FreeContact contact(options);
-    Block& block = contact.simulation.block_to_write();
-    std::vector<double> first;
-    const auto positions = [&] {
-        std::vector<double> all;
-        for (const auto& level : block.levels())
-            for (const auto* f : {&level.u.x, &level.u.y, &level.u.z})
-                for (int z = 0; z < level.shape.cells; ++z)
-                    for (int y = 0; y < level.tile.ny; ++y)
-                        for (int x = 0; x < level.tile.nx; ++x)
-                            all.push_back(f->view()(x, y, z));
-        return all;
-    };
-    for (int n = 0; n < 50; ++n)
-        contact.step();
-    first = positions();
-    constexpr int there = 200;
-    for (int n = 0; n < there; ++n)
-        contact.step();
-    double moved = 0.0;
-    const auto far = positions();
-    for (std::size_t i = 0; i < far.size(); ++i)
-        moved = std::max(moved, std::abs(far[i] - first[i]));
-    // u(n+1), v(n+1/2)  ->  u(n), -v(n+1/2): the mirrored state before the step back.
-    for (const auto& level : block.levels()) {
-        const Block::Fields own = block.fields(level);
-        for (const auto& [u, v] :
-             {std::pair{&own.u.x, &own.v.x}, {&own.u.y, &own.v.y}, {&own.u.z, &own.v.z}})
-            for (int z = 0; z < level.shape.cells; ++z)
-                for (int y = 0; y < level.tile.ny; ++y)
-                    for (int x = 0; x < level.tile.nx; ++x) {
-                        double& speed = v->view()(x, y, z);
-                        u->view()(x, y, z) -= options.dt * speed;
-                        speed = -speed;
-                    }
-    }
-    block.exchange();
-    for (int n = 0; n < there - 1; ++n)
-        contact.step();
-    const auto back = positions();
-    double off = 0.0;
-    for (std::size_t i = 0; i < back.size(); ++i)
-        off = std::max(off, std::abs(back[i] - first[i]));
-    return {moved, off};
-}
-
-} // namespace
-
 TEST(Verlet, ReversedVelocitiesRetraceThePath) {
+    // Leapfrog is its own mirror image: with v(n+1/2) reversed and the drift undone, the same steps
+    // lead back. What remains is rounding, grown by the contact's instability over 200 steps.
+    constexpr int there = 200;
     for (int layers : {0, 2})
         for (bool finite : {false, true})
             for (bool mixed : {false, true}) {
                 SimulationOptions options = test::free_contact(10.0, layers);
                 options.block.finite_strain = finite;
                 options.interface.mixed = mixed;
-                const auto [moved, off] = retrace(options);
-                EXPECT_GT(moved, 0.3);
-                EXPECT_LT(off, 1e-9);
+                Simulation s = released(options);
+                Block& block = s.block_to_write();
+                const auto positions = [&] {
+                    std::vector<double> all;
+                    test::each_node(block, [&](const Block::Level& l, int x, int y, int z) {
+                        for (const double* u : test::components(l.u.view(), x, y, z))
+                            all.push_back(*u);
+                    });
+                    return all;
+                };
+                const auto steps = [&](int count) {
+                    for (int n = 0; n < count; ++n)
+                        s.step(true);
+                };
+                steps(50);
+                const auto first = positions();
+                steps(there);
+                EXPECT_GT(test::largest_difference(positions(), first), 0.3);
+                // u(n+1), v(n+1/2)  ->  u(n), -v(n+1/2): the mirrored state before the step back.
+                test::each_node(block, [&](const Block::Level& l, int x, int y, int z) {
+                    const Block::Fields own = block.fields(l);
+                    const auto u = test::components(own.u.view(), x, y, z),
+                               v = test::components(own.v.view(), x, y, z);
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        *u[c] -= options.dt * *v[c];
+                        *v[c] = -*v[c];
+                    }
+                });
+                block.exchange();
+                steps(there - 1);
+                EXPECT_LT(test::largest_difference(positions(), first), 1e-9);
             }
 }
 
@@ -160,13 +131,11 @@ TEST(EnergyBalance, ADrivenDampedRunBalances) {
         SimulationOptions options = test::free_contact(dt);
         options.drive.velocity = 5e-4; // 50 m/s
         options.damping = 2e-3;
-        FreeContact contact(options, "n8_b_rms1.0", 8.0);
+        Simulation s = released(options, 8.0);
         double worst = 0.0;
-        while (contact.simulation.time() < 12000.0) {
-            contact.step();
-            worst = std::max(worst, std::abs(contact.simulation.now().residual));
-        }
-        const EnergyBalance& l = contact.simulation.balance();
+        while (s.time() < 12000.0)
+            worst = std::max(worst, std::abs(s.step(true).residual));
+        const EnergyBalance& l = s.balance();
         EXPECT_GT(l.damped, 0.1);
         EXPECT_GT(std::abs(l.top_work), 0.1);
         EXPECT_NE(l.drag_work, 0.0);
@@ -183,12 +152,12 @@ TEST(EnergyBalance, DampingAloneTakesWhatTheDissipationSays) {
     const auto error = [](double dt) {
         SimulationOptions options = test::free_contact(dt);
         options.damping = 1e-3;
-        FreeContact contact(options);
-        const double before = contact.step();
+        Simulation s = released(options);
+        const double before = energy_of_step(s);
         double after = before;
-        while (contact.simulation.time() < 15000.0)
-            after = contact.step();
-        const EnergyBalance& l = contact.simulation.balance();
+        while (s.time() < 15000.0)
+            after = energy_of_step(s);
+        const EnergyBalance& l = s.balance();
         EXPECT_EQ(l.top_work, 0.0) << "the top is held";
         EXPECT_EQ(l.drag_work, 0.0);
         EXPECT_GT(before - after, 1.0);
@@ -245,17 +214,13 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
         kinetic.push_back(now.kinetic_energy / (0.5 * kt * n));
         elastic.push_back(now.elastic_energy / (0.5 * kt * n));
         if (step % 5) continue;
-        for (std::size_t l = 0; l < levels.size(); ++l) {
-            const auto v = levels[l].v.view();
-            double sum = 0.0;
-            for (int z = 0; z < levels[l].shape.cells; ++z)
-                for (int y = 0; y < levels[l].tile.ny; ++y)
-                    for (int x = 0; x < levels[l].tile.nx; ++x)
-                        sum += levels[l].mass(z) *
-                               (v.x(x, y, z) * v.x(x, y, z) + v.y(x, y, z) * v.y(x, y, z) +
-                                v.z(x, y, z) * v.z(x, y, z));
-            by_level[l].push_back(sum / (kt * freedoms[l]));
-        }
+        std::vector<double> sums(levels.size());
+        test::each_node(simulation.block(), [&](const Block::Level& l, int x, int y, int z) {
+            for (const double* v : test::components(l.v.view(), x, y, z))
+                sums[static_cast<std::size_t>(l.shape.level)] += l.mass(z) * *v * *v;
+        });
+        for (std::size_t l = 0; l < levels.size(); ++l)
+            by_level[l].push_back(sums[l] / (kt * freedoms[l]));
     }
     const auto check = [](const char* what, const Mean& mean, double expected) {
         EXPECT_LT(mean.error, 0.003) << "too short a run to tell";
@@ -281,12 +246,11 @@ TEST(Temperature, OnlyTheDampedDepthIsDriven) {
     Simulation simulation = test::simulation(options, test::flat_surface(8));
     simulation.start(30.0);
     simulation.step(false);
-    for (const auto& level : simulation.block().levels())
-        for (int z = 0; z < level.shape.cells; ++z) {
-            const bool deep = level.depth + z * (1 << level.shape.level) >= 3.5;
-            EXPECT_EQ(level.v.view().x(0, 0, z) != 0.0, deep)
-                << "level " << level.shape.level << " plane " << z;
-        }
+    test::each_node(simulation.block(), [](const Block::Level& l, int x, int y, int z) {
+        const bool deep = l.depth + z * (1 << l.shape.level) >= 3.5;
+        EXPECT_EQ(l.v.view().x(x, y, z) != 0.0, deep)
+            << "level " << l.shape.level << " plane " << z;
+    });
 }
 
 namespace {
@@ -297,17 +261,17 @@ struct Approach {
     double work = 0.0;    ///< int F dz / A
 };
 
-Approach approach_slowly(const SimulationOptions& options, const Surface& surface) {
+/// Of a lattice of so many layers, at 10 m/s, damped.
+Approach approach_slowly(int layers, const Surface& surface) {
+    SimulationOptions options;
+    options.block = test::paper_block(8, layers, 0);
+    options.interface = test::paper_interface();
+    options.drive.velocity = 1e-4;
+    options.drive.path = {Segment{Segment::approach}};
+    options.damping = 2e-3;
     Simulation s = test::simulation(options, surface);
     s.start(surface.statistics.highest + cutoff_of(options.interface.potential));
-    for (;;) {
-        const StepRecord& now = s.step(true);
-        if (s.drive().observe({now.time, now.force, 0.0, false})) break;
-        if (s.steps() > 300000) {
-            ADD_FAILURE() << "no contact";
-            break;
-        }
-    }
+    test::lead(s, [](const StepRecord&, std::size_t, bool) {});
     const double area = std::pow(options.block.sites * options.block.spacing, 2);
     Approach result;
     result.there = -1e3 * (s.now().interface_energy + s.now().elastic_energy) / area;
@@ -322,15 +286,9 @@ Approach approach_slowly(const SimulationOptions& options, const Surface& surfac
 
 TEST(Approach, FlatOnFlatEndsInTheStaticMinimumAndDoesItsWork) {
     // A thin block does not jump: the approach is reversible, so its work, the energy where it ends
-    // and the static minimum are one number. 10 m/s, damped; the lag of a moving block and the last
-    // step cost some 1e-3.
-    SimulationOptions options;
-    options.block = test::paper_block(8, 4, 0);
-    options.interface = test::paper_interface();
-    options.drive.velocity = 1e-4;
-    options.drive.path = {Segment{Segment::approach}};
-    options.damping = 2e-3;
-    const Approach a = approach_slowly(options, test::flat_surface(8));
+    // and the static minimum are one number. The lag of a moving block and the last step cost some
+    // 1e-3.
+    const Approach a = approach_slowly(4, test::flat_surface(8));
     EXPECT_NEAR(a.binding, 98.86330213, 2e-6);
     EXPECT_NEAR(a.there, 98.8633, 0.05);
     EXPECT_NEAR(a.work, 98.8633, 0.1);
@@ -339,13 +297,7 @@ TEST(Approach, FlatOnFlatEndsInTheStaticMinimumAndDoesItsWork) {
 TEST(Approach, RoughContactRelaxesToTheStaticState) {
     // The path of the dynamics and the descent from the strongest attraction lead into the same
     // basin; the reference for the lattice of 8 layers is 90.7207652.
-    SimulationOptions options;
-    options.block = test::paper_block(8, 8, 0);
-    options.interface = test::paper_interface();
-    options.drive.velocity = 1e-4;
-    options.drive.path = {Segment{Segment::approach}};
-    options.damping = 2e-3;
-    const Approach a = approach_slowly(options, test::reference_surface("n8_a_rms0.4"));
+    const Approach a = approach_slowly(8, test::reference_surface("n8_a_rms0.4"));
     EXPECT_NEAR(a.binding, 90.720765166, 1e-5);
     EXPECT_LT(a.there, a.binding + 1e-6) << "a moving state cannot lie below the minimum";
     EXPECT_NEAR(a.there, a.binding, 0.1);

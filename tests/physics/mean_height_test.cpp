@@ -193,11 +193,7 @@ TEST(MeanHeight, SurfaceFallsWhereItsLongestWaveGetsUnstable) {
 
             test::KeptPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
             path.start();
-            StepRecord before = path.now();
-            while (path.dissipation().events == 0) {
-                before = path.now();
-                ASSERT_EQ(path.advance(Segment::approach), QuasistaticPath::Outcome::point);
-            }
+            const StepRecord before = test::before_the_first_fall(path);
             const Instability& fall = path.dissipation().jumps.front();
             EXPECT_GT(fall.height_before, inner);
             if (step == 0.1) early.push_back(fall.height_before - inner);
@@ -221,9 +217,7 @@ TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
     for (double step : {0.25, 0.1}) {
         Solids c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25),
                  test::Friction::without);
-        test::KeptPath path = c.path(tolerance, step, 0.0, Constraint::Of::mean_height);
-        path.start();
-        follow(path, Segment::approach);
+        test::KeptPath path = c.approached(tolerance, step, 0.0, Constraint::Of::mean_height);
         lost.push_back(path.dissipation());
         EXPECT_NEAR(-path.work(Segment::approach) + path.dissipation().total(), -energy(path.now()),
                     path.uncertainty(Segment::approach));
@@ -241,11 +235,7 @@ TEST(MeanHeight, FallsThatTakeTheForceTooFarAreGivenUp) {
     Solids c(test::paper_block(64, 64, 0), test::reference_surface("c7_N64_T64_rms2", 0.25));
     test::KeptPath path = path_of(c, 2e-4);
     path.start();
-    StepRecord before = path.now();
-    while (path.dissipation().events == 0) {
-        before = path.now();
-        ASSERT_EQ(path.advance(Segment::approach), QuasistaticPath::Outcome::point);
-    }
+    const StepRecord before = test::before_the_first_fall(path);
     const double after = path.now().top;
     const auto fall = [&](const ForceWindow& window) {
         c.block.set_uniform(before.top);
@@ -280,9 +270,7 @@ TEST(MeanHeight, WorkIsThatOfATighterPath) {
     std::vector<std::array<double, 4>> works;
     for (double tolerance : {1e-4, 2e-5}) {
         Solids c(test::paper_block(64, 64, 0), test::self_affine(64, 0.5, 7));
-        test::KeptPath path = path_of(c, tolerance);
-        path.start();
-        follow(path, Segment::approach);
+        test::KeptPath path = c.approached(tolerance, 0.25, 0.0, Constraint::Of::mean_height);
         follow(path, Segment::pull_off);
         works.push_back({-path.work(Segment::approach), path.uncertainty(Segment::approach),
                          -path.work(Segment::pull_off), path.uncertainty(Segment::pull_off)});
@@ -301,9 +289,7 @@ TEST(MeanHeight, LandsWhereTheAttractionIsLostInTheTolerance) {
     test::KeptPath path = c.path(tolerance);
     path.start();
     const auto in = follow(path, Segment::approach);
-    double strongest = 0.0;
-    for (const StepRecord& r : in)
-        strongest = std::max(strongest, -r.force);
+    const double strongest = test::strongest_of(in);
     EXPECT_GT(strongest, 0.01);
     EXPECT_LT(strongest, 0.25 * tolerance * c.sites());
     EXPECT_LT(std::abs(path.now().force), 0.26 * tolerance * c.sites());
@@ -317,9 +303,7 @@ TEST(MeanHeight, EndsInTheFirstStateHoweverWeaklyItBinds) {
     test::KeptPath path = path_of(c, tolerance);
     path.start();
     const auto in = follow(path, Segment::approach);
-    double strongest = 0.0;
-    for (const StepRecord& r : in)
-        strongest = std::max(strongest, -r.force);
+    const double strongest = test::strongest_of(in);
     EXPECT_LT(strongest, 0.25 * tolerance * c.sites());
     const double ended = energy(path.now()), force = path.now().force;
     const RelaxedState state = c.relax({}, 1e-6);

@@ -5,7 +5,6 @@
 // its pull-off ends apart, with nothing left of contact, force and energy; its stated errors only
 // grow along a kind, and cover what the balance of energy lacks; with the energy that is bound
 // beyond the reach of its ends, its works in time are those from out of reach.
-#include "io/hdf5_file.hpp"
 #include "support/path_case.hpp"
 #include "support/run_scene.hpp"
 
@@ -46,13 +45,9 @@ TEST(PathEnd, NothingIsLeftOfTheContact) {
             const bool held_top = along == Constraint::Of::top;
             SCOPED_TRACE(std::to_string(thickness) + (held_top ? ", top" : ", mean height"));
             Solids c(test::paper_block(10, thickness, 0), test::flat_surface(10));
-            test::KeptPath path = c.path(1e-3, 0.5, 0.0, along);
-            path.start();
-            follow(path, Segment::approach);
+            test::KeptPath path = c.approached(1e-3, 0.5, 0.0, along);
             const double bound = -energy(path.now());
-            double strongest = 0.0;
-            for (const StepRecord& r : follow(path, Segment::pull_off))
-                strongest = std::max(strongest, -r.force);
+            const double strongest = test::strongest_of(follow(path, Segment::pull_off));
             const StepRecord& end = path.now();
             EXPECT_GT(strongest, 30.0);
             EXPECT_EQ(end.in_contact, 0);
@@ -64,23 +59,17 @@ TEST(PathEnd, NothingIsLeftOfTheContact) {
 }
 
 TEST(PathEnd, InTimeNothingIsLeftOfTheContact) {
-    const io::Scratch scratch;
-    const Scene scene = read_scene_text(
-        "[surface]\nkind = \"flat\"\nsites = 16\n[block]\nthickness = 128\n"
-        "[drive]\nvelocity = 100\ntimestep = 20\ndamping = 1\n[output]\nseries = 10\n",
-        "soft.toml");
-    test::run_scene(scene, scratch / "run");
-    const io::Hdf5File file(scratch / "run/run.h5", io::Hdf5File::Mode::read);
-    const auto last = [&](const char* column) {
-        return file.read<double>(std::string("/series/") + column).back();
-    };
-    const auto energies = file.read<double>("/series/interface_energy");
+    const test::Written run("[surface]\nkind = \"flat\"\nsites = 16\n[block]\nthickness = 128\n"
+                            "[drive]\nvelocity = 100\ntimestep = 20\ndamping = 1\n"
+                            "[output]\nseries = 10\n");
+    const auto last = [&](const char* column) { return run.series(column).back(); };
+    const auto energies = run.series("interface_energy");
     const double deepest = *std::min_element(energies.begin(), energies.end());
     EXPECT_EQ(last("segment"), 1.0);
     EXPECT_EQ(last("contact_fraction"), 0.0);
     // The run ends at a step between two rows, as close as the approach began.
     EXPECT_LE(std::abs(last("interface_energy")), 1e-3 * std::abs(deepest));
-    const double reached = last("mean_height"), begun = file.read<double>("/series/mean_height")[0];
+    const double reached = last("mean_height"), begun = run.series("mean_height").front();
     EXPECT_GE(reached, begun - 0.2);
 }
 
@@ -138,18 +127,13 @@ TEST(WorkInTime, WithATailIsThatFromOutOfReach) {
     // Flat on flat, the block stiffer than the interface anywhere: nothing is lost but what is
     // damped on the way, and both works are the flat reference. Where the pull-off ends, the tail
     // still binds a tenth of it.
-    const io::Scratch scratch;
-    const Scene scene = read_scene_text(
+    const test::Written run(
         "[surface]\nkind = \"flat\"\nsites = 8\n[block]\nmodel = \"lattice\"\nthickness = 3\n"
         "[interface]\ncutoff = 6.56\ntail = true\n"
-        "[drive]\nvelocity = 10\ntimestep = 10\n[output]\nseries = 1\n",
-        "tail.toml");
-    const io::Json result = test::run_scene(scene, scratch / "run");
-    const double flat = io::find(result, "delta_gamma")->get<double>();
-    const double area = scene.edge() * scene.edge() / 1e3; // of meV/Å^2 in eV
-    const io::Hdf5File file(scratch / "run/run.h5", io::Hdf5File::Mode::read);
-    const double left = -file.read<double>("/series/interface_energy").back() / area;
+        "[drive]\nvelocity = 10\ntimestep = 10\n[output]\nseries = 1\n");
+    const double flat = run("delta_gamma");
+    const double left = -1e3 * run.series("interface_energy").back() / run.area(); // meV/Å^2
     EXPECT_GT(left, 0.002 * flat) << "the case must tell";
     for (const char* work : {"work_of_adhesion.approach", "work_of_adhesion.pull_off"})
-        EXPECT_NEAR(io::find(result, work)->get<double>(), flat, 5e-4 * flat) << work;
+        EXPECT_NEAR(run(work), flat, 5e-4 * flat) << work;
 }

@@ -3,10 +3,9 @@
 //
 // Quasi-static paths against their laws: flat on flat is a problem in one dimension, solved here on
 // its own (force, snap-in, snap-off, energies lost); work = energy + loss and loop area = loss on
-// rough surfaces; a lattice that relaxes node by node agrees; slow motion approaches the path.
+// rough surfaces. (Slow motion approaches the path: works_test.)
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/units.hpp"
-#include "support/levels_at_rest.hpp"
 #include "support/path_case.hpp"
 
 #include <gtest/gtest.h>
@@ -142,29 +141,6 @@ TEST(ForceTrail, ErrorFallsWithTheFourthPowerOfTheStep) {
     EXPECT_GT(error(40) / error(80), 12.0);
 }
 
-TEST(Quasistatic, StiffBlockIsReversible) {
-    // Stiffer than the interface anywhere: approach and pull-off give the state's energy to what
-    // the tolerance allows on the way (13 Å both), and nothing is lost.
-    for (double tolerance : {1e-3, 1e-4, 1e-5}) {
-        Solids c(test::paper_block(10, 3, 0), test::flat_surface(10));
-        test::KeptPath path = c.path(tolerance);
-        path.start();
-        const auto in = follow(path, Segment::approach);
-        const double state = -energy(path.now());
-        const auto out = follow(path, Segment::pull_off);
-        const double allowed = tolerance * c.sites() * 11.0;
-        EXPECT_NEAR(-path.work(Segment::approach), state, allowed);
-        EXPECT_NEAR(path.work(Segment::pull_off), state, allowed);
-        EXPECT_EQ(path.dissipation().total(), 0.0);
-        EXPECT_NEAR(energy(path.now()), 0.0, 1e-6 * state);
-        const OneDimension one{c};
-        for (const auto* branch : {&in, &out})
-            for (const StepRecord& r : *branch)
-                EXPECT_NEAR(r.force, one.force(r.mean_height),
-                            1e-9 * c.sites() + one.jump(r.mean_height));
-    }
-}
-
 TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
     for (const int thickness : {30, 40}) {
         Solids c(test::paper_block(10, thickness, 0), test::flat_surface(10));
@@ -221,9 +197,7 @@ TEST(Quasistatic, EndsExactlyAtItsLoad) {
                                                      {200, height, -5.0}}) {
         Solids c(test::paper_block(10, thickness, 0), test::flat_surface(10));
         const double load = pressure * units::gigapascal * 6.76 * c.sites();
-        test::KeptPath path = c.path(1e-5, 0.25, load, along);
-        path.start();
-        follow(path, Segment::approach);
+        test::KeptPath path = c.approached(1e-5, 0.25, load, along);
         EXPECT_NEAR(path.now().force, load, 0.25e-5 * c.sites());
         // On the inner branch, whatever the sign.
         EXPECT_LT(path.now().mean_height, along == top ? 3.2 : 3.4) << pressure;
@@ -275,62 +249,6 @@ TEST(Quasistatic, AgainTheSameCycle) {
     EXPECT_NEAR(lost[1], 2.0 * lost[0], allowed);
     EXPECT_GT(lost_in[0], 10.0 * allowed);
     EXPECT_NEAR(lost_in[1], lost_in[0], allowed);
-}
-
-TEST(Quasistatic, LatticeAndWavesGiveTheSameSeries) {
-    // The same positions of the top plane, in and out of a rough contact that falls nowhere. The
-    // lattice relaxes node by node (support/levels_at_rest.hpp).
-    const BlockOptions options = test::paper_block(16, 4, 0);
-    Solids c(options, test::reference_surface("c1_N16_T16_rms0.5"));
-    test::LevelsAtRest lattice(options);
-    std::vector<RelaxedState> a, b;
-    for (int n = 0; n <= 24; n += 2) {
-        const auto at = Constraint::top(n <= 12 ? -4.0 - 0.5 * n : -10.0 + 0.5 * (n - 12));
-        a.push_back(lattice.relax(c.interface, c.interface.start_height(), at, 1e-7));
-        b.push_back(c.relax(at, 1e-7));
-        EXPECT_TRUE(a.back().converged && b.back().converged) << n;
-    }
-    double strongest = 0.0;
-    for (const RelaxedState& s : a)
-        strongest = std::max(strongest, -s.force);
-    EXPECT_GT(strongest, 5.0);
-    for (std::size_t n = 0; n < a.size(); ++n) {
-        EXPECT_NEAR(a[n].force, b[n].force, 1e-6 * strongest) << n;
-        EXPECT_NEAR(a[n].top_force, b[n].top_force, 1e-6 * strongest) << n;
-        EXPECT_NEAR(energy(a[n]), energy(b[n]), 1e-6) << n;
-        EXPECT_NEAR(a[n].mean_height, b[n].mean_height, 1e-6) << n;
-        EXPECT_EQ(a[n].in_contact, b[n].in_contact) << n;
-    }
-}
-
-TEST(Quasistatic, SlowMotionApproachesThePath) {
-    // Force at given tops of a stiff block: what is left of inertia and drag goes with the speed.
-    SimulationOptions o;
-    o.block = test::paper_block(10, 4, 0);
-    o.interface = test::paper_interface();
-    o.dt = 10.0;
-    o.damping = 2e-3;
-    Solids c(o.block, test::flat_surface(10));
-    const OneDimension one{c};
-    const auto off = [&](double velocity) {
-        o.drive.velocity = velocity;
-        o.drive.path = {Segment{Segment::approach}};
-        Simulation s(o, c.surface, Communicator(), c.grid);
-        s.start(c.interface.start_height());
-        double largest = 0.0;
-        while (!s.drive().done()) {
-            const StepRecord& now = s.step(false);
-            if (now.top < -6.0) {
-                const double z = one.other(now.top, 2.8, 14.0);
-                largest = std::max(largest, std::abs(now.force - one.force(z)));
-            }
-            s.drive().observe({now.time, now.force, 0.0, false});
-        }
-        return largest / c.sites();
-    };
-    const double fast = off(4e-4), slow = off(1e-4);
-    EXPECT_LT(slow, 0.4 * fast);
-    EXPECT_LT(slow, 5e-3);
 }
 
 TEST(Dissipation, KeepsTheStrongestInstabilitiesInTheOrderOfThePath) {

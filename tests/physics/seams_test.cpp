@@ -7,6 +7,7 @@
 #include "support/cases.hpp"
 #include "support/echo.hpp"
 #include "support/elastic_operator.hpp"
+#include "support/nodes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,14 +37,9 @@ Block made(const BlockOptions& options) {
 /// Calls visit(level, x, y, z, {v, v, v}) for all nodes that move.
 template <class Visit>
 void each_node(Block& block, const Visit& visit) {
-    for (const Block::Level& level : block.levels()) {
-        const auto v = block.fields(level).v.view();
-        for (int z = 0; z < level.shape.cells; ++z)
-            for (int y = 0; y < level.tile.ny; ++y)
-                for (int x = 0; x < level.tile.nx; ++x)
-                    visit(level, x, y, z,
-                          std::array<double*, 3>{&v.x(x, y, z), &v.y(x, y, z), &v.z(x, y, z)});
-    }
+    test::each_node(block, [&](const Block::Level& level, int x, int y, int z) {
+        visit(level, x, y, z, test::components(block.fields(level).v.view(), x, y, z));
+    });
 }
 
 void stir(Block& block) {

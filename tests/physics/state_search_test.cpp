@@ -11,13 +11,14 @@
 #include "engine/scene/surface.hpp"
 #include "engine/units.hpp"
 #include "support/elastic_operator.hpp"
+#include "support/nodes.hpp"
 #include "support/path_case.hpp"
+#include "support/scratch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <random>
 #include <utility>
@@ -39,18 +40,22 @@ Surface hill(int sites, double height, double width) {
     });
 }
 
+/// Without friction displacements are normal only: with lateral ones, sites between atoms of the
+/// substrate are states of their own, and slip from one to the next.
+using test::Friction;
+
+/// Over such a hill, with 32 layers.
+Solids over_hill(double height, double width, Friction friction = Friction::with) {
+    return Solids(test::paper_block(32, 32, 0), hill(32, height, width), friction);
+}
 /// Relaxed energy where the summit alone touches, full contact, and a single way between them.
-Solids two_states() { return Solids(test::paper_block(32, 32, 0), hill(32, 12.0, 6.0)); }
+Solids two_states(Friction friction = Friction::with) { return over_hill(12.0, 6.0, friction); }
 
 /// The same hill as a wall of smeared atoms.
 Solids two_states_over_a_wall() {
     return Solids(test::paper_block(32, 32, 0), hill(32, 12.0, 6.0),
                   SmearedWall(LennardJones{0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false));
 }
-
-/// Normal displacements only: with lateral ones, sites between atoms of the substrate are states of
-/// their own, and slip from one to the next.
-void without_friction(Solids& c) { c.block = SpectralBlock(c.options, Communicator(), true); }
 
 double area(const Solids& c) { return 6.76 * c.sites(); }
 
@@ -65,14 +70,7 @@ ZeroLoad relax_free(Solids& c, double load = 0.0) {
 
 /// Displacements of the lowest layer.
 using Layer = std::vector<double>;
-Layer layer_of(const SpectralBlock& block) {
-    Layer values;
-    const auto layer = block.lowest_layer();
-    for (const auto& u : {layer.x, layer.y, layer.z})
-        for (int y = 0; y < u.ny; ++y)
-            values.insert(values.end(), u.line(y), u.line(y) + u.nx);
-    return values;
-}
+Layer layer_of(const SpectralBlock& block) { return test::values_of(block.lowest_layer()); }
 
 struct Search {
     Solids& c;
@@ -111,7 +109,8 @@ struct Search {
                             c.interface.start_height());
         search.start(relaxed());
     }
-    StateList finish() {
+    StateList run() {
+        start();
         for (int i = 0; search.advance() != StateSearch::Outcome::done; ++i)
             if (i > 1000) {
                 ADD_FAILURE() << "no end";
@@ -122,9 +121,7 @@ struct Search {
 };
 
 StateList all_states(Solids& c, double step = 0.25, bool to_the_end = true) {
-    Search s(c, step, to_the_end);
-    s.start();
-    return s.finish();
+    return Search(c, step, to_the_end).run();
 }
 
 /// The smallest eigenvalue that Lanczos' method finds of the Hessian of the energy under no load.
@@ -191,9 +188,8 @@ private:
         block_.at_sites(waves, sites);
         Layer g;
         for (auto& component : sites) {
-            const PlaneView<double> p = component.plane(0);
-            for (int y = 0; y < p.ny; ++y)
-                g.insert(g.end(), p.line(y), p.line(y) + p.nx);
+            const Layer one = test::values_of(component.plane(0));
+            g.insert(g.end(), one.begin(), one.end());
         }
         return g;
     }
@@ -224,10 +220,9 @@ void expect_same(const StateList& a, const StateList& b, double fraction) {
 }
 
 /// The force between two states, integrated, is what their energies differ by.
-void expect_work_of_the_force(Solids& c) {
+void expect_work_of_the_force(Solids c) {
     Search s(c);
-    s.start();
-    const StateList states = s.finish();
+    const StateList states = s.run();
     ASSERT_EQ(states.all.size(), 2u);
     EXPECT_EQ(states.instabilities, 0);
     const double z0 = states.all[0].numbers.mean_height, z1 = states.all[1].numbers.mean_height;
@@ -249,8 +244,9 @@ void expect_work_of_the_force(Solids& c) {
 }
 
 /// A search that stops every so many points and goes on from its checkpoint.
-void expect_same_when_resumed(const std::string& file, int points,
-                              const std::function<Solids()>& contact) {
+void expect_same_when_resumed(int points, const std::function<Solids()>& contact) {
+    const io::Scratch scratch;
+    const std::string file = scratch / "search.h5";
     Solids undisturbed = contact();
     const StateList states = all_states(undisturbed);
     bool done = false;
@@ -282,7 +278,6 @@ void expect_same_when_resumed(const std::string& file, int points,
             EXPECT_EQ(found.all[i].barrier, states.all[i].barrier);
         }
     }
-    std::filesystem::remove(file);
 }
 
 } // namespace
@@ -290,8 +285,7 @@ void expect_same_when_resumed(const std::string& file, int points,
 TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
     Solids c = two_states();
     Search s(c);
-    s.start();
-    const StateList states = s.finish();
+    const StateList states = s.run();
     ASSERT_EQ(states.all.size(), 2u);
     EXPECT_LT(states.all[0].numbers.contact_fraction, 0.05);
     EXPECT_GT(states.all[1].numbers.contact_fraction, 0.95);
@@ -328,10 +322,9 @@ TEST(StateSearch, StatesAreStableAndTheBarrierIsNot) {
 // A state on a branch that was followed outwards: to come to it the first one has to be pressed in
 // as far as the instability, beyond the height at which the other state is.
 TEST(StateSearch, ABarrierReachesDownToTheInstabilityThatHasToBeCrossed) {
-    Solids c(test::paper_block(32, 32, 0), hill(32, 20.0, 6.0));
+    Solids c = over_hill(20.0, 6.0);
     Search s(c, 0.25, false);
-    s.start();
-    const StateList states = s.finish();
+    const StateList states = s.run();
     ASSERT_GE(states.all.size(), 2u);
     ASSERT_EQ(states.instabilities, 1);
     s.search.restore_first();
@@ -353,14 +346,8 @@ TEST(StateSearch, ABarrierReachesDownToTheInstabilityThatHasToBeCrossed) {
 }
 
 TEST(StateSearch, EnergiesDifferByTheWorkOfTheForce) {
-    Solids c = two_states();
-    without_friction(c);
-    expect_work_of_the_force(c);
-}
-
-TEST(StateSearch, OverAWallEnergiesDifferByTheWorkOfTheForce) {
-    Solids c = two_states_over_a_wall();
-    expect_work_of_the_force(c);
+    expect_work_of_the_force(two_states(Friction::without));
+    expect_work_of_the_force(two_states_over_a_wall());
 }
 
 TEST(StateSearch, SameStatesWithAnotherStep) {
@@ -375,13 +362,9 @@ TEST(StateSearch, NoneIsDeeperFromABlockDrapedOverTheSubstrate) {
     // path leads to. On steep hills relaxations from there end in states that are not in the list.
     int others = 0;
     for (const auto& [height, width] : {std::pair{12.0, 6.0}, {16.0, 5.0}, {12.0, 3.0}, {8.0, 3.0}})
-        for (const bool friction : {true, false}) {
-            const auto contact = [&friction](double h, double w) {
-                Solids c(test::paper_block(32, 32, 0), hill(32, h, w));
-                if (!friction) without_friction(c);
-                return c;
-            };
-            Solids c = contact(height, width), draped = contact(height, width);
+        for (const Friction friction : {Friction::with, Friction::without}) {
+            Solids c = over_hill(height, width, friction),
+                   draped = over_hill(height, width, friction);
             const StateList states = all_states(c);
             draped.block.set_uniform(0.0);
             const InterfaceMaps maps =
@@ -412,12 +395,8 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
     surfaces.push_back(hill(96, 30.0, 8.0));
     int shorter = 0, several = 0;
     for (const Surface& surface : surfaces) {
-        const auto contact = [&surface] {
-            Solids c(test::paper_block(surface.sites, surface.sites, 0), surface);
-            without_friction(c);
-            return c;
-        };
-        Solids a = contact(), b = contact();
+        const BlockOptions block = test::paper_block(surface.sites, surface.sites, 0);
+        Solids a(block, surface, Friction::without), b(block, surface, Friction::without);
         const StateList quick = all_states(a, 0.25, false), whole = all_states(b, 0.25, true);
         const auto& deepest = whole.deepest().numbers;
         EXPECT_NEAR(quick.deepest().numbers.binding_energy, deepest.binding_energy, 1e-3)
@@ -430,11 +409,9 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
 }
 
 TEST(StateSearch, ALoadThatStretchesTheBlockIsNoInstability) {
-    Solids c = two_states();
-    without_friction(c);
+    Solids c = two_states(Friction::without);
     Search s(c, 0.25, true, 100.0 * units::gigapascal * 1e-3 * area(c)); // 100 MPa
-    s.start();
-    const StateList states = s.finish();
+    const StateList states = s.run();
     EXPECT_EQ(states.all.size(), 2u);
     EXPECT_EQ(states.instabilities, 0);
 }
@@ -443,11 +420,9 @@ TEST(StateSearch, ALoadIsNoPartOfABarrier) {
     // The same force along the same way: a load takes away what it holds.
     constexpr double step = 0.05; // the largest force is that of a point
     const auto barrier = [](double load) {
-        Solids c = two_states();
-        without_friction(c);
+        Solids c = two_states(Friction::without);
         Search s(c, step, true, load);
-        s.start();
-        const StateList states = s.finish();
+        const StateList states = s.run();
         EXPECT_EQ(states.all.size(), 2u) << load;
         return states.all[0].barrier.value_or(0.0);
     };
@@ -464,8 +439,7 @@ TEST(StateSearch, ALoadIsNoPartOfABarrier) {
 TEST(StateSearch, UnderALoadTheEnergyOfThePointsIsTheIntegralOfTheForceAboveIt) {
     // U + P z rises on the way in by the integral of F - P, whatever the sign of the load.
     for (const double pressure : {0.0, 0.05, -0.01}) { // GPa
-        Solids c = two_states();
-        without_friction(c);
+        Solids c = two_states(Friction::without);
         const double load = pressure * units::gigapascal * area(c);
         Search s(c, 0.05, true, load);
         s.start();
@@ -493,7 +467,7 @@ TEST(StateSearch, UnderALoadTheEnergyOfThePointsIsTheIntegralOfTheForceAboveIt) 
 }
 
 TEST(StateSearch, FullContactIsTheOnlyState) {
-    Solids c(test::paper_block(32, 32, 0), hill(32, 2.0, 8.0));
+    Solids c = over_hill(2.0, 8.0);
     const StateList states = all_states(c);
     EXPECT_EQ(states.all.size(), 1u);
     EXPECT_EQ(states.points, 1);
@@ -501,11 +475,6 @@ TEST(StateSearch, FullContactIsTheOnlyState) {
 }
 
 TEST(StateSearch, ResumedItFindsTheSameBits) {
-    expect_same_when_resumed("state_search.h5", 11, [] {
-        return Solids(test::paper_block(32, 32, 0), hill(32, 16.0, 5.0));
-    });
-}
-
-TEST(StateSearch, ResumedOverAWallItFindsTheSameBits) {
-    expect_same_when_resumed("state_search_wall.h5", 4, two_states_over_a_wall);
+    expect_same_when_resumed(11, [] { return over_hill(16.0, 5.0); });
+    expect_same_when_resumed(4, two_states_over_a_wall);
 }

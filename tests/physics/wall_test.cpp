@@ -41,29 +41,20 @@ BlockOptions paper_block_of(int sites, double spacing) {
     return o;
 }
 
-/// The relaxed state of a frictionless block over a wall, from the strongest attraction.
-struct AtWall {
-    Surface surface;
-    Interface interface;
-    SpectralBlock block;
-    double height;
-    RelaxOptions options;
+/// A frictionless block over a wall, at its strongest attraction.
+struct AtWall : test::PathCase {
+    double height, tolerance = 1e-6;
 
     AtWall(const Surface& s, double spacing, const WallLaw& law)
         : AtWall(s, paper_block_of(s.sites, spacing), law) {}
     AtWall(const Surface& s, const BlockOptions& o, const WallLaw& law)
-        : surface(s), interface(s, Tile{0, 0, s.sites, s.sites, s.sites}, o.spacing, over(law)),
-          block(o, Communicator(), true) {
-        height = height_of_strongest_attraction(block, interface, s.statistics.lowest);
-        options.tolerance = 1e-6;
+        : PathCase(o, s, law),
+          height(height_of_strongest_attraction(block, interface, s.statistics.lowest)) {
+        block.set_uniform(height - interface.start_height());
     }
     RelaxedState relax(const Constraint& constraint) {
-        Phases phases;
-        RelaxedState state = asperity::relax(block, interface, height, constraint, options, phases);
-        EXPECT_TRUE(state.converged) << state.residual << " after " << state.iterations;
-        return state;
+        return PathCase::relax(constraint, tolerance);
     }
-    double sites() const { return surface.sites * static_cast<double>(surface.sites); }
 };
 
 template <class Law>
@@ -182,8 +173,7 @@ TEST(Wall, FlatOnFlat) {
     // A block over a flat wall ends there.
     AtWall state(test::flat_surface(16), a, law);
     const RelaxedState s = state.relax(Constraint::load(0.0));
-    EXPECT_NEAR(-1e3 * (s.interface_energy + s.elastic_energy) / (256 * area),
-                found.work_of_adhesion, 1e-6);
+    EXPECT_NEAR(-1e3 * test::energy(s) / (256 * area), found.work_of_adhesion, 1e-6);
     EXPECT_EQ(s.in_contact, 256);
 }
 
@@ -272,11 +262,11 @@ TEST(Wall, SoftAndRoughComesToRest) {
             SoftOverRough soft({std::string("block.young=") + young, "surface.spacing=39",
                                 "surface.rms=100", "interface.adhesion=3.12",
                                 std::string("interface.range=") + range});
-            soft.at.options.tolerance = 1e-3;
+            soft.at.tolerance = 1e-3;
             const RelaxedState s = soft.at.relax(Constraint::load(0.0));
             EXPECT_LT(s.iterations, 20000) << young << " " << range;
             EXPECT_NEAR(s.force, 0.0, 1e-2 * soft.at.sites() * 1e-3);
-            EXPECT_LT(s.interface_energy + s.elastic_energy, 0.0);
+            EXPECT_LT(test::energy(s), 0.0);
         }
 }
 
@@ -288,19 +278,12 @@ TEST(Wall, RelaxationEndsWhereASlowApproachEnds) {
             SoftOverRough soft({"surface.sites=16", "surface.rms=3", "surface.spacing=2.6",
                                 std::string("surface.seed=") + seed, "block.thickness=16",
                                 std::string("block.young=") + young});
-            soft.at.options.tolerance = 1e-4;
+            soft.at.tolerance = 1e-4;
             const RelaxedState found = soft.at.relax(Constraint::load(0.0));
-            PathOptions o;
-            o.tolerance = 1e-3;
-            o.step = 0.05;
-            o.reference_height = soft.at.interface.start_height();
-            test::KeptPath path(soft.at.block, soft.at.interface, o);
-            path.start();
-            test::follow(path, Segment::approach);
+            test::KeptPath path = soft.at.approached(1e-3, 0.05);
             const double at_end = test::energy(path.now());
             EXPECT_LT(at_end, 0.0);
-            EXPECT_NEAR(found.interface_energy + found.elastic_energy, at_end, 1e-4 * -at_end)
-                << young << " " << seed;
+            EXPECT_NEAR(test::energy(found), at_end, 1e-4 * -at_end) << young << " " << seed;
         }
 }
 
@@ -312,11 +295,7 @@ TEST(Wall, HeldPathsEnd) {
                           "surface.rms=0.838", "surface.spacing=2.6", "block.young=61.1",
                           "block.poisson=0.303", "block.thickness=48", "interface.law=exponential",
                           "interface.adhesion=102.5", "interface.range=1.04"});
-        PathOptions o;
-        o.along = along;
-        o.tolerance = 1e-3;
-        o.reference_height = at.at.interface.start_height();
-        test::KeptPath path(at.at.block, at.at.interface, o);
+        test::KeptPath path = at.at.path(1e-3, PathOptions().step, 0.0, along);
         path.start();
         for (const Segment::Kind branch : {Segment::approach, Segment::pull_off})
             test::follow(path, branch);
@@ -363,8 +342,7 @@ TEST(Wall, OneStateUnderThreeConstraints) {
         // Force is the slope of the energy along the held height.
         const double d = 1e-3;
         const auto energy = [&](double z) {
-            const RelaxedState s = at.relax(Constraint::mean_height(z));
-            return s.interface_energy + s.elastic_energy;
+            return test::energy(at.relax(Constraint::mean_height(z)));
         };
         const double z = pressed.mean_height;
         EXPECT_NEAR((energy(z - d) - energy(z + d)) / (2 * d), held.top_force, 2e-3 * load);
@@ -397,8 +375,7 @@ TEST(Wall, AdhesiveWaveAsTheRangeFalls) {
         AtWall at(test::wave(n, h, spacing), spacing, law);
         const RelaxedState s = at.relax(Constraint::load(0.0));
         const double flat = flat_reference(over(law), spacing, n, n).work_of_adhesion;
-        excess.push_back(-1e3 * (s.interface_energy + s.elastic_energy) / (box * box) / flat -
-                         0.3408);
+        excess.push_back(-1e3 * test::energy(s) / (box * box) / flat - 0.3408);
     }
     const double first = excess[0] - excess[1], second = excess[1] - excess[2];
     EXPECT_GT(second, 0.0);

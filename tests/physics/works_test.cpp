@@ -8,46 +8,25 @@
 //
 // in every mode, while the work of the interface, int F dz of the mean height, is the binding
 // energy itself where the surface moves as one, however much is lost.
-#include "engine/scene/scene.hpp"
-#include "io/hdf5_file.hpp"
 #include "support/run_scene.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace asperity {
 namespace {
 
-class Path {
+class Path : public test::Written {
 public:
-    explicit Path(const std::string& scene) : scene_(read_scene_text(scene, "path.toml")) {
-        static int number = 0; // tests hold several
-        const std::string directory = scratch_ / fmt::format("run-{}", ++number);
-        json_ = test::run_scene(scene_, directory);
-        file_.emplace(directory + "/run.h5", io::Hdf5File::Mode::read);
-    }
-    std::optional<double> find(const std::string& name) const {
-        const io::Json* value = io::find(json_, name);
-        return value && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
-    }
-    double operator()(const std::string& name) const {
-        const auto value = find(name);
-        EXPECT_TRUE(value) << name << " is missing";
-        return value.value_or(NAN);
-    }
-    double series(const char* column, bool last) const {
-        const auto values = file_->read<double>(std::string("/series/") + column);
-        return last ? values.back() : values.front();
-    }
+    using Written::Written;
+    double last(const char* column) const { return series(column).back(); }
     double state() const { return (*this)("binding_energy"); }
     /// eV as meV/Å^2.
-    double per_area(double energy) const { return 1e3 * energy / std::pow(scene_.edge(), 2); }
+    double per_area(double energy) const { return 1e3 * energy / area(); }
 
     void expect_identities(double allowed) const {
         const Path& of = *this;
@@ -57,12 +36,6 @@ public:
                     allowed);
         EXPECT_NEAR(of("lost.cycle"), of("lost.approach") + of("lost.pull_off"), 1e-9);
     }
-
-private:
-    io::Scratch scratch_;
-    Scene scene_;
-    io::Json json_;
-    std::optional<io::Hdf5File> file_;
 };
 
 std::string scene(const char* surface, int layers, const std::string& drive) {
@@ -84,11 +57,10 @@ TEST(Works, InTimeTheDrivesWorkAndTheLossesMakeTheState) {
             EXPECT_GT(path("lost.cycle"), 0.1 * path.state());
             // The loss of the cycle from the series: damped, or left at the end in vibrations of a
             // block that comes to rest again where it started.
-            const auto end = [&](const char* column) { return path.series(column, true); };
-            const double left = end("damped") + end("elastic_energy") + end("kinetic_energy") -
-                                path.series("kinetic_energy", false);
+            const double left = path.last("damped") + path.last("elastic_energy") +
+                                path.last("kinetic_energy") - path.series("kinetic_energy").front();
             EXPECT_NEAR(path("lost.cycle"), path.per_area(left), 1e-3 * path.state());
-            EXPECT_NEAR(path.per_area(-path.series("interface_work", true)),
+            EXPECT_NEAR(path.per_area(-path.last("interface_work")),
                         path("work_of_adhesion.pull_off") - path("work_of_adhesion.approach"),
                         1e-3 * path.state());
         }
@@ -106,8 +78,8 @@ TEST(Works, WithoutTimeTheDrivesWorkAndTheLossesMakeTheState) {
     const Path top(scene(rough, 96, drive + "\"top\""));
     top.expect_identities(0.02);
     EXPECT_GT(top("lost.cycle"), 0.5 * top.state());
-    EXPECT_FALSE(top.find("work_of_adhesion.approach")) << "the mean height jumps";
-    EXPECT_FALSE(top.find("work_of_adhesion.pull_off"));
+    EXPECT_FALSE(top.holds("work_of_adhesion.approach")) << "the mean height jumps";
+    EXPECT_FALSE(top.holds("work_of_adhesion.pull_off"));
 
     const Path held(scene(rough, 96, drive + "\"mean-height\""));
     held.expect_identities(0.02);
@@ -139,10 +111,10 @@ TEST(Works, OfTheDriveTendToThoseWithoutTime) {
 
 TEST(Works, WithHeatOrALoadAreNotComparedWithTheState) {
     const Path warm(scene(flat, 4, "velocity = 100\ntimestep = 20\ntemperature = 50\ndamping = 1"));
-    EXPECT_TRUE(warm.find("work_of_drive.pull_off"));
-    EXPECT_FALSE(warm.find("lost.cycle"));
+    EXPECT_TRUE(warm.holds("work_of_drive.pull_off"));
+    EXPECT_FALSE(warm.holds("lost.cycle"));
     const Path loaded(scene(flat, 4, "velocity = 50\ntimestep = 20\nload = 200"));
-    EXPECT_FALSE(loaded.find("lost.approach"));
+    EXPECT_FALSE(loaded.holds("lost.approach"));
     EXPECT_NEAR(loaded("work_of_drive.pull_off") - loaded("work_of_drive.approach"),
                 loaded("lost.cycle"), 1e-3 * loaded("delta_gamma"));
 }

@@ -6,7 +6,6 @@
 // (tests/physics/data/README.md).
 #include "engine/interface/flat_reference.hpp"
 #include "support/cases.hpp"
-#include "support/levels_at_rest.hpp"
 
 #include <gtest/gtest.h>
 
@@ -68,9 +67,14 @@ class ReferenceCase : public testing::TestWithParam<Reference> {};
 TEST(ZeroLoad, FlatOnFlatBindsAsTheTableSays) {
     for (const Flat& flat : flats) {
         const InterfaceOptions interface = test::paper_interface(flat.cutoff);
-        for (int layers : {0, 2}) {
-            const auto relaxed = test::relax_levels(test::paper_block(8, 6, layers), interface,
-                                                    test::flat_surface(8), 1e-7);
+        const Surface surface = test::flat_surface(8);
+        const BlockOptions lattice = test::paper_block(8, 6, 0),
+                           levels = test::paper_block(8, 6, 2);
+        for (const auto& relaxed :
+             {test::relax_levels(lattice, interface, surface, 1e-7),
+              test::relax_levels(levels, interface, surface, 1e-7),
+              test::relax_spectral(lattice, interface, surface, 1e-7),
+              test::relax_spectral(lattice, interface, surface, 1e-7, true)}) {
             ASSERT_TRUE(relaxed.state.converged);
             EXPECT_NEAR(relaxed.binding_energy, flat.binding, 2e-7) << flat.cutoff;
             EXPECT_NEAR(relaxed.mean_height, flat.separation, 1e-6);
@@ -84,46 +88,29 @@ TEST(ZeroLoad, FlatOnFlatBindsAsTheTableSays) {
     }
 }
 
-TEST(ZeroLoad, FlatOnFlatBindsWithoutFrictionAsWithIt) {
-    for (bool frictionless : {false, true}) {
-        const auto relaxed =
-            test::relax_spectral(test::paper_block(8, 6, 0), test::paper_interface(4.0),
-                                 test::flat_surface(8), 1e-7, frictionless);
-        ASSERT_TRUE(relaxed.state.converged);
-        EXPECT_NEAR(relaxed.binding_energy, flats[0].binding, 2e-7) << frictionless;
-        EXPECT_NEAR(relaxed.mean_height, flats[0].separation, 1e-6);
-        EXPECT_EQ(relaxed.state.in_contact, 64);
-    }
-}
-
-TEST(ZeroLoad, TheTailMakesUpForTheCutoff) {
-    // Infinite range: 100.530767. The continuum beyond 4 r0 gives all but the corrugation of what
-    // was cut off.
-    InterfaceOptions interface = test::paper_interface(4.0);
-    interface.tail = true;
-    const auto relaxed =
-        test::relax_levels(test::paper_block(8, 4, 0), interface, test::flat_surface(8), 1e-7);
-    EXPECT_NEAR(relaxed.binding_energy, 100.530767, 0.05);
-}
-
-/// Node by node (support/levels_at_rest.hpp), in maps of 16 sites: it is slow. Its residual is that
+/// Node by node (support/levels_at_rest.cpp), in maps of 16 sites: it is slow. Its residual is that
 /// of single nodes: soft waves of the whole block are then further off, in what is of first order.
-TEST_P(ReferenceCase, Lattice) {
+TEST_P(ReferenceCase, LatticeAndSpectral) {
     const Reference& c = GetParam();
-    if (c.sites > 16) return;
-    const double first_order = 10.0 * c.first_order;
-    const auto r =
-        test::relax_levels(test::paper_block(c.sites, c.thickness, 0),
-                           test::paper_interface(c.cutoff), test::reference_surface(c.map), 1e-6);
-    ASSERT_TRUE(r.state.converged);
-    EXPECT_NEAR(r.binding_energy, c.binding, c.binding_tolerance * c.binding);
-    EXPECT_NEAR(r.pairwise, c.pairwise, first_order * c.pairwise);
-    EXPECT_NEAR(r.state.elastic_energy, c.elastic, 2.0 * first_order * c.elastic);
-    EXPECT_NEAR(r.mean_height, c.mean_height, first_order);
-    EXPECT_EQ(r.state.in_contact, c.contact);
-    EXPECT_EQ(r.state.repulsive, c.repulsive);
-    // No load: what every node may keep, summed.
-    EXPECT_NEAR(r.state.force, 0.0, 1e-6 * c.sites * c.sites * (c.thickness + 1));
+    const BlockOptions block = test::paper_block(c.sites, c.thickness, 0);
+    const InterfaceOptions interface = test::paper_interface(c.cutoff);
+    const Surface surface = test::reference_surface(c.map);
+    for (const bool lattice : {true, false}) {
+        if (lattice && c.sites > 16) continue;
+        SCOPED_TRACE(lattice ? "lattice" : "spectral");
+        const auto r = lattice ? test::relax_levels(block, interface, surface, 1e-6)
+                               : test::relax_spectral(block, interface, surface, 1e-6);
+        const double first_order = (lattice ? 10.0 : 1.0) * c.first_order;
+        ASSERT_TRUE(r.state.converged);
+        EXPECT_NEAR(r.binding_energy, c.binding, c.binding_tolerance * c.binding);
+        EXPECT_NEAR(r.pairwise, c.pairwise, first_order * c.pairwise);
+        EXPECT_NEAR(r.state.elastic_energy, c.elastic, 2.0 * first_order * c.elastic);
+        EXPECT_NEAR(r.mean_height, c.mean_height, first_order);
+        EXPECT_EQ(r.state.in_contact, c.contact);
+        EXPECT_EQ(r.state.repulsive, c.repulsive);
+        // No load: what every node may keep, summed.
+        EXPECT_NEAR(r.state.force, 0.0, 1e-6 * c.sites * c.sites * (lattice ? c.thickness + 1 : 1));
+    }
 }
 
 TEST_P(ReferenceCase, Multiscale) {
@@ -141,22 +128,6 @@ TEST_P(ReferenceCase, Multiscale) {
         EXPECT_LT(off, 1e-7) << "constraints cannot lower the energy";
         EXPECT_NEAR(static_cast<double>(r.state.in_contact), c.contact, 0.02 * c.contact);
     }
-}
-
-TEST_P(ReferenceCase, Spectral) {
-    // The same numbers and tolerances as the lattice: nothing of the depth is left to differ.
-    const Reference& c = GetParam();
-    const auto r =
-        test::relax_spectral(test::paper_block(c.sites, c.thickness, 0),
-                             test::paper_interface(c.cutoff), test::reference_surface(c.map), 1e-6);
-    ASSERT_TRUE(r.state.converged);
-    EXPECT_NEAR(r.binding_energy, c.binding, c.binding_tolerance * c.binding);
-    EXPECT_NEAR(r.pairwise, c.pairwise, c.first_order * c.pairwise);
-    EXPECT_NEAR(r.state.elastic_energy, c.elastic, 2.0 * c.first_order * c.elastic);
-    EXPECT_NEAR(r.mean_height, c.mean_height, c.first_order);
-    EXPECT_EQ(r.state.in_contact, c.contact);
-    EXPECT_EQ(r.state.repulsive, c.repulsive);
-    EXPECT_NEAR(r.state.force, 0.0, 1e-6 * c.sites * c.sites);
 }
 
 TEST(ZeroLoad, SpectralOnALargerMap) {

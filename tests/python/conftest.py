@@ -37,11 +37,12 @@ STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["zero-loa
 
 
 def command(*words, expect=0, says=(), ranks=0, cwd=None, env=None, given=None):
-    """Runs the program, on `ranks` of the launcher or alone, with `given` as its standard input; the text that it prints.
-    The exit code must be `expect`, and the text hold `says`."""
+    """Runs the program, on `ranks` of the launcher or alone, with `given` as its standard input; the text that it
+    prints. The exit code must be `expect`, and the text hold `says`."""
     launcher = [*asperity.runs.launcher(2)[:-1], str(ranks)] if ranks else []
-    done = subprocess.run([*launcher, os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, input=given, text=True,
-                          capture_output=True, timeout=120 if ranks else None, env={**os.environ, **(env or {})})
+    done = subprocess.run([*launcher, os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, input=given,
+                          text=True, capture_output=True, timeout=120 if ranks else None,
+                          env={**os.environ, **(env or {})})
     said = done.stdout + done.stderr
     assert done.returncode == expect, f"exit {done.returncode}: {words}\n{said}"
     for text in [says] if isinstance(says, str) else says:
@@ -140,8 +141,8 @@ def pytest_sessionfinish(session):
 
 @pytest.fixture(scope="session")
 def mpi4py_launcher():
-    """The launcher for ranks of Python. Skips where there is no mpi4py, or one of another MPI than the program: its ranks
-    are not connected by the program's launcher."""
+    """The launcher for ranks of Python. Skips where there is no mpi4py, or one of another MPI than the program: its
+    ranks are not connected by the program's launcher."""
     pytest.importorskip("mpi4py", reason="no mpi4py: apt-get install python3-mpi4py")
     asked = "import mpi4py; mpi4py.rc.initialize = False; from mpi4py import MPI; print(MPI.Get_library_version())"
     theirs = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Scenes that are wrong: exit 2, position, reason and remedy, and nothing written."""
+"""Scenes that are wrong: exit 2, position, reason and remedy, and nothing written. (Wrong keys, types, units, ranges,
+choices, paths and TOML: tests/io/scene_reader_test.cpp, tests/engine/scene_test.cpp.)"""
 
 import os
 from pathlib import Path
@@ -10,14 +11,6 @@ from conftest import command
 
 MAP = '[surface]\nkind = "file"\nfile = "map.txt"\nsites = 32'
 BAD = {
-    "unknown key": ("[surface]\nsites = 64\nrmss = 1.0",
-                    ["scene.toml:3:1: surface.rmss is no key of a scene", "did you mean surface.rms?"]),
-    "unknown section": ("[surfaces]\nsites = 64", ["scene.toml:1:2: [surfaces] is no section", "[surface]?"]),
-    "wrong type": ('[surface]\nsites = "many"',
-                   ['scene.toml:2:9: surface.sites = "many" is of the wrong type', "a whole number is needed"]),
-    "negative rms": ("[surface]\nrms = -1.0", ["scene.toml:2:7: surface.rms = -1", "allowed: 0 Å or more"]),
-    "wrong unit": ('[surface]\nrms = "1 GPa"', ["scene.toml:2:7", "a length is needed, and GPa is a pressure"]),
-    "cutoff": ("[surface]\nsites = 8", ["scene.toml:2:9: interface.cutoff = 13.12 Å is more than half the box"]),
     "cutoff over many sites": (
         "[surface]\nsites = 130\n[block]\nthickness = 4\n[interface]\ncutoff = 160",
         ["scene.toml:6:10: interface.cutoff = 160 Å reaches over too many atoms", "it may be 156 Å"]),
@@ -26,18 +19,15 @@ BAD = {
         ["scene.toml:5:10: interface.cutoff = 35 Å reaches over too many atoms", "it may be 27.3 Å"]),
     "time step": ("[surface]\nsites = 32\n[drive]\ntimestep = 200.0",
                   ["scene.toml:4:12: drive.timestep = 200 fs is over the stability limit"]),
-    "missing map": ('[surface]\nkind = "file"\nfile = "gone.h5"',
-                    ['scene.toml:3:8: surface.file = "gone.h5": there is no such file']),
-    "no TOML": ("[surface]\nrms = 0.3 nm", ["scene.toml:2:", 'stand in quotes: rms = "0.3 nm"']),
-    "path": ('[drive]\npath = ["pull-off"]', ['scene.toml:2:8: drive.path has "pull-off"']),
-    "not yet": ('[drive]\npath = ["zero-load", "pull-off"]',
-                ['scene.toml:2:8: drive.path = a path in time from "zero-load" is not available yet']),
-    "a model that is gone": ('[block]\nmodel = "spectral"',
-                             ['scene.toml:2:9: block.model = "spectral" is not a choice any more', "leave block.model out"]),
-    "a key that is gone": ('[numerics]\naccuracy = "1%"',
-                           ["scene.toml:2:1: numerics.accuracy is not a key any more", "asperity cost SCENE --target 1%"]),
-    "waves at finite strain": ('[block]\nstrain = "finite"\n[drive]\npath = ["zero-load"]',
-                               ['scene.toml:2:10: block.strain = "finite" on a path without time', "waves do not add up"]),
+    "a model that is gone": (
+        '[block]\nmodel = "spectral"',
+        ['scene.toml:2:9: block.model = "spectral" is not a choice any more', "leave block.model out"]),
+    "a key that is gone": (
+        '[numerics]\naccuracy = "1%"',
+        ["scene.toml:2:1: numerics.accuracy is not a key any more", "asperity cost SCENE --target 1%"]),
+    "waves at finite strain": (
+        '[block]\nstrain = "finite"\n[drive]\npath = ["zero-load"]',
+        ['scene.toml:2:10: block.strain = "finite" on a path without time', "waves do not add up"]),
     "a wall in time": ('[interface]\nkind = "wall"', ['scene.toml:2:8: interface.kind = "wall" on a path in time']),
     "mean height in time": (
         '[drive]\nhold = "mean-height"',

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The benchmarks run, on tiny sizes: what they write is JSON, a page whose tables are tables, and plots that are XML. How
-fast anything is, is not asked."""
+"""The benchmarks run, on tiny sizes: what they write is JSON, a page whose tables are tables, and plots that are XML.
+How fast anything is, is not asked."""
 
 import csv
 import json
@@ -21,7 +21,8 @@ pytest.importorskip("matplotlib", reason="no Matplotlib: apt-get install python3
 
 def bench(*words, expect=0):
     build = Path(os.environ["ASPERITY_PROGRAM"]).parents[1]
-    done = subprocess.run([sys.executable, ROOT / "perf/suite.py", "--build", build, *words], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, ROOT / "perf/suite.py", "--build", build, *words], capture_output=True,
+                          text=True)
     assert done.returncode == expect, done.stdout + done.stderr
     return done.stdout + done.stderr
 
@@ -30,11 +31,12 @@ def test_quick(place):
     said = bench("--quick", "--page", "page", "--out", "numbers.json")
     assert "lattice, double, forces" in said and "other programs used" in said
     found = json.loads(Path("numbers.json").read_text())
-    times = [row["ns"] for kernel in found["kernels"] for row in kernel["rows"]] + [step["seconds"] for step in found["steps"]]
+    kernels = [row for kernel in found["kernels"] for row in kernel["rows"]]
+    times = [row["ns"] for row in kernels] + [step["seconds"] for step in found["steps"]]
     times += [entry["seconds"] for kind in ("strong", "weak", "larger") for entry in found["scaling"][kind]]
     assert len(times) > 40 and all(math.isfinite(t) and t > 0 for t in times)
     # Kernels whose operations are counted have a limit, and what sets it.
-    bounds = {row["key"]: row["bound"] for kernel in found["kernels"] for row in kernel["rows"] if row.get("limit", 0) > 0}
+    bounds = {row["key"]: row["bound"] for row in kernels if row.get("limit", 0) > 0}
     assert set(bounds.values()) <= {"arithmetic", "division", "memory"}
     assert os.uname().machine != "x86_64" or sum(key.endswith("observed:0") for key in bounds) == 6
     for check in found["scaling"]["check"]:  # what the model counts is what the halos sent

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """`asperity convert`: the same map from every format, the same atoms, and what is refused."""
 
+import importlib.util
 import json
 import os
 import re
@@ -30,7 +31,7 @@ def points():
     return "".join(f"{x * PIXEL} {y * PIXEL} {float(HEIGHTS[x, y])!r}\n" for x in reversed(range(N)) for y in range(N))
 
 
-SPIP = f"# File Format = ASCII\n# x-pixels = {N}\n# y-pixels = {N}\n# x-length = {N * PIXEL}\n# y-length = {N * PIXEL}\n"
+SPIP = "# File Format = ASCII\n" + "".join(f"# {a}-pixels = {N}\n# {a}-length = {N * PIXEL}\n" for a in "xy")
 TEXTS = {  # file, its content, what the file leaves open
     "gwyddion.txt": (f"# Channel: Z\n# Width: {MICROMETRES}\n# Height: 6 nm\n# Value units: m\n"
                      + rows(number=lambda h: f"{h!r}e-9"), ""),
@@ -66,8 +67,8 @@ def read(place, source):
         file = place / (source.name + ".h5")
         file.unlink(missing_ok=True)
         command("convert", source, file)
-    scene.write_text(f'[surface]\nkind = "file"\nfile = "{file}"\nsites = {N}\nspacing = "{PIXEL} nm"\ndetrend = "none"\n'
-                     + ('file_unit = "nm"\n' if "unit" in left_open else "")
+    scene.write_text(f'[surface]\nkind = "file"\nfile = "{file}"\nsites = {N}\nspacing = "{PIXEL} nm"\n'
+                     + 'detrend = "none"\n' + ('file_unit = "nm"\n' if "unit" in left_open else "")
                      + (f'file_size = "{N * PIXEL} nm"\n' if "size" in left_open else ""))
     return scene
 
@@ -114,7 +115,8 @@ def test_what_could_become_a_wrong_map_is_refused(tmp_path):
             with pytest.raises(InputOutputError, match=said):
                 convert(bad, out)
     xyz = tmp_path / "bad.xyz"
-    for said, text in (("no point of a map", "1 2\n3 4\n"), ("on no grid", "0 0 1\n1 0 2\n2.5 0 4\n0 1 1\n1 1 1\n2.5 1 1\n"),
+    for said, text in (("no point of a map", "1 2\n3 4\n"),
+                       ("on no grid", "0 0 1\n1 0 2\n2.5 0 4\n0 1 1\n1 1 1\n2.5 1 1\n"),
                        ("on no grid", "".join(f"{i} {i} 1\n" for i in range(3000))), ("on no grid", "0 0 1\n1 0 2\n"),
                        ("stands twice", "0 0 1\n0 1 2\n1 0 3\n1 1 4\n1 1 5\n"), ("no point of a map", "nan 0 1\n")):
         xyz.write_text(text)
@@ -145,13 +147,14 @@ def test_hdf5_of_other_programs(place, tmp_path, monkeypatch):
     words = re.search(r"convert it first: asperity (convert \S+ other-converted.h5)", said)[1].split()
     command(*words, cwd=tmp_path)
     assert files.hdf5_is_whole(tmp_path / "other-converted.h5")
-    command("check", tmp_path / "scene.toml", "--set", "surface.file=other-converted.h5", "surface.resample=band-limited",
-            "surface.file_size=62.4")
+    command("check", tmp_path / "scene.toml", "--set", "surface.file=other-converted.h5", "surface.file_size=62.4",
+            "surface.resample=band-limited")
     with h5py.File(tmp_path / "two.h5", "w") as file:
         file["a"], file["b/c"] = HEIGHTS.astype("f4"), numpy.full((2, 2), 7)
         file.create_dataset("declared", (100000, 100000), "f4")
         file["text"] = numpy.array([[b"a"]])
-    for name, said in (("", "more than one map"), (":/declared", "0 bytes are stored"), (":/text", "no map"), (":/x", "no map")):
+    for name, said in (("", "more than one map"), (":/declared", "0 bytes are stored"), (":/text", "no map"),
+                       (":/x", "no map")):
         with pytest.raises(InputOutputError, match=said):
             convert(f"{tmp_path}/two.h5{name}", tmp_path / "no.h5")
     assert convert(f"{tmp_path}/two.h5:/b/c", tmp_path / "c.h5").startswith("2 x 2 points")
@@ -212,12 +215,13 @@ def test_types_and_places_of_lammps(tmp_path):
 
 @pytest.mark.parametrize("old, new", [
     *((" 1.5 -1", f" {number} -1") for number in ("nan", "inf", "1e999", "0x10", "1,5", "--1", "1.5e", "1e8", "-9.5")),
-    ("-1.0 5.25", "-1.0 -5.25"), ("3 atoms", "4 atoms"), ("3 atoms", "2 atoms"), ("3 atoms", "-3 atoms"), ("3 atoms", "3"),
+    ("-1.0 5.25", "-1.0 -5.25"), *(("3 atoms", number) for number in ("4 atoms", "2 atoms", "-3 atoms", "3")),
     ("\nAtoms", "\nAtomz"), ("1 11 xlo xhi", ""), ("-2 10 ylo yhi", "10 ylo yhi"), ("1 11 xlo xhi", "11 1 xlo xhi"),
     ("1 11 xlo xhi", "1 11 xlo xhi\n0.5 0 0 xy xz yz"), ("1 11 xlo xhi", "10 0 0 avec"),
     ("any title", "title, units = lj"), ("any title", "ITEM: TIMESTEP"), ("\n2 1 10.75", "\n1 1 10.75"),
     ("\n2 1 10.75", "\n2 1.5 10.75"), ("\n2 1 10.75", "\n2.5 1 10.75"), ("\n2 1 10.75", "\n2 1 0 10.75"),
-    ("Velocities", "Atoms"), ("Atoms", "Atoms # sphere"), ("Atoms", "Atoms # full"), ("7.0\n", "7.0 0 0 0.5\n"), ("\n3 1 11", "\n# 3 1 11")])
+    ("Velocities", "Atoms"), ("Atoms", "Atoms # sphere"), ("Atoms", "Atoms # full"), ("7.0\n", "7.0 0 0 0.5\n"),
+    ("\n3 1 11", "\n# 3 1 11")])
 def test_what_could_become_other_atoms_is_refused(tmp_path, old, new):
     text = lammps()
     assert old in text
@@ -226,18 +230,13 @@ def test_what_could_become_other_atoms_is_refused(tmp_path, old, new):
         convert(tmp_path / "solid.data", tmp_path / "atoms.h5")
 
 
-def test_an_atom_that_stands_twice_is_refused(tmp_path):
-    (tmp_path / "solid.data").write_text(lammps().replace("3 atoms", "2 atoms").replace("\n2 1 10.75", "\n1 1 10.75"))
-    with pytest.raises(InputOutputError, match="atom 1 "):
-        convert(tmp_path / "solid.data", tmp_path / "atoms.h5")
-
-
-def test_atoms_cut_anywhere_are_refused(tmp_path):
+def test_atoms_that_stand_twice_or_are_cut_anywhere_are_refused(tmp_path):
     text = lammps()
-    for end in range(10, text.index("\nVelocities")):
-        (tmp_path / "cut.data").write_text(text[:end])
-        with pytest.raises(InputOutputError):
-            convert(tmp_path / "cut.data", tmp_path / "atoms.h5")
+    twice = text.replace("3 atoms", "2 atoms").replace("\n2 1 10.75", "\n1 1 10.75")
+    for bad, says in ((twice, "atom 1 "), *((text[:end], "") for end in range(10, text.index("\nVelocities")))):
+        (tmp_path / "bad.data").write_text(bad)
+        with pytest.raises(InputOutputError, match=says):
+            convert(tmp_path / "bad.data", tmp_path / "atoms.h5")
 
 
 LATTICE = 'Lattice="10 0 0 0 12 0 0 0 3" Origin="1 -2 5"'
@@ -248,9 +247,7 @@ def extended(second=LATTICE, before="Au ", after=""):
 
 
 def test_extended_xyz(tmp_path):
-    try:
-        import ase  # noqa: F401
-    except ImportError:
+    if not importlib.util.find_spec("ase"):
         with pytest.raises(InputOutputError, match="needs ASE"):
             atoms_of(tmp_path, extended(), "solid.xyz")
         return
@@ -266,9 +263,6 @@ def test_extended_xyz(tmp_path):
         (tmp_path / "bad.xyz").write_text(extended().replace(old, new, 1))
         with pytest.raises(InputOutputError):
             convert(tmp_path / "bad.xyz", tmp_path / "bad.h5")
-
-
-# SurfaceTopography.
 
 
 def test_files_of_instruments_are_refused_without_surface_topography(tmp_path, monkeypatch):

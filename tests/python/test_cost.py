@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What accuracy costs: errors, fronts, orders and choices on made-up runs, the parameters of a scene, and a run of it all."""
+"""What accuracy costs: errors, fronts, orders and choices on made-up runs, the parameters of a scene, one run."""
 
 import json
 import math
@@ -10,12 +10,10 @@ import pytest
 
 import asperity
 from asperity import cost, program, report_cost
-from asperity.cost_parameters import Base, CostCase, Parameter, ParameterValue, cost_case, joined
+from asperity.cost_parameters import NAN, Base, CostCase, Parameter, Row, cost_case, joined
 from asperity.result import Values
-from conftest import command, rows, started, wait_for
 from asperity.scene import scene_file
-
-NAN = math.nan
+from conftest import command, rows, started, wait_for
 
 
 def test_energies_are_compared_over_their_own_flat():
@@ -64,18 +62,17 @@ def case(same_experiment=False, **sections):
 
 
 def parameters(**sections):
-    return [k.name for k in case(**sections).parameters]
+    return [k.name for k in case(surface={"sites": 16}, **sections).parameters]
 
 
 def test_parameters_are_those_that_the_scene_has():
-    small = {"sites": 16}
-    assert parameters(surface=small) == ["cutoff", "tail", "layers", "thickness", "precision", "timestep", "velocity", "damping",
-                                    "tolerance", "step", "model"]
-    assert parameters(surface=small, drive={"path": ["zero-load"]}) == ["cutoff", "tail", "thickness", "precision", "tolerance"]
-    assert "damping" not in parameters(surface=small, drive={"damping": 0})
+    assert parameters() == ["cutoff", "tail", "layers", "thickness", "precision", "timestep", "velocity", "damping",
+                            "tolerance", "step", "model"]
+    assert parameters(drive={"path": ["zero-load"]}) == ["cutoff", "tail", "thickness", "precision", "tolerance"]
+    assert "damping" not in parameters(drive={"damping": 0})
     for bad in ({"block": {"strain": "finite"}}, {"drive": {"temperature": 300}}, {"drive": {"max_steps": 10}}):
         with pytest.raises(asperity.SceneError):
-            parameters(surface={"sites": 32}, **bad)
+            parameters(**bad)
     assert joined(["a.b=1", "c.d=2"], ["a.b=3"]) == ["c.d=2", "a.b=3"]
 
 
@@ -84,36 +81,33 @@ PHYSICS = ("interface.", "surface.", "drive.mode", "drive.path", "drive.velocity
 
 @pytest.mark.parametrize("sections, names", [
     ({}, ["layers", "precision", "timestep"]), ({"drive": {"mode": "quasistatic"}}, ["precision", "tolerance", "step"]),
-    ({"drive": {"path": ["zero-load"]}}, ["precision", "tolerance"]), ({"block": {"strain": "finite"}}, ["layers", "precision", "timestep"])])
+    ({"drive": {"path": ["zero-load"]}}, ["precision", "tolerance"]),
+    ({"block": {"strain": "finite"}}, ["layers", "precision", "timestep"])])
 def test_a_target_chooses_no_physics(sections, names):
     found = case(True, surface={"sites": 16}, **sections)
     assert [k.name for k in found.parameters] == names and found.bases[0].setting == []
-    for setting in [found.reference, *(v.setting for k in found.parameters for v in [*k.values, k.reference])]:
+    for setting in [found.reference, *(row.setting for k in found.parameters for row in k.rows)]:
         assert setting and not any(one.startswith(PHYSICS) for one in setting)
 
 
 def made_up(values):
     """Parameters with values of (own error, seconds) over references of one second, none of which may be chosen."""
-    def parameter(name):
-        return Parameter(name, [], ParameterValue("best", [f"a.{name}=best"]), "", name)
-
-    parameters = [parameter(name) for name in values]
-    made = cost.Cost("made up", {},
-                     CostCase([], "", parameters, [Base("", [], list(values), "state")], []))
-    best = np.array([1.0, 1.0, NAN, NAN, NAN])
-    made.rows = [cost.CostRow("reference", "", [], [], compared=False, numbers=best, seconds=1.0),
-                 cost.CostRow("scene", "", [], [], numbers=best, seconds=1.0)]
+    best, parameters = np.array([1.0, 1.0, NAN, NAN, NAN]), []
     for name, some in values.items():
-        for label, error, seconds in [("best", 0.0, 1.0), *((str(i), *v) for i, v in enumerate(some))]:
-            setting = [f"a.{name}={label}"]
-            made.rows.append(cost.CostRow(name, label, setting, setting, numbers=best + [error, 0, 0, 0, 0],
-                                          seconds=seconds))
+        settings = {str(i): ([f"a.{name}={i}"], *found) for i, found in enumerate([*some, (0.0, 1.0)])}
+        lines = [Row(name, label, setting, setting, numbers=best + [error, 0, 0, 0, 0], seconds=seconds)
+                 for label, (setting, error, seconds) in settings.items()]
+        lines[-1].label = "best"
+        parameters.append(Parameter(name, lines, lines[-1], "", name))
+    made = cost.Cost("made up", {}, CostCase([], "", parameters, [Base("", [], list(values), "state")], []))
+    made.rows = [Row("reference", "", [], [], compared=False, numbers=best, seconds=1.0),
+                 Row("scene", "", [], [], numbers=best, seconds=1.0), *(row for one in parameters for row in one.rows)]
     made.compare()
     return made
 
 
 def outcome_of(made, target, measured):
-    """The search if combinations have the errors of `measured`, by their labels; NaN: the run fails. And what was run."""
+    """The search if combinations have the errors of `measured`, by their labels; NaN: the run fails. What was run."""
     ran = []
 
     def run(rows):
@@ -152,7 +146,8 @@ def test_only_what_was_measured_is_chosen():
     made = made_up(VALUES)
     search, *outcome = outcome_of(made, 0.02, {"0, 0": NAN, "0, 1": 0.021, "2, 1": 0.04})
     assert outcome == [None, ["0, 0", "0, 1", "2, 1"]] and search.smallest == pytest.approx(0.021)
-    assert "No settings keep 2 %" in report_cost.answer_of(made, search) and "2.1 %" in report_cost.answer_of(made, search)
+    answer = report_cost.answer_of(made, search)
+    assert "No settings keep 2 %" in answer and "2.1 %" in answer
 
 
 def test_searches_share_their_runs():
@@ -235,32 +230,30 @@ def test_a_target_that_is_none_is_refused(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "tiny.toml").write_text(TINY)
     assert "a relative error is needed" in command("cost", "tiny.toml", "--target", "good", expect=2)
-    assert "layers, precision, timestep" in command("cost", "tiny.toml", "--target", "1%", "--parameters", "cutoff", expect=2)
+    command("cost", "tiny.toml", "--target", "1%", "--parameters", "cutoff", expect=2, says="layers, precision")
     assert [p.name for p in tmp_path.iterdir()] == ["tiny.toml"]
 
 
 def test_parameters_go_from_coarse_to_fine():
     """No value comes twice, and what they are compared with is finer than the finest."""
     for parameter in case(surface={"sites": 32}).parameters:
-        settings = [tuple(v.setting) for v in parameter.values]
+        settings = [tuple(row.setting) for row in parameter.rows]
         assert len(set(settings)) == len(settings), parameter.name
-        x = [v.x for v in [*parameter.values, *[parameter.reference] * (parameter.reference is not None)] if v.x]
+        x = [row.x for row in parameter.rows if row.x]
         assert x == sorted(set(x)) or x == sorted(set(x), reverse=True), parameter.name
 
 
 def test_tables_compare_what_was_run():
     """Runs of a parameter with errors of the square, under a reference."""
-    parameter = Parameter("timestep", [], ParameterValue("1", ["drive.timestep=1"], 1.0), "2", "timestep", 2.0)
-    made = cost.Cost("made up", {}, CostCase([], "", [parameter], [], []))
-
-    def add(name, x, error, seconds):
+    def row(name, x, error, seconds):
         setting = [f"drive.timestep={x}"]
-        made.rows.append(cost.CostRow(name, str(x), setting, setting, x, name != "reference",
-                                      numbers=np.array([1 + error, 1.0, NAN, NAN, NAN]), seconds=seconds))
-    add("reference", 0, 0.0, 9.0)
-    add("scene", 2, 4e-3, 4.0)
-    for x in (4, 3, 2, 1):
-        add("timestep", x, 1.1e-3 * x * x, 8.0 / x)
+        return Row(name, str(x), setting, setting, x, name != "reference", seconds=seconds,
+                   numbers=np.array([1 + error, 1.0, NAN, NAN, NAN]))
+
+    steps = [row("timestep", x, 1.1e-3 * x * x, 8.0 / x) for x in (4, 3, 2, 1)]
+    parameter = Parameter("timestep", steps, steps[-1], "2", "timestep", 2.0)
+    made = cost.Cost("made up", {}, CostCase([], "", [parameter], [], []),
+                     [row("reference", 0, 0.0, 9.0), row("scene", 2, 4e-3, 4.0), *steps])
     made.compare()
     assert made.rows[2].error["state"] == pytest.approx(0.0176) and made.rows[5].front["state"]
     assert made.cheapest["state"] == [2, 3, None]  # 5 %, 1 %, nothing keeps 0.1 %
@@ -278,11 +271,11 @@ def settings(directory):
 
 def test_cost_runs_stops_and_goes_on(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "tiny.toml").write_text("[surface]\nsites = 16\nrms = 0.3\n[block]\nthickness = 8\n[drive]\nvelocity = 60\n"
-                                        "timestep = 20\n")
-    assert "did you mean layers?" in command("cost", "tiny.toml", "--parameters", "layer", "--out", "bad", expect=2)
-    assert "those of their noise" in command("cost", "tiny.toml", "--set", "drive.temperature=300", "--out", "bad", expect=2)
-    command("cost", "tiny.toml", "--jobs", "0", "--out", "bad", expect=2)
+    (tmp_path / "tiny.toml").write_text("[surface]\nsites = 16\nrms = 0.3\n[block]\nthickness = 8\n"
+                                        "[drive]\nvelocity = 60\ntimestep = 20\n")
+    for wrong, says in ((["--parameters", "layer"], "did you mean layers?"), (["--jobs", "0"], "is no number"),
+                        (["--set", "drive.temperature=300"], "those of their noise")):
+        command("cost", "tiny.toml", *wrong, "--out", "bad", expect=2, says=says)
     command("cost", "tiny.toml", "--out", "bad", expect=2, env={"OMPI_COMM_WORLD_SIZE": "2"})
     assert [p.name for p in tmp_path.iterdir()] == ["tiny.toml"]
     words = ["cost", "tiny.toml", "--parameters", "timestep,precision", "--progress", "off", "--out"]

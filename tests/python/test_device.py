@@ -9,8 +9,8 @@ from conftest import ROOT, command, found
 
 
 def contact(out, *sets, more=(), **keys):
-    command("run", ROOT / "scenes/first-contact.toml", "--progress", "off", "--out", out, *more, "--set", "surface.sites=16",
-            "block.thickness=16", "drive.velocity=40", "output.trajectory=none", *sets, **keys)
+    command("run", ROOT / "scenes/first-contact.toml", "--progress", "off", "--out", out, *more, "--set",
+            "surface.sites=16", "block.thickness=16", "drive.velocity=40", "output.trajectory=none", *sets, **keys)
 
 
 def test_a_run_changes_between_processor_and_device(place):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Every command of the README and the docs runs, one after another in one place. Runs are made small and short by overrides
-put behind the command's own; a comment "# exit N" behind a command says with which code it is meant to end."""
+"""Every command of the README and the docs runs, one after another in one place. Runs are made small and short by
+overrides put behind the command's own; a comment "# exit N" behind a command says with which code it is to end."""
 
 import re
 import subprocess

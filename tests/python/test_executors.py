@@ -86,7 +86,7 @@ def cluster(tmp_path):
                                                file, "--no-dashboard", *words))
 
         dask("scheduler", "--host", "127.0.0.1", "--port", "0")
-        wait_for(file.exists)
+        wait_for(lambda: file.exists() and file.read_text())  # which is there before it is written
         address = json.loads(file.read_text())["address"]
         workers = [dask("worker", "--nthreads", "1", "--no-nanny", "--local-directory", tmp_path / f"worker{i}")
                    for i in (1, 2)]
@@ -138,7 +138,8 @@ def test_dask_from_python(place, cluster):
 
 
 def test_ranks_of_mpi(mpi4py_launcher, place, table):
-    words = [*mpi4py_launcher(3), os.environ["ASPERITY_PROGRAM"], "sweep", "scene.toml", *SETS, "--executor", "mpi", "--out", "one"]
+    words = [*mpi4py_launcher(3), os.environ["ASPERITY_PROGRAM"], "sweep", "scene.toml", *SETS, "--executor", "mpi",
+             "--out", "one"]
     with started(*words) as sweep:
         wait_for(lambda: list(place.glob("one/*/checkpoint.h5")))
         workers = [p for p in running("-m asperity sweep scene.toml") if f"{p}".isdigit()
@@ -164,8 +165,8 @@ from mpi4py.futures import MPIPoolExecutor
 import asperity
 if __name__ == "__main__":
     with MPIPoolExecutor() as executor:
-        sweep = asperity.sweep("scene.toml", {"drive.velocity": [50, 60], "surface.seed": [1, 2, 3, 4], "drive.max_steps": 100},
-                               out="script", executor=executor)
+        values = {"drive.velocity": [50, 60], "surface.seed": [1, 2, 3, 4], "drive.max_steps": 100}
+        sweep = asperity.sweep("scene.toml", values, out="script", executor=executor)
     print(sweep)
 """)
     done = subprocess.run([*mpi4py_launcher(3), sys.executable, "-m", "mpi4py.futures", "study.py"], env=ENVIRONMENT,
@@ -177,7 +178,7 @@ def test_a_point_waits_for_the_run_that_another_worker_left(place):
     """Which is writing its checkpoint, and has the directory until then."""
     (place / "going").touch()
     words = [os.environ["ASPERITY_PROGRAM"], "run", "scene.toml", "--out", "point", "--set", "drive.max_steps=20"]
-    task = pool.Task(words, str(place), str(place / "point"), 1, True, str(place / "going"))
+    task = [words, str(place), str(place / "point"), "1", True, str(place / "going")]
 
     def hold():
         with files.in_use(place / "point"):
@@ -188,11 +189,11 @@ def test_a_point_waits_for_the_run_that_another_worker_left(place):
     other = threading.Thread(target=hold)
     other.start()
     held.wait()
-    pool.run_task(task)
+    pool.run_task(*task)
     other.join()
     assert (place / "point/result.json").exists()
     (place / "going").unlink()
-    assert pool.run_task(task) == pool.Ended(pool.STOPPED)
+    assert pool.run_task(*task) == pool.Ended(pool.STOPPED)
 
 
 def leave(*_):
@@ -200,13 +201,14 @@ def leave(*_):
 
 
 def test_a_worker_that_is_lost_is_told(place):
+    values = {"drive.velocity": [50, 60], "drive.max_steps": 50}
     with ProcessPoolExecutor(1) as executor:
         executor.submit(leave)
-        sweep = asperity.sweep("scene.toml", {"drive.velocity": [50, 60], "drive.max_steps": 50}, out="lost", executor=executor)
+        sweep = asperity.sweep("scene.toml", values, out="lost", executor=executor)
     assert {p["status"] for p in sweep.points} == {"failed"}
     assert "its worker was lost: BrokenProcessPool" in sweep.points[0]["failure"]["reason"]
     with ProcessPoolExecutor(2) as executor:
-        sweep = asperity.sweep("scene.toml", {"drive.velocity": [50, 60], "drive.max_steps": 50}, out="lost", executor=executor)
+        sweep = asperity.sweep("scene.toml", values, out="lost", executor=executor)
     assert {p["status"] for p in load_sweep("lost").points} == {"done"}
 
 

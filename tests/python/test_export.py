@@ -68,7 +68,8 @@ def test_states_and_trajectory_as_atoms(path_run):
     assert [s for s, _ in dumps] == steps and len(texts) == len(value) > 3
     for k in (0, len(value) - 1):
         assert texts[k][1][1024:, :3] == pytest.approx(value[k], abs=1e-4)
-        assert np.array([dumps[k][1][v][1024:] for v in ("vx", "vy", "vz")], float).T == pytest.approx(velocity[k], abs=1e-5)
+        moving = np.array([dumps[k][1][v][1024:] for v in ("vx", "vy", "vz")], float).T
+        assert moving == pytest.approx(velocity[k], abs=1e-5)
         # What OVITO and ASE take for velocities (test_viewers.py asks them).
         head, rows = texts[k]
         assert ":velo:R:3:masses:R:1:momenta:R:3" in head
@@ -103,7 +104,7 @@ def test_xdmf_points_to_what_is_there(path_run):
 
 
 def test_maps_lie_where_the_atoms_are(path_run):
-    """Substrate and sites as a mesh (XDMF), as an image (VTK) and as atoms (XYZ): the same places, those of the sites at rest."""
+    """Substrate and sites as a mesh (XDMF), an image (VTK) and atoms (XYZ): the same places, of the sites at rest."""
     place = path_run.directory
     for kind in ("xyz", "xdmf", "vtk"):
         command("export", place, "--to", kind)
@@ -204,9 +205,10 @@ def test_damaged_files_are_a_message(path_run, tmp_path, name, shape, kind):
 
 def test_a_slid_block_is_exported_where_it_stands(tmp_path):
     """Over the substrate: the distances of the positions are those of the map, and frames go along."""
-    run = asperity.run({"surface": {"sites": 16, "rms": 0.5}, "block": {"thickness": 4}, "theory": {"renormalised": False},
-                        "drive": {"path": ["approach", "slide x 3.1 Å"], "velocity": 60.0, "timestep": 20.0, "ramp": 1.0},
-                        "output": {"fields": ["segments"], "trajectory": 20}}, out=tmp_path / "slid")
+    run = asperity.run({"surface": {"sites": 16, "rms": 0.5}, "block.thickness": 4, "theory.renormalised": False,
+                        "output": {"fields": ["segments"], "trajectory": 20}, "drive": {
+                            "path": ["approach", "slide x 3.1 Å"], "velocity": 60, "timestep": 20, "ramp": 1}},
+                       out=tmp_path / "slid")
     state = run.fields["segment-1"]
     assert state.slide == pytest.approx((3.1, 0.0), abs=0.02) and run.fields["segment-0"].slide == (0.0, 0.0)
     command("export", run.directory, "--to", "xyz")

@@ -16,12 +16,6 @@ import asperity.runs
 from asperity import program
 
 
-def test_the_launcher_of_the_programs_mpi_is_found(tmp_path, monkeypatch):
-    monkeypatch.delenv("ASPERITY_MPIRUN", raising=False)
-    run = asperity.run(SMALL, {"drive.max_steps": 20}, out=tmp_path / "two", ranks=2)
-    assert run.run.ranks == 2
-
-
 @pytest.mark.parametrize("named", ["", "no-such-launcher --option"])
 def test_no_launcher(tmp_path, monkeypatch, named):
     mpi = program.mpi()
@@ -36,7 +30,7 @@ def test_no_launcher(tmp_path, monkeypatch, named):
 
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_ranks_share_the_processors_that_they_may_all_use(ranks):
-    """Ranks bound to one socket have its processors together; one that has others, or more, does not share with them."""
+    """Ranks bound to one socket have its processors together; one with others, or more, does not share with them."""
     processors = sorted(os.sched_getaffinity(0))
     free = {name: value for name, value in os.environ.items() if name != "OMP_NUM_THREADS"}
     words = [*asperity.runs.launcher(ranks), sys.executable, "-c", BOUND, os.environ["ASPERITY_PROGRAM"], "info"]

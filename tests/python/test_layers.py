@@ -12,9 +12,9 @@ ORDER = """errors units terminal
     files program scene convert
     result grid
     pool runs tables sweeps cost_parameters cost
-    plots.__init__ plots.style plots.files plots.run plots.sweep plots.cost
+    plots.__init__ plots.style plots.run plots.sweep
     page sentences report report_cost report_sweep export
-    commands forms engine __init__ __main__""".split()
+    forms engine __init__ __main__""".split()
 PLACE = {name: place for place, name in enumerate(ORDER)}
 
 

@@ -36,7 +36,7 @@ def test_notebooks(tmp_path):
             patch.setenv("PYTHONPATH", str(ROOT / "python"))
             patch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")
             nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
-        kinds = [kind for cell in notebook.cells for output in cell.get("outputs", []) for kind in output.get("data", {})]
-        assert kinds.count("image/png") == 2
-        said = "".join(output.get("text", "") for cell in notebook.cells for output in cell.get("outputs", []))
+        outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+        assert [kind for output in outputs for kind in output.get("data", {})].count("image/png") == 2
+        said = "".join(output.get("text", "") for output in outputs)
         assert "400/400" in said, said  # the bar

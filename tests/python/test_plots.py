@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 import asperity
 from asperity import units
-from asperity.plots import files, style
+from asperity.plots import style
 from asperity.plots import run as run_plots
 
 
@@ -111,25 +111,26 @@ def test_curves_can_be_told_apart_in_grey(path_run, name):
 
 
 def test_files_hold_the_curves(path_run, tmp_path):
-    fig = files.make(lambda ax: run_plots.separation(path_run, ax))
-    written = files.save(fig, tmp_path / "separation")
+    fig = style.make(lambda ax: run_plots.separation(path_run, ax))
+    written = style.save(fig, tmp_path / "separation")
     assert [p.name for p in written] == ["separation.png", "separation.pdf", "separation.svg"]
     picture = matplotlib.image.imread(written[0])
     assert picture.shape[1] > 800 and picture[..., :3].std() > 0.05
     assert written[1].read_bytes().startswith(b"%PDF-") and b"/Subtype /Image" not in written[1].read_bytes()  # vectors
     assert b"<path" in written[2].read_bytes()
-    text = files.csv(fig)
+    text = style.csv(fig)
     table = np.genfromtxt(io.StringIO(text), delimiter=",", skip_header=1)
     segment = path_run.series["segment"]
     approach = table[:, 1][np.isfinite(table[:, 1])]
-    assert approach == pytest.approx(path_run.series["force"][segment == 0] / path_run.edge**2 / units.GIGAPASCAL, rel=1e-8)
+    stress = path_run.series["force"][segment == 0] / path_run.edge**2 / units.GIGAPASCAL
+    assert approach == pytest.approx(stress, rel=1e-8)
     assert text.startswith("mean separation (Å),approach: mean stress F/A_0 (GPa)")
     # In a page: without a size of its own, the date or the colours of paper.
-    inline = files.inline_svg(fig)
+    inline = style.inline_svg(fig)
     assert inline.startswith("<svg") and "<metadata" not in inline
     assert " width=" not in inline.split(">")[0] and "var(--ink)" in inline
-    fig = files.make(lambda ax: run_plots.map_of(path_run, path_run.fields["zero-load"], "gap", ax))
-    assert np.genfromtxt(io.StringIO(files.csv(fig)), delimiter=",").shape == (32, 32)
+    fig = style.make(lambda ax: run_plots.map_of(path_run, path_run.fields["zero-load"], "gap", ax))
+    assert np.genfromtxt(io.StringIO(style.csv(fig)), delimiter=",").shape == (32, 32)
 
 
 def test_points_carry_their_uncertainty():
@@ -142,7 +143,8 @@ def test_points_carry_their_uncertainty():
         return approach.average(Table(["surface.rms", "surface.seed"], [
             {"set": {"surface.rms": 1.0, "surface.seed": i}, "theory": {}, "status": "done", "result": r}
             for i, r in enumerate(results)], True))
-    energy, ratio, uncertainty = (f"work_of_adhesion.{name}" for name in ("approach", "approach_ratio", "uncertainty.approach"))
+    energy, ratio = "work_of_adhesion.approach", "work_of_adhesion.approach_ratio"
+    uncertainty = "work_of_adhesion.uncertainty.approach"
     one = {energy: 50.0, ratio: 0.5, uncertainty: 3.0}
     assert average(one) == pytest.approx((0.5, 0.03))
     spread = 0.04 / np.sqrt(2)  # of two, a deviation of 0.04

@@ -30,8 +30,8 @@ def place(place):
 
 
 def run(out, *sets, scene="path.toml", expect=0, says=(), more=()):
-    return command("run", scene, "--progress", "off", "--out", out, *more, *(["--set", *sets] if sets else []), expect=expect,
-                   says=says)
+    return command("run", scene, "--progress", "off", "--out", out, *more, *(["--set", *sets] if sets else []),
+                   expect=expect, says=says)
 
 
 def resume(out, *sets, **keys):
@@ -89,8 +89,8 @@ def test_walls(place):
     assert found("parts") == found("wall")
     # No relaxation is given up by a force that is not summed on the way (763 points were then needed).
     Path("soft.toml").write_text(PATH.replace("24", "64").replace("0.8", "2").replace("90", "64"))
-    run("soft", HELD, "drive.tolerance=1e-4", "interface.kind=wall", "interface.adhesion=50 meV/Å^2", "interface.range=1 Å",
-        scene="soft.toml")
+    run("soft", HELD, "drive.tolerance=1e-4", "interface.kind=wall", "interface.adhesion=50 meV/Å^2",
+        "interface.range=1 Å", scene="soft.toml")
     assert asperity.load("soft").run.steps < 500
 
 

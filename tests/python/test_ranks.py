@@ -19,9 +19,10 @@ def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):
     for ranks in (1, 2):
         place = tmp_path / str(ranks)
         place.mkdir()
-        words = [*mpi4py_launcher(ranks), sys.executable, "-c", BOUND, sys.executable, str(ROOT / "tests/python/ranks.py"), place]
-        done = subprocess.run(words, capture_output=True, text=True, timeout=200,
-                              env={**os.environ, "PYTHONPATH": str(ROOT / "python"), "PROCESSORS": json.dumps([processors] * ranks)})
+        words = [*mpi4py_launcher(ranks), sys.executable, "-c", BOUND, sys.executable, ROOT / "tests/python/ranks.py",
+                 place]
+        env = {"PYTHONPATH": str(ROOT / "python"), "PROCESSORS": json.dumps([processors] * ranks)}
+        done = subprocess.run(words, capture_output=True, text=True, timeout=200, env={**os.environ, **env})
         assert done.returncode == 0, done.stdout + done.stderr
         found.append((json.loads((place / "found.json").read_text()), numpy.load(place / "fields.npy")))
     one, two = found
@@ -53,6 +54,6 @@ def test_an_error_of_one_rank_ends_all(mpi4py_launcher):
             raise ValueError("of the second rank alone")
         sim.step(100)
         """
-    done = subprocess.run([*mpi4py_launcher(2), sys.executable, "-c", script], capture_output=True, text=True, timeout=100,
-                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+    done = subprocess.run([*mpi4py_launcher(2), sys.executable, "-c", script], capture_output=True, text=True,
+                          timeout=100, env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
     assert done.returncode == 1 and "of the second rank alone" in done.stderr, done.stdout + done.stderr

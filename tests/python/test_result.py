@@ -16,6 +16,7 @@ import pytest
 
 import asperity
 from asperity import program, scene
+from asperity.result import finite
 from conftest import SMALL, STATE, command, unsealed
 
 
@@ -43,7 +44,7 @@ def test_a_result_is_what_the_files_hold(path_run):
 def test_series_are_frames_where_pandas_is(path_run, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=dict))  # what a frame is made from
     frame = path_run.series.frame()
-    assert set(frame) == set(path_run.series) and (frame["top_displacement"] == path_run.series["top_displacement"]).all()
+    assert set(frame) == set(path_run.series) and (frame["force"] == path_run.series["force"]).all()
 
 
 def test_numbers_are_found_by_their_paths(path_run):
@@ -51,14 +52,16 @@ def test_numbers_are_found_by_their_paths(path_run):
     assert numbers["energy.balance_error"] == path_run.energy.balance_error
     assert "scene.surface.radius" not in numbers  # "none"
     assert path_run.number("scene.surface.radius") is None
-    assert path_run.number("theory.converged") is None  # a truth is no number
+    for value in (True, "1", float("inf"), float("nan"), 10**400, None, []):  # a truth is no number
+        assert finite(value) is None
 
 
 def test_overrides_and_dictionaries_reach_the_program():
     text = scene.toml_of({"surface": {"sites": 64, "rms": np.float64(0.25)}, "drive": {"path": ["zero-load"]},
                           "block.model": "lattice"})
     assert text.startswith('block.model = "lattice"\n')
-    with scene.scene_file({"name": "as named", "surface": {"sites": 64, "file": None}, "block.young": "80 GPa"}) as file:
+    named = {"name": "as named", "surface": {"sites": 64, "file": None}, "block.young": "80 GPa"}
+    with scene.scene_file(named) as file:
         found = program.check(file, scene.assignments({"surface.rms": "0.3 nm", "drive.path": ["zero-load"]}))
     assert found["name"] == "as named" and not found["problems"]
     assert found["scene"]["surface"]["rms"] == pytest.approx(3.0)
@@ -121,30 +124,14 @@ def test_no_rank_is_an_error(tmp_path, ranks):
     assert not any(tmp_path.iterdir())
 
 
-def test_ranks_change_nothing_but_their_number(tmp_path):
+def test_ranks_change_nothing_but_their_number(tmp_path, monkeypatch):
+    """They are started by the launcher of the program's MPI, which is found."""
+    monkeypatch.delenv("ASPERITY_MPIRUN", raising=False)
     few = {"drive.max_steps": 20, "output.series": 5}
     one, two = (asperity.run(SMALL, few, out=tmp_path / str(n), ranks=n) for n in (1, 2))
     assert (one.run.ranks, two.run.ranks) == (1, 2)
     assert len(one.series["force"]) > 3
     assert all((one.series[name] == two.series[name]).all() for name in one.series)
-
-
-HOSTILE = ["{", "[1, 2]", "null", '{"scene": [1, ', "[" * 50_000, '{"a":' * 50_000, '{"a":' * 500 + "1" + "}" * 500, "\x00\xff",
-           '{"scene": 3, "run": {"stopped": 3}, "theory": [], "binding_energy": "x", "delta_gamma": 1e999}',
-           '{"name": {}, "scene": {"surface": {"sites": "x", "spacing": [], "rms": {}}}, "failure": [1]}',
-           '{"delta_gamma": %s}' % ("9" * 400)]
-
-
-@pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
-def test_damaged_json_is_a_message_or_an_empty_result(tmp_path, text):
-    (tmp_path / "result.json").write_bytes(text.encode("latin-1"))
-    try:
-        found = asperity.load(tmp_path)
-    except asperity.InputOutputError as error:
-        assert "why:" in str(error)
-        return
-    assert isinstance(found.title, str) and isinstance(found.failure_text, str) and found.edge == 0
-    assert found.number("delta_gamma") is None and found.stopped == ""
 
 
 def test_what_is_loaded_is_what_was_written(path_run, tmp_path):
@@ -245,8 +232,9 @@ def test_a_run_takes_the_memory_that_its_plan_says(results, effects):
         # Started by a small process: the peak that the kernel tells has that of the process before it.
         starter = "import os, sys; print(os.wait4(os.spawnv(os.P_NOWAIT, sys.argv[1], sys.argv[1:]), 0)[2].ru_maxrss)"
         out = results / f"memory {sites} {'_'.join(effects)}"
-        told = subprocess.run([sys.executable, "-c", starter, os.environ["ASPERITY_PROGRAM"], "run", "-", *words(sites), "--out", out,
-                               "--progress", "off"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True)
+        told = subprocess.run([sys.executable, "-c", starter, os.environ["ASPERITY_PROGRAM"], "run", "-",
+                               *words(sites), "--out", out, "--progress", "off"], stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, check=True)
         assert (out / "result.json").exists()
         return 1024.0 * int(told.stdout.split()[-1])
 

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The pages are a site: Sphinx warns of nothing (links and their anchors, pages that no table of contents has, docstrings,
-files of tables and pictures), and the generated parts of the reference are in it. Links between all Markdown files lead
-somewhere."""
+"""The pages are a site: Sphinx warns of nothing (links and their anchors, pages that no table of contents has,
+docstrings, files of tables and pictures), and the generated parts of the reference are in it. Links between all
+Markdown files lead somewhere."""
 
 import importlib.util
 import os

@@ -69,8 +69,8 @@ def test_states_stay_known_on_the_path_that_follows(place, whole):
 
 def test_a_checkpoint_while_a_relaxation_goes_on(place):
     """It survives a kill."""
-    words = [*RUN, "killed", "--set", "surface.sites=256", "block.thickness=256", "drive.states=first", "drive.tolerance=1e-13",
-             "output.checkpoint=0.1s"]
+    words = [*RUN, "killed", "--set", "surface.sites=256", "block.thickness=256", "drive.states=first",
+             "drive.tolerance=1e-13", "output.checkpoint=0.1s"]
     with started(*words):
         wait_for(Path("killed/checkpoint.h5").exists)
     assert Path("killed/checkpoint.h5").exists()
@@ -80,7 +80,8 @@ def test_a_load_tells_states_apart(place, whole):
     """In MPa."""
     heights = {}
     for factor in (0.8, 1.2):
-        command(*RUN, f"load-{factor}", "--set", "drive.states=first", f"drive.load={factor * whole.states.first.barrier}")
+        load = factor * whole.states.first.barrier
+        command(*RUN, f"load-{factor}", "--set", "drive.states=first", f"drive.load={load}")
         heights[factor] = asperity.load(f"load-{factor}").zero_load.mean_height
     assert heights[0.8] > sum(state["mean_height"] for state in whole.states.all) / 2 > heights[1.2]
 

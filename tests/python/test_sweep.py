@@ -8,6 +8,7 @@ import os
 import shutil
 import signal
 import subprocess
+from collections import Counter
 from pathlib import Path
 
 import h5py
@@ -16,9 +17,9 @@ import pytest
 
 import asperity
 import asperity.runs
-from asperity import convert, files, grid, pool
+from asperity import files, grid, pool
 from asperity.plots import sweep as plots
-from asperity.plots.style import drawn
+from asperity.plots.style import csv, drawn
 from asperity.sweeps import load_sweep, load_sweeps
 from asperity.tables import text_of
 from conftest import STATE, command, held, is_told, rows, running, started, wait_for
@@ -71,7 +72,7 @@ def test_axes_come_from_the_command_line_and_the_scene():
     found, fixed = axes(of_scene=of_scene)
     assert [(a.key, a.values) for a in found] == [("surface.rms", ["1", "0.2 nm", "3.5"]),
                                                   ("surface.seed", ["1", "2", "3"])]
-    assert [a.is_seed for a in found] == [False, True] and not fixed
+    assert [grid.is_seed(a.key) for a in found] == [False, True] and not fixed
     found, fixed = axes("surface.seed=4", "drive.load=1,2", of_scene=of_scene)
     assert [a.key for a in found] == ["drive.load", "surface.rms"] and fixed == ["surface.seed=4"]
     assert axes('drive.path=["approach","pull-off"]')[1] == ['drive.path=["approach","pull-off"]']
@@ -191,7 +192,7 @@ def test_plots_of_a_sweep_read_back_are_the_same(tmp_path):
         ax = Figure().add_subplot()
         assert plots.plot([of], "gamma", ax)
         return [(c.label, c.x.tolist(), c.y.tolist()) for c in drawn(ax).curves]
-    head = plots.files.csv(sweep.plot("gamma", Figure().add_subplot()).figure).splitlines()[0]
+    head = csv(sweep.plot("gamma", Figure().add_subplot()).figure).splitlines()[0]
     assert "state at zero load: γeff / Δγ, deviation over seeds and uncertainty of a run, added in squares" in head
     here = curves(sweep)
     assert here == curves(load_sweep(tmp_path))
@@ -241,7 +242,8 @@ def test_scenes_in_one_plot_have_their_own_theory():
     assert plots.plot([named("a"), named("b", 0.9)], "gamma", ax)
     told = ["a: theory", "b: theory", "renormalised theory", *states]
     assert [c.label for c in drawn(ax).curves] == [t.get_text() for t in ax.get_legend().get_texts()] == told
-    assert len({line.get_color() for line in ax.lines[:3]}) == len({line._unscaled_dash_pattern for line in ax.lines[:3]}) == 3
+    assert len({line.get_color() for line in ax.lines[:3]}) == 3
+    assert len({line._unscaled_dash_pattern for line in ax.lines[:3]}) == 3
     # Where nothing tells that they are equal, both are drawn, each its own.
     assert labels([named("a"), named("b", shift=0.25)])[0][:2] == ["a: theory", "b: theory"]
     near = named("b")
@@ -297,7 +299,8 @@ def test_colours_are_told_whatever_is_drawn_first():
     assert sorted(colours) == [*words, "load = 400 MPa"] and [len(c) for c in colours.values()] == [1] * 4
     assert [t.get_text() for t in ax.get_legend().get_texts()].count(words[1]) == 1
     # What is not drawn is told, all of it.
-    other.points = [{"set": {"surface.rms": rms, "drive.load": load}, "theory": {}} for rms in range(9) for load in range(8)]
+    other.points = [{"set": {"surface.rms": rms, "drive.load": load}, "theory": {}}
+                    for rms in range(9) for load in range(8)]
     third = nine_points()
     third.axes = ["surface.seed", "drive.load"]
     third.points = [{"set": {"surface.seed": 1, "drive.load": load}, "theory": {}} for load in (1.0, 2.0)]
@@ -305,7 +308,8 @@ def test_colours_are_told_whatever_is_drawn_first():
         "the plots show the first 7 of 8 curves"
 
 
-@pytest.mark.parametrize("text", ['{"points": 3}', "[]", "{}", '{"points": [{"set": 3, "theory": []}], "axes": 1, "run": 2}'])
+@pytest.mark.parametrize("text", ['{"points": 3}', "[]", "{}",
+                                  '{"points": [{"set": 3, "theory": []}], "axes": 1, "run": 2}'])
 def test_damaged_sweep_json(tmp_path, text):
     (tmp_path / "sweep.json").write_text(text)
     try:
@@ -319,7 +323,7 @@ def test_damaged_sweep_json(tmp_path, text):
 # The points
 
 def test_points_are_known_by_their_result(tmp_path):
-    job = pool.Job("rms=1", tmp_path / "point", "s.toml", [], {"surface": {"rms": 1.0}})
+    job = pool.Job("rms=1", tmp_path / "point", "s.toml", [], {"scene": {"surface": {"rms": 1.0}}})
     assert pool.look_at(job).status == pool.WAITING  # no directory
     job.directory.mkdir()
 
@@ -333,7 +337,7 @@ def test_points_are_known_by_their_result(tmp_path):
     assert status(failure={"exit_code": 3, "reason": "the balance is off\n    why: ..."}) == pool.FAILED
     assert pool.look_at(job).reason == "the balance is off"
     assert status(failure={"exit_code": 4}) == pool.WAITING  # the disk may have room by now
-    job.scene = {"surface": {"rms": 2.0}}
+    job.answer = {"scene": {"surface": {"rms": 2.0}}}
     with pytest.raises(asperity.SceneError, match="holds the result of another scene"):
         pool.look_at(job)
 
@@ -344,7 +348,7 @@ def a_map(file, seed):
 
 
 def test_points_over_another_content_of_a_file_are_refused(place):
-    """The same path with other bytes, for a map and for atoms; the same content in other bytes is the same."""
+    """The same path with other bytes; the same content in other bytes is the same."""
     a_map("map.npy", 1)
     keys = {"surface.kind": "file", "surface.file": place / "map.npy", "block.thickness": 12}
     scene = {**STATE, "name": "mapped", "theory": {"renormalised": False}}
@@ -373,23 +377,6 @@ def test_points_over_another_content_of_a_file_are_refused(place):
         asperity.sweep(scene, {**keys, "drive.load": [0, 20]}, out="other")
 
 
-def test_points_over_other_atoms_of_a_file_are_refused(place):
-    def write(height):
-        grid = 2.6 * np.arange(12)
-        lines = [f"{12 * i + j + 1} 1 {x:.6f} {y:.6f} {height * ((i + j) % 2):.6f}" for i, x in enumerate(grid) for j, y in enumerate(grid)]
-        Path("atoms.data").write_text("checkered\n\n144 atoms\n0 31.2 xlo xhi\n0 31.2 ylo yhi\n\nAtoms # atomic\n\n" + "\n".join(lines) + "\n")
-        Path("atoms.h5").unlink(missing_ok=True)
-        convert.convert("atoms.data", "atoms.h5")
-    write(0.2)
-    scene = {"name": "atoms", "surface": {"sites": 12, "kind": "atoms", "file": str(place / "atoms.h5")},
-             "block": {"thickness": 12}, "drive": {"path": ["zero-load"]}}
-    first = asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms")
-    assert (asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms").table["binding_energy"] == first.table["binding_energy"]).all()
-    write(0.4)
-    with pytest.raises(asperity.SceneError, match="holds the result of another content of .*atoms.h5"):
-        asperity.sweep(scene, {"drive.load": [0, 20]}, out="atoms")
-
-
 def test_a_map_may_be_given_beside_the_scene(place):
     """A scene that is none without it; as run takes it."""
     (place / "mapped.toml").write_text('[surface]\nkind = "file"\nsites = 24\n[block]\nthickness = 12\n'
@@ -401,14 +388,15 @@ def test_a_map_may_be_given_beside_the_scene(place):
     command(*words, "maps", "--set", "surface.file=a.npy,b.npy")
     loads, maps = load_sweep("loads").results(), load_sweep("maps").results()
     assert loads[0].binding_energy == maps[0].binding_energy != maps[1].binding_energy
-    assert "there is no such file" in command(*words, "none", "--set", "surface.file=no.npy", "drive.load=0,20", expect=2)
+    command(*words, "none", "--set", "surface.file=no.npy", "drive.load=0,20", expect=2, says="there is no such file")
 
 
 def test_values_are_whatever_can_be_gone_through(place):
-    for values in ([1, 2, 3], (1, 2, 3), range(1, 4), np.arange(1, 4), np.array([1.0, 2.0, 3.0]), (i for i in (1, 2, 3)),
-                   np.arange(1, 4).tolist(), "1:3:1", "1,2,3", [np.int64(1), np.float32(2), 3]):
-        table = asperity.sweep({**STATE, "theory": {"renormalised": False}}, {"surface.rms": values, "surface.hurst": np.float64(0.7)}, theory_only=True).table
-        assert table["surface.rms"].tolist() == [1, 2, 3], values
+    scene = {**STATE, "theory": {"renormalised": False}}
+    for values in ([1, 2, 3], (1, 2, 3), range(1, 4), np.arange(1, 4), np.array([1.0, 2.0, 3.0]),
+                   (i for i in (1, 2, 3)), "1:3:1", "1,2,3", [np.int64(1), np.float32(2), 3]):
+        given = {"surface.rms": values, "surface.hurst": np.float64(0.7)}
+        assert asperity.sweep(scene, given, theory_only=True).table["surface.rms"].tolist() == [1, 2, 3], values
 
 
 def test_a_damaged_point_is_told_and_run_again(place):
@@ -419,7 +407,7 @@ def test_a_damaged_point_is_told_and_run_again(place):
     whole = path.read_bytes()
     for damaged in (b"", whole.replace(b'"binding_energy": ', b'"binding_energy": 1'), whole[:200]):
         path.write_bytes(damaged)
-        outcome = pool.look_at(pool.Job("rms=0.4,seed=1", path.parent, "state.toml", [], json.loads(whole)["scene"]))
+        outcome = pool.look_at(pool.Job("rms=0.4,seed=1", path.parent, "state.toml", [], json.loads(whole)))
         assert outcome.status == pool.WAITING and outcome.damaged
     said = command(*words)
     assert "note: one/rms=0.4,seed=1/result.json cannot be read" in said and "4 of 4 points are done" in said
@@ -449,7 +437,7 @@ def test_a_lock_that_is_anothers_by_now_stays(tmp_path):
     assert not lock.exists()
 
 
-@pytest.mark.parametrize("out, says", [("", "is empty"), ("/", "root of all directories"), ("/../", "root of all directories")])
+@pytest.mark.parametrize("out, says", [("", "is empty"), ("/", "root of all"), ("/../", "root of all")])
 def test_a_directory_that_can_be_none_is_refused(place, out, says):
     for words in (["sweep", "state.toml"], ["cost", "path.toml", "--set", "drive.max_steps=0"], ["run", "path.toml"],
                   ["theory", "path.toml"], ["surface", "path.toml"]):
@@ -468,8 +456,9 @@ def test_the_time_left_counts_each_scene_by_its_own_points(tmp_path):
 
     def left(running, finished):
         many.running = dict.fromkeys(running, now - 100.0)
-        many.waiting = [i for i in range(len(jobs)) if i not in running][sum(points for points, _ in finished.values()):]
-        many.finished = finished
+        over = sum(points for points, _ in finished.values())
+        many.waiting = [i for i in range(len(jobs)) if i not in running][over:]
+        many.done, many.seconds = (Counter({name: both[k] for name, both in finished.items()}) for k in (0, 1))
         return many._left(running, now)
 
     assert left({0: 0.0, 1: 0.0}, {}) == ""
@@ -496,12 +485,14 @@ def test_what_is_wrong_is_said_before_anything_runs(place, words, says):
     assert sorted(p.name for p in place.iterdir()) == ["path.toml", "state.toml"]
 
 
-ALONE = [{}, {"OMPI_COMM_WORLD_SIZE": "1", "OMPI_COMM_WORLD_RANK": "0", "PMIX_RANK": "0"}, {"PMI_SIZE": "1", "PMI_RANK": "0"},
+ALONE = [{}, {"OMPI_COMM_WORLD_SIZE": "1", "OMPI_COMM_WORLD_RANK": "0", "PMIX_RANK": "0"},
+         {"PMI_SIZE": "1", "PMI_RANK": "0"},
          # What SLURM sets in the script of a batch job, whatever its number of tasks, and in a step of one task.
          {"SLURM_JOB_ID": "7", "SLURM_NTASKS": "4", "SLURM_NPROCS": "4", "SLURM_PROCID": "0"},
          {"SLURM_NTASKS": "4", "SLURM_PROCID": "0", "SLURM_STEP_NUM_TASKS": "1", "PMIX_RANK": "0"}]
-AMONG_OTHERS = [{"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX_RANK": "0"}, {"PMI_SIZE": "2", "PMI_RANK": "0"},
-                {"SLURM_STEP_NUM_TASKS": "2", "SLURM_PROCID": "0"}, {"PMIX_RANK": "0"}]
+AMONG_OTHERS = [{"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX_RANK": "0"},
+                {"PMI_SIZE": "2", "PMI_RANK": "0"}, {"SLURM_STEP_NUM_TASKS": "2", "SLURM_PROCID": "0"},
+                {"PMIX_RANK": "0"}]
 
 
 @pytest.mark.parametrize("env", ALONE)
@@ -642,8 +633,8 @@ def test_a_launcher_gives_ranks(place):
 def test_the_theory_alone(place):
     # Seeds mean nothing to the theory of a target spectrum.
     written = ["sweep.csv", "sweep.json", "gamma.svg", "area.svg", "full-contact.svg"]
-    command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2:0.6:0.2", "drive.load=0,100", "--out", "theory",
-            says=["6 points in", *written])
+    command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2:0.6:0.2", "drive.load=0,100", "--out",
+            "theory", says=["6 points in", *written])
     assert all((place / "theory" / name).stat().st_size > 0 for name in written)
     rows = numbers("theory")
     assert [r["status"] for r in rows] == ["adhesive"] * 6 and all(None not in {*row, *row.values()} for row in rows)

@@ -149,8 +149,8 @@ def lammps(script, place):
     done = subprocess.run([program, "-in", "in.lammps", "-log", "none"], cwd=place, capture_output=True, text=True,
                           env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
     assert done.returncode == 0 and "ERROR" not in done.stdout, done.stdout + done.stderr
-    return np.array([line.split() for line in (place / "back.dump").read_text().split("ITEM: ATOMS")[1].splitlines()[1:]],
-                    float)
+    lines = (place / "back.dump").read_text().split("ITEM: ATOMS")[1].splitlines()[1:]
+    return np.array([line.split() for line in lines], float)
 
 
 def test_lammps_reads_data_and_dump(path_run, exported, block, frames, tmp_path):

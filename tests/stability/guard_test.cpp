@@ -24,15 +24,12 @@ io::Json result_of(const std::string& scene) {
     const io::Scratch scratch;
     return test::run_scene(read_scene_text(scene, "scene.toml"), scratch / "run");
 }
-double number(const io::Json& result, const char* name) {
-    return io::find(result, name)->get<double>();
-}
 /// What a run that must not end well says.
 template <class Error>
 std::string refusal(const std::string& scene) {
     return test::message_of<Error>([&] { result_of(scene); });
 }
-using test::has;
+using test::has, test::number;
 
 TEST(Guard, SeesWhatIsNoPhysics) {
     StepRecord good;

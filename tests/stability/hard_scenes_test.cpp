@@ -12,6 +12,7 @@
 #include <cstdlib>
 
 using namespace asperity;
+using test::number;
 
 namespace {
 
@@ -24,13 +25,6 @@ io::Json follow(const std::string& name) {
     const io::Json result = test::run_scene(scene, scratch / "run");
     EXPECT_EQ(io::find(result, "failure"), nullptr) << name;
     return result;
-}
-
-double number(const io::Json& result, const char* path) {
-    const io::Json* value = io::find(result, path);
-    if (value) return value->get<double>();
-    ADD_FAILURE() << path << " is missing";
-    return std::nan("");
 }
 
 struct Hard {

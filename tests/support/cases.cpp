@@ -78,6 +78,16 @@ Surface flat_surface(int sites) {
         std::vector<double>(static_cast<std::size_t>(sites) * static_cast<std::size_t>(sites)));
 }
 
+Surface scattered(int sites, double length, double amplitude, unsigned seed, double level) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> height(-amplitude, amplitude);
+    Surface surface = flat_surface(sites);
+    for (double& h : surface.height)
+        h = level + height(random);
+    surface.length = length;
+    return surface;
+}
+
 Surface reference_surface(const std::string& name, double factor) {
     const std::string path = std::string(ASPERITY_TEST_DATA) + "/" + name + ".txt";
     std::ifstream file(path);
@@ -181,6 +191,20 @@ std::uint64_t mix(std::uint64_t hash, const EnergyBalance& b) {
                          b.external, b.interface})
         hash = mix(hash, value);
     return hash;
+}
+
+void Trace::follow(Simulation& s, int steps) {
+    for (int n = 0; n < steps; ++n) {
+        const StepRecord& now = s.step(s.steps() % 10 == 0);
+        s.drive().observe({now.time, now.force, 0.0, false}); // turns round on contact
+        force = now.force;
+        records = mix(records, now);
+        if (now.observed) in_contact = std::max(in_contact, now.in_contact);
+    }
+}
+void Trace::conclude(const Simulation& s) {
+    records = mix(records, s.balance());
+    state = fingerprint(s.block());
 }
 
 std::uint64_t fingerprint(const Block& block) {

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string>
 
 namespace asperity::test {
@@ -36,6 +37,20 @@ std::array<PairPotential, 3> potentials(double cutoff = 13.12);
 SimulationOptions free_contact(double dt, int layers_per_level = 2);
 /// On one rank.
 Simulation simulation(const SimulationOptions& options, const Surface& surface);
+/// Steps to the end of its path; look(record, segment, whether that ended with it) after each.
+template <class Look>
+void lead(Simulation& s, const Look& look, bool observe = true) {
+    double strongest = 0.0;
+    while (!s.drive().done()) {
+        const std::size_t segment = s.drive().segment();
+        const StepRecord& now = s.step(observe);
+        strongest = std::max(strongest, -now.force);
+        const bool over = s.drive().observe(
+            {now.time, now.force, now.top, out_of_reach(now.top, now.force, strongest)});
+        look(now, segment, over);
+        if (s.steps() > 300000) throw std::runtime_error("a path in time has no end");
+    }
+}
 
 Surface flat_surface(int sites);
 /// Its height at the atom (x, y), Å: height(x, y).
@@ -56,6 +71,8 @@ inline Surface wave(int sites, double amplitude, double spacing = 2.6) {
         sites, [=](int x, int) { return amplitude * std::cos(2.0 * std::numbers::pi * x / sites); },
         spacing);
 }
+/// Heights within `amplitude` of a level, each on its own: sites atoms an edge of this length.
+Surface scattered(int sites, double length, double amplitude, unsigned seed, double level = 0.0);
 /// As a scene makes it, of the paper's spacing.
 inline Surface self_affine(int sites, double rms, std::uint64_t seed = SurfaceOptions().seed) {
     SurfaceOptions o;
@@ -87,6 +104,11 @@ Relaxed numbers_of(const RelaxedState& state, const BlockOptions& options, doubl
 Relaxed relax_spectral(const BlockOptions& block, const InterfaceOptions& interface,
                        const Surface& surface, double tolerance, bool frictionless = false);
 
+/// The same of a lattice or levels, small or finite strain, node by node, to this largest force on
+/// one, eV/Å: a second way to a state, slow, for blocks of some thousand nodes.
+Relaxed relax_levels(const BlockOptions& block, const InterfaceOptions& interface,
+                     const Surface& surface, double tolerance);
+
 /// The state below a block in motion, without a scene file. Collective.
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
                           const SimulationOptions& options, double tolerance);
@@ -107,5 +129,18 @@ std::uint64_t mix(std::uint64_t hash, double value);
 /// All numbers of a record, those of its energies where it was observed; all sums of a balance.
 std::uint64_t mix(std::uint64_t hash, const StepRecord& record);
 std::uint64_t mix(std::uint64_t hash, const EnergyBalance& balance);
+
+/// What a run leaves behind, bit by bit.
+struct Trace {
+    std::uint64_t records = 1; ///< and the balance
+    std::uint64_t state = 0;   ///< displacements and velocities
+    long long in_contact = 0;  ///< at most
+    double force = 0.0;        ///< of the last step
+    /// So many steps, of which every tenth is observed; the drive sees their forces.
+    void follow(Simulation& s, int steps);
+    /// The balance and the state. Collective.
+    void conclude(const Simulation& s);
+    bool operator==(const Trace&) const = default;
+};
 
 } // namespace asperity::test

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/echo.hpp"
 
+#include "support/nodes.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,15 +52,10 @@ double energy_of(const Block& block) {
     ExactSum elastic;
     block.add_elastic_energy(elastic);
     double kinetic = 0.0;
-    for (const Block::Level& level : block.levels()) {
-        const auto v = level.v.view();
-        for (int z = 0; z < level.shape.cells; ++z)
-            for (int y = 0; y < level.tile.ny; ++y)
-                for (int x = 0; x < level.tile.nx; ++x)
-                    kinetic += 0.5 * level.mass(z) *
-                               (v.x(x, y, z) * v.x(x, y, z) + v.y(x, y, z) * v.y(x, y, z) +
-                                v.z(x, y, z) * v.z(x, y, z));
-    }
+    each_node(block, [&](const Block::Level& level, int x, int y, int z) {
+        for (const double* v : components(level.v.view(), x, y, z))
+            kinetic += 0.5 * level.mass(z) * *v * *v;
+    });
     return elastic.value() + kinetic;
 }
 
@@ -104,20 +101,19 @@ double echo(const BlockOptions& options, const Packet& packet, double depth, dou
         const double q = q0 + (n - waves / 2) * step_q;
         const LatticeWave wave = lattice_wave(options, p, q, packet.polarisation);
         const double w = frequency(q), weight = std::exp(-0.5 * std::pow((q - q0) * width, 2));
-        for (int z = 0; z < below.shape.cells; ++z)
-            for (int y = 0; y < below.tile.ny; ++y)
-                for (int x = 0; x < below.tile.nx; ++x) {
-                    const double phase = p * x + q * (z - start);
-                    const double u = weight * std::cos(phase);
-                    const double v =
-                        weight * 2.0 / dt * std::sin(0.5 * w * dt) * std::sin(phase + 0.5 * w * dt);
-                    field.u.view().x(x, y, z) += u * wave.x;
-                    field.u.view().y(x, y, z) += u * wave.y;
-                    field.u.view().z(x, y, z) += u * wave.z;
-                    field.v.view().x(x, y, z) += v * wave.x;
-                    field.v.view().y(x, y, z) += v * wave.y;
-                    field.v.view().z(x, y, z) += v * wave.z;
-                }
+        each_node(lead, [&](const Block::Level&, int x, int y, int z) {
+            const double phase = p * x + q * (z - start);
+            const double u = weight * std::cos(phase);
+            const double v =
+                weight * 2.0 / dt * std::sin(0.5 * w * dt) * std::sin(phase + 0.5 * w * dt);
+            const auto to = components(field.u.view(), x, y, z),
+                       rate = components(field.v.view(), x, y, z);
+            const std::array direction = {wave.x, wave.y, wave.z};
+            for (std::size_t c = 0; c < 3; ++c) {
+                *to[c] += u * direction[c];
+                *rate[c] += v * direction[c];
+            }
+        });
     }
     lead.exchange();
     const double sent = energy_of(lead);

@@ -3,6 +3,7 @@
 #include "support/elastic_reference.hpp"
 
 #include "kernels/cell_geometry.hpp"
+#include "support/spectral_lattice.hpp"
 
 #include <cmath>
 
@@ -10,39 +11,9 @@ namespace asperity::test {
 
 namespace {
 
-// Energy and forces of one cubic cell, straight from the definition (docs/explanation/model.md).
-// u[p][i] is component i of the displacement of corner p (bit 0 of p is x, bit 1 y, bit 2 z), Å;
-// f[p][i] the force on it, eV/Å, overwritten; what is returned is the cell's energy, eV.
-
-/// Small strain: springs feel e.du, the dilatation term the trace of the mean gradient.
-double linear_cell(const double (&u)[8][3], const CellElasticity& c, double (&f)[8][3]) {
-    double energy = 0.0, dilatation = 0.0; // 4 s theta
-    for (int p = 0; p < 8; ++p)
-        for (int i = 0; i < 3; ++i)
-            dilatation += corner_sign(p, i) * u[p][i];
-    energy += 0.5 * c.kappa * dilatation * dilatation;
-    for (int p = 0; p < 8; ++p)
-        for (int i = 0; i < 3; ++i)
-            f[p][i] = -c.kappa * dilatation * corner_sign(p, i);
-    for (int a = 0; a < 8; ++a)
-        for (int b = a + 1; b < 8; ++b) {
-            const int axes = axes_between(a, b);
-            if (axes == 3) continue; // no spring across the body
-            const double k = axes == 1 ? 0.25 * c.k : 0.5 * c.k;
-            double e[3], stretch = 0.0;
-            for (int i = 0; i < 3; ++i) {
-                e[i] = 0.5 * (corner_sign(b, i) - corner_sign(a, i)) / std::sqrt(double(axes));
-                stretch += e[i] * (u[b][i] - u[a][i]);
-            }
-            energy += 0.5 * k * stretch * stretch;
-            for (int i = 0; i < 3; ++i) {
-                f[a][i] += k * stretch * e[i];
-                f[b][i] -= k * stretch * e[i];
-            }
-        }
-    return energy;
-}
-
+/// Energy and forces of one cubic cell, straight from the definition (docs/explanation/model.md).
+/// u[p][i] is component i of the displacement of corner p (bit 0 of p is x, bit 1 y, bit 2 z), Å;
+/// f[p][i] the force on it, eV/Å, overwritten; what is returned is the cell's energy, eV.
 /// Finite strain: springs feel their true length, the dilatation term det F - 1.
 double finite_cell(const double (&u)[8][3], const LevelCell& c, double (&f)[8][3]) {
     double F[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
@@ -118,8 +89,21 @@ double each_cell(const VectorVolume<const double>& u, const VectorVolume<double>
 
 } // namespace
 
-double elastic_reference(VectorVolume<const double> u, CellElasticity e, VectorVolume<double> out) {
-    return each_cell(u, out, [&](const auto& at, auto& f) { return linear_cell(at, e, f); });
+double elastic_reference(VectorVolume<const double> u, const LevelCell& c,
+                         VectorVolume<double> out) {
+    const double shear = c.elasticity.k / c.edge, lame = 16.0 * c.elasticity.kappa / c.edge + shear;
+    const CellStiffness stiffness = cell_stiffness(c.edge, lame, shear);
+    return each_cell(u, out, [&](const auto& at, auto& f) {
+        double energy = 0.0;
+        for (std::size_t i = 0; i < 24; ++i) {
+            double force = 0.0;
+            for (std::size_t j = 0; j < 24; ++j)
+                force -= stiffness[i][j] * at[j / 3][j % 3];
+            f[i / 3][i % 3] = force;
+            energy -= 0.5 * force * at[i / 3][i % 3];
+        }
+        return energy;
+    });
 }
 
 double finite_reference(VectorVolume<const double> u, const LevelCell& c,

@@ -1,40 +1,41 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "support/levels_at_rest.hpp"
-
-#include "engine/equilibrium/zero_load.hpp"
+//
+// relax_levels() of support/cases.hpp: all nodes downhill by inertia that is taken away where it
+// leads uphill (FIRE: Bitzek et al., Phys. Rev. Lett. 97, 170201 (2006)). Shares the springs and
+// the interface with the program, and nothing of how it relaxes.
+#include "support/cases.hpp"
+#include "support/elastic_operator.hpp"
+#include "support/nodes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace asperity::test {
 
-LevelsAtRest::LevelsAtRest(const BlockOptions& options) : lattice(options) {}
-
-RelaxedState LevelsAtRest::relax(const Interface& interface, double reference_height,
-                                 const Constraint& constraint, double tolerance) {
+Relaxed relax_levels(const BlockOptions& options, const InterfaceOptions& interface_options,
+                     const Surface& surface, double tolerance) {
+    const Interface interface(surface, serial_grid(options).tile(0), options.spacing,
+                              interface_options);
+    SpectralBlock still(options, Communicator());
+    const double height =
+        height_of_strongest_attraction(still, interface, surface.statistics.lowest);
+    ElasticOperator lattice(options);
     Block& block = lattice.block();
-    Vector u = lattice.tabulate([](const Block::Level& level, int c, int z, int y, int x) {
-        const auto at = level.u.view();
-        return (c == 0 ? at.x : c == 1 ? at.y : at.z)(x, y, z);
-    });
-    double top = constraint.is_top() ? constraint.value : block.top();
+    Vector u(lattice.size());
+    double top = 0.0;
     const std::size_t n = u.size();
     Vector f, v(n + 1); // the top plane's last
     InterfaceSums sums;
     // The top plane weighs as much as a plane of nodes: it moves as the planes below it do.
-    const double sites = std::pow(block.options().sites, 2);
+    const double sites = std::pow(options.sites, 2);
     const auto feel = [&] {
         lattice.set(u, top);
-        sums = interface.sweep(block.lowest_layer(), block.interface_force(), reference_height,
+        sums = interface.sweep(block.lowest_layer(), block.interface_force(), height,
                                {.observe = true});
         f = lattice.force();
-        f.push_back(constraint.is_top() ? 0.0
-                                        : (lattice.top_force()[2] - constraint.load()) / sites);
-        double largest = 0.0;
-        for (double force : f)
-            largest = std::max(largest, std::abs(force));
-        return largest;
+        f.push_back(lattice.top_force()[2] / sites);
+        return largest_of(f);
     };
     RelaxedState state;
     double dt = 0.3, alpha = 0.1; // masses of 1
@@ -65,28 +66,16 @@ RelaxedState LevelsAtRest::relax(const Interface& interface, double reference_he
         state.residual = feel();
     }
     state.converged = state.residual <= tolerance;
-    ExactSum height;
-    block.add_lowest_z(height);
+    ExactSum lowest;
+    block.add_lowest_z(lowest);
     state.elastic_energy = lattice.energy();
     state.interface_energy = sums.energy.value();
     state.force = sums.force_z.value();
     state.top_force = lattice.top_force()[2];
-    state.mean_height = height.value() / sites;
+    state.mean_height = lowest.value() / sites;
     state.in_contact = sums.in_contact;
     state.repulsive = sums.repulsive;
-    return state;
-}
-
-Relaxed relax_levels(const BlockOptions& options, const InterfaceOptions& interface_options,
-                     const Surface& surface, double tolerance, double load) {
-    const Interface interface(surface, serial_grid(options).tile(0), options.spacing,
-                              interface_options);
-    SpectralBlock still(options, Communicator());
-    const double height =
-        height_of_strongest_attraction(still, interface, surface.statistics.lowest);
-    return numbers_of(
-        LevelsAtRest(options).relax(interface, height, Constraint::load(load), tolerance), options,
-        height);
+    return numbers_of(state, options, height);
 }
 
 } // namespace asperity::test

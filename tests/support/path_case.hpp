@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -90,6 +91,9 @@ struct PathCase {
         p.reference_height = interface.start_height();
         return KeptPath(block, interface, p);
     }
+    /// At the end of its approach.
+    KeptPath approached(double tolerance, double step = 0.25, double load = 0.0,
+                        Constraint::Of along = Constraint::Of::top);
     /// From where the block is, to its end.
     RelaxedState relax(const Constraint& constraint, double tolerance, RelaxOptions how = {}) {
         how.tolerance = tolerance;
@@ -123,6 +127,33 @@ inline std::vector<StepRecord> follow(KeptPath& path, const Segment& segment) {
 
 inline std::vector<StepRecord> follow(KeptPath& path, Segment::Kind kind) {
     return follow(path, {kind, 0.0, 0, ""});
+}
+
+inline KeptPath PathCase::approached(double tolerance, double step, double load,
+                                     Constraint::Of along) {
+    KeptPath approach = path(tolerance, step, load, along);
+    approach.start();
+    follow(approach, Segment::approach);
+    return approach;
+}
+
+/// The point before the first instability of an approach that has been started, which has then
+/// passed it.
+inline StepRecord before_the_first_fall(KeptPath& path) {
+    StepRecord before = path.now();
+    while (path.dissipation().events == 0) {
+        before = path.now();
+        EXPECT_EQ(path.advance(Segment::approach), QuasistaticPath::Outcome::point);
+    }
+    return before;
+}
+
+/// The strongest attraction of points.
+inline double strongest_of(const std::vector<StepRecord>& points) {
+    double strongest = 0.0;
+    for (const StepRecord& r : points)
+        strongest = std::max(strongest, -r.force);
+    return strongest;
 }
 
 /// Of a record or a relaxed state.

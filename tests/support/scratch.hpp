@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A directory of its own for each test, gone at its end.
+// A directory of its own, gone at its end.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +17,11 @@ namespace asperity::io {
 class Scratch {
 public:
     Scratch() {
+        static int number = 0; // a test may have several
         const auto* test = testing::UnitTest::GetInstance()->current_test_info();
         path_ = std::filesystem::temp_directory_path() /
                 (std::string("asperity-") + test->test_suite_name() + "-" + test->name() + "-" +
-                 std::to_string(::getpid()));
+                 std::to_string(::getpid()) + "-" + std::to_string(++number));
         std::filesystem::create_directories(path_);
     }
     ~Scratch() {

@@ -41,13 +41,6 @@ TEST_P(PaperTable, FirstPassage) {
     EXPECT_NEAR(full_contact(paper::contact(row.h)).gamma_ratio, row.full, five_digits);
 }
 
-TEST_P(PaperTable, Diffusion) {
-    const Row row = GetParam();
-    const ContactState s = solve(paper::contact(row.h), {.integration = by_diffusion});
-    EXPECT_NEAR(s.gamma_ratio, row.gamma, five_digits);
-    EXPECT_NEAR(s.area, row.area, 1e-5);
-}
-
 INSTANTIATE_TEST_SUITE_P(
     Roughness, PaperTable,
     testing::Values(Row{1, 0.96460, 1.00000, 0.96460}, Row{2, 0.85835, 0.99999, 0.85836},

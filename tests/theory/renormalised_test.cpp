@@ -168,18 +168,6 @@ TEST(Renormalised, TensionEndsTheBranch) {
         "pull less"));
 }
 
-TEST(Renormalised, PressingClosesTheGaps) {
-    double contact = 0, separation = 100;
-    for (const double p : {0.0, 0.001, 0.005, 0.02}) {
-        const RenormalisedState s = solve(rough(6, p));
-        EXPECT_GT(s.contact_fraction, contact);
-        EXPECT_LT(s.separation, separation);
-        contact = s.contact_fraction;
-        separation = s.separation;
-    }
-    EXPECT_GT(contact, 0.8);
-}
-
 // The orders of the solver: 2 in the steps and in the spacing, each with the other much finer.
 TEST(Renormalised, OrderOfConvergence) {
     const auto gamma = [](int steps, double spacing) {

@@ -4,7 +4,5 @@
 
     run      of a run: separation, contact, energy, spectrum, maps, ...
     sweep    of sweeps: binding energy, contact area, pull-off force, hysteresis over a swept key
-    cost     error against time
-    style    colours, dashes and sizes
-    files    figures as PNG, PDF, SVG and CSV
+    style    colours, dashes and sizes; figures as PNG, PDF, SVG and CSV
 """

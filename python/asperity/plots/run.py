@@ -16,7 +16,8 @@ from .. import program, scene
 from ..errors import Error, InputOutputError
 from ..result import Result, State, Values
 from ..units import GIGAPASCAL, NANONEWTON
-from .style import BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into, finish, image
+from .style import (BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into,
+                    finish, image)
 
 WAYS = {"approach": BLUE, "pull-off": RED}  # other segments of a path have the other colours in turn
 OTHERS = (GREEN, PINK, SKY, YELLOW)
@@ -121,7 +122,8 @@ def energy(run: Result, ax: Axes) -> bool:
     for name, label, colour, line in (
             ("interface_energy", "interface", BLUE, "-"), ("elastic_energy", "elastic", RED, DASHES[1]),
             ("kinetic_energy", "kinetic", GREEN, DASHES[3]), ("work", "work of the drive", GREY, DASHES[2]),
-            ("damped", "damped", PINK, DASHES[4]), ("radiated", "radiated", PINK, "-"), ("dissipated", "dissipated", PINK, DASHES[4])):
+            ("damped", "damped", PINK, DASHES[4]), ("radiated", "radiated", PINK, "-"),
+            ("dissipated", "dissipated", PINK, DASHES[4])):
         if name in run.series:
             curve(ax, along[0], run.series[name] * unit, label, colour=colour, line=line)
     return finish(ax, "time (ps)" if timed else "point of the path",
@@ -178,7 +180,8 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     values = [1.8 * rms * i / 32 for i in range(1, 33)]
     overrides = []
     try:
-        with scene.scene_file({**run.find("scene"), "name": "roughness"}) as file, tempfile.TemporaryDirectory() as place:
+        named = {**run.find("scene"), "name": "roughness"}
+        with scene.scene_file(named) as file, tempfile.TemporaryDirectory() as place:
             if run.key("surface.kind") == "file":
                 # As run.h5 holds it: the map that it was made from may be gone.
                 if not run.substrate or run.curved:

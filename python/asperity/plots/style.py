@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""How plots look, and what was drawn into an axes.
+"""How plots look, what was drawn into an axes, and figures as files: PNG, PDF and SVG beside the CSV of what is in
+them, and as a picture of a page.
 
 Curves are told apart by colour (Okabe and Ito's, which the colour-blind can tell apart) and, in grey, by
 their dashes and markers. Theory is drawn in dashes or dots and says so in the legend. What `curve` and
@@ -9,9 +10,14 @@ their dashes and markers. Theory is drawn in dashes or dots and says so in the l
 
 from __future__ import annotations
 
+import base64
+import io
+import itertools
+import json
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -22,6 +28,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
 
+from .. import files
 from ..errors import InputOutputError
 
 BLUE, RED, GREEN, PINK, YELLOW, SKY, GREY = COLOURS = (
@@ -49,6 +56,9 @@ RC = {
 }
 SIZE = (4.2, 3.0)
 """Width and height of a figure, inches: a little over a column of a paper."""
+KINDS = ("png", "pdf", "svg")
+MOST_POINTS = 500
+"""Of a curve that are kept for the read-out of a page."""
 
 
 @dataclass
@@ -69,6 +79,7 @@ class Drawn:
 
 
 _drawn: WeakKeyDictionary[Axes, Drawn] = WeakKeyDictionary()
+_made: WeakKeyDictionary[Figure, dict[str, bytes]] = WeakKeyDictionary()
 
 
 def drawn(ax: Axes) -> Drawn:
@@ -92,15 +103,6 @@ def drawn_into(ax: Axes | None, draw: Callable[[Axes], bool], where: str, name: 
     return ax
 
 
-def figure() -> tuple[Figure, Axes]:
-    """A figure of the package's size that belongs to no window.
-
-    The frame has a fixed place, so that the figures of a page or a paper line up.
-    """
-    made = Figure(figsize=SIZE)
-    return made, made.add_axes((0.165, 0.155, 0.805, 0.815))
-
-
 def plain(text: str) -> str:
     """A label without its mathematical markup."""
     return re.sub(r"[${}\\]|mathrm|_(?=\{)", "", text)
@@ -121,8 +123,8 @@ def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-
 
 
 def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool = True, zero: bool = False) -> bool:
-    """Labels, minor ticks and the legend; True, as of a plot that is drawn. log: "x", "y" or "xy" of the logarithmic axes;
-    zero: with a line at y = 0."""
+    """Labels, minor ticks and the legend; True, as of a plot that is drawn. log: "x", "y" or "xy" of the logarithmic
+    axes; zero: with a line at y = 0."""
     if zero:
         ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     ax.set_xlabel(x)
@@ -169,11 +171,95 @@ def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, high: 
     ax.tick_params(which="both", direction="out", top=False, right=False)
     finish(ax, "x (nm)", "y (nm)", legend=False)
     if words:
-        ax.legend(handles=[Patch(facecolor=cmap(i), edgecolor=INK, linewidth=0.5, label=w) for i, w in enumerate(words)],
-                  loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
+        patches = [Patch(facecolor=cmap(i), edgecolor=INK, linewidth=0.5, label=word) for i, word in enumerate(words)]
+        ax.legend(handles=patches, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
     else:
         inside = finite.size and finite.min() >= low and finite.max() <= high
         ax.figure.colorbar(shown, ax=ax, label=label, extend="neither" if inside else "both", aspect=25)
     kept = drawn(ax)
     kept.map, kept.unit = values, label
     return True
+
+
+def make(draw: Callable[[Axes], bool]) -> Figure | None:
+    """The figure that a function draws; None if it had nothing to draw."""
+    with style():
+        fig = Figure(figsize=SIZE)  # of no window; its frame has a fixed place, so that the figures of a page line up
+        return fig if draw(fig.add_axes((0.165, 0.155, 0.805, 0.815))) else None
+
+
+def _bytes(fig: Figure, kind: str) -> bytes:
+    kept = _made.setdefault(fig, {})  # the SVG is wanted twice
+    if kind not in kept:
+        stream = io.BytesIO()
+        when = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})
+        with style():
+            fig.savefig(stream, format=kind, metadata=when)
+        kept[kind] = stream.getvalue()
+    return kept[kind]
+
+
+def save(fig: Figure, stem: Path, kinds: tuple[str, ...] = KINDS) -> list[Path]:
+    """Writes stem.png, .pdf, .svg; their paths."""
+    written = []
+    for kind in kinds:
+        written.append(stem.with_name(f"{stem.name}.{kind}"))
+        files.write(written[-1], _bytes(fig, kind))
+    return written
+
+
+def csv(fig: Figure) -> str:
+    """What is in a figure: two columns a curve, three where it has a spread; of a map its matrix."""
+    ax = fig.axes[0]
+    kept = drawn(ax)
+    if kept.map is not None:
+        return files.csv_text(kept.map, 6)
+    heads: list[str] = []
+    columns: list[np.ndarray] = []
+    x, y = plain(ax.get_xlabel()), plain(ax.get_ylabel())
+    for one in kept.curves:
+        name = f"{one.label}: {y}" if one.label else y
+        heads += [x, name]
+        columns += [one.x, one.y]
+        if one.spread is not None:
+            heads.append(name + ", deviation over seeds and uncertainty of a run, added in squares")
+            columns.append(one.spread)
+    return files.csv_text([heads, *itertools.zip_longest(*columns, fillvalue=np.nan)], 9)
+
+
+def inline_svg(fig: Figure) -> str:
+    """The figure as SVG whose colours are those of the page around it (var(--ink), var(--c0), ...)."""
+    text = _bytes(fig, "svg").decode()
+    text = text[text.index("<svg"):]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
+    text = re.sub(r'(<svg[^>]*?) width="[^"]*" height="[^"]*"|(<svg[^>]*?) height="[^"]*"([^>]*?) width="[^"]*"',
+                  lambda m: (m[1] or m[2] + m[3]), text, count=1)
+    for i, colour in enumerate(COLOURS):
+        text = text.replace(colour, f"var(--c{i})")
+    return text.replace(INK, "var(--ink)").replace(PAPER, "var(--paper)")
+
+
+def readout(fig: Figure) -> str:
+    """What a page needs to tell the values under the pointer, as JSON: the frame in parts of the figure,
+    the axes' limits, and the curves thinned, or the map in 16 bits."""
+    ax = fig.axes[0]
+    box, kept = ax.get_position(), drawn(ax)
+    data: dict[str, Any] = {
+        "frame": [round(v, 5) for v in (box.x0, 1 - box.y1, box.x1, 1 - box.y0)],
+        "x": [*ax.get_xlim(), ax.get_xscale()], "y": [*ax.get_ylim(), ax.get_yscale()]}
+    if kept.map is not None:
+        values = kept.map[:: max(1, len(kept.map) // 128), :: max(1, len(kept.map) // 128)]
+        finite = values[np.isfinite(values)]
+        low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
+        scaled = np.where(np.isfinite(values), 65534 * (values - low) / ((high - low) or 1), 65535)
+        data["map"] = {"n": len(values), "low": low, "high": high, "unit": kept.unit,
+                       "values": base64.b64encode(np.round(scaled).astype("<u2").tobytes()).decode()}
+    else:
+        data["curves"] = []
+        for one in kept.curves:
+            keep = np.isfinite(one.x) & np.isfinite(one.y)
+            x, y = one.x[keep], one.y[keep]
+            some = slice(None, None, 1 + len(x) // MOST_POINTS)
+            data["curves"].append([one.label, [[float("%.5g" % a), float("%.5g" % b)]
+                                               for a, b in zip(x[some], y[some])]])
+    return json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")

@@ -17,23 +17,23 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import files as writing
-from .. import program
+from .. import files, program
 from ..grid import shown
 from ..result import load_words
 from ..sweeps import Sweep
 from ..tables import Table
 from ..units import NANONEWTON
 from ..units import shown as shown_unit
-from . import files
-from .style import BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, finish
+from .style import (BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, finish, make,
+                    save)
 
 MOST_CURVES = len(COLOURS)
 
 
 @dataclass
 class Trace:
-    """A quantity of the points: a column of the table over `unit`. In its label, {at} and {under} are the words of load_words."""
+    """A quantity of the points: a column of the table over `unit`. In its label, {at} and {under} are those of
+    load_words."""
 
     label: str
     column: str
@@ -55,7 +55,8 @@ class Trace:
         """Means, and error bars: the spread over the seeds and the mean uncertainty of one, as independent errors."""
         values = self.values(table)
         energy = table.values(self.column.removesuffix("_ratio"))
-        error = table.values(self.uncertainty) * np.abs(np.divide(values, energy, where=energy != 0, out=energy * np.nan))
+        over = np.divide(values, energy, where=energy != 0, out=energy * np.nan)
+        error = table.values(self.uncertainty) * np.abs(over)
         mean, deviation, _ = table.average(values)
         bars = np.array([deviation, table.average(error).mean])
         return mean, np.where(np.isfinite(bars).any(axis=0), np.sqrt(np.nansum(bars**2, axis=0)), np.nan)
@@ -160,7 +161,7 @@ def _trace(ax: Axes, table: Table, x: str, trace: Trace, colours: dict[str, str]
 
 
 def _agree(one: dict[str, float], other: dict[str, float]) -> bool:
-    """Whether two curves, {point: value}, agree: at the same points, or at different values that they have in common."""
+    """Whether two curves, {point: value}, agree: at the same points, or at different values that both have."""
     both = np.array([(one[point], other[point]) for point in one.keys() & other.keys()]).reshape(-1, 2)
     enough = one.keys() == other.keys() or (len(both) and np.ptp(np.nan_to_num(both)) > 1e-6)
     return bool(enough) and np.allclose(*both.T, rtol=1e-6, atol=1e-9, equal_nan=True)
@@ -230,7 +231,8 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     for trace in lines:
         for number, group in enumerate(_theories(shared, trace)):
             name = ", ".join(sweep.name for sweep in group)
-            look = replace(trace, label=f"{name}: " * (len(group) < len(shared)) + trace.label.format(**words(group[0])))
+            label = f"{name}: " * (len(group) < len(shared)) + trace.label.format(**words(group[0]))
+            look = replace(trace, label=label)
             if number:  # a further theory: another colour, the same for all of it, and other dashes
                 look.line = unused(DASHES, dashes, trace.line)
                 look.colour = of_theory[name] = of_theory.get(name) or unused(COLOURS[::-1], used, trace.colour)
@@ -275,9 +277,8 @@ def write_plots(directory: Path, sweeps: Sequence[Sweep]) -> tuple[list[Path], s
     note = parts_of(sweeps)[2]
     written = []
     for name in names(sweeps):
-        fig = files.make(lambda ax: plot(sweeps, name, ax))
+        fig = make(lambda ax: plot(sweeps, name, ax))
         if fig is not None:
-            writing.directory(directory)
-            files.save(fig, directory / name)
+            save(fig, files.directory(directory) / name)
             written.append(directory / f"{name}.svg")
     return written, note
