@@ -15,6 +15,7 @@ from rules import blank, closing, code_of_cpp
 HEADER = Path(__file__).resolve().parent / "planted.hpp"
 OPENING, CLOSING = "([{", ")]}"
 ASSIGNMENT = re.compile(r"(?<![=<>!])(?:[-+*/%|&^]|<<|>>)?=(?!=)")
+CONSTANT = re.compile(r"\s*(?:static |inline )*constexpr\b[^()]*=")  # the compiler's own
 CONTROL = re.compile(r"\s*(?:else\b|(?:if|for|while)\s*(?=\())")
 
 
@@ -103,6 +104,8 @@ def plant_cpp(text, mutants):
         start = starts[m.line - 1] + m.column
         left, right, kind = slot(code, m, start, start + len(m.old))
         changed = plain[left:start] + m.new + plain[start + len(m.old):right]
+        if any(CONSTANT.match(code, max(code.rfind(c, 0, left) for c in ends) + 1, left) for ends in (";}", ";}{")):
+            continue
         if all((left, right) == p[:2] or right <= p[0] or p[1] <= left for p in places.values()):
             places[number] = (left, right, kind, changed)
     by_slot = {}
@@ -113,12 +116,6 @@ def plant_cpp(text, mutants):
         for number, kind, changed in choices:
             new = chosen(kind, number, changed, new)
         text = text[:left] + new + text[right:]
-        # A constant that can be changed is none to the compiler.
-        before = max(text.rfind(c, 0, left) for c in ";}{") + 1
-        declared = re.match(r"\s*(?:static |inline )*constexpr (?=[\w:<>, ]+ \w+ = )", text[before:left])
-        if declared:
-            word = text.index("constexpr", before)
-            text = text[:word] + "const" + text[word + 9:]
     text = re.sub(r"^//[^\n]*", f'#include "{HEADER}"', text, count=1)
     lines = {}
     for number in places:
