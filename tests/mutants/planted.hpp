@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Which of the mutants that planting.py writes into a copy of the sources is on: the one whose number the environment
-// variable MUTANT_ON has. Every mutant that a process comes to is marked in the file MUTANTS_REACHED, one byte each.
+// Which of the mutants that planting.py writes into a copy of the sources is on: the one whose
+// number the environment variable MUTANT_ON has. Every mutant that a process comes to is marked in
+// the file MUTANTS_REACHED, one byte each.
 #pragma once
 
 #include <cstdlib>
