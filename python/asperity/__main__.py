@@ -130,8 +130,7 @@ def _carry_out(given: argparse.Namespace) -> int:
         print(convert(given.source, given.target))
         return 0
     from .pool import PoolOptions, executor_of
-    from .report_cost import cost_command
-    from .report_sweep import sweep_command
+    from .commands import cost_command, sweep_command
     from .terminal import Progress, parse_duration
 
     Progress(given.progress)  # refuses what is no mode before anything is done

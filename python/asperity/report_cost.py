@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""`asperity cost`, and what it leaves behind: cost.csv, cost.json, its figures, and the tables on the terminal."""
+"""What `asperity cost` leaves behind: cost.csv, cost.json, its figures, and the tables on the terminal."""
 
 from __future__ import annotations
 
@@ -11,13 +11,12 @@ from typing import Any
 
 from matplotlib.axes import Axes
 
-from . import files, program, terminal
-from .cost import TARGETS, Cost, Runs, Search, errors_of, target_of
-from .cost_parameters import ASKED, NAN, QUANTITIES, Row, cost_case
-from .errors import SceneError
+from . import files, terminal
+from .cost import TARGETS, Cost, Search, errors_of
+from .cost_parameters import ASKED, NAN, QUANTITIES
 from .plots import style as figures
 from .plots.style import BLUE, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, finish
-from .pool import FAILED, PHYSICS, STOPPED, PoolOptions
+from .pool import FAILED
 
 GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"),
           ("layers, block model", ("layers", "model"), RED, "s"), ("time step", ("timestep",), GREEN, "^"),
@@ -170,41 +169,3 @@ def answer_of(cost: Cost, asked: Search) -> str:
     return (f"The cheapest settings within {target} ({varied}): error {percent(row.error[asked.base.question])} % of "
             f"the reference,\n{row.seconds:.2f} s: {row.seconds / scene:.2f} of the scene's time, "
             f"{row.seconds / reference:.2f} of the reference's.\n{row.text}")
-
-
-def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
-                 target: str | None = None) -> int:
-    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the
-    target."""
-    asked = None if target is None else target_of(target)
-    found = program.check(scene, overrides)
-    case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
-    if found["problems"]:
-        raise SceneError("\n".join(found["problems"]))
-    cost = Cost(found["name"], found["scene"], case)
-    cost.rows = [Row("reference", "reference", case.reference, case.reference, compared=False),
-                 Row("scene", "as it is", [], []), *(row for parameter in case.parameters for row in parameter.rows)]
-    directory = files.chosen(out, f"results/{cost.name}-cost")
-    print(f"reference: {case.reference_text}", flush=True)
-    with files.in_use(directory):
-        runs = Runs(scene, overrides, directory, options)
-        complete = runs.run(cost.rows)
-        reference = cost.rows[0].outcome
-        if complete and reference.status == FAILED:
-            print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
-            return reference.exit_code
-        cost.compare()
-        searches = [cost.search(base, t) for base in case.bases for t in (TARGETS if asked is None else [asked])]
-        if asked is not None:
-            cost.asked = searches[0]
-        complete = complete and cost.choose(searches, runs.run)
-        written = write(cost, directory)
-    print(text_of(cost))
-    print(f"in {directory}:" + "".join(f" {name}" for name in written))
-    if not complete:
-        print("Stopped early: the same command goes on from here.")
-        return STOPPED
-    if cost.asked is None:
-        return 0
-    print("\n" + answer_of(cost, cost.asked))
-    return 0 if cost.asked.chosen else PHYSICS

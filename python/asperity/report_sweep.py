@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What a sweep says when it has ended, and its page: its plots and table from sweep.json; of the points' own
-directories, one point for all seeds: contact maps, force curves, and pages to go to."""
+"""The page of a sweep: its plots and table from sweep.json; of the points' own directories, one point for all
+seeds: contact maps, force curves, and pages to go to."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from .page import Page, file_name, minus
 from .plots import run as run_plots
 from .plots import sweep as plots
 from .plots.style import COLOURS, CONTACT, DASHES, GREY, KINDS, curve, finish
-from .pool import DONE, FAILED, STOPPED, PoolOptions
+from .pool import DONE, FAILED
 from .report import end, write_run_page
 from .result import Result, Values, expect
 from .scene import toml_of
-from .sweeps import TABLES, Carried, Sweep, load_sweeps
+from .sweeps import Sweep, load_sweeps
 from .tables import Table, text_of
 from .sentences import KeyNumber
 
@@ -219,31 +219,3 @@ def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
         return write_sweep_page(directory, kinds)
     expect(directory, "result.json", "sweep.json")
     return write_run_page(Result(directory), kinds)
-
-
-def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
-    """`asperity sweep`: its exit code, 75 if stopped before the end, else that of the first failure."""
-    done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True))
-    written, note = plots.write_plots(done.place, done.sweeps)
-    for sweep in done.sweeps:
-        print()
-        sweep.print_table()
-        for said in sweep.notes:
-            print(f"note: {said}")
-        if len(sweep.run.get("programs", {})) > 1:
-            print("note: points are by several programs: "
-                  + ", ".join(f"{git} ({count})" for git, count in sweep.run["programs"].items()))
-    if note:
-        print(f"note: {note}")
-    failed = [(job, outcome) for job, outcome in zip(done.jobs, done.outcomes) if outcome.status == FAILED]
-    for job, outcome in failed:
-        print(f"failed: {job.name} (exit {outcome.exit_code}): {outcome.reason}")
-    if theory_only:
-        print(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
-    else:
-        print(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
-    print(f"tables: {TABLES}; plots:" + "".join(f" {path.name}" for path in written))
-    if not done.complete:
-        print("Stopped early: the same command goes on from here.")
-        return STOPPED
-    return next((outcome.exit_code for _, outcome in failed), 0)

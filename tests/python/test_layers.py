@@ -13,7 +13,7 @@ ORDER = """errors units terminal
     result grid
     pool runs tables sweeps cost_parameters cost
     plots.__init__ plots.style plots.run plots.sweep
-    page sentences report report_cost report_sweep export
+    page sentences report report_cost report_sweep export commands
     forms engine __init__ __main__""".split()
 PLACE = {name: place for place, name in enumerate(ORDER)}
 

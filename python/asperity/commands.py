@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity sweep` and `cost`: each carries out, writes, prints, and returns the exit code."""
+
+from __future__ import annotations
+
+from . import files, program
+from .cost import TARGETS, Cost, Runs, target_of
+from .cost_parameters import Row, cost_case
+from .errors import SceneError
+from .plots.sweep import write_plots
+from .pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
+from .report_cost import answer_of, text_of, write
+from .sweeps import TABLES, Carried
+
+
+def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
+    """`asperity sweep`: its exit code, 75 if stopped before the end, else that of the first failure."""
+    done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True))
+    written, note = write_plots(done.place, done.sweeps)
+    for sweep in done.sweeps:
+        print()
+        sweep.print_table()
+        for said in sweep.notes:
+            print(f"note: {said}")
+        if len(sweep.run.get("programs", {})) > 1:
+            print("note: points are by several programs: "
+                  + ", ".join(f"{git} ({count})" for git, count in sweep.run["programs"].items()))
+    if note:
+        print(f"note: {note}")
+    failed = [(job, outcome) for job, outcome in zip(done.jobs, done.outcomes) if outcome.status == FAILED]
+    for job, outcome in failed:
+        print(f"failed: {job.name} (exit {outcome.exit_code}): {outcome.reason}")
+    if theory_only:
+        print(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
+    else:
+        print(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
+    print(f"tables: {TABLES}; plots:" + "".join(f" {path.name}" for path in written))
+    if not done.complete:
+        print("Stopped early: the same command goes on from here.")
+        return STOPPED
+    return next((outcome.exit_code for _, outcome in failed), 0)
+
+
+def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
+                 target: str | None = None) -> int:
+    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the
+    target."""
+    asked = None if target is None else target_of(target)
+    found = program.check(scene, overrides)
+    case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
+    if found["problems"]:
+        raise SceneError("\n".join(found["problems"]))
+    cost = Cost(found["name"], found["scene"], case)
+    cost.rows = [Row("reference", "reference", case.reference, case.reference, compared=False),
+                 Row("scene", "as it is", [], []), *(row for parameter in case.parameters for row in parameter.rows)]
+    directory = files.chosen(out, f"results/{cost.name}-cost")
+    print(f"reference: {case.reference_text}", flush=True)
+    with files.in_use(directory):
+        runs = Runs(scene, overrides, directory, options)
+        complete = runs.run(cost.rows)
+        reference = cost.rows[0].outcome
+        if complete and reference.status == FAILED:
+            print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
+            return reference.exit_code
+        cost.compare()
+        searches = [cost.search(base, t) for base in case.bases for t in (TARGETS if asked is None else [asked])]
+        if asked is not None:
+            cost.asked = searches[0]
+        complete = complete and cost.choose(searches, runs.run)
+        written = write(cost, directory)
+    print(text_of(cost))
+    print(f"in {directory}:" + "".join(f" {name}" for name in written))
+    if not complete:
+        print("Stopped early: the same command goes on from here.")
+        return STOPPED
+    if cost.asked is None:
+        return 0
+    print("\n" + answer_of(cost, cost.asked))
+    return 0 if cost.asked.chosen else PHYSICS
