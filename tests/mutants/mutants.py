@@ -34,7 +34,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from planting import HEADER, plant
+from planting import plant
 from rules import LAYERS, ROOT, sample
 
 PLACES = 4096  # planted.hpp
@@ -91,6 +91,7 @@ class Copy:
                     files[mutant.file] = text.encode()
                     lines |= where
             self.write(files)
+            (self.build / "CMakeCache.txt").unlink(missing_ok=True)  # options of another start
             subprocess.run(["cmake", "-G", "Ninja", "-S", self.source, "-B", self.build, *options], check=True,
                            stdout=subprocess.DEVNULL)
             log = self.place / "build.log"
@@ -98,8 +99,9 @@ class Copy:
                 made = subprocess.run(["ninja", "-C", self.build, "-j", str(self.jobs), "-k", "0"], stdout=out)
             if made.returncode == 0:
                 return planted
-            places = set(  # of sources, and of headers as a layer's tests and dependants see them
-                re.findall(r"^(?:\.\./\.\./|.*layers/\w+/)(\w+/[\w/]+\.[ch]pp):(\d+):\d+: error", log.read_text(), re.M))
+            # Of sources, and of headers as a layer's tests and dependants see them.
+            error = r"^(?:\.\./\.\./|.*layers/\w+/)(\w+/[\w/]+\.[ch]pp):(\d+):\d+: error"
+            places = set(re.findall(error, log.read_text(), re.M))
             wrong = {n for n in planted if any(planted[n].file == f and int(line) in lines[n] for f, line in places)}
             if not wrong:
                 sys.exit(f"the copy does not build: {log}")
@@ -128,8 +130,8 @@ class Copy:
             resource.setrlimit(resource.RLIMIT_FSIZE, (2**31, 2**31))
             resource.setrlimit(resource.RLIMIT_CPU, (int(limit), int(limit) + 5))
         properties = self.tests[test]
-        env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(HEADER.parent), "GTEST_FAIL_FAST": "1",
-               "PYTEST_ADDOPTS": "-x", **environment, **dict(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))}
+        env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "GTEST_FAIL_FAST": "1", "PYTEST_ADDOPTS": "-x",
+               **environment, **dict(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))}
         start = time.monotonic()
         process = subprocess.Popen(properties["command"], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT,
                                    cwd=properties.get("WORKING_DIRECTORY", self.build), start_new_session=True,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Writes many mutants into one copy of the sources; planted.hpp and sitecustomize.py choose one at run time.
+"""Writes many mutants into one copy of the sources; planted.hpp and planted.py choose one at run time.
 
 A changed expression becomes `(planted::mutant(7) ? CHANGED : AS IT WAS)`, a deleted statement
 `{ if (!planted::mutant(7)) { AS IT WAS } }`. In C++ the expression is found by its brackets, commas and
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from rules import blank, closing, code_of_cpp
 
-HEADER = Path(__file__).resolve().parent / "planted.hpp"
+HEADER, RUNTIME = (Path(__file__).resolve().parent / name for name in ("planted.hpp", "planted.py"))
 OPENING, CLOSING = "([{", ")]}"
 ASSIGNMENT = re.compile(r"(?<![=<>!])(?:[-+*/%|&^]|<<|>>)?=(?!=)")
 CONSTANT = re.compile(r"\s*(?:static |inline )*constexpr\b[^()]*=")  # the compiler's own
@@ -94,7 +94,7 @@ def chosen(kind, number, changed, old):
 
 
 def plant_cpp(text, mutants):
-    """The text with those of mutants {number: mutant} that have a place of their own, and {number: lines they stand on}."""
+    """The text with those of mutants {number: mutant} that have a place of their own, and {number: its lines}."""
     code, plain = code_of_cpp(text), without_comments(text)
     starts = [0]
     for line in text.split("\n"):
@@ -174,6 +174,10 @@ def plant_python(text, mutants):
             setattr(parent, field, choice)
         else:
             getattr(parent, field)[i] = choice
+    # Behind the imports from __future__. By its path: tests set the module path themselves.
+    first = 1 + max((i for i, node in enumerate(tree.body) if getattr(node, "module", "") == "__future__"),
+                    default=0 if ast.get_docstring(tree) else -1)
+    tree.body[first:first] = ast.parse(f"_mutant = __import__('runpy').run_path({str(RUNTIME)!r})['mutant']").body
     return ast.unparse(ast.fix_missing_locations(tree)) + "\n", {number: () for number in paths}
 
 

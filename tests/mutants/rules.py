@@ -185,7 +185,8 @@ def parses(text):
 
 def sample(folders, seed):
     """All mutants of these folders, in the order of the seed."""
-    listed = subprocess.run(["git", "-C", ROOT, "ls-files", *folders], check=True, capture_output=True, text=True).stdout
+    listed = subprocess.run(["git", "-C", ROOT, "ls-files", *folders], check=True, capture_output=True,
+                            text=True).stdout
     found = []
     for name in sorted(listed.split()):
         if name.endswith((".cpp", ".hpp", ".py")) and not name.startswith(TEXT):
