@@ -10,6 +10,8 @@
 #include <span>
 #include <string>
 
+#include <unistd.h>
+
 namespace asperity::test {
 
 /// The ranks of this run; one if the test was started without mpirun.
@@ -24,27 +26,25 @@ auto from_root(const Make& make) {
     return value;
 }
 
-/// A directory that all ranks see; the root removes it again.
+/// A directory that all ranks see and no other process takes; the root removes it again.
 class SharedScratch {
 public:
-    explicit SharedScratch(const char* name)
-        : directory(std::string(name) + "_ranks" + std::to_string(world().size())) {
-        remove();
+    explicit SharedScratch(const std::string& name)
+        : directory(
+              std::filesystem::temp_directory_path() /
+              ("asperity-" + name + "-" + std::to_string(from_root([] { return ::getpid(); })))) {
         if (world().root()) std::filesystem::create_directory(directory);
         world().barrier();
     }
-    ~SharedScratch() { remove(); }
-    SharedScratch(const SharedScratch&) = delete;
-    SharedScratch& operator=(const SharedScratch&) = delete;
-    const std::string directory, file = directory + "/checkpoint.h5";
-
-private:
-    void remove() const {
+    ~SharedScratch() {
         world().barrier();
         std::error_code ignored;
         if (world().root()) std::filesystem::remove_all(directory, ignored);
         world().barrier();
     }
+    SharedScratch(const SharedScratch&) = delete;
+    SharedScratch& operator=(const SharedScratch&) = delete;
+    const std::string directory, file = directory + "/checkpoint.h5";
 };
 
 } // namespace asperity::test
