@@ -96,6 +96,13 @@ def complete(app, page, source):
         source[0] += made()
 
 
+def whole_words(app, page, template, context, doctree):
+    """Commands, which the style sheet wraps, break at blanks alone, not behind the dashes of an option."""
+    command = r'(?<=<div class="highlight-none notranslate"><div class="highlight"><pre>).*?(?=</pre>)'
+    context["body"] = re.sub(command, lambda text: re.sub(r"\S+", r'<span class="pre">\g<0></span>', text[0]),
+                             context.get("body", ""), flags=re.S)
+
+
 def docstring(app, what, name, thing, options, lines):
     """Our docstrings are plain text: examples are indented, lists of arguments have two blanks behind the name."""
     out = []
@@ -107,4 +114,5 @@ def docstring(app, what, name, thing, options, lines):
 
 def setup(app):
     app.connect("source-read", complete)
+    app.connect("html-page-context", whole_words)
     app.connect("autodoc-process-docstring", docstring)
