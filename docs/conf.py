@@ -30,6 +30,8 @@ version = re.search(r"project\(\w+\s+VERSION ([\d.]+)", (root / "CMakeLists.txt"
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
+smartquotes = False  # options keep their dashes, examples their quotes
+default_role = "code"  # of docstrings
 suppress_warnings = ["myst.header"]  # a page that is completed here may begin its second part below "#"
 highlight_language = "none"
 html_theme = "furo"
@@ -76,6 +78,7 @@ def header() -> str:
             name = re.match(r"(?:class|struct) (\w+)", code[0]) or re.search(r"(\w+)\(", code[0])
             public = re.sub(r"\nprivate:\n.*(?=\n};)", "", "\n".join(code), flags=re.S)
             public = re.sub(r"\n *(class Inside;|const Inside& inside.*)(?=\n)", "", public)
+            public = re.sub(r"\n+(?=\n};)", "", public)
             example = "\n".join(text for text in comment if text.startswith("    "))
             out += [f"\n## {name[1]}\n\n", "\n".join(text for text in comment if not text.startswith("    "))]
             out += [f"\n\n```cpp\n{text}\n```\n" for text in (example, public) if text]
@@ -83,19 +86,21 @@ def header() -> str:
     return "".join(out)
 
 
-def outside(link):
-    """A link to a Markdown file that is no page of the site: its text and the file's name."""
-    text, file = link.groups()
-    return f"`{file}`" if text in file else f"{text} (`{file}`)"
-
-
 def complete(app, page, source):
-    """A page before it is parsed: what is generated comes behind the text of its page."""
+    """A page before it is parsed: of a link to a Markdown file that is no page of the site the file's name is left;
+    what is generated comes behind the text of its page."""
     up = re.escape("../" * (page.count("/") + 1))
-    source[0] = re.sub(rf"\[([^\]]+)\]\({up}([^)#]+\.md)(?:#[^)]*)?\)", outside, source[0])
+    source[0] = re.sub(rf"\[[^\]]+\]\({up}([^)#]+\.md)(?:#[^)]*)?\)", r"`\1`", source[0])
     made = {"reference/command-line": commands, "reference/cpp": header}.get(page)
     if made:
         source[0] += made()
+
+
+def whole_words(app, page, template, context, doctree):
+    """Commands, which the style sheet wraps, break at blanks alone, not behind the dashes of an option."""
+    command = r'(?<=<div class="highlight-none notranslate"><div class="highlight"><pre>).*?(?=</pre>)'
+    context["body"] = re.sub(command, lambda text: re.sub(r"\S+", r'<span class="pre">\g<0></span>', text[0]),
+                             context.get("body", ""), flags=re.S)
 
 
 def docstring(app, what, name, thing, options, lines):
@@ -109,4 +114,5 @@ def docstring(app, what, name, thing, options, lines):
 
 def setup(app):
     app.connect("source-read", complete)
+    app.connect("html-page-context", whole_words)
     app.connect("autodoc-process-docstring", docstring)

@@ -21,6 +21,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.ticker import MaxNLocator  # noqa: E402
 
+if len(sys.argv) != 4:
+    sys.exit(__doc__)
 place, key, quantity = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
 rows = []
 for file in sorted(place.glob("**/result.json")):
@@ -29,7 +31,10 @@ for file in sorted(place.glob("**/result.json")):
     if value is None:
         print(f"left out: {file.parent} has no {quantity} ({run.stopped or 'failed or not computed'})")
         continue
-    rows.append((run.number("scene." + key), value, file.parent.name))
+    at = run.number("scene." + key)
+    if at is None:
+        sys.exit(f"{file.parent}: its scene has no number {key}; for example surface.seed")
+    rows.append((at, value, file.parent.name))
 if not rows:
     sys.exit(f"{place}: no run has {quantity}")
 rows.sort()

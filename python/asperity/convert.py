@@ -306,6 +306,8 @@ def _found(source: str) -> dict:
         raise
     except BrokenProcessPool:
         raise _refuse(source, "cannot be read", "the HDF5 library crashed on it: it is damaged") from None
+    except FileNotFoundError:
+        raise _refuse(source, "cannot be read", "there is no such file", "check the path") from None
     except Exception as error:  # every library has its own
         raise _refuse(source, "cannot be read", f"{type(error).__name__}: {error}") from None
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Errors. Each has the exit code of the command it ends, as in the program, and a message of one grammar:
+"""Errors.
+
+Each has the exit code of the command it ends, as in the program, and a message of one grammar:
 
     <where>: what is wrong
         why: the reason, with the values
