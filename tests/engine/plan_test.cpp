@@ -163,3 +163,25 @@ TEST(Plan, AllWorkIsSharedAmongTheThreads) {
     expect_shared(shared.block, one.block);
     expect_shared(shared.state, one.state);
 }
+
+TEST(Plan, ProgressGoesWithTheTimeOfTheRun) {
+    // The top moves at one speed: of the whole path as much is done as of the steps.
+    const io::Scratch scratch;
+    std::vector<std::pair<long long, double>> told;
+    RunOptions options;
+    options.out = scratch / "run";
+    options.progress = io::ProgressMode::off;
+    options.silent = true;
+    options.listener = [&](const io::Progress::State& now) {
+        told.emplace_back(now.steps, now.fraction);
+    };
+    const Case c = case_with({"surface.sites=64", "block.thickness=32", "drive.velocity=50",
+                              "drive.timestep=10", "output.fields=[]", "output.series=100"});
+    ASSERT_EQ(run(c, options, Communicator()), io::exit_code::done);
+    const std::string result = io::contents(options.out + "/result.json");
+    const double all = test::number(io::parse_json(result, "result.json"), "run.steps");
+    ASSERT_GT(told.size(), 4u);
+    for (const auto& [steps, fraction] : told)
+        EXPECT_NEAR(fraction, static_cast<double>(steps) / all, 0.2) << steps << " of " << all;
+    EXPECT_GT(told.back().second, 0.8);
+}
