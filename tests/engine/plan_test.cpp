@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 using namespace asperity;
@@ -173,7 +175,7 @@ TEST(Plan, ProgressGoesWithTheTimeOfTheRun) {
     options.progress = io::ProgressMode::off;
     options.silent = true;
     options.listener = [&](const io::Progress::State& now) {
-        told.emplace_back(now.steps, now.fraction);
+        if (now.time_fs > 0.0) told.emplace_back(now.steps, now.fraction); // else it relaxes
     };
     const Case c = case_with({"surface.sites=64", "block.thickness=32", "drive.velocity=50",
                               "drive.timestep=10", "output.fields=[]", "output.series=100"});
@@ -181,7 +183,9 @@ TEST(Plan, ProgressGoesWithTheTimeOfTheRun) {
     const std::string result = io::contents(options.out + "/result.json");
     const double all = test::number(io::parse_json(result, "result.json"), "run.steps");
     ASSERT_GT(told.size(), 4u);
+    double worst = 0.0;
     for (const auto& [steps, fraction] : told)
-        EXPECT_NEAR(fraction, static_cast<double>(steps) / all, 0.2) << steps << " of " << all;
+        worst = std::max(worst, std::abs(fraction - static_cast<double>(steps) / all));
+    EXPECT_LT(worst, 0.2);
     EXPECT_GT(told.back().second, 0.8);
 }
