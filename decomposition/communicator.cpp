@@ -212,21 +212,17 @@ void Communicator::abort(int exit_code) const {
 
 void Communicator::on_root(const std::function<void()>& work) const {
     std::exception_ptr failure;
-    std::string text;
     if (root()) {
         try {
             work();
-        } catch (const std::exception& e) {
+        } catch (const std::exception&) {
             failure = std::current_exception();
-            text = e.what();
-            if (text.empty()) text = "unknown error on the root";
         }
     }
-    std::int64_t length = static_cast<std::int64_t>(text.size());
-    broadcast(std::as_writable_bytes(std::span(&length, 1)));
-    if (length == 0) return;
+    bool failed = failure != nullptr;
+    broadcast(std::as_writable_bytes(std::span(&failed, 1)));
     if (failure) std::rethrow_exception(failure);
-    throw RootFailure("the root rank failed");
+    if (failed) throw RootFailure("the root rank failed");
 }
 
 ParallelSession::ParallelSession(int& argc, char**& argv) {

@@ -120,7 +120,7 @@ def _half_way(table: Table, column: str) -> float | None:
     return None
 
 
-def _key_numbers(sweep: Sweep) -> list[KeyNumber]:
+def key_numbers(sweep: Sweep) -> list[KeyNumber]:
     """What a sweep over roughness alone comes to."""
     table, curves = sweep.table, sweep.curves
     if [k for k in sweep.axes if not is_seed(k)] != ["surface.rms"] or not table.along:
@@ -186,7 +186,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
     points = [_Points(sweep, directory) for sweep in sweeps]
     for sweep in sweeps:
         _notices(page, sweep)
-        page.add("numbers", _key_numbers(sweep))
+        page.add("numbers", key_numbers(sweep))
         for note in sweep.notes:
             page.add("paragraph", f"Note: {note}.")
     page.section("plots", "Adhesion and contact")

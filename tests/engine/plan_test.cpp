@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 using namespace asperity;
@@ -162,4 +164,28 @@ TEST(Plan, AllWorkIsSharedAmongTheThreads) {
     expect_shared(shared.making, one.making);
     expect_shared(shared.block, one.block);
     expect_shared(shared.state, one.state);
+}
+
+TEST(Plan, ProgressGoesWithTheTimeOfTheRun) {
+    // The top moves at one speed: of the whole path as much is done as of the steps.
+    const io::Scratch scratch;
+    std::vector<std::pair<long long, double>> told;
+    RunOptions options;
+    options.out = scratch / "run";
+    options.progress = io::ProgressMode::off;
+    options.silent = true;
+    options.listener = [&](const io::Progress::State& now) {
+        if (now.time_fs > 0.0) told.emplace_back(now.steps, now.fraction); // else it relaxes
+    };
+    const Case c = case_with({"surface.sites=64", "block.thickness=32", "drive.velocity=50",
+                              "drive.timestep=10", "output.fields=[]", "output.series=100"});
+    ASSERT_EQ(run(c, options, Communicator()), io::exit_code::done);
+    const std::string result = io::contents(options.out + "/result.json");
+    const double all = test::number(io::parse_json(result, "result.json"), "run.steps");
+    ASSERT_GT(told.size(), 4u);
+    double worst = 0.0;
+    for (const auto& [steps, fraction] : told)
+        worst = std::max(worst, std::abs(fraction - static_cast<double>(steps) / all));
+    EXPECT_LT(worst, 0.2);
+    EXPECT_GT(told.back().second, 0.8);
 }

@@ -408,6 +408,25 @@ TEST(StateSearch, WhatAShortSearchLeavesOutIsNotDeeper) {
     EXPECT_GT(several, 0);
 }
 
+TEST(StateSearch, GoesTheSameWayOverASurfaceTurnedRound) {
+    // A ridge along y and one along x: what each site may still gain is that of its own place.
+    for (const double height : {12.0, 30.0}) {
+        std::vector<StateList> found;
+        for (const bool along_y : {true, false}) {
+            const Surface ridge = test::surface_from(64, [=](int x, int y) {
+                const double away = 2.6 * ((along_y ? x : y) - 32);
+                return height * std::exp(-0.5 * away * away / 64.0);
+            });
+            Solids c(test::paper_block(64, 64, 0), ridge, Friction::without);
+            found.push_back(all_states(c, 0.25, false));
+        }
+        EXPECT_EQ(found[0].end, StateList::End::energy);
+        EXPECT_EQ(found[1].end, found[0].end);
+        EXPECT_EQ(found[1].points, found[0].points);
+        expect_same(found[0], found[1], 1e-6);
+    }
+}
+
 TEST(StateSearch, ALoadThatStretchesTheBlockIsNoInstability) {
     Solids c = two_states(Friction::without);
     Search s(c, 0.25, true, 100.0 * units::gigapascal * 1e-3 * area(c)); // 100 MPa

@@ -8,12 +8,16 @@
 //
 // in every mode, while the work of the interface, int F dz of the mean height, is the binding
 // energy itself where the surface moves as one, however much is lost.
+#include "engine/setup/case.hpp"
+#include "engine/units.hpp"
 #include "support/run_scene.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -107,6 +111,81 @@ TEST(Works, OfTheDriveTendToThoseWithoutTime) {
         EXPECT_NEAR(moving("work_of_adhesion.pull_off"), moving.state(), 0.01 * moving.state());
     }
     EXPECT_LT(before, 0.25);
+}
+
+/// What result.json says of each segment is what the rows of the series hold of it. In time a
+/// segment is concluded at the step after the one that ends it.
+void expect_segments_of_the_series(const Path& run, bool in_time, bool mean_height) {
+    const auto segment = run.series("segment"), force = run.series("force"),
+               work = run.series("work"), height = run.series("mean_height"),
+               top = run.series("top_displacement"), contact = run.series("contact_fraction"),
+               slide = run.series("slide_x"), lateral = run.series("lateral_force_x"),
+               lost = run.series(in_time ? "damped" : "dissipated");
+    const double energy = run.per_area(1.0);
+    const std::vector<Segment> path = resolve(run.scene()).path;
+    std::size_t begin = 0, first = 0;
+    for (std::size_t k = 0; k < path.size(); ++k) {
+        SCOPED_TRACE(path[k].text);
+        const io::Json& written = run.json["segments"][k];
+        const auto of = [&](const char* name) { return written.at(name).get<double>(); };
+        std::size_t behind = first;
+        double attraction = 0.0, hardest = 0.0;
+        for (; behind < segment.size() && segment[behind] <= static_cast<double>(k); ++behind) {
+            attraction = std::max(attraction, -force[behind]);
+            const double against = path[k].amount > 0.0 ? -lateral[behind] : lateral[behind];
+            hardest = std::max(hardest, against);
+        }
+        ASSERT_GT(behind, first);
+        const std::size_t end = in_time && behind < segment.size() ? behind : behind - 1;
+        double interface_work = 0.0, pushed = 0.0;
+        for (std::size_t i = begin + 1; i <= end; ++i) {
+            interface_work += 0.5 * (force[i] + force[i - 1]) * (height[i] - height[i - 1]);
+            pushed -= 0.5 * (lateral[i] + lateral[i - 1]) * (slide[i] - slide[i - 1]);
+        }
+        EXPECT_NEAR(of("work_of_drive"), energy * (work[end] - work[begin]), 1e-9);
+        EXPECT_NEAR(of("lost"), energy * (lost[end] - lost[begin]), 1e-9);
+        EXPECT_NEAR(of("pressure"), force[end] / run.area() / units::megapascal, 1e-9);
+        EXPECT_NEAR(of("mean_height"), height[end], 1e-9);
+        EXPECT_NEAR(of("top_displacement"), top[end], 1e-9);
+        EXPECT_NEAR(of("contact_fraction"), contact[end], 1e-12);
+        EXPECT_NEAR(of("largest_attraction"), attraction, 1e-9);
+        if (in_time || mean_height) {
+            EXPECT_NEAR(of("work_of_interface"), energy * interface_work, 0.02 * run.state());
+        }
+        if (path[k].kind == Segment::load) { // in time passed in one step, on the way down or up
+            const double beyond = (of("pressure") - path[k].amount) * (k == 1 ? 1.0 : -1.0);
+            EXPECT_GT(beyond, -1.0);
+            EXPECT_LT(beyond, in_time ? 250.0 : 1.0);
+        }
+        if (path[k].kind == Segment::slide) {
+            const double distance = std::abs(path[k].amount);
+            EXPECT_NEAR(of("friction") * distance, pushed, 0.05 * pushed);
+            EXPECT_NEAR(of("largest_friction"), hardest, 1e-9);
+            EXPECT_NEAR(written["slide"][0].get<double>(), slide[end], 1e-9);
+        }
+        if (path[k].kind == Segment::hold) {
+            const auto time = run.series("time");
+            EXPECT_NEAR(time[end] - time[begin], path[k].amount, 0.05);
+        }
+        begin = end;
+        first = behind;
+    }
+    EXPECT_EQ(first, segment.size());
+}
+
+TEST(Works, OfSegmentsAreThoseOfTheSeries) {
+    const std::string slid = "\"approach\", \"load 300 MPa\", \"slide x -1.2 Å\"",
+                      up = "\"load 100 MPa\", \"pull-off\"]\n", each = "\n[output]\nseries = 1\n";
+    const auto run = [&](const std::string& middle, const std::string& mode) {
+        return Path("[surface]\nsites = 12\nrms = 0.5\nseed = 4\n[block]\nthickness = 8\n"
+                    "[drive]\npath = [" +
+                    slid + middle + ", " + up + mode + each);
+    };
+    expect_segments_of_the_series(
+        run(", \"hold 2 ps\"", "velocity = 40\ntimestep = 20\ndamping = 0.5"), true, false);
+    expect_segments_of_the_series(run("", "mode = \"quasistatic\"\nhold = \"top\""), false, false);
+    expect_segments_of_the_series(run("", "mode = \"quasistatic\"\nhold = \"mean-height\""), false,
+                                  true);
 }
 
 TEST(Works, WithHeatOrALoadAreNotComparedWithTheState) {

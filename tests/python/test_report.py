@@ -14,7 +14,7 @@ import pytest
 
 import asperity
 from asperity import sentences
-from asperity.report_sweep import write_page
+from asperity.report_sweep import key_numbers, write_page
 from conftest import ROOT, SMALL, STATE, command, unsealed
 
 
@@ -271,6 +271,35 @@ def test_the_page_of_a_sweep(tmp_path):
     assert "Bars: standard deviation over seeds and uncertainty of a run, added in squares." in found.text
     assert "rms=0.2,seed=1 failed" in found.text and "the balance is off" in found.text
     assert "This sweep is not finished" in found.text
+
+
+def test_the_page_of_a_sweep_of_paths(tmp_path):
+    sweep = asperity.sweep(SMALL, {"surface.rms": [0.3, 0.6]}, out=tmp_path / "paths", jobs=2)
+    page(sweep.directory)
+    columns = np.genfromtxt(sweep.directory / "report/curves.csv", delimiter=",", names=True)
+    run = asperity.load(sweep.directory / "rms=0.3")
+    up = run.series["segment"] == run.segments.index("pull-off")
+    drawn = [columns[name][:up.sum()] for name in columns.dtype.names]
+    assert any(np.allclose(x, run.series["mean_height"][up], rtol=1e-8) for x in drawn)
+    assert len(drawn) == 8  # height and force of two approaches and two pull-offs
+
+
+@pytest.mark.parametrize("curved, says", [
+    (False, [("the binding energy is half of Δγ", "1.60", "theory: 1.40 Å, renormalised: 1.80 Å"),
+             ("half of the area is in contact", "1.90", "theory: 1.40 Å")]),
+    (True, [("γ by JKR, way out, is half of Δγ", "1.50", "theory: 1.40 Å, renormalised: 1.80 Å")])])
+def test_where_a_sweep_over_roughness_has_half(curved, says):
+    points = []
+    for rms, ratio in ((1.0, 0.8), (2.0, 0.3)):  # straight lines: the half is known
+        result = {"delta_gamma": 50.0, "binding_energy_ratio": ratio, "contact_fraction": ratio + 0.15}
+        if curved:
+            result |= {"contact_radius.zero_load": 20.0, "jkr.out_ratio": ratio - 0.05}
+        theory = {"delta_gamma": 50.0, "gamma_eff": 50.0 * ratio - 5.0, "contact_fraction": ratio - 0.1,
+                  "renormalised": {"gamma_eff_ratio": ratio + 0.1}}
+        points.append({"set": {"surface.rms": rms}, "delta_gamma": 50.0, "status": "done", "theory": theory,
+                       "directory": f"rms={rms}", "result": result})
+    found = key_numbers(asperity.Sweep("s", {"surface": {"rms": 1.0}}, ["surface.rms"], points, simulated=True))
+    assert [(n.name, n.value, n.note) for n in found] == [("rms where " + a, b, c) for a, b, c in says]
 
 
 def test_the_page_of_a_sweep_of_the_theory(tmp_path):

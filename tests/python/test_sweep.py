@@ -617,7 +617,10 @@ def test_a_point_that_fails_is_told_and_the_others_go_on(place):
              "--progress", "off", "--out", "part"]
     said = command(*words, expect=3)
     assert "failed: load=-8500 (exit 3)" in said and "1 of 2 points are done" in said
-    assert [p["status"] for p in load_sweep("part").points] == ["done", "failed"]
+    part = load_sweep("part")
+    assert [p["status"] for p in part.points] == ["done", "failed"]
+    assert "failure" not in part.points[0] and part.points[1]["failure"]["exit_code"] == 3
+    assert part.points[1]["failure"]["reason"] == asperity.load("part/load=-8500").failure_text.split("\n")[0]
     assert "1 failed before" in command(*words, expect=3)
 
 
@@ -648,5 +651,13 @@ def test_the_theory_alone(place):
     said = command("sweep", "state.toml", "--theory-only", "--set", "theory.area_factor=none,gaussian", "surface.rms=1",
                    "--out", "words")
     assert "no plots" in said and numbers("words")[0]["theory.area_factor"] == "none"
+    # Without values: a hundred roughnesses to a good way past the end of adhesion.
+    (place / "plain.toml").write_text("[surface]\nsites = 24\n")
+    command("sweep", "plain.toml", "--theory-only", "--out", "plain")
+    end = asperity.program.theory("plain.toml", [])["theory"]["critical_rms"]
+    rms = [float(r["surface.rms"]) for r in numbers("plain")]
+    assert len(rms) == 100 and 1.05 * end < rms[-1] < 2.0 * end
+    stored = json.loads((place / "plain/sweep.json").read_text())["run"]
+    assert stored["version"] in command("--version") and {"git", "compiler", "flags"} <= stored.keys()
     table = asperity.sweep(STATE, {"surface.rms": "0.5:2:0.5"}, out="py", theory_only=True).table
     assert len(table["gamma_eff"]) == 4 and (np.diff(table["gamma_eff"]) < 0).all()

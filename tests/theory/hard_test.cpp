@@ -56,6 +56,8 @@ TEST(Hard, HurstExponent) {
     for (double H : {0.0, 0.5, 1.0})
         expect_solved(with_spectrum(Spectrum::self_affine({q_L, 3 * q_L, 512 * q_L, H, 5})),
                       "H = " + std::to_string(H));
+    for (double H : {-1.01, 2.01, std::nan("")})
+        EXPECT_THROW(Spectrum::self_affine({q_L, 3 * q_L, 512 * q_L, H, 5}), InvalidInput) << H;
 }
 
 TEST(Hard, WidthOfTheSpectrum) {

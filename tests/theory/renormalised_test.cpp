@@ -221,6 +221,15 @@ TEST(Renormalised, ErrorEstimateIsHonest) {
     EXPECT_GT(s.gamma_ratio_error, 1e-9);
 }
 
+TEST(Renormalised, TheErrorOfAPressedStateIsNoLessThanTheToleranceOfItsValue) {
+    // Pressed to many times the work of adhesion, where the grids agree better than that.
+    RoughInterface pressed = wall(0.5, morse);
+    pressed.pressure = 3.0;
+    const RenormalisedState s = solve(pressed);
+    ASSERT_GT(std::abs(s.gamma_ratio), 3.0);
+    EXPECT_GE(s.gamma_ratio_error, 1e-4 * std::abs(s.gamma_ratio));
+}
+
 TEST(Renormalised, RoughnessOnlyWeakens) {
     double before = 1;
     for (double rms = 0.5; rms < 30; rms *= 1.3) {
