@@ -19,14 +19,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace asperity::io {
-
-class Hdf5Handle;
 
 class Hdf5File {
 public:
@@ -57,14 +56,11 @@ public:
     /// Attributes of a group or data set; written over if there.
     void write_attribute(const std::string& object, const std::string& name,
                          const Attribute& value);
-    bool has_attribute(const std::string& object, const std::string& name) const;
-    std::string read_text_attribute(const std::string& object, const std::string& name) const;
-    template <class T>
-    T read_attribute(const std::string& object, const std::string& name) const {
-        T value{};
-        read_attribute(object, name, type(value), &value);
-        return value;
-    }
+    /// Nothing: the object has no such attribute. Throws FileError where it is of another kind.
+    std::optional<std::string> text_attribute(const std::string& object,
+                                              const std::string& name) const;
+    std::optional<double> number_attribute(const std::string& object,
+                                           const std::string& name) const;
 
     /// T: double, float, std::int64_t, std::int32_t or std::uint8_t, in all that follows.
     /// Makes a data set of this shape and writes it; it must not be there yet.
@@ -123,8 +119,6 @@ private:
     static std::int64_t type(std::uint8_t);
     static std::uint64_t volume(const Shape& shape);
 
-    void read_attribute(const std::string& object, const std::string& name, std::int64_t type,
-                        void* value) const;
     /// Makes a data set, and the groups above it. chunk > 0: of growing rows of that shape, so many
     /// in a chunk.
     void create(const std::string& dataset, std::int64_t type, Shape shape, std::uint64_t chunk);
@@ -134,16 +128,6 @@ private:
                   const void* write_from) const;
     void append(const std::string& dataset, std::int64_t type, std::size_t values,
                 const void* rows);
-    Hdf5Handle open(const std::string& dataset) const;
-    Hdf5Handle open_attribute(const std::string& object, const std::string& name,
-                              const std::string& what) const;
-    /// Throws FileError: what is wrong with the object, and the library's reason.
-    [[noreturn]] void fail(const std::string& object, const std::string& what) const;
-    /// Throws FileError if the disk has refused anything so far.
-    void check_disk() const;
-    /// The handle of an object; fails where the library gave none.
-    Hdf5Handle handle(std::int64_t id, int (*close)(std::int64_t), const std::string& object,
-                      const std::string& what) const;
 
     std::string path_;
     std::unique_ptr<Open> open_;

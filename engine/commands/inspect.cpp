@@ -11,7 +11,6 @@
 #include "io/error.hpp"
 #include "io/height_map.hpp"
 #include "io/json.hpp"
-#include "io/map_file.hpp"
 #include "io/result.hpp"
 #include "io/result_directory.hpp"
 #include "io/table.hpp"
@@ -151,7 +150,7 @@ namespace {
 /// What the file of a measured surface holds, before the scene makes anything of it.
 void print_map_file(const Case& c) {
     const Scene& scene = c.scene;
-    const io::MapFile map = io::read_map_file(c.file, scene.surface.file_unit);
+    const io::HeightMap map = io::read_map_file(c.file, scene.surface.file_unit);
     std::optional<double> width = map.width, height = map.height;
     if (scene.surface.file_size) { // the scene's value takes precedence
         const double pixel =
@@ -194,7 +193,12 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
     const io::ResultDirectory place({out, scene.name + "-surface"});
 
     const SurfaceStatistics& statistics = surface.statistics;
-    const std::string map = place.directory() / "heights.h5";
+    const std::string file = place.directory() / "heights.h5";
+    io::HeightMap map;
+    map.rows = map.columns = static_cast<std::size_t>(surface.sites);
+    map.heights = surface.height;
+    map.width = map.height = surface.length;
+    map.origin = surface.origin;
     std::vector<double> q, realised, target;
     for (const SpectrumBin& bin : statistics.spectrum) {
         q.push_back(bin.q);
@@ -202,20 +206,15 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
         target.push_back(bin.target);
     }
     const LineStatistics lines = line_statistics(surface.height, surface.sites, surface.length);
-    io::write_height_map(map, {surface.sites,
-                               surface.height,
-                               surface.length,
-                               "Å",
-                               surface.origin,
-                               {},
-                               {{"/spectrum/q", "1/Å", q},
-                                {"/spectrum/realised", "Å^4", realised},
-                                {"/spectrum/target", "Å^4", target},
-                                {"/spectrum/line_q", "1/Å", lines.q},
-                                {"/spectrum/c1d", "Å^3", lines.c1d},
-                                {"/spectrum/line_r", "Å", lines.r},
-                                {"/spectrum/autocorrelation", "Å^2", lines.acf},
-                                {"/spectrum/scale_dependent_slope", "1", lines.slope}}});
+    io::write_height_map(file, map,
+                         {{"/spectrum/q", "1/Å", q},
+                          {"/spectrum/realised", "Å^4", realised},
+                          {"/spectrum/target", "Å^4", target},
+                          {"/spectrum/line_q", "1/Å", lines.q},
+                          {"/spectrum/c1d", "Å^3", lines.c1d},
+                          {"/spectrum/line_r", "Å", lines.r},
+                          {"/spectrum/autocorrelation", "Å^2", lines.acf},
+                          {"/spectrum/scale_dependent_slope", "1", lines.slope}});
 
     io::write_result(place.directory(), surface_result(c, surface));
 
@@ -244,7 +243,7 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
         fmt::print("note: {}\n", note);
     for (const std::string& note : place.notes())
         fmt::print("note: {}\n", note);
-    fmt::print("heights and spectrum in {}\n", map);
+    fmt::print("heights and spectrum in {}\n", file);
 }
 
 } // namespace
