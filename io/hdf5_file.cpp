@@ -6,13 +6,14 @@
 #include "io/hdf5_file.hpp"
 
 #include "io/error.hpp"
+#include "io/files.hpp"
 #include "io/hdf5_disk.hpp"
-#include "io/output_file.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include <fcntl.h>
@@ -43,11 +44,6 @@ std::vector<hsize_t> extents(const Hdf5File::Shape& shape) { return {shape.begin
 
 /// Tells readers that the file ended in a digest when it was whole.
 constexpr const char* seal_attribute = "asperity_digest";
-
-template <class... F>
-struct Overloaded : F... {
-    using F::operator()...;
-};
 
 /// One handle, closed by the function of its kind.
 class Handle {
@@ -222,19 +218,18 @@ Hdf5File::Shape Hdf5File::shape(const std::string& dataset) const {
     return {extent.begin(), extent.begin() + rank};
 }
 
-void Hdf5File::create(const std::string& dataset, std::int64_t type, Shape shape,
-                      std::uint64_t chunk) {
+void Hdf5File::create(const std::string& dataset, std::int64_t type, const Shape& shape) {
     make_group(dataset.substr(0, dataset.rfind('/')));
     const char* const what = "cannot be made";
     const Handle layout = open_->handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, dataset, what);
     // No times in the file: the same data are the same bytes.
     herr_t done = H5Pset_obj_track_times(layout, false);
-    std::vector<hsize_t> most = extents(shape);
-    if (chunk > 0) {
-        most.insert(most.begin(), chunk);
-        done = std::min(done, H5Pset_chunk(layout, static_cast<int>(most.size()), most.data()));
+    std::vector<hsize_t> most = extents(shape), chunk = most;
+    if (!shape.empty() && shape[0] == 0) { // it grows: about 8 kB a chunk, or one row
+        const std::uint64_t row = H5Tget_size(type) * volume({shape.begin() + 1, shape.end()});
+        chunk[0] = std::max<hsize_t>(1, 8192 / std::max<hsize_t>(1, row));
+        done = std::min(done, H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data()));
         most[0] = H5S_UNLIMITED;
-        shape.insert(shape.begin(), 0);
     }
     if (done < 0) open_->fail(dataset, what);
     const Handle space = open_->handle(
@@ -298,25 +293,25 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
             open_->fail(object, what);
         put(type, rank, count, data);
     };
-    const Overloaded write{[&](const std::string& text) {
-                               // Of variable length: such strings are text to Python, fixed ones
-                               // are bytes.
-                               const char* start = text.c_str();
-                               put_text(H5T_VARIABLE, 0, 1, &start);
-                           },
-                           [&](const std::vector<std::string>& list) {
-                               std::size_t longest = 1;
-                               for (const std::string& text : list)
-                                   longest = std::max(longest, text.size());
-                               std::string padded;
-                               for (const std::string& text : list)
-                                   padded += text + std::string(longest - text.size(), '\0');
-                               put_text(longest, 1, list.size(), padded.data());
-                           },
-                           [&](const std::vector<std::int64_t>& list) {
-                               put(type(std::int64_t()), 1, list.size(), list.data());
-                           },
-                           [&](auto number) { put(type(number), 0, 1, &number); }};
+    const auto write = [&]<class T>(const T& it) {
+        if constexpr (std::is_same_v<T, std::string>) {
+            // Of variable length: such strings are text to Python, fixed ones are bytes.
+            const char* start = it.c_str();
+            put_text(H5T_VARIABLE, 0, 1, &start);
+        } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+            std::size_t longest = 1;
+            for (const std::string& text : it)
+                longest = std::max(longest, text.size());
+            std::string padded;
+            for (const std::string& text : it)
+                padded += text + std::string(longest - text.size(), '\0');
+            put_text(longest, 1, it.size(), padded.data());
+        } else if constexpr (std::is_same_v<T, std::vector<std::int64_t>>) {
+            put(type(std::int64_t()), 1, it.size(), it.data());
+        } else {
+            put(type(it), 0, 1, &it);
+        }
+    };
     std::visit(write, value);
 }
 

@@ -8,7 +8,7 @@
 // directory is chosen in io/result_directory.hpp.
 #pragma once
 
-#include "io/output_file.hpp"
+#include "io/files.hpp"
 #include "io/quantities.hpp"
 
 #include <nlohmann/json_fwd.hpp>

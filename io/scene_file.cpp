@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene_file.hpp"
 
-#include "io/available_memory.hpp"
+#include "io/machine.hpp"
 
 #include <algorithm>
 #include <charconv>

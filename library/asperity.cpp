@@ -6,9 +6,9 @@
 #include "engine/commands/exit_code.hpp"
 #include "engine/commit.hpp"
 #include "engine/run/run.hpp"
-#include "io/build_info.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"
+#include "io/machine.hpp"
 
 #include <fmt/format.h>
 

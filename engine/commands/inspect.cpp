@@ -7,13 +7,13 @@
 #include "engine/run/run_record.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/scene/map_statistics.hpp"
-#include "io/build_info.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
 #include "io/json.hpp"
+#include "io/machine.hpp"
 #include "io/result.hpp"
 #include "io/result_directory.hpp"
-#include "io/table.hpp"
+#include "io/terminal.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/variant.hpp"
 
@@ -164,9 +164,7 @@ void print_map_file(const Case& c) {
     const auto if_sized = [&](double value, const char* format) {
         return width ? fmt::format(fmt::runtime(format), value) : std::string("?");
     };
-    io::Table table({"the file", "", ""});
-    table.align_left(1);
-    table.align_left(2);
+    io::Table table({"the file", "", ""}, "<<<");
     table.row({"name", std::filesystem::path(scene.surface.file).filename().string(), map.format});
     table.row({"points", fmt::format("{} x {}", map.columns, map.rows),
                map.missing > 0 ? fmt::format("{} without a height", map.missing) : ""});
@@ -218,8 +216,7 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
 
     io::write_result(place.directory(), surface_result(c, surface));
 
-    io::Table table({"the surface made", "", ""});
-    table.align_left(2);
+    io::Table table({"the surface made", "", ""}, "<><");
     if (surface.atoms.size() > 0) table.row({"atoms", fmt::format("{}", surface.atoms.size()), ""});
     table.row({surface.atoms.size() > 0 ? "sites" : "atoms",
                fmt::format("{0} x {0}", surface.sites),
@@ -289,8 +286,7 @@ int schema_command(bool results, const Communicator& world) {
 int info_command(const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
     const io::BuildInfo build = io::build_info();
-    io::Table table({"", ""});
-    table.align_left(1);
+    io::Table table({"", ""}, "<<");
     table.row({"version", build.version});
     table.row({"git", build.git});
     table.row({"compiler", build.compiler});

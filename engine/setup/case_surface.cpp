@@ -5,11 +5,11 @@
 #include "engine/setup/case.hpp"
 
 #include "io/atoms_file.hpp"
-#include "io/available_memory.hpp"
-#include "io/digest.hpp"
 #include "io/error.hpp"
+#include "io/files.hpp"
 #include "io/height_map.hpp"
 #include "io/json.hpp"
+#include "io/machine.hpp"
 
 #include <fmt/format.h>
 
@@ -89,17 +89,17 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
         for (const std::int32_t t : file.type)
             type.push_back(rows[static_cast<std::size_t>(t)]);
     }
-    io::Digest digest;
+    std::uint32_t digest = 0;
     for (const auto* values : {&file.x, &file.y, &file.z})
-        digest.update(std::as_bytes(std::span(*values)));
-    digest.update(std::as_bytes(std::span(std::as_const(type))));
+        digest = io::digest_of(std::as_bytes(std::span(*values)), digest);
+    digest = io::digest_of(std::as_bytes(std::span(std::as_const(type))), digest);
     Surface surface = surface_from_atoms(
         options, {std::move(file.x), std::move(file.y), std::move(file.z), std::move(type)});
     surface.notes.insert(
         surface.notes.begin(),
         fmt::format("{}: {} atoms of {}", std::filesystem::path(s.file).filename().string(), count,
                     file.types.size() > 1 ? types_of(file) : "type " + shown(file.types[0])));
-    surface.file_digest = digest.value();
+    surface.file_digest = digest;
     return surface;
 }
 
@@ -191,13 +191,13 @@ Surface surface_of(const Case& c, const Communicator& world) {
             map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as "
                                             "wide as the box, {:.6g} Å (surface.file_size)",
                                             edge));
-        io::Digest digest;
-        digest.update(std::as_bytes(std::span(std::as_const(map.heights))));
         const double width = map.width.value_or(0.0);
-        digest.update(std::as_bytes(std::span(&width, 1)));
+        const std::uint32_t digest =
+            io::digest_of(std::as_bytes(std::span(&width, 1)),
+                          io::digest_of(std::as_bytes(std::span(std::as_const(map.heights)))));
         Surface surface = surface_from_heights(options, std::move(map.heights), points, points);
         surface.origin = std::move(map.origin);
-        surface.file_digest = digest.value();
+        surface.file_digest = digest;
         surface.notes.insert(
             surface.notes.begin(),
             fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",

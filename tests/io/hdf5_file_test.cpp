@@ -81,8 +81,8 @@ TEST(Hdf5File, PlaneByPlane) {
 TEST(Hdf5File, GrowingRows) {
     const Scratch scratch;
     Hdf5File file(scratch / "a.h5", Hdf5File::Mode::create);
-    file.make_series<float>("/s");
-    file.make_series<float>("/frames/f", {2, 2});
+    file.make_dataset<float>("/s", {0});
+    file.make_dataset<float>("/frames/f", {0, 2, 2});
     for (int i = 0; i < 5; ++i) {
         const float x = static_cast<float>(i);
         file.append<float>("/s", std::vector<float>{x, x});

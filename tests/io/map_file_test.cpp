@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The formats of height maps: the same heights, size and unit from each, and what is refused.
-#include "io/available_memory.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/height_map.hpp"
+#include "io/machine.hpp"
 
 #include "support/scratch.hpp"
 
@@ -286,7 +286,9 @@ TEST(MapFile, Hdf5ThatIsHostile) {
         return refused(scratch / "m.h5");
     };
     EXPECT_EQ(made(nothing).what, "has no data set /heights");
-    EXPECT_EQ(made([](Hdf5File& f) { f.make_series<double>("/heights", {100000}); }).what,
+    EXPECT_EQ(made([](Hdf5File& f) {
+                  f.make_dataset<double>("/heights", {0, 100000});
+              }).what,
               "the height map is empty");
     // Declared and never written: no bytes in the file, 40 TB in memory.
     EXPECT_EQ(made([](Hdf5File& f) {
