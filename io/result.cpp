@@ -50,7 +50,6 @@ Result::Result() : values_(std::make_unique<Json>(Json::object())) {
 }
 Result::~Result() = default;
 Result::Result(Result&&) noexcept = default;
-Result& Result::operator=(Result&&) noexcept = default;
 
 void Result::put(Key key, const std::string& member, std::size_t element, Value&& value) {
     const Quantity& q = *key.quantity;

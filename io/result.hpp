@@ -32,7 +32,6 @@ public:
     Result();
     ~Result();
     Result(Result&&) noexcept;
-    Result& operator=(Result&&) noexcept;
 
     /// Sets a value; one that is set already is replaced. NaN and infinity are written as null.
     void set(Key key, Value value);
