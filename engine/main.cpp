@@ -12,8 +12,8 @@
 #include "engine/run/stop_signals.hpp"
 
 #include "decomposition/communicator.hpp"
-#include "io/build_info.hpp"
 #include "io/error.hpp"
+#include "io/machine.hpp"
 
 #include <algorithm>
 #include <cstdlib>

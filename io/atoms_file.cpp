@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/atoms_file.hpp"
 
-#include "io/error.hpp"
-#include "io/map_file.hpp"
+#include "io/scene_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,11 +49,8 @@ void check(const std::string& file, const AtomsFile& atoms) {
     }
 }
 
-AtomsFile read(const std::string& name) {
-    if (!is_hdf5(name))
-        refuse(name, "the file of atoms cannot be read", "it is not an HDF5 file",
-               convert_first(name));
-    const Hdf5File file = open_hdf5(name);
+AtomsFile read(const Hdf5File& file) {
+    const std::string& name = file.path();
     const Hdf5File::Shape position = shape_of(file, "/position"), type = shape_of(file, "/type");
     if (position.size() != 2 || position[1] != 3 || position[0] < 1 ||
         type != Hdf5File::Shape{position[0]} || shape_of(file, "/box") != Hdf5File::Shape{2})
@@ -73,7 +69,7 @@ AtomsFile read(const std::string& name) {
         atoms.z.push_back(place[i + 2]);
     }
     atoms.type = file.read<std::int32_t>("/type");
-    std::istringstream names(file.read_text_attribute("/type", "names"));
+    std::istringstream names(file.text_attribute("/type", "names").value_or(""));
     for (std::string word; names >> word;)
         atoms.types.push_back(word);
     atoms.width_x = box[0];
@@ -85,13 +81,15 @@ AtomsFile read(const std::string& name) {
 } // namespace
 
 AtomsFile read_atoms_file(const std::string& file) {
-    return of_scene([&] { return read(file); });
+    if (!is_hdf5(file))
+        refuse(file, "the file of atoms cannot be read", "it is not an HDF5 file",
+               convert_first(file));
+    return read_hdf5(file, read);
 }
 
 std::size_t atoms_announced(const std::string& file) {
     try {
-        const Hdf5File atoms = open_hdf5(file);
-        const Hdf5File::Shape position = shape_of(atoms, "/position");
+        const Hdf5File::Shape position = shape_of(open_hdf5(file), "/position");
         return position.empty() ? 0 : position[0];
     } catch (const Error&) {
         return 0;

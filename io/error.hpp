@@ -15,6 +15,8 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace asperity::io {
@@ -39,6 +41,8 @@ struct Problem {
 };
 /// The problem in the grammar above, without a newline at the end.
 std::string format(const Problem& problem);
+/// The name among candidates that a misspelt word most likely meant; empty if none is near.
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 class Error : public std::runtime_error {
 public:
@@ -60,15 +64,14 @@ struct SceneError : Error {
 };
 /// A guard of the physics stopped the run (exit 3).
 struct PhysicsError : Error {
-    explicit PhysicsError(Problem p) : Error(exit_code::physics, std::move(p)) {}
     PhysicsError(std::string what, std::string why, std::string fix)
-        : PhysicsError(Problem{"", std::move(what), std::move(why), std::move(fix)}) {}
+        : Error(exit_code::physics, Problem{"", std::move(what), std::move(why), std::move(fix)}) {}
 };
 /// A file could not be read or written (exit 4).
 struct FileError : Error {
-    explicit FileError(Problem p) : Error(exit_code::input_output, std::move(p)) {}
     FileError(std::string path, std::string what, std::string why, std::string fix = "")
-        : FileError(Problem{std::move(path), std::move(what), std::move(why), std::move(fix)}) {}
+        : Error(exit_code::input_output,
+                Problem{std::move(path), std::move(what), std::move(why), std::move(fix)}) {}
 };
 
 } // namespace asperity::io

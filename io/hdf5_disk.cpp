@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/hdf5_disk.hpp"
 
-#include "io/output_file.hpp"
+#include "io/files.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -6,13 +6,14 @@
 #include "io/hdf5_file.hpp"
 
 #include "io/error.hpp"
+#include "io/files.hpp"
 #include "io/hdf5_disk.hpp"
-#include "io/output_file.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include <fcntl.h>
@@ -44,22 +45,15 @@ std::vector<hsize_t> extents(const Hdf5File::Shape& shape) { return {shape.begin
 /// Tells readers that the file ended in a digest when it was whole.
 constexpr const char* seal_attribute = "asperity_digest";
 
-template <class... F>
-struct Overloaded : F... {
-    using F::operator()...;
-};
-
-} // namespace
-
 /// One handle, closed by the function of its kind.
-class Hdf5Handle {
+class Handle {
 public:
-    Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-    ~Hdf5Handle() {
+    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+    ~Handle() {
         if (id_ >= 0) close_(id_);
     }
-    Hdf5Handle(const Hdf5Handle&) = delete;
-    Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
     operator hid_t() const { return id_; }
 
 private:
@@ -67,13 +61,11 @@ private:
     herr_t (*close_)(hid_t);
 };
 
-static bool is_one(const Hdf5Handle& attribute) {
-    const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
-    return H5Sget_simple_extent_npoints(space) == 1;
-}
+} // namespace
 
 /// Where the bytes are, and the library's handle of the file.
 struct Hdf5File::Open {
+    std::string path;
     std::unique_ptr<OutputFile> output; ///< null: the file is read
     Descriptor input;
     Hdf5Disk disk;
@@ -81,10 +73,48 @@ struct Hdf5File::Open {
     ~Open() {
         if (id >= 0) H5Fclose(id);
     }
+
+    /// Throws FileError if the disk has refused anything so far.
+    void check_disk() const {
+        if (disk.error != 0)
+            throw FileError(path, "cannot be written", std::strerror(disk.error),
+                            "check the space on its disk");
+    }
+    /// Throws FileError: what is wrong with the object, and the library's reason.
+    [[noreturn]] void fail(const std::string& object, const std::string& what) const {
+        check_disk();
+        throw FileError(path, object + " " + what, cause(), "check that the file is whole");
+    }
+    /// The handle of an object; fails where the library gave none.
+    Handle handle(hid_t made, herr_t (*close)(hid_t), const std::string& object,
+                  const std::string& what) const {
+        if (made < 0) fail(object, what);
+        return {made, close};
+    }
+    Handle object(const std::string& name, const std::string& what) const {
+        return handle(H5Oopen(id, name.c_str(), H5P_DEFAULT), H5Oclose, name, what);
+    }
+    Handle dataset(const std::string& name) const {
+        return handle(H5Dopen2(id, name.c_str(), H5P_DEFAULT), H5Dclose, name, "is not a data set");
+    }
+    /// Calls read(attribute), which says whether it could: else fails with `what`. False where
+    /// there is no such attribute.
+    template <class Read>
+    bool attribute(const std::string& object, const std::string& name, const std::string& what,
+                   const Read& read) const {
+        if (H5Aexists_by_name(id, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return false;
+        const Handle opened =
+            handle(H5Aopen_by_name(id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                   H5Aclose, object, what);
+        const Handle space(H5Aget_space(opened), H5Sclose);
+        if (H5Sget_simple_extent_npoints(space) != 1 || !read(opened)) fail(object, what);
+        return true;
+    }
 };
 
 Hdf5File::Hdf5File(const FilePlace& place, Mode mode)
     : path_(place.path()), open_(std::make_unique<Open>()) {
+    open_->path = path_;
     static const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     static_cast<void>(silenced);
     const bool create = mode == Mode::create;
@@ -105,7 +135,7 @@ Hdf5File::Hdf5File(const FilePlace& place, Mode mode)
             throw FileError(path_, "is damaged", "its bytes are not those its digest was made of",
                             "take a copy that is whole");
     }
-    const Hdf5Handle access(hdf5_access(open_->disk), H5Pclose);
+    const Handle access(hdf5_access(open_->disk), H5Pclose);
     open_->id = create ? H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
                        : H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);
     if (open_->id < 0)
@@ -128,27 +158,10 @@ std::uint64_t Hdf5File::volume(const Shape& shape) {
     return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
 }
 
-void Hdf5File::fail(const std::string& object, const std::string& what) const {
-    check_disk();
-    throw FileError(path_, object + " " + what, cause(), "check that the file is whole");
-}
-
-void Hdf5File::check_disk() const {
-    if (open_->disk.error != 0)
-        throw FileError(path_, "cannot be written", std::strerror(open_->disk.error),
-                        "check the space on its disk");
-}
-
-Hdf5Handle Hdf5File::handle(std::int64_t id, int (*closer)(std::int64_t), const std::string& object,
-                            const std::string& what) const {
-    if (id < 0) fail(object, what);
-    return {id, closer};
-}
-
 void Hdf5File::close() {
     if (open_->id < 0) return;
-    if (H5Fclose(std::exchange(open_->id, -1)) < 0) fail("/", "cannot be closed");
-    check_disk();
+    if (H5Fclose(std::exchange(open_->id, -1)) < 0) open_->fail("/", "cannot be closed");
+    open_->check_disk();
     if (!open_->output) return;
     open_->output->seal();
     open_->output->commit();
@@ -164,39 +177,32 @@ bool Hdf5File::exists(const std::string& object) const {
 }
 
 bool Hdf5File::is_dataset(const std::string& object) const {
-    return exists(object) &&
-           H5Iget_type(handle(H5Oopen(open_->id, object.c_str(), H5P_DEFAULT), H5Oclose, object,
-                              "cannot be opened")) == H5I_DATASET;
-}
-
-Hdf5Handle Hdf5File::open(const std::string& dataset) const {
-    return handle(H5Dopen2(open_->id, dataset.c_str(), H5P_DEFAULT), H5Dclose, dataset,
-                  "is not a data set");
+    return exists(object) && H5Iget_type(open_->object(object, "cannot be opened")) == H5I_DATASET;
 }
 
 bool Hdf5File::holds_numbers(const std::string& dataset) const {
-    const H5T_class_t kind =
-        H5Tget_class(handle(H5Dget_type(open(dataset)), H5Tclose, dataset, "has no type"));
+    const H5T_class_t kind = H5Tget_class(
+        open_->handle(H5Dget_type(open_->dataset(dataset)), H5Tclose, dataset, "has no type"));
     return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
 
 void Hdf5File::make_group(const std::string& group) {
     if (group.empty() || exists(group)) return;
     make_group(group.substr(0, group.rfind('/')));
-    handle(H5Gcreate2(open_->id, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-           group, "cannot be made as a group");
+    open_->handle(H5Gcreate2(open_->id, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                  H5Gclose, group, "cannot be made as a group");
 }
 
 std::vector<std::string> Hdf5File::members(const std::string& group) const {
-    const Hdf5Handle opened = handle(H5Gopen2(open_->id, group.c_str(), H5P_DEFAULT), H5Gclose,
-                                     group, "cannot be opened as a group");
+    const Handle opened = open_->handle(H5Gopen2(open_->id, group.c_str(), H5P_DEFAULT), H5Gclose,
+                                        group, "cannot be opened as a group");
     std::vector<std::string> names;
     const auto each = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
         static_cast<std::vector<std::string>*>(out)->emplace_back(name);
         return 0;
     };
     if (H5Literate(opened, H5_INDEX_NAME, H5_ITER_INC, nullptr, each, &names) < 0)
-        fail(group, "cannot be listed");
+        open_->fail(group, "cannot be listed");
     return names;
 }
 
@@ -204,41 +210,42 @@ Hdf5File::Shape Hdf5File::shape(const std::string& dataset) const {
     if (!exists(dataset))
         throw FileError(path_, "has no data set " + dataset,
                         "the file was written by something else", "check the file");
-    const Hdf5Handle space = handle(H5Dget_space(open(dataset)), H5Sclose, dataset, "has no shape");
+    const Handle space =
+        open_->handle(H5Dget_space(open_->dataset(dataset)), H5Sclose, dataset, "has no shape");
     std::vector<hsize_t> extent(H5S_MAX_RANK);
     const int rank = H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-    if (rank < 0) fail(dataset, "has no shape");
+    if (rank < 0) open_->fail(dataset, "has no shape");
     return {extent.begin(), extent.begin() + rank};
 }
 
-void Hdf5File::create(const std::string& dataset, std::int64_t type, Shape shape,
-                      std::uint64_t chunk) {
+void Hdf5File::create(const std::string& dataset, std::int64_t type, const Shape& shape) {
     make_group(dataset.substr(0, dataset.rfind('/')));
     const char* const what = "cannot be made";
-    const Hdf5Handle layout = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, dataset, what);
+    const Handle layout = open_->handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, dataset, what);
     // No times in the file: the same data are the same bytes.
     herr_t done = H5Pset_obj_track_times(layout, false);
-    std::vector<hsize_t> most = extents(shape);
-    if (chunk > 0) {
-        most.insert(most.begin(), chunk);
-        done = std::min(done, H5Pset_chunk(layout, static_cast<int>(most.size()), most.data()));
+    std::vector<hsize_t> most = extents(shape), chunk = most;
+    if (!shape.empty() && shape[0] == 0) { // it grows: about 8 kB a chunk, or one row
+        const std::uint64_t row = H5Tget_size(type) * volume({shape.begin() + 1, shape.end()});
+        chunk[0] = std::max<hsize_t>(1, 8192 / std::max<hsize_t>(1, row));
+        done = std::min(done, H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data()));
         most[0] = H5S_UNLIMITED;
-        shape.insert(shape.begin(), 0);
     }
-    if (done < 0) fail(dataset, what);
-    const Hdf5Handle space =
-        handle(H5Screate_simple(static_cast<int>(shape.size()), extents(shape).data(), most.data()),
-               H5Sclose, dataset, what);
-    handle(H5Dcreate2(open_->id, dataset.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT),
-           H5Dclose, dataset, what);
+    if (done < 0) open_->fail(dataset, what);
+    const Handle space = open_->handle(
+        H5Screate_simple(static_cast<int>(shape.size()), extents(shape).data(), most.data()),
+        H5Sclose, dataset, what);
+    open_->handle(
+        H5Dcreate2(open_->id, dataset.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT),
+        H5Dclose, dataset, what);
 }
 
 void Hdf5File::transfer(const std::string& dataset, std::int64_t type, const Shape& offset,
                         const Shape& count, std::size_t values, void* read_into,
                         const void* write_from) const {
     const int rank = static_cast<int>(count.size());
-    const Hdf5Handle set = open(dataset), file(H5Dget_space(set), H5Sclose),
-                     memory(H5Screate_simple(rank, extents(count).data(), nullptr), H5Sclose);
+    const Handle set = open_->dataset(dataset), file(H5Dget_space(set), H5Sclose),
+                 memory(H5Screate_simple(rank, extents(count).data(), nullptr), H5Sclose);
     bool done = offset.size() == count.size() && values == volume(count) &&
                 H5Sget_simple_extent_ndims(file) == rank;
     if (done && rank > 0)
@@ -249,9 +256,9 @@ void Hdf5File::transfer(const std::string& dataset, std::int64_t type, const Sha
         done = (read_into ? H5Dread(set, type, memory, file, H5P_DEFAULT, read_into)
                           : H5Dwrite(set, type, memory, file, H5P_DEFAULT, write_from)) >= 0;
     if (!done)
-        fail(dataset, fmt::format("does not {} a block of {} at {}", read_into ? "give" : "take",
-                                  count, offset));
-    check_disk();
+        open_->fail(dataset, fmt::format("does not {} a block of {} at {}",
+                                         read_into ? "give" : "take", count, offset));
+    open_->check_disk();
 }
 
 void Hdf5File::append(const std::string& dataset, std::int64_t type, std::size_t values,
@@ -259,11 +266,11 @@ void Hdf5File::append(const std::string& dataset, std::int64_t type, std::size_t
     Shape now = shape(dataset), offset(now.size(), 0), count = now;
     offset[0] = std::exchange(count[0], 1);
     const std::uint64_t row = volume(count);
-    if (values % row != 0) fail(dataset, "does not take these rows");
+    if (values % row != 0) open_->fail(dataset, "does not take these rows");
     count[0] = values / row;
     now[0] += count[0];
-    if (H5Dset_extent(open(dataset), extents(now).data()) < 0)
-        fail(dataset, "cannot be appended to");
+    if (H5Dset_extent(open_->dataset(dataset), extents(now).data()) < 0)
+        open_->fail(dataset, "cannot be appended to");
     transfer(dataset, type, offset, count, values, nullptr, rows);
 }
 
@@ -271,72 +278,66 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
                                const Attribute& value) {
     const std::string what = "cannot take the attribute " + name;
     const auto put = [&](hid_t type, int rank, hsize_t count, const void* data) {
-        const Hdf5Handle owner =
-            handle(H5Oopen(open_->id, object.c_str(), H5P_DEFAULT), H5Oclose, object, what);
+        const Handle owner = open_->object(object, what);
         if (H5Aexists(owner, name.c_str()) > 0) H5Adelete(owner, name.c_str());
-        const Hdf5Handle space(H5Screate_simple(rank, &count, nullptr), H5Sclose);
-        const Hdf5Handle attribute =
-            handle(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                   object, what);
-        if (H5Awrite(attribute, type, data) < 0) fail(object, what);
+        const Handle space(H5Screate_simple(rank, &count, nullptr), H5Sclose);
+        const Handle attribute =
+            open_->handle(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                          H5Aclose, object, what);
+        if (H5Awrite(attribute, type, data) < 0) open_->fail(object, what);
     };
     const auto put_text = [&](std::size_t size, int rank, hsize_t count, const void* data) {
-        const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+        const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
         if (H5Tset_size(type, size) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
             H5Tset_strpad(type, rank == 0 ? H5T_STR_NULLTERM : H5T_STR_NULLPAD) < 0)
-            fail(object, what);
+            open_->fail(object, what);
         put(type, rank, count, data);
     };
-    const Overloaded write{[&](const std::string& text) {
-                               // Of variable length: such strings are text to Python, fixed ones
-                               // are bytes.
-                               const char* start = text.c_str();
-                               put_text(H5T_VARIABLE, 0, 1, &start);
-                           },
-                           [&](const std::vector<std::string>& list) {
-                               std::size_t longest = 1;
-                               for (const std::string& text : list)
-                                   longest = std::max(longest, text.size());
-                               std::string padded;
-                               for (const std::string& text : list)
-                                   padded += text + std::string(longest - text.size(), '\0');
-                               put_text(longest, 1, list.size(), padded.data());
-                           },
-                           [&](const std::vector<std::int64_t>& list) {
-                               put(type(std::int64_t()), 1, list.size(), list.data());
-                           },
-                           [&](auto number) { put(type(number), 0, 1, &number); }};
+    const auto write = [&]<class T>(const T& it) {
+        if constexpr (std::is_same_v<T, std::string>) {
+            // Of variable length: such strings are text to Python, fixed ones are bytes.
+            const char* start = it.c_str();
+            put_text(H5T_VARIABLE, 0, 1, &start);
+        } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+            std::size_t longest = 1;
+            for (const std::string& text : it)
+                longest = std::max(longest, text.size());
+            std::string padded;
+            for (const std::string& text : it)
+                padded += text + std::string(longest - text.size(), '\0');
+            put_text(longest, 1, it.size(), padded.data());
+        } else if constexpr (std::is_same_v<T, std::vector<std::int64_t>>) {
+            put(type(std::int64_t()), 1, it.size(), it.data());
+        } else {
+            put(type(it), 0, 1, &it);
+        }
+    };
     std::visit(write, value);
 }
 
-Hdf5Handle Hdf5File::open_attribute(const std::string& object, const std::string& name,
-                                    const std::string& what) const {
-    return handle(
-        H5Aopen_by_name(open_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose, object, what);
+std::optional<std::string> Hdf5File::text_attribute(const std::string& object,
+                                                    const std::string& name) const {
+    const std::string what = "has an attribute " + name + " that is not one string";
+    std::string text;
+    const bool found = open_->attribute(object, name, what, [&](hid_t attribute) {
+        const Handle type(H5Aget_type(attribute), H5Tclose);
+        char* data = nullptr;
+        if (H5Tis_variable_str(type) <= 0 || H5Aread(attribute, type, &data) < 0) return false;
+        if (data) text = data;
+        H5free_memory(data);
+        return true;
+    });
+    return found ? std::optional(text) : std::nullopt;
 }
 
-bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
-    return H5Aexists_by_name(open_->id, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
-}
-
-std::string Hdf5File::read_text_attribute(const std::string& object,
-                                          const std::string& name) const {
-    const Hdf5Handle attribute = open_attribute(object, name, "has no attribute " + name);
-    const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
-    char* data = nullptr;
-    if (H5Tis_variable_str(type) <= 0 || !is_one(attribute) || H5Aread(attribute, type, &data) < 0)
-        fail(object, "has an attribute " + name + " that is not one string");
-    const std::string text = data ? data : "";
-    H5free_memory(data);
-    return text;
-}
-
-void Hdf5File::read_attribute(const std::string& object, const std::string& name, std::int64_t type,
-                              void* value) const {
-    const std::string what = "has no number as attribute " + name;
-    const Hdf5Handle attribute = open_attribute(object, name, what);
-    if (!is_one(attribute) || H5Aread(attribute, type, value) < 0) fail(object, what);
+std::optional<double> Hdf5File::number_attribute(const std::string& object,
+                                                 const std::string& name) const {
+    double value = 0.0;
+    const bool found =
+        open_->attribute(object, name, "has no number as attribute " + name, [&](hid_t attribute) {
+            return H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) >= 0;
+        });
+    return found ? std::optional(value) : std::nullopt;
 }
 
 } // namespace asperity::io

@@ -8,25 +8,23 @@
 // needed. Arrays are row-major, slowest index first. The stored type is the type written:
 // conversions are left to the reader. Collective (parallel) access is not used; one rank writes.
 //
-// A file is written like every other that matters (output_file.hpp): it appears in its place, whole
+// A file is written like every other that matters (files.hpp): it appears in its place, whole
 // and on the disk, when close() returns; without a close it is dropped. It ends in a digest of all
 // its bytes, metadata included. (HDF5 ignores what comes after its own data.) Only files whose
 // digest is right are opened: libhdf5 crashes on some damaged ones.
 #pragma once
 
-#include "io/directory.hpp"
+#include "io/files.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace asperity::io {
-
-class Hdf5Handle;
 
 class Hdf5File {
 public:
@@ -57,14 +55,11 @@ public:
     /// Attributes of a group or data set; written over if there.
     void write_attribute(const std::string& object, const std::string& name,
                          const Attribute& value);
-    bool has_attribute(const std::string& object, const std::string& name) const;
-    std::string read_text_attribute(const std::string& object, const std::string& name) const;
-    template <class T>
-    T read_attribute(const std::string& object, const std::string& name) const {
-        T value{};
-        read_attribute(object, name, type(value), &value);
-        return value;
-    }
+    /// Nothing: the object has no such attribute. Throws FileError where it is of another kind.
+    std::optional<std::string> text_attribute(const std::string& object,
+                                              const std::string& name) const;
+    std::optional<double> number_attribute(const std::string& object,
+                                           const std::string& name) const;
 
     /// T: double, float, std::int64_t, std::int32_t or std::uint8_t, in all that follows.
     /// Makes a data set of this shape and writes it; it must not be there yet.
@@ -73,10 +68,10 @@ public:
         make_dataset<T>(dataset, shape);
         write_slab(dataset, Shape(shape.size(), 0), shape, data);
     }
-    /// Makes a data set to be filled by write_slab.
+    /// Makes a data set to be filled by write_slab or, if it has no rows yet ({0, ...}), by append.
     template <class T>
     void make_dataset(const std::string& dataset, const Shape& shape) {
-        create(dataset, type(T()), shape, 0);
+        create(dataset, type(T()), shape);
     }
     /// Writes, reads the block at offset of extent count.
     template <class T>
@@ -99,13 +94,6 @@ public:
     }
     Shape shape(const std::string& dataset) const;
 
-    /// A data set whose first index grows; row: the shape of one row ({} : a plain series).
-    template <class T>
-    void make_series(const std::string& dataset, const Shape& row = {}) {
-        // About 8 kB a chunk for plain series, at least one row for others.
-        const std::uint64_t bytes = std::max<std::uint64_t>(1, volume(row) * sizeof(T));
-        create(dataset, type(T()), row, std::max<std::uint64_t>(1, 8192 / bytes));
-    }
     /// Appends whole rows.
     template <class T>
     void append(const std::string& dataset, std::span<const T> rows) {
@@ -123,27 +111,14 @@ private:
     static std::int64_t type(std::uint8_t);
     static std::uint64_t volume(const Shape& shape);
 
-    void read_attribute(const std::string& object, const std::string& name, std::int64_t type,
-                        void* value) const;
-    /// Makes a data set, and the groups above it. chunk > 0: of growing rows of that shape, so many
-    /// in a chunk.
-    void create(const std::string& dataset, std::int64_t type, Shape shape, std::uint64_t chunk);
+    /// Makes a data set, and the groups above it.
+    void create(const std::string& dataset, std::int64_t type, const Shape& shape);
     /// A block from or to memory, which holds so many values.
     void transfer(const std::string& dataset, std::int64_t type, const Shape& offset,
                   const Shape& count, std::size_t values, void* read_into,
                   const void* write_from) const;
     void append(const std::string& dataset, std::int64_t type, std::size_t values,
                 const void* rows);
-    Hdf5Handle open(const std::string& dataset) const;
-    Hdf5Handle open_attribute(const std::string& object, const std::string& name,
-                              const std::string& what) const;
-    /// Throws FileError: what is wrong with the object, and the library's reason.
-    [[noreturn]] void fail(const std::string& object, const std::string& what) const;
-    /// Throws FileError if the disk has refused anything so far.
-    void check_disk() const;
-    /// The handle of an object; fails where the library gave none.
-    Hdf5Handle handle(std::int64_t id, int (*close)(std::int64_t), const std::string& object,
-                      const std::string& what) const;
 
     std::string path_;
     std::unique_ptr<Open> open_;

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/height_map.hpp"
 
-#include "io/error.hpp"
-#include "io/map_file.hpp"
+#include "io/scene_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +15,7 @@ namespace asperity::io {
 
 namespace {
 
-void treat_missing(MapFile& map, bool fill, std::vector<std::string>& notes) {
-    if (map.missing == 0) return;
+void treat_missing(HeightMap& map, bool fill) {
     const auto first = std::find_if(map.heights.begin(), map.heights.end(),
                                     [](double h) { return std::isnan(h); });
     const auto at = static_cast<std::size_t>(first - map.heights.begin());
@@ -35,63 +33,56 @@ void treat_missing(MapFile& map, bool fill, std::vector<std::string>& notes) {
                fmt::format("{} of {} points have no height", map.missing, map.heights.size()),
                "measure it again, or cut out a piece that is whole");
     fill_missing(map.heights, map.rows, map.columns);
-    notes.push_back(fmt::format("{} points of the map ({:.2g} %) had no height: filled by "
-                                "Laplace's equation",
-                                map.missing, 100.0 * part));
+    map.notes.push_back(fmt::format("{} points of the map ({:.2g} %) had no height: filled by "
+                                    "Laplace's equation",
+                                    map.missing, 100.0 * part));
 }
 
-/// The edge of the square that the map is, or is cut to, Å.
-std::optional<double> make_square(MapFile& map, bool crop, std::vector<std::string>& notes) {
+/// Makes the map square, with the middle of it where the scene says so.
+void make_square(HeightMap& map, bool crop) {
     if (!crop && map.rows != map.columns)
         refuse(map.source, "the height map is not square",
                fmt::format("it has {} rows and {} columns, and the periodic box is square",
                            map.rows, map.columns),
                "cut a square out of it before, or take the middle with "
                "surface.file_crop = \"middle\"");
-    std::optional<double> pixel;
+    const std::size_t n = std::min(map.rows, map.columns);
     if (map.width && map.height) {
-        pixel = *map.width / static_cast<double>(map.columns);
+        const double pixel = *map.width / static_cast<double>(map.columns);
         const double other = *map.height / static_cast<double>(map.rows);
-        if (std::abs(other - *pixel) > 1e-3 * *pixel)
+        if (std::abs(other - pixel) > 1e-3 * pixel)
             refuse(map.source, fmt::format("is {:g} x {:g} Å wide", *map.width, *map.height),
                    fmt::format("its pixels of {:g} x {:g} Å are not square, and the periodic "
                                "box is",
-                               *pixel, other),
+                               pixel, other),
                    "resample it to square pixels before");
-        if (std::abs(other - *pixel) > 1e-6 * *pixel)
-            notes.push_back(
-                fmt::format("the pixels of {:.7g} x {:.7g} Å are taken as square", *pixel, other));
+        if (std::abs(other - pixel) > 1e-6 * pixel)
+            map.notes.push_back(
+                fmt::format("the pixels of {:.7g} x {:.7g} Å are taken as square", pixel, other));
+        map.width = map.height = pixel * static_cast<double>(n);
     }
-    const std::size_t n = std::min(map.rows, map.columns);
-    if (map.rows != map.columns) {
-        std::vector<double> cut;
-        cut.reserve(n * n);
-        const std::size_t y0 = (map.rows - n) / 2, x0 = (map.columns - n) / 2;
-        for (std::size_t y = y0; y < y0 + n; ++y)
-            cut.insert(cut.end(),
-                       map.heights.begin() + static_cast<std::ptrdiff_t>(y * map.columns + x0),
-                       map.heights.begin() + static_cast<std::ptrdiff_t>(y * map.columns + x0 + n));
-        map.heights = std::move(cut);
-        notes.push_back(fmt::format("of {} rows and {} columns the middle {} x {} are taken",
+    if (map.rows == map.columns) return;
+    map.notes.push_back(fmt::format("of {} rows and {} columns the middle {} x {} are taken",
                                     map.rows, map.columns, n, n));
+    std::vector<double> cut;
+    cut.reserve(n * n);
+    const std::size_t y0 = (map.rows - n) / 2, x0 = (map.columns - n) / 2;
+    for (std::size_t y = y0; y < y0 + n; ++y) {
+        const double* const row = map.heights.data() + y * map.columns + x0;
+        cut.insert(cut.end(), row, row + n);
     }
-    if (!pixel) return std::nullopt;
-    return *pixel * static_cast<double>(n);
+    map.heights = std::move(cut);
+    map.rows = map.columns = n;
 }
 
 } // namespace
 
-HeightMap read_height_map(const std::string& file, const MapOptions& options) {
-    MapFile read = read_map_file(file, options.unit);
-    HeightMap map;
-    if (read.unit_assumed)
+HeightMap read_height_map(const std::string& name, const MapOptions& options) {
+    HeightMap map = read_map_file(name, options.unit);
+    if (map.unit_assumed)
         map.notes.push_back("the file does not say the unit of its heights: taken as Å");
-    treat_missing(read, options.fill, map.notes);
-    map.size = make_square(read, options.crop, map.notes);
-    map.sites = static_cast<int>(std::min(read.rows, read.columns));
-    map.heights = std::move(read.heights);
-    map.unit = std::move(read.unit);
-    map.origin = std::move(read.origin);
+    if (map.missing > 0) treat_missing(map, options.fill);
+    make_square(map, options.crop);
     return map;
 }
 
@@ -146,17 +137,15 @@ void fill_missing(std::vector<double>& h, std::size_t rows, std::size_t columns)
         h[holes[k]] = value[k];
 }
 
-void write_height_map(const std::string& file, const HeightMap& map) {
-    const auto sites = static_cast<std::size_t>(map.sites);
+void write_height_map(const std::string& file, const HeightMap& map,
+                      const std::vector<MapColumn>& columns) {
     Hdf5File out(file, Hdf5File::Mode::create);
-    out.write<double>("/heights", {sites, sites}, map.heights);
+    out.write<double>("/heights", {map.rows, map.columns}, map.heights);
     out.write_attribute("/heights", "unit", "Å");
     if (!map.origin.empty()) out.write_attribute("/heights", "origin", map.origin);
-    if (map.size) {
-        out.write_attribute("/heights", "size_x", *map.size);
-        out.write_attribute("/heights", "size_y", *map.size);
-    }
-    for (const HeightMap::Column& column : map.columns) {
+    if (map.width) out.write_attribute("/heights", "size_x", *map.width);
+    if (map.height) out.write_attribute("/heights", "size_y", *map.height);
+    for (const MapColumn& column : columns) {
         out.write<double>(column.name, {column.values.size()}, column.values);
         out.write_attribute(column.name, "unit", column.unit);
     }

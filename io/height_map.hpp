@@ -1,9 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Height maps for a scene: square, whole and finite. What a file holds is read by map_file.hpp.
+// Height maps: what a file holds, and what a scene takes of it.
+//
+//     format       recognized by         size and unit
+//     HDF5         its first bytes       attributes unit, scale, size_x, size_y, size_unit
+//     NumPy        its first bytes       none
+//     text matrix  numbers               none
+//
+// HDF5: the data set /heights of a file that `asperity convert` or `asperity surface` wrote, or the
+// one named after a colon ("map.h5:/NAME"); attribute origin says whose map it is. Sizes are in
+// size_unit, else in the unit of the heights. Text: one row of the map a line, numbers separated by
+// blanks; # starts a comment. Row r is y = r, column c is x = c. A map of n points is n pixels
+// wide. Files of other formats, and HDF5 of other programs, are converted first
+// (python/asperity/convert.py).
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,19 +24,18 @@
 namespace asperity::io {
 
 struct HeightMap {
-    int sites = 0;                    ///< values along an edge
-    std::vector<double> heights;      ///< Å; heights[y * sites + x]
-    std::optional<double> size;       ///< edge of the map, Å, where the file tells it
-    std::string unit = "Å";           ///< the heights had in the file
-    std::string origin;               ///< whose map it is, where the file tells it
-    std::vector<std::string> notes{}; ///< what was assumed, filled or cut, one sentence each
-
-    /// Written beside the heights, not read.
-    struct Column {
-        std::string name, unit; ///< "/spectrum/q"
-        std::vector<double> values;
-    };
-    std::vector<Column> columns{};
+    std::string format; ///< as in the table above
+    std::string source; ///< the file (and data set)
+    std::string origin; ///< whose map it is, where the file tells it
+    std::size_t rows = 0, columns = 0;
+    std::vector<double> heights;         ///< Å, heights[y * columns + x]; NaN where one is missing
+    std::optional<double> width, height; ///< along x and y, Å, where the file tells them
+    std::string unit = "Å";              ///< of the heights in the file: "nm", "0.03 nm"
+    bool unit_assumed = false;           ///< neither the file nor the scene says it: Å
+    std::size_t missing = 0;             ///< points without a finite height
+    std::string first_missing;      ///< the place of the first: file:line:column or [row, column]
+    std::string first_missing_text; ///< what stands there
+    std::vector<std::string> notes; ///< what was assumed, filled or cut, one sentence each
 };
 
 struct MapOptions {
@@ -32,15 +44,24 @@ struct MapOptions {
     bool crop = false;         ///< not square: the middle; else it is refused
 };
 
-/// Throws SceneError, told with the line and column, or the row and column in HDF5.
-HeightMap read_height_map(const std::string& file, const MapOptions& options = {});
+/// What the file holds; name: a file, or file:/dataset. Throws SceneError.
+HeightMap read_map_file(const std::string& name, const std::string& unit = "auto");
+/// What a scene takes of it: a map that is square, whole and finite. Throws SceneError, told with
+/// the line and column, or the row and column in HDF5.
+HeightMap read_height_map(const std::string& name, const MapOptions& options = {});
 
 /// Gives every NaN of heights[y * columns + x] the value that makes it the mean of its neighbours
 /// (four, fewer at the map's edge): Laplace's equation with the heights around as boundary values.
 /// To 1e-9 of the largest height; there must be one that is no NaN.
 void fill_missing(std::vector<double>& heights, std::size_t rows, std::size_t columns);
 
+/// What is written beside the heights.
+struct MapColumn {
+    std::string name, unit; ///< "/spectrum/q"
+    std::vector<double> values;
+};
 /// HDF5 data set /heights (with unit and sizes). Whole or not at all. Throws FileError.
-void write_height_map(const std::string& file, const HeightMap& map);
+void write_height_map(const std::string& file, const HeightMap& map,
+                      const std::vector<MapColumn>& columns = {});
 
 } // namespace asperity::io

@@ -3,7 +3,6 @@
 #include "io/journal.hpp"
 
 #include "io/error.hpp"
-#include "io/output_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -27,10 +26,7 @@ struct Head {
 
 bool Journal::holds(const Directory& directory, const std::string& name, const Mark& mark) {
     const Descriptor file = directory.open(name, O_RDONLY);
-    if (!file) return false;
-    Digest digest;
-    return read_parts(file.get(), mark.bytes, [&](Bytes part) { digest.update(part); }) &&
-           digest.value() == mark.digest;
+    return file && digest_of(file.get(), mark.bytes) == mark.digest;
 }
 
 void Journal::copy(const Directory& from, const Directory& to, const std::string& name,
@@ -43,13 +39,14 @@ void Journal::copy(const Directory& from, const Directory& to, const std::string
     target.commit();
 }
 
-Journal::Journal(const Directory& directory, std::string name, std::uint64_t bytes)
-    : name_(std::move(name)), path_(directory / name_),
-      file_(directory.open(name_, O_RDWR | O_CREAT | O_NOFOLLOW)), bytes_(bytes) {
+Journal::Journal(const Directory& directory, const std::string& name, std::uint64_t bytes)
+    : path_(directory / name), file_(directory.open(name, O_RDWR | O_CREAT | O_NOFOLLOW)),
+      bytes_(bytes) {
     if (!file_ || ::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0)
         fail_by_system(path_, "cannot be written");
-    if (!read_parts(file_.get(), bytes, [&](Bytes part) { digest_.update(part); }))
-        fail_by_system(path_, "cannot be read");
+    const std::optional<std::uint32_t> digest = digest_of(file_.get(), bytes);
+    if (!digest) fail_by_system(path_, "cannot be read");
+    digest_ = *digest;
 }
 
 void Journal::append(std::uint64_t kind, Bytes payload) {
@@ -61,8 +58,7 @@ void Journal::append(std::uint64_t kind, Bytes payload) {
         failed_ = true;
         fail_by_system(path_, "cannot be appended to");
     }
-    digest_.update(first);
-    digest_.update(payload);
+    digest_ = digest_of(payload, digest_of(first, digest_));
     bytes_ += first.size() + payload.size();
 }
 

@@ -9,12 +9,12 @@
 // on from the checkpoint, and what came before it is checked against the digest.
 #pragma once
 
-#include "io/digest.hpp"
-#include "io/directory.hpp"
+#include "io/files.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,7 +27,6 @@ public:
         std::uint64_t bytes = 0;
         std::uint32_t digest = 0;
     };
-    using Bytes = std::span<const std::byte>;
 
     /// Whether the file holds the mark's bytes as they were.
     static bool holds(const Directory& directory, const std::string& name, const Mark& mark);
@@ -36,43 +35,40 @@ public:
                      const Mark& mark);
     /// Opens the file (makes it where it is missing) and cuts it to its first bytes, which must be
     /// held. Throws FileError.
-    Journal(const Directory& directory, std::string name, std::uint64_t bytes = 0);
+    Journal(const Directory& directory, const std::string& name, std::uint64_t bytes = 0);
 
     /// kind: what it is, a number of the caller's. Throws FileError, and does so again for every
     /// record after one that failed.
     void append(std::uint64_t kind, Bytes payload);
-    Mark mark() const { return {bytes_, digest_.value()}; }
+    Mark mark() const { return {bytes_, digest_}; }
     /// Brings all records to the disk. Throws FileError.
     void synchronize();
     /// All records from the first, one at a time. Throws FileError.
     void replay(const std::function<void(std::uint64_t kind, Bytes payload)>& take) const;
 
 private:
-    std::string name_, path_;
+    std::string path_;
     Descriptor file_;
     std::uint64_t bytes_ = 0;
-    Digest digest_;
+    std::uint32_t digest_ = 0;
     bool failed_ = false;
 };
 
 /// Numbers of a record's payload, in the order they are put.
 class PayloadWriter {
 public:
+    /// A number, or a range of them.
     template <class T>
-    void put(const T& value) {
-        put(std::span<const T>(&value, 1));
-    }
-    template <class T>
-    void put(std::span<const T> values) {
-        const auto bytes = std::as_bytes(values);
-        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-    }
-    template <class T>
-    void put(const std::vector<T>& values) {
-        put(std::span<const T>(values));
+    void put(const T& values) {
+        if constexpr (std::ranges::contiguous_range<T>) {
+            const Bytes bytes = std::as_bytes(std::span(values));
+            bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+        } else {
+            put(std::span(&values, 1));
+        }
     }
     void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
-    Journal::Bytes bytes() const { return bytes_; }
+    Bytes bytes() const { return bytes_; }
 
 private:
     std::vector<std::byte> bytes_;
@@ -80,7 +76,7 @@ private:
 
 class PayloadReader {
 public:
-    explicit PayloadReader(Journal::Bytes bytes) : bytes_(bytes) {}
+    explicit PayloadReader(Bytes bytes) : bytes_(bytes) {}
     template <class T>
     T get() {
         return get<T>(1).front();
@@ -95,7 +91,7 @@ public:
 
 private:
     void take(std::span<std::byte> to);
-    Journal::Bytes bytes_;
+    Bytes bytes_;
 };
 
 } // namespace asperity::io

@@ -1,20 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "io/map_file.hpp"
+//
+// Reading of the formats; what a scene makes of a map is in height_map.cpp.
+#include "io/height_map.hpp"
 
-#include "io/available_memory.hpp"
-#include "io/error.hpp"
+#include "io/scene_file.hpp"
 #include "io/units.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,6 +33,13 @@ constexpr double largest_height = 1e9; // Å
 constexpr std::size_t longest_edge = 1u << 17;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+/// What a file says of its units.
+struct Units {
+    std::optional<std::string> unit; ///< of the heights
+    double scale = 1.0;              ///< the heights are that many units, if the scene says none
+    bool of_sizes = false;           ///< width and height are in the unit of the heights too
+};
+
 /// Å per unit, refused if it is no length.
 double length_unit(const std::string& unit, const std::string& where) {
     const std::optional<double> factor = conversion(unit, "Å");
@@ -40,14 +50,12 @@ double length_unit(const std::string& unit, const std::string& where) {
 }
 
 /// The map of an HDF5 file of Asperity, as `asperity convert` and `asperity surface` write them.
-MapFile read_map_hdf5(const std::string& path, const std::string& named) {
-    const Hdf5File file = open_hdf5(path);
-    const std::string dataset = named.empty() ? "/heights" : named;
-    MapFile map;
+HeightMap read_map_hdf5(const Hdf5File& file, const std::string& dataset, Units& units) {
+    HeightMap map;
     map.format = "HDF5";
-    map.source = path + ":" + dataset;
+    map.source = file.path() + ":" + dataset;
     if (!file.is_dataset(dataset))
-        refuse(path, "has no data set " + dataset, "the file was opened and searched for it",
+        refuse(file.path(), "has no data set " + dataset, "the file was opened and searched for it",
                "`h5ls -r FILE` lists what it has; name one: file = \"FILE:/NAME\"");
     const Hdf5File::Shape shape = file.shape(dataset);
     if (shape.size() != 2 || !file.holds_numbers(dataset))
@@ -59,32 +67,23 @@ MapFile read_map_hdf5(const std::string& path, const std::string& named) {
     require_memory(map.source, "the height map",
                    24.0 * static_cast<double>(map.rows) * static_cast<double>(map.columns));
     map.heights = file.read<double>(dataset);
-    const auto text = [&](const std::string& object,
-                          const char* name) -> std::optional<std::string> {
-        if (!file.has_attribute(object, name)) return std::nullopt;
-        return file.read_text_attribute(object, name);
-    };
-    const auto number = [&](const char* name, double otherwise) {
-        return file.has_attribute(dataset, name) ? file.read_attribute<double>(dataset, name)
-                                                 : otherwise;
-    };
-    map.origin = text(dataset, "origin").value_or(text("/", "origin").value_or(""));
-    map.file_unit = text(dataset, "unit");
-    map.file_scale = number("scale", 1.0);
-    if (!file.has_attribute(dataset, "size_x")) return map;
-    map.width = number("size_x", nan);
-    map.height = number("size_y", *map.width);
+    map.origin = file.text_attribute(dataset, "origin")
+                     .value_or(file.text_attribute("/", "origin").value_or(""));
+    units.unit = file.text_attribute(dataset, "unit");
+    units.scale = file.number_attribute(dataset, "scale").value_or(1.0);
+    map.width = file.number_attribute(dataset, "size_x");
+    if (!map.width) return map;
+    map.height = file.number_attribute(dataset, "size_y").value_or(*map.width);
     // Sizes are in the file's own unit, whatever the scene says of the heights.
-    const std::optional<std::string> unit =
-        file.has_attribute(dataset, "size_unit") ? text(dataset, "size_unit") : map.file_unit;
-    map.size_in_unit = !unit;
+    std::optional<std::string> unit = file.text_attribute(dataset, "size_unit");
+    if (!unit) unit = units.unit;
+    units.of_sizes = !unit;
     const double factor = unit ? length_unit(*unit, map.source) : 1.0;
     *map.width *= factor;
     *map.height *= factor;
     return map;
 }
 
-/// The bytes of a file that a scene names.
 std::string file_contents(const std::string& file) {
     std::error_code error;
     const auto size = fs::file_size(file, error);
@@ -102,40 +101,25 @@ std::string file_contents(const std::string& file) {
     return text;
 }
 
-MapFile read_raw(const std::string& file, const std::string& dataset) {
-    const fs::path name(file);
-    if (is_hdf5(file)) return read_map_hdf5(file, dataset);
-    if (!dataset.empty() || name.extension() == ".h5")
-        refuse(file, "the height map cannot be read", "it is not an HDF5 file",
-               "name another file; a text matrix must not be called .h5");
-    if (name.extension() == ".xyz")
-        refuse(file, "the height map cannot be read", "it is a list of points",
-               convert_first(file));
-    const std::string bytes = file_contents(file);
-    return bytes.starts_with("\x93NUMPY") ? read_map_numpy(bytes, file)
-                                          : read_map_text(bytes, file);
-}
-
-/// Heights in Å, missing points counted, sizes in Å.
-void complete(MapFile& map, const std::string& unit_wanted) {
+/// Heights and sizes in Å, missing points counted.
+void complete(HeightMap& map, const Units& units, const std::string& unit_wanted) {
     const bool given = unit_wanted != "auto";
-    if (!given && !map.file_unit && map.size_in_unit)
+    if (!given && !units.unit && units.of_sizes)
         refuse(map.source, "the file does not say the unit of its sizes and heights",
                "in an unknown unit they may be anything",
                "say which it is: surface.file_unit = \"nm\"");
-    map.unit_assumed = !given && !map.file_unit;
-    const std::string unit = given ? unit_wanted : map.file_unit.value_or("Å");
-    const double scale = given ? 1.0 : map.file_scale;
+    map.unit_assumed = !given && !units.unit;
+    const std::string unit = given ? unit_wanted : units.unit.value_or("Å");
+    const double scale = given ? 1.0 : units.scale;
     map.unit = scale == 1.0 ? unit : fmt::format("{:g} {}", scale, unit);
     const double factor = scale * length_unit(unit, map.source);
-    if (map.size_in_unit) {
-        *map.width *= factor;
-        *map.height *= factor;
-    }
-    for (const double size : {map.width.value_or(1.0), map.height.value_or(1.0)})
-        if (!(size > 0.0) || !std::isfinite(size))
-            refuse(map.source, "the map has no size", fmt::format("{} Å", size),
+    for (std::optional<double>* size : {&map.width, &map.height}) {
+        if (!*size) continue;
+        if (units.of_sizes) **size *= factor;
+        if (!(**size > 0.0) || !std::isfinite(**size))
+            refuse(map.source, "the map has no size", fmt::format("{} Å", **size),
                    "set surface.file_unit and surface.file_size");
+    }
     double largest = 0.0;
     for (std::size_t i = 0; i < map.heights.size(); ++i) {
         double& height = map.heights[i];
@@ -174,21 +158,8 @@ bool is_header(std::string_view comment) {
     return false;
 }
 
-/// A number, or NaN for what no double holds.
-std::optional<double> number(std::string_view word) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc::result_out_of_range) return nan;
-    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-    return value;
-}
-
-} // namespace
-
-MapFile read_map_text(std::string_view text, const std::string& file) {
-    constexpr std::string_view blanks = " \t\r";
-    MapFile map;
+HeightMap read_map_text(std::string_view text, const std::string& file) {
+    HeightMap map;
     map.format = "text matrix";
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     std::size_t first_line = 0;
@@ -208,15 +179,9 @@ MapFile read_map_text(std::string_view text, const std::string& file) {
                        convert_first(file));
             rest = rest.substr(0, hash);
         }
-        const auto next_word = [&] {
-            rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
-            const std::string_view word = rest.substr(0, rest.find_first_of(blanks));
-            rest.remove_prefix(word.size());
-            return word;
-        };
         std::size_t columns = 0;
-        for (std::string_view word = next_word(); !word.empty(); word = next_word()) {
-            const std::optional<double> value = number(word);
+        for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
+            const std::optional<double> value = number_of(word);
             if (!value)
                 refuse(
                     place(word.data()),
@@ -244,47 +209,114 @@ MapFile read_map_text(std::string_view text, const std::string& file) {
     return map;
 }
 
-void refuse(std::string where, std::string what, std::string why, std::string fix) {
-    throw SceneError(Problem{std::move(where), std::move(what), std::move(why), std::move(fix)});
+// NumPy's .npy (numpy.lib.format, versions 1 to 3): magic, a dictionary of three keys as text, the
+// values. Numbers of the usual kinds, rows or columns first.
+
+/// What stands behind 'key': in the header, up to the next comma outside of parentheses.
+std::string_view entry(std::string_view header, std::string_view key) {
+    std::size_t at = header.find(key);
+    if (at == std::string_view::npos) return {};
+    at = header.find(':', at + key.size());
+    if (at == std::string_view::npos) return {};
+    at = header.find_first_not_of(" ", at + 1);
+    if (at == std::string_view::npos) return {};
+    const char end = header[at] == '(' ? ')' : ',';
+    return header.substr(at, header.find(end, at) - at);
 }
 
-std::string convert_first(const std::string& file) {
-    const auto quoted = [](const std::string& name) {
-        return name.find_first_of(" '\"\\$&;()<>*?[]|`!#~") == std::string::npos ? name
-                                                                                 : "'" + name + "'";
+template <class T>
+double value_at(const char* from, bool swap) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, from, sizeof(T));
+    if (swap) std::reverse(bytes, bytes + sizeof(T));
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    return static_cast<double>(value);
+}
+
+/// How a type like "f8" is read.
+constexpr std::pair<std::string_view, double (*)(const char*, bool)> readers[] = {
+    {"f8", value_at<double>},        {"f4", value_at<float>},
+    {"i1", value_at<std::int8_t>},   {"i2", value_at<std::int16_t>},
+    {"i4", value_at<std::int32_t>},  {"i8", value_at<std::int64_t>},
+    {"u1", value_at<std::uint8_t>},  {"u2", value_at<std::uint16_t>},
+    {"u4", value_at<std::uint32_t>}, {"u8", value_at<std::uint64_t>},
+};
+
+HeightMap read_map_numpy(std::string_view bytes, const std::string& file) {
+    const auto damaged = [&](const std::string& why) {
+        refuse(file, "the height map cannot be read", why,
+               "save it again: numpy.save(\"heights.npy\", heights)");
     };
-    const fs::path path(file);
-    const std::string out =
-        path.stem().string() + (path.extension() == ".h5" ? "-converted.h5" : ".h5");
-    return fmt::format("convert it first: asperity convert {} {}", quoted(file), quoted(out));
+    if (bytes.size() < 12) damaged("the file is cut short");
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+    const bool wide = byte(6) >= 2; // length of the header in 4 bytes rather than 2
+    std::size_t length = byte(8) + 256u * byte(9), start = 10;
+    if (wide)
+        length += 65536u * byte(10) + 16777216u * static_cast<std::size_t>(byte(11)), start = 12;
+    if (length > bytes.size() - start) damaged("its header is cut short");
+    const std::string_view header = bytes.substr(start, length),
+                           data = bytes.substr(start + length);
+
+    const std::string_view type = entry(header, "'descr'");
+    const auto* const reader = std::find_if(std::begin(readers), std::end(readers), [&](auto& r) {
+        return type.size() == 5 && r.first == type.substr(2, 2);
+    });
+    if (reader == std::end(readers))
+        damaged(fmt::format("its numbers are of type {}, and integers or floats are needed",
+                            type.substr(0, 40)));
+    const bool swap = (type[1] == '>') == (std::endian::native == std::endian::little);
+    const bool columns_first = entry(header, "'fortran_order'").starts_with("True");
+
+    std::vector<std::size_t> extent;
+    std::string digits(entry(header, "'shape'")); // "(6, 6"
+    std::replace_if(
+        digits.begin(), digits.end(), [](char c) { return c < '0' || c > '9'; }, ' ');
+    std::istringstream shape(digits);
+    for (std::size_t value = 0; shape >> value;)
+        extent.push_back(value);
+    if (extent.size() != 2)
+        refuse(file, "is no height map",
+               fmt::format("it has {} dimensions, a map has 2", extent.size()),
+               "name another file");
+    const std::size_t size = static_cast<std::size_t>(type[3] - '0');
+    HeightMap map;
+    map.format = "NumPy";
+    if (extent[0] == 0 || extent[1] == 0) return map; // empty, whatever the other says
+    if (extent[0] > data.size() / size / extent[1])
+        damaged(fmt::format("{} x {} numbers of {} bytes are declared, and {} bytes are there",
+                            extent[0], extent[1], size, data.size()));
+    map.rows = extent[0];
+    map.columns = extent[1];
+    map.heights.resize(map.rows * map.columns);
+    for (std::size_t r = 0; r < map.rows; ++r)
+        for (std::size_t c = 0; c < map.columns; ++c)
+            map.heights[r * map.columns + c] = reader->second(
+                data.data() + size * (columns_first ? c * map.rows + r : r * map.columns + c),
+                swap);
+    return map;
 }
 
-bool is_hdf5(const std::string& file) {
-    char head[8] = {};
-    std::ifstream(file, std::ios::binary).read(head, sizeof head);
-    return std::memcmp(head, "\x89HDF\r\n\x1a\n", sizeof head) == 0;
+HeightMap read_raw(const std::string& file, const std::string& dataset, Units& units) {
+    const fs::path name(file);
+    if (is_hdf5(file))
+        return read_hdf5(file, [&](const Hdf5File& opened) {
+            return read_map_hdf5(opened, dataset.empty() ? "/heights" : dataset, units);
+        });
+    if (!dataset.empty() || name.extension() == ".h5")
+        refuse(file, "the height map cannot be read", "it is not an HDF5 file",
+               "name another file; a text matrix must not be called .h5");
+    if (name.extension() == ".xyz")
+        refuse(file, "the height map cannot be read", "it is a list of points",
+               convert_first(file));
+    const std::string bytes = file_contents(file);
+    return bytes.starts_with("\x93NUMPY") ? read_map_numpy(bytes, file)
+                                          : read_map_text(bytes, file);
 }
 
-Hdf5File open_hdf5(const std::string& file) {
-    try {
-        return {FilePlace(file), Hdf5File::Mode::read};
-    } catch (const FileError& error) { // an input that the scene names: exit 2, like its other
-        Problem problem = error.problems().front(); // mistakes
-        problem.fix = convert_first(file);
-        throw SceneError(problem);
-    }
-}
+} // namespace
 
-void require_memory(const std::string& where, const char* what, double bytes) {
-    const AvailableMemory there = available_memory();
-    if (bytes > there.bytes)
-        refuse(where, fmt::format("{} is larger than the memory", what),
-               fmt::format("it needs {:.3g} GB, and {:.3g} GB are free", bytes / 1e9,
-                           there.bytes / 1e9),
-               "cut a piece out of it before");
-}
-
-MapFile read_map_file(const std::string& name, const std::string& unit) {
+HeightMap read_map_file(const std::string& name, const std::string& unit) {
     std::string file = name, dataset;
     if (const std::size_t colon = file.find(":/"); colon != std::string::npos) {
         dataset = file.substr(colon + 1);
@@ -295,7 +327,8 @@ MapFile read_map_file(const std::string& name, const std::string& unit) {
         refuse(file, "the height map cannot be opened",
                fs::exists(file, error) ? "it is no file" : "there is no such file",
                "check surface.file");
-    MapFile map = of_scene([&] { return read_raw(file, dataset); });
+    Units units;
+    HeightMap map = read_raw(file, dataset, units);
     if (map.source.empty()) map.source = file;
     if (map.rows == 0 || map.columns == 0)
         refuse(map.source, "the height map is empty", "it holds no numbers", "");
@@ -304,7 +337,7 @@ MapFile read_map_file(const std::string& name, const std::string& unit) {
                fmt::format("{} x {} points, {} along an edge at most", map.rows, map.columns,
                            longest_edge),
                "cut a piece out of it before");
-    complete(map, unit);
+    complete(map, units, unit);
     return map;
 }
 

@@ -222,8 +222,7 @@ inline constexpr Quantity result_quantities[] = {
      "of atoms. A sweep takes a result again only if the file still holds the same"},
     {"interface.table_digest", "", "",
      "digest of the numbers in the tables of potentials that the scene names. A sweep takes a "
-     "result "
-     "again only if they are the same"},
+     "result again only if they are the same"},
     {"run.wall_seconds", "s", "", "wall time of this process"},
     {"run.processor_seconds", "s", per::rank,
      "processor time of all threads, from the first start"},
@@ -248,8 +247,7 @@ inline constexpr Quantity result_quantities[] = {
     {"run.machine", "", "", "processor and number of processors"},
     {"digest", "", "",
      "last member: \"crc32:\" and the CRC-32, in hexadecimal, of all bytes before the comma in "
-     "front "
-     "of it"},
+     "front of it"},
 };
 
 /// In run.h5; "@" leads to an attribute.

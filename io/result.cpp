@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "io/result.hpp"
 
-#include "io/build_info.hpp"
-#include "io/digest.hpp"
+#include "io/files.hpp"
 #include "io/json.hpp"
+#include "io/machine.hpp"
 
 #include <fmt/format.h>
 
@@ -50,7 +50,6 @@ Result::Result() : values_(std::make_unique<Json>(Json::object())) {
 }
 Result::~Result() = default;
 Result::Result(Result&&) noexcept = default;
-Result& Result::operator=(Result&&) noexcept = default;
 
 void Result::put(Key key, const std::string& member, std::size_t element, Value&& value) {
     const Quantity& q = *key.quantity;
@@ -98,9 +97,8 @@ std::string Result::text(int indent) const { return json_text(json(), indent) + 
 void write_result(const Directory& directory, const Result& result) {
     std::string text = result.text();
     text.resize(text.rfind("\n}"));
-    Digest digest;
-    digest.update(std::as_bytes(std::span(text)));
-    text += fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n", digest.value());
+    text += fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n",
+                        digest_of(std::as_bytes(std::span(text))));
     write_whole({directory, "result.json"}, text);
 }
 

@@ -8,7 +8,7 @@
 // directory is chosen in io/result_directory.hpp.
 #pragma once
 
-#include "io/output_file.hpp"
+#include "io/files.hpp"
 #include "io/quantities.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -32,7 +32,6 @@ public:
     Result();
     ~Result();
     Result(Result&&) noexcept;
-    Result& operator=(Result&&) noexcept;
 
     /// Sets a value; one that is set already is replaced. NaN and infinity are written as null.
     void set(Key key, Value value);

@@ -3,8 +3,8 @@
 #include "io/result_directory.hpp"
 
 #include "io/error.hpp"
+#include "io/files.hpp"
 #include "io/json.hpp"
-#include "io/output_file.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -143,7 +143,8 @@ ResultDirectory::ResultDirectory(const ResultRequest& request)
 }
 
 ResultDirectory::~ResultDirectory() {
-    unlock();
+    if (is_lock_in_place()) ::unlinkat(directory_.fd(), run_file::lock, 0);
+    lock_ = Descriptor();
     std::error_code ignored;
     if (made_) fs::remove(path(), ignored); // which removes no directory with something in it
 }
@@ -194,11 +195,6 @@ bool ResultDirectory::is_lock_in_place() const {
     return ::fstat(lock_.get(), &mine) == 0 &&
            ::fstatat(directory_.fd(), run_file::lock, &there, AT_SYMLINK_NOFOLLOW) == 0 &&
            mine.st_ino == there.st_ino && mine.st_dev == there.st_dev;
-}
-
-void ResultDirectory::unlock() {
-    if (is_lock_in_place()) ::unlinkat(directory_.fd(), run_file::lock, 0);
-    lock_ = Descriptor();
 }
 
 } // namespace asperity::io

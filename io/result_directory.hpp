@@ -14,7 +14,7 @@
 // python/asperity/files.py takes the same lock.
 #pragma once
 
-#include "io/directory.hpp"
+#include "io/files.hpp"
 
 #include <string>
 #include <vector>
@@ -47,7 +47,6 @@ private:
     ResultDirectory(const ResultRequest& request, const std::string& path);
     void lock();
     bool is_lock_in_place() const;
-    void unlock();
 
     std::vector<std::string> notes_;
     bool made_; ///< by this object

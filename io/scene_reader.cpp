@@ -5,8 +5,8 @@
 // fields as TOML, as JSON and as the reference page.
 #include "io/scene_reader.hpp"
 
+#include "io/error.hpp"
 #include "io/json.hpp"
-#include "io/spelling.hpp"
 #include "io/units.hpp"
 
 #include <algorithm>
@@ -27,10 +27,11 @@ std::string quoted(const std::string& choice) {
     return fmt::format("\"{}{}\"", choice, choice.ends_with(':') ? "N" : "");
 }
 
-std::string quoted_choices(const Words& choices) {
+std::string quoted_choices(const Words& choices, const char* between = ", ",
+                           const std::string& around = "") {
     std::string text;
     for (const std::string& choice : choices)
-        text += (text.empty() ? "" : ", ") + quoted(choice);
+        text += (text.empty() ? "" : between) + around + quoted(choice) + around;
     return text;
 }
 
@@ -226,9 +227,7 @@ std::string toml_value(const Json& value) {
 
 /// What may stand there: a range with its unit, or choices, or a kind.
 std::string allowed(const Key& key, const std::string& quote) {
-    std::string text;
-    for (const std::string& choice : key.choices)
-        text += (text.empty() ? "" : " | ") + quote + quoted(choice) + quote;
+    std::string text = quoted_choices(key.choices, " | ", quote);
     const std::string kind = key.kind();
     if (!text.empty()) return kind == "list" ? "list of " + text : text;
     const bool limited = std::isfinite(key.range.low) || std::isfinite(key.range.high);
@@ -249,16 +248,6 @@ std::string escaped_bars(std::string text) { // a bar would end the cell of a Ma
 
 } // namespace
 
-std::string format(const Position& position) {
-    if (position.line == 0) return position.file;
-    return fmt::format("{}:{}:{}", position.file, position.line, position.column);
-}
-
-std::string Positions::where(const std::string& key) const {
-    const auto at = at_.find(key);
-    return at == at_.end() ? file_ : format(at->second);
-}
-
 void Problems::add(const std::string& key, const std::string& what, std::string why,
                    std::string fix) {
     add(Problem{positions_.where(key), key + (what.starts_with(":") ? "" : " ") + what,
@@ -276,40 +265,20 @@ bool Range::contains(double x) const {
 std::string Range::text(std::string_view unit) const {
     const std::string with_unit = unit.empty() ? "" : " " + std::string(unit);
     const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
-    if (has_low && has_high) {
-        const char* const left = low_open ? "above " : "";
-        const char* const right = high_open ? "below " : "";
-        return fmt::format("{}{} to {}{}{}", left, low, right, high, with_unit);
-    }
-    if (has_low)
-        return low_open ? fmt::format("above {}{}", low, with_unit)
-                        : fmt::format("{}{} or more", low, with_unit);
+    const char* const above = low_open ? "above " : "";
+    const char* const below = high_open ? "below " : "";
+    if (has_low && has_high)
+        return fmt::format("{}{} to {}{}{}", above, low, below, high, with_unit);
+    if (has_low) return fmt::format("{}{}{}{}", above, low, with_unit, low_open ? "" : " or more");
     if (has_high)
-        return high_open ? fmt::format("below {}{}", high, with_unit)
-                         : fmt::format("{}{} or less", high, with_unit);
+        return fmt::format("{}{}{}{}", below, high, with_unit, high_open ? "" : " or less");
     return "any number" + (unit.empty() ? "" : " of" + with_unit);
-}
-
-Schema& Schema::section(std::string name, std::string doc) {
-    sections_.emplace_back(std::move(name), std::move(doc));
-    return *this;
-}
-
-Schema& Schema::removed(Removed what) {
-    removed_.push_back(std::move(what));
-    return *this;
 }
 
 const Schema::Removed* Schema::find_removed(std::string_view key, std::string_view word) const {
     for (const Removed& gone : removed_)
         if (gone.key == key && gone.word == word) return &gone;
     return nullptr;
-}
-
-Schema& Schema::variations(std::string name, std::string doc, std::string example,
-                           std::vector<Variation>& into) {
-    variations_ = {std::move(name), std::move(doc), std::move(example), &into};
-    return *this;
 }
 
 const Key* Schema::find(std::string_view path) const {

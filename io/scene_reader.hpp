@@ -29,27 +29,14 @@
 
 namespace asperity::io {
 
-/// Where a value came from. line 0: an override or no place at all.
-struct Position {
-    std::string file;
-    int line = 0;
-    int column = 0;
-};
-std::string format(const Position& position);
-
 /// Where every key that was set was set.
-class Positions {
-public:
-    bool is_set(const std::string& key) const { return at_.contains(key); }
-    /// "file:line:column", "--set section.key=value", or the file's name where the key has its
-    /// default.
-    std::string where(const std::string& key) const;
-    void set(const std::string& key, Position position) { at_[key] = std::move(position); }
-    void set_file(std::string file) { file_ = std::move(file); }
+struct Positions {
+    std::string file;
+    std::map<std::string, std::string> keys; ///< "file:line:column" or "--set section.key=value"
 
-private:
-    std::string file_;
-    std::map<std::string, Position> at_;
+    bool is_set(const std::string& key) const { return keys.contains(key); }
+    /// The file's name where the key has its default.
+    std::string where(const std::string& key) const { return is_set(key) ? keys.at(key) : file; }
 };
 
 /// Collects what is wrong with a scene; throws it together.
@@ -137,33 +124,29 @@ public:
     };
 
     /// Keys that follow belong to this section.
-    Schema& section(std::string name, std::string doc);
+    void section(std::string name, std::string doc) {
+        sections_.emplace_back(std::move(name), std::move(doc));
+    }
 
-    Key& boolean(std::string name, bool& field, std::string doc) {
+    /// True or false, or a text.
+    template <class T>
+    Key& key(std::string name, T& field, std::string doc) {
         return add({name, &field, doc});
     }
-    Key& integer(std::string name, int& field, Range range, std::string doc) {
-        return add({.name = name, .field = &field, .doc = doc, .range = range});
-    }
-    Key& integer(std::string name, long long& field, Range range, std::string doc) {
+    template <class T>
+    Key& integer(std::string name, T& field, Range range, std::string doc) {
         return add({.name = name, .field = &field, .doc = doc, .range = range});
     }
     /// A quantity (number in the unit, or string with any unit of that dimension); unit "" : a bare
     /// number.
     Key& number(std::string name, double& field, std::string unit, Range range, std::string doc) {
-        return add({.name = name, .field = &field, .doc = doc, .unit = unit, .range = range});
+        return add({name, &field, doc, unit, range});
     }
-    /// A quantity or a word: radius = "none".
-    Key& number_or(std::string name, std::optional<double>& field, std::string word,
-                   std::string unit, Range range, std::string doc) {
+    /// A quantity, or a whole number without unit, or a word: radius = "none".
+    template <class T>
+    Key& number_or(std::string name, std::optional<T>& field, std::string word, std::string unit,
+                   Range range, std::string doc) {
         return add({name, &field, doc, unit, range, word});
-    }
-    Key& integer_or(std::string name, std::optional<long long>& field, std::string word,
-                    Range range, std::string doc) {
-        return add({name, &field, doc, "", range, word});
-    }
-    Key& text(std::string name, std::string& field, std::string doc) {
-        return add({name, &field, doc});
     }
     /// A list of strings. A member is right if it equals a choice, or starts with a choice that
     /// ends in ':' and goes on with a positive whole number ("every:1000"). No choices: anything.
@@ -193,16 +176,18 @@ public:
         std::string word; ///< the value that the key no longer takes; empty: the whole key is gone
         std::string why, fix;
     };
-    Schema& removed(Removed what);
+    void removed(Removed what) { removed_.push_back(std::move(what)); }
 
     /// A section without keys of its own: keys of the others, each with a list or range of values.
     /// Only their names are looked at here.
-    Schema& variations(std::string name, std::string doc, std::string example,
-                       std::vector<Variation>& into);
+    struct Variations {
+        std::string name, doc, example;
+        std::vector<Variation>* into = nullptr;
+    };
+    void variations(Variations section) { variations_ = std::move(section); }
 
     const std::vector<Key>& keys() const { return keys_; }
-    const std::string& variations_section() const { return variations_.name; }
-    void keep(Variation variation) const { variations_.into->push_back(std::move(variation)); }
+    const Variations& variations() const { return variations_; }
     const Key* find(std::string_view path) const;
     /// Null: that was never there, or still is.
     const Removed* find_removed(std::string_view key, std::string_view word = "") const;
@@ -227,10 +212,7 @@ private:
     std::vector<Key> keys_;
     std::vector<Removed> removed_;
     std::vector<std::pair<std::string, std::string>> sections_; ///< name and doc, in order
-    struct Variations {
-        std::string name, doc, example;
-        std::vector<Variation>* into = nullptr;
-    } variations_;
+    Variations variations_;
 };
 
 /// The name by which a command line asks for it.

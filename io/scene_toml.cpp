@@ -4,14 +4,17 @@
 // From TOML text and overrides to the keys of a schema. The one unit that includes toml++.
 #include "io/scene_reader.hpp"
 
-#include "io/spelling.hpp"
+#include "io/error.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -57,9 +60,17 @@ int line_of_deep_key(std::string_view text) {
     return 0;
 }
 
-Position position_of(const toml::source_region& region, const std::string& file) {
-    return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
-}
+/// A place in the text, or an override (line 0).
+struct Position {
+    std::string file;
+    int line = 0, column = 0;
+
+    std::string text() const {
+        return line == 0 ? file : fmt::format("{}:{}:{}", file, line, column);
+    }
+    /// That of the text; overrides last.
+    std::tuple<bool, int, int> order() const { return {line == 0, line, column}; }
+};
 
 Schema::Value value_of(const toml::node& node) {
     if (const auto* boolean = node.as_boolean()) return boolean->get();
@@ -125,7 +136,7 @@ public:
             if (sections_.empty() || sections_.back() != key.section)
                 sections_.push_back(key.section);
         }
-        if (!schema.variations_section().empty()) sections_.push_back(schema.variations_section());
+        if (schema.variations().into) sections_.push_back(schema.variations().name);
     }
 
     void text(std::string_view text) {
@@ -137,7 +148,7 @@ public:
         try {
             root = toml::parse(text, file_);
         } catch (const toml::parse_error& error) {
-            const Position at = position_of(error.source(), file_);
+            const Position at = place(error.source());
             const std::string why(error.description());
             add(at, "this is no TOML", why,
                 why.find("redefine") != why.npos
@@ -150,7 +161,7 @@ public:
     }
 
     void override_with(const std::string& assignment) {
-        const Position at{"--set " + assignment, 0, 0};
+        const Position at{"--set " + assignment};
         const std::size_t equals = assignment.find('=');
         std::string path = assignment.substr(0, equals);
         std::erase_if(path, [](char c) { return c == ' ' || c == '\t'; });
@@ -195,13 +206,7 @@ public:
 
     /// Adds what was found, in the order of the text.
     void finish(Problems& problems) {
-        std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
-            const auto rank = [](const Position& p) { // overrides last
-                return std::tuple(p.line == 0, p.line, p.column);
-            };
-            return rank(a.first) < rank(b.first);
-        });
-        for (auto& [at, problem] : found_)
+        for (auto& [order, problem] : found_)
             problems.add(std::move(problem));
         if (untold_ > 0)
             problems.add(Problem{file_, fmt::format("has {} more problems", untold_),
@@ -210,6 +215,10 @@ public:
     }
 
 private:
+    Position place(const toml::source_region& region) const {
+        return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+    }
+
     /// Enough was found; what comes is counted only.
     bool full() {
         if (found_.size() < most_problems) return false;
@@ -219,13 +228,13 @@ private:
 
     void add(const Position& at, std::string what, std::string why, std::string fix) {
         if (full()) return;
-        found_.emplace_back(at,
-                            Problem{format(at), std::move(what), std::move(why), std::move(fix)});
+        found_.emplace(at.order(),
+                       Problem{at.text(), std::move(what), std::move(why), std::move(fix)});
     }
 
     void section(const std::string& name, const toml::source_region& where,
                  const toml::node& node) {
-        const Position at = position_of(where, file_);
+        const Position at = place(where);
         const auto* table = node.as_table();
         if (!table) {
             if (node.is_array_of_tables())
@@ -239,15 +248,15 @@ private:
                        "sections: " + fmt::format("{}", fmt::join(sections_, ", ")),
                        near.empty() ? "take one of them" : fmt::format("did you mean [{}]?", near));
         }
-        if (name == schema_.variations_section()) return variations(*table, "");
+        if (name == schema_.variations().name) return variations(*table, "");
         for (const auto& [key_name, value] : *table) {
             const std::string path = name + "." + std::string(key_name.str());
             const Schema::Key* key = schema_.find(path);
             if (!key) {
-                unknown(path, position_of(key_name.source(), file_));
+                unknown(path, place(key_name.source()));
                 continue;
             }
-            store(*key, value_of(value), shown(value), position_of(value.source(), file_));
+            store(*key, value_of(value), shown(value), place(value.source()));
         }
     }
 
@@ -255,13 +264,13 @@ private:
     void variations(const toml::table& table, const std::string& above) {
         for (const auto& [name, node] : table) {
             const std::string path = above + std::string(name.str());
-            const Position at = position_of(node.source(), file_);
+            const Position at = place(node.source());
             if (const auto* inner = node.as_table()) {
                 variations(*inner, path + ".");
                 continue;
             }
             if (!schema_.find(path)) {
-                unknown(path, position_of(name.source(), file_));
+                unknown(path, place(name.source()));
                 continue;
             }
             std::string values;
@@ -271,7 +280,7 @@ private:
             } else {
                 values = as_override(node);
             }
-            schema_.keep({path, values, format(at)});
+            schema_.variations().into->push_back({path, values, at.text()});
         }
     }
 
@@ -283,7 +292,7 @@ private:
 
     void store(const Schema::Key& key, const Schema::Value& value, const std::string& text,
                const Position& at) {
-        positions_.set(key.path(), at);
+        positions_.keys[key.path()] = at.text();
         const auto* word = std::get_if<std::string>(&value);
         if (const auto* gone = schema_.find_removed(key.path(), word ? *word : ""))
             return add(at, fmt::format("{} = {} is not a choice any more", key.path(), text),
@@ -300,21 +309,19 @@ private:
             return add(at, path + " is not a key any more", gone->why, gone->fix);
         const std::size_t dot = path.find('.');
         const std::string section = dot == std::string::npos ? "" : path.substr(0, dot);
-        const std::string name = dot == std::string::npos ? path : path.substr(dot + 1);
+        const std::string name = path.substr(dot + 1); // npos + 1 is 0
         std::vector<std::string> here, everywhere;
-        std::string same_name;
+        std::map<std::string, std::string> path_of; // of each name, the last
         for (const Schema::Key& key : schema_.keys()) {
             if (key.section == section) here.push_back(key.name);
             everywhere.push_back(key.name);
-            if (key.name == name) same_name = key.path();
+            path_of[key.name] = key.path();
         }
-        std::string meant = same_name;
+        std::string meant = path_of.contains(name) ? path_of[name] : "";
         if (const std::string near = nearest(name, here); meant.empty() && !near.empty())
             meant = section + "." + near;
         if (meant.empty()) meant = nearest(path, paths_);
-        if (const std::string near = nearest(name, everywhere); meant.empty())
-            for (const Schema::Key& key : schema_.keys())
-                if (key.name == near) meant = key.path();
+        if (meant.empty()) meant = path_of[nearest(name, everywhere)];
         add(at, cut(path) + " is no key of a scene",
             section.empty() ? "every key stands in a [section]"
             : here.empty()  ? fmt::format("there is no section [{}]", section)
@@ -327,7 +334,7 @@ private:
     std::string file_;
     Positions& positions_;
     std::vector<std::string> paths_, sections_;
-    std::vector<std::pair<Position, Problem>> found_;
+    std::multimap<std::tuple<bool, int, int>, Problem> found_;
     std::size_t untold_ = 0;
 };
 
@@ -336,7 +343,7 @@ private:
 void Schema::read(std::string_view text, const std::string& file,
                   const std::vector<std::string>& overrides, Positions& positions,
                   Problems& problems) const {
-    positions.set_file(file);
+    positions.file = file;
     Reading reading(*this, file, positions);
     reading.text(text);
     for (const std::string& assignment : overrides)

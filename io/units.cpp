@@ -88,37 +88,33 @@ void skip_blanks(std::string_view& text) {
     }
 }
 
-constexpr std::string_view superscripts[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+/// How it may be written too: superscripts, "**", the dot of a product.
+constexpr std::pair<std::string_view, std::string_view> spellings[] = {
+    {"⁰", "^0"}, {"¹", "^1"}, {"²", "^2"}, {"³", "^3"},  {"⁴", "^4"}, {"⁵", "^5"}, {"⁶", "^6"},
+    {"⁷", "^7"}, {"⁸", "^8"}, {"⁹", "^9"}, {"⁻^", "^-"}, {"**", "^"}, {"·", "*"},
+};
 
-/// The power behind a symbol: ^2, ^-1, **2, ², ⁻¹; 1 if there is none.
+std::string plain(std::string_view unit) {
+    std::string text(unit);
+    for (const auto& [from, to] : spellings)
+        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+            text.replace(at, from.size(), to);
+    return text;
+}
+
+/// The power behind a symbol: ^2, ^-1; 1 if there is none.
 std::optional<int> take_power(std::string_view& text) {
-    if (skip(text, "^") || skip(text, "**")) {
-        const int sign = skip(text, "-") ? -1 : 1;
-        if (text.empty() || text[0] < '1' || text[0] > '9') return std::nullopt;
-        const int digit = text[0] - '0';
-        text.remove_prefix(1);
-        return sign * digit;
-    }
-    const bool negative = skip(text, "⁻");
-    for (int digit = 1; digit < 10; ++digit)
-        if (skip(text, superscripts[digit])) return negative ? -digit : digit;
-    if (negative) return std::nullopt;
-    return 1;
+    if (!skip(text, "^")) return 1;
+    const int sign = skip(text, "-") ? -1 : 1;
+    if (text.empty() || text[0] < '1' || text[0] > '9') return std::nullopt;
+    const int digit = text[0] - '0';
+    text.remove_prefix(1);
+    return sign * digit;
 }
 
 std::string_view take_symbol(std::string_view& text) {
-    std::size_t end = 0;
-    while (end < text.size()) {
-        const std::string_view rest = text.substr(end);
-        if (std::string_view(" \t*/^").find(rest[0]) != std::string_view::npos) break;
-        if (rest.starts_with("·") || rest.starts_with("⁻")) break;
-        if (std::any_of(std::begin(superscripts), std::end(superscripts),
-                        [&](std::string_view digit) { return rest.starts_with(digit); }))
-            break;
-        ++end;
-    }
-    const std::string_view symbol = text.substr(0, end);
-    text.remove_prefix(end);
+    const std::string_view symbol = text.substr(0, text.find_first_of(" \t*/^"));
+    text.remove_prefix(symbol.size());
     return symbol;
 }
 
@@ -135,9 +131,32 @@ constexpr std::pair<std::string_view, std::string_view> examples[] = {
     {"eV/Å", "\"0.1 meV/Å\""},
 };
 
+/// What the units of a dimension measure.
+constexpr std::pair<std::array<int, 4>, const char*> measures[] = {
+    {number, "a bare number"},
+    {length, "a length"},
+    {mass, "a mass"},
+    {duration, "a time"},
+    {temperature, "a temperature"},
+    {energy, "an energy"},
+    {force, "a force"},
+    {pressure, "a pressure"},
+    {{1, 0, -1, 0}, "a velocity"},
+    {rate, "a rate"},
+    {{0, 1, -2, 0}, "an energy per area"},
+};
+
+std::string measure_of(const Unit& unit) {
+    for (const auto& [dimension, measure] : measures)
+        if (dimension == unit.dimension) return measure;
+    return "something else";
+}
+
 } // namespace
 
-std::optional<Unit> parse_unit(std::string_view text) {
+std::optional<Unit> parse_unit(std::string_view written) {
+    const std::string owned = plain(written);
+    std::string_view text = owned;
     Unit unit;
     bool divide = false;
     skip_blanks(text);
@@ -155,7 +174,7 @@ std::optional<Unit> parse_unit(std::string_view text) {
         skip_blanks(text);
         if (text.empty()) return unit;
         divide = skip(text, "/");
-        if (!divide && !skip(text, "*")) skip(text, "·");
+        if (!divide) skip(text, "*");
         skip_blanks(text);
     }
 }
@@ -171,30 +190,6 @@ std::string example_of(std::string_view base) {
         if (unit == base) return std::string(text);
     return base.empty() ? "0.5" : fmt::format("\"1 {}\"", base);
 }
-
-namespace {
-
-/// "a length", "a pressure", "a bare number": what a unit measures.
-std::string measure_of(const Unit& unit) {
-    static const std::pair<std::string_view, std::string_view> known[] = {
-        {"", "a bare number"},
-        {"m", "a length"},
-        {"kg", "a mass"},
-        {"s", "a time"},
-        {"K", "a temperature"},
-        {"J", "an energy"},
-        {"N", "a force"},
-        {"Pa", "a pressure"},
-        {"m/s", "a velocity"},
-        {"1/s", "a rate"},
-        {"J/m^2", "an energy per area"},
-    };
-    for (const auto& [text, measure] : known)
-        if (parse_unit(text)->dimension == unit.dimension) return std::string(measure);
-    return "something else";
-}
-
-} // namespace
 
 ParsedQuantity parse_quantity(std::string_view text, std::string_view base) {
     ParsedQuantity result;

@@ -6,9 +6,9 @@
 #include "engine/commands/exit_code.hpp"
 #include "engine/commit.hpp"
 #include "engine/run/run.hpp"
-#include "io/build_info.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"
+#include "io/machine.hpp"
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ public:
     Map map(const std::string& object) const {
         const io::Hdf5File from = file();
         const auto shape = from.shape(checked(from, object));
-        Map map{shape.at(0), shape.at(1), from.read_text_attribute(object, "unit"),
+        Map map{shape.at(0), shape.at(1), from.text_attribute(object, "unit").value_or(""),
                 from.read<double>(object)};
         return map;
     }

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <utility>
 
 namespace libasperity {
@@ -111,8 +112,9 @@ Scene described_scene(const std::string& file) {
         return io::FileError(file, what, "Simulation::resume goes on from what save() wrote",
                              "a run's own checkpoint is for `asperity run --resume`");
     };
-    if (!saved.has_attribute("/", "scene")) throw wrong("holds no simulation");
-    const io::Json all = io::parse_json(saved.read_text_attribute("/", "scene"), file);
+    const std::optional<std::string> text = saved.text_attribute("/", "scene");
+    if (!text) throw wrong("holds no simulation");
+    const io::Json all = io::parse_json(*text, file);
     const io::Json* scene = io::find(all, "simulation");
     if (!scene) throw wrong("holds a run, not a simulation that was saved");
     return Scene::parse((*scene)["text"].get<std::string>(),

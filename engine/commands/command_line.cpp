@@ -4,10 +4,9 @@
 
 #include "decomposition/communicator.hpp"
 #include "engine/run/stop_signals.hpp"
-#include "io/build_info.hpp"
 #include "io/error.hpp"
+#include "io/machine.hpp"
 #include "io/scene_reader.hpp"
-#include "io/spelling.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -7,14 +7,13 @@
 #include "engine/run/run_record.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/scene/map_statistics.hpp"
-#include "io/build_info.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
 #include "io/json.hpp"
-#include "io/map_file.hpp"
+#include "io/machine.hpp"
 #include "io/result.hpp"
 #include "io/result_directory.hpp"
-#include "io/table.hpp"
+#include "io/terminal.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/variant.hpp"
 
@@ -151,7 +150,7 @@ namespace {
 /// What the file of a measured surface holds, before the scene makes anything of it.
 void print_map_file(const Case& c) {
     const Scene& scene = c.scene;
-    const io::MapFile map = io::read_map_file(c.file, scene.surface.file_unit);
+    const io::HeightMap map = io::read_map_file(c.file, scene.surface.file_unit);
     std::optional<double> width = map.width, height = map.height;
     if (scene.surface.file_size) { // the scene's value takes precedence
         const double pixel =
@@ -165,9 +164,7 @@ void print_map_file(const Case& c) {
     const auto if_sized = [&](double value, const char* format) {
         return width ? fmt::format(fmt::runtime(format), value) : std::string("?");
     };
-    io::Table table({"the file", "", ""});
-    table.align_left(1);
-    table.align_left(2);
+    io::Table table({"the file", "", ""}, "<<<");
     table.row({"name", std::filesystem::path(scene.surface.file).filename().string(), map.format});
     table.row({"points", fmt::format("{} x {}", map.columns, map.rows),
                map.missing > 0 ? fmt::format("{} without a height", map.missing) : ""});
@@ -194,7 +191,12 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
     const io::ResultDirectory place({out, scene.name + "-surface"});
 
     const SurfaceStatistics& statistics = surface.statistics;
-    const std::string map = place.directory() / "heights.h5";
+    const std::string file = place.directory() / "heights.h5";
+    io::HeightMap map;
+    map.rows = map.columns = static_cast<std::size_t>(surface.sites);
+    map.heights = surface.height;
+    map.width = map.height = surface.length;
+    map.origin = surface.origin;
     std::vector<double> q, realised, target;
     for (const SpectrumBin& bin : statistics.spectrum) {
         q.push_back(bin.q);
@@ -202,25 +204,19 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
         target.push_back(bin.target);
     }
     const LineStatistics lines = line_statistics(surface.height, surface.sites, surface.length);
-    io::write_height_map(map, {surface.sites,
-                               surface.height,
-                               surface.length,
-                               "Å",
-                               surface.origin,
-                               {},
-                               {{"/spectrum/q", "1/Å", q},
-                                {"/spectrum/realised", "Å^4", realised},
-                                {"/spectrum/target", "Å^4", target},
-                                {"/spectrum/line_q", "1/Å", lines.q},
-                                {"/spectrum/c1d", "Å^3", lines.c1d},
-                                {"/spectrum/line_r", "Å", lines.r},
-                                {"/spectrum/autocorrelation", "Å^2", lines.acf},
-                                {"/spectrum/scale_dependent_slope", "1", lines.slope}}});
+    io::write_height_map(file, map,
+                         {{"/spectrum/q", "1/Å", q},
+                          {"/spectrum/realised", "Å^4", realised},
+                          {"/spectrum/target", "Å^4", target},
+                          {"/spectrum/line_q", "1/Å", lines.q},
+                          {"/spectrum/c1d", "Å^3", lines.c1d},
+                          {"/spectrum/line_r", "Å", lines.r},
+                          {"/spectrum/autocorrelation", "Å^2", lines.acf},
+                          {"/spectrum/scale_dependent_slope", "1", lines.slope}});
 
     io::write_result(place.directory(), surface_result(c, surface));
 
-    io::Table table({"the surface made", "", ""});
-    table.align_left(2);
+    io::Table table({"the surface made", "", ""}, "<><");
     if (surface.atoms.size() > 0) table.row({"atoms", fmt::format("{}", surface.atoms.size()), ""});
     table.row({surface.atoms.size() > 0 ? "sites" : "atoms",
                fmt::format("{0} x {0}", surface.sites),
@@ -244,7 +240,7 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
         fmt::print("note: {}\n", note);
     for (const std::string& note : place.notes())
         fmt::print("note: {}\n", note);
-    fmt::print("heights and spectrum in {}\n", map);
+    fmt::print("heights and spectrum in {}\n", file);
 }
 
 } // namespace
@@ -290,8 +286,7 @@ int schema_command(bool results, const Communicator& world) {
 int info_command(const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
     const io::BuildInfo build = io::build_info();
-    io::Table table({"", ""});
-    table.align_left(1);
+    io::Table table({"", ""}, "<<");
     table.row({"version", build.version});
     table.row({"git", build.git});
     table.row({"compiler", build.compiler});

@@ -9,7 +9,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/result.hpp"
 #include "io/result_directory.hpp"
-#include "io/table.hpp"
+#include "io/terminal.hpp"
 #include "theory/maugis.hpp"
 
 #include <fmt/format.h>

@@ -10,7 +10,7 @@
 #include "engine/equilibrium/relaxation.hpp"
 #include "engine/equilibrium/state_array.hpp"
 #include "engine/setup/case.hpp"
-#include "io/progress.hpp"
+#include "io/terminal.hpp"
 
 namespace asperity {
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <type_traits>
@@ -158,11 +159,12 @@ namespace {
 
 io::Hdf5File open_checkpoint(const io::FilePlace& place) {
     io::Hdf5File file(place, io::Hdf5File::Mode::read);
-    if (!file.has_attribute("/", "asperity_checkpoint"))
+    const std::optional<double> version = file.number_attribute("/", "asperity_checkpoint");
+    if (!version)
         throw io::FileError(file.path(), "is not a checkpoint",
                             "it lacks the attribute asperity_checkpoint",
                             "give the checkpoint.h5 of a run's result directory");
-    if (file.read_attribute<std::int64_t>("/", "asperity_checkpoint") != format_version)
+    if (*version != format_version)
         throw io::FileError(file.path(), "has another checkpoint format",
                             "it was written by another version", "run the scene from its start");
     return file;
@@ -193,7 +195,8 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
     NumberLists lists;
     ranks.on_root([&] {
         file = std::make_unique<io::Hdf5File>(open_checkpoint(place));
-        if (const std::string its = file->read_text_attribute("/", "scene"); its != fingerprint)
+        const std::string its = file->text_attribute("/", "scene").value_or("");
+        if (its != fingerprint)
             throw io::SceneError({file->path(), "belongs to another scene",
                                   "this scene differs from it in " +
                                       differing_keys(io::parse_json(its, file->path()),

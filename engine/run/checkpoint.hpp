@@ -14,7 +14,7 @@
 #include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/state_array.hpp"
 #include "engine/run/state_numbers.hpp"
-#include "io/directory.hpp"
+#include "io/files.hpp"
 
 #include <string>
 #include <vector>

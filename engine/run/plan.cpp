@@ -3,8 +3,8 @@
 #include "engine/run/plan.hpp"
 
 #include "engine/units.hpp"
-#include "io/available_memory.hpp"
-#include "io/table.hpp"
+#include "io/machine.hpp"
+#include "io/terminal.hpp"
 #include "kernels/variant.hpp"
 
 #include <fmt/format.h>
@@ -192,9 +192,7 @@ void print_plan(std::FILE* to, const Case& c, const Plan& plan) {
     fmt::print(to, "{}: {} x {} sites, box {:.6g} Å, {} layers in {} level{}\n\n", scene.name,
                scene.surface.sites, scene.surface.sites, scene.edge(), scene.block.thickness,
                c.levels.size(), c.levels.size() == 1 ? "" : "s");
-    io::Table effects({"effect", "", "because"});
-    effects.align_left(1);
-    effects.align_left(2);
+    io::Table effects({"effect", "", "because"}, "<<<");
     for (std::size_t i = 0; i < effect_count; ++i) {
         const auto effect = static_cast<Effect>(i);
         effects.row(
@@ -202,8 +200,7 @@ void print_plan(std::FILE* to, const Case& c, const Plan& plan) {
     }
     effects.print(to);
     fmt::print(to, "\n");
-    io::Table table({"part of the run", "memory", "time", ""});
-    table.align_left(3);
+    io::Table table({"part of the run", "memory", "time", ""}, "<>><");
     const auto line = [&](const char* what, const Cost& cost, const std::string& remark) {
         table.row({what, memory_text(cost.bytes), time_text(cost.seconds), remark});
     };

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/recorder.hpp"
 
-#include "io/build_info.hpp"
-#include "io/described.hpp"
-#include "io/h5md.hpp"
+#include "io/machine.hpp"
 #include "io/result_directory.hpp"
+#include "io/run_h5.hpp"
 
 #include <algorithm>
 #include <array>
@@ -159,28 +158,18 @@ void write_fields(io::Hdf5File& file, io::PayloadReader record) {
     write_gap_density(file, group, gap);
 }
 
-/// The frames of a journal become a trajectory.
-class TrajectoryWriter {
-public:
-    explicit TrajectoryWriter(io::Hdf5File& file) : file_(file) {}
-    void append(io::PayloadReader record) {
-        const auto particles = record.get<std::uint64_t>();
-        const bool velocities = record.get<std::uint64_t>() != 0;
-        std::array<double, 3> edges{};
-        for (double& edge : edges)
-            edge = record.get<double>();
-        if (!trajectory_) trajectory_.emplace(file_, particles, edges, velocities);
-        const auto step = record.get<std::int64_t>();
-        const auto time = record.get<double>();
-        const std::vector<float> position = record.get<float>(3 * particles);
-        const std::vector<float> velocity = record.get<float>(velocities ? 3 * particles : 0);
-        trajectory_->append(step, time, position, velocity);
-    }
-
-private:
-    io::Hdf5File& file_;
-    std::optional<io::H5mdTrajectory> trajectory_;
-};
+io::H5mdFrame frame_of(io::PayloadReader record) {
+    const auto particles = record.get<std::uint64_t>();
+    const bool velocities = record.get<std::uint64_t>() != 0;
+    io::H5mdFrame frame;
+    for (double& edge : frame.edges)
+        edge = record.get<double>();
+    frame.step = record.get<std::int64_t>();
+    frame.time = record.get<double>();
+    frame.position = record.get<float>(3 * particles);
+    frame.velocity = record.get<float>(velocities ? 3 * particles : 0);
+    return frame;
+}
 
 } // namespace
 
@@ -349,15 +338,14 @@ void Recorder::write_if_cheap() {
 void Recorder::build() {
     const Clock::time_point start = Clock::now();
     io::Hdf5File file({directory_, "run.h5"}, io::Hdf5File::Mode::create);
-    io::write_h5md_head(file, io::build_info().version);
+    io::write_h5md_head(file);
     write_substrate(file, surface_);
-    TrajectoryWriter trajectory(file);
-    journal_->replay([&](std::uint64_t kind, io::Journal::Bytes payload) {
+    journal_->replay([&](std::uint64_t kind, io::Bytes payload) {
         io::PayloadReader record(payload);
         if (kind == fields_record)
             write_fields(file, record);
         else if (kind == frame_record)
-            trajectory.append(record);
+            io::append_h5md(file, frame_of(record));
     });
     for (const auto& [name, values] : series())
         io::write_described(file, "/series/" + name, {values.size()}, values);
@@ -372,7 +360,7 @@ std::map<std::string, std::vector<double>> Recorder::series() const {
     std::vector<std::vector<double>*> columns;
     for (const RecordColumn& c : record_columns)
         if (is_in(c, mode_, effects_)) columns.push_back(&all[c.name]);
-    journal_->replay([&](std::uint64_t kind, io::Journal::Bytes payload) {
+    journal_->replay([&](std::uint64_t kind, io::Bytes payload) {
         io::PayloadReader record(payload);
         while (kind == rows_record && !record.at_end())
             for (std::vector<double>* column : columns)

@@ -12,7 +12,7 @@
 #include "engine/dynamics/simulation.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/setup/effects.hpp"
-#include "io/directory.hpp"
+#include "io/files.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/journal.hpp"
 

@@ -8,8 +8,8 @@
 #include "engine/run/memory_meter.hpp"
 #include "engine/run/recorder.hpp"
 #include "io/atoms_file.hpp"
-#include "io/available_memory.hpp"
 #include "io/error.hpp"
+#include "io/machine.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/setup/case.hpp"
-#include "io/progress.hpp"
+#include "io/terminal.hpp"
 
 #include <functional>
 #include <optional>
@@ -22,7 +22,7 @@ struct RunOptions {
 
     // Of a program that runs scenes itself (library/asperity.hpp); called on rank 0.
     bool silent = false;             ///< neither opening nor summary on the standard output
-    io::Progress::Listener listener; ///< told of progress, beside what is printed
+    io::Progress::Listener listener; ///< told of progress
     std::function<bool()> stop; ///< true: a checkpoint is written and the run ends, as by a signal
 
     bool resuming() const { return !resume.empty(); }

@@ -7,8 +7,8 @@
 #include "engine/run/run_record.hpp"
 #include "engine/run/smooth_sphere.hpp"
 #include "engine/run/summary.hpp"
-#include "io/described.hpp"
 #include "io/json.hpp"
+#include "io/run_h5.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -63,9 +63,8 @@ RunSession::RunSession(const Case& c, const RunOptions& options, const Communica
       grid(c.grid(ranks.rank())), storage_(options, c.scene.name, ranks),
       interruptions_(options, c.on(Effect::checkpoints) ? c.scene.output.checkpoint : HUGE_VAL,
                      ranks),
-      progress(options.progress, !ranks.root()), maps(c.maps, grid),
+      progress(options.progress, !ranks.root(), options.listener), maps(c.maps, grid),
       fingerprint_(physics_of(c, surface)) {
-    progress.tell(options.listener);
     print_notes();
 }
 

@@ -22,8 +22,8 @@
 #include "engine/run/run.hpp"
 #include "engine/run/run_storage.hpp"
 #include "engine/setup/case.hpp"
-#include "io/progress.hpp"
 #include "io/result.hpp"
+#include "io/terminal.hpp"
 
 #include <functional>
 #include <optional>

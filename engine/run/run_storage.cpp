@@ -3,7 +3,7 @@
 #include "engine/run/run_storage.hpp"
 
 #include "io/error.hpp"
-#include "io/output_file.hpp"
+#include "io/files.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 
 #include "engine/run/theory_case.hpp"
 #include "engine/units.hpp"
-#include "io/described.hpp"
+#include "io/run_h5.hpp"
 #include "theory/half_space.hpp"
 #include "theory/periodic_sphere.hpp"
 

@@ -5,7 +5,7 @@
 #include "engine/run/rehearsal.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/units.hpp"
-#include "io/table.hpp"
+#include "io/terminal.hpp"
 
 #include <fmt/format.h>
 

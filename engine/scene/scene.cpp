@@ -95,7 +95,7 @@ io::Schema bind(Scene& scene) {
                               "random amplitudes and phases, or random phases alone");
     schema.integer("seed", surface.seed, at_least(0), "of the surface: same seed, same bits");
     schema.number_or("radius", surface.radius, "none", "Å", positive(), "of a spherical cap");
-    schema.text(
+    schema.key(
         "file", surface.file,
         "for kind = \"file\": HDF5 of Asperity (file.h5 or file.h5:/path), .npy or a plain matrix "
         "of "
@@ -104,8 +104,8 @@ io::Schema bind(Scene& scene) {
         "working directory");
     schema.number_or("file_size", surface.file_size, "auto", "Å", positive(),
                      "edge of the map; \"auto\": what the file says, else the box");
-    schema.text("file_unit", surface.file_unit,
-                "of the map's heights; \"auto\": what the file says, else Å");
+    schema.key("file_unit", surface.file_unit,
+               "of the map's heights; \"auto\": what the file says, else Å");
     schema.choice<Detrend>(
         "detrend", surface.detrend,
         {{"none", Detrend::none}, {"plane", Detrend::plane}, {"periodic", Detrend::periodic}},
@@ -163,9 +163,9 @@ io::Schema bind(Scene& scene) {
     schema.choice<int>("potential", interface.potential, names,
                        "of the pairs, or of the atoms of a wall that are smeared over it");
     each_potential(interface.potentials, [&](auto& p) { bind_potential(schema, p); });
-    schema.text("table", interface.table,
-                "of potential = \"table\": a text file of two columns, distances in Å and energies "
-                "in eV; looked for beside the scene, then in the working directory");
+    schema.key("table", interface.table,
+               "of potential = \"table\": a text file of two columns, distances in Å and energies "
+               "in eV; looked for beside the scene, then in the working directory");
     schema.number("cutoff", interface.cutoff, "Å", positive(),
                   "no interaction beyond; half the box at most");
     schema.list(
@@ -175,9 +175,9 @@ io::Schema bind(Scene& scene) {
         "parameters in the order above; units may follow. []: the potential above, for atoms of "
         "one "
         "type");
-    schema.boolean("tail", interface.tail, "continuum correction beyond the cutoff");
-    schema.boolean("frictionless", interface.frictionless,
-                   "paths without time: no lateral tractions, normal displacements only");
+    schema.key("tail", interface.tail, "continuum correction beyond the cutoff");
+    schema.key("frictionless", interface.frictionless,
+               "paths without time: no lateral tractions, normal displacements only");
     schema.choice<WallLawKind>(
         "law", interface.law,
         {{"exponential", WallLawKind::exponential}, {"smeared", WallLawKind::smeared}},
@@ -257,9 +257,9 @@ io::Schema bind(Scene& scene) {
         "spectrum", theory.spectrum,
         {{"target", TheorySpectrum::target}, {"realised", TheorySpectrum::realised}},
         "the spectrum asked for, or that of the surface made");
-    schema.boolean("clip", theory.clip, "clip the target spectrum at Nyquist, like the surface");
-    schema.boolean("renormalised", theory.renormalised,
-                   "the renormalised theory too: a tenth of a second");
+    schema.key("clip", theory.clip, "clip the target spectrum at Nyquist, like the surface");
+    schema.key("renormalised", theory.renormalised,
+               "the renormalised theory too: a tenth of a second");
 
     auto& numerics = scene.numerics;
     schema.section("numerics", "Arithmetic.");
@@ -285,9 +285,9 @@ io::Schema bind(Scene& scene) {
 
     auto& output = scene.output;
     schema.section("output", "What is written.");
-    schema.integer_or("trajectory", output.trajectory, "none", at_least(1),
-                      "steps between frames of the lowest layer (H5MD, in run.h5)");
-    schema.boolean("velocities", output.velocities, "in the frames of the trajectory too");
+    schema.number_or("trajectory", output.trajectory, "none", "", at_least(1),
+                     "steps between frames of the lowest layer (H5MD, in run.h5)");
+    schema.key("velocities", output.velocities, "in the frames of the trajectory too");
     schema.list(
         "fields", output.fields,
         {"zero-load", std::string(after_zero_load), "pull-off", "segments", "every:"},
@@ -298,10 +298,10 @@ io::Schema bind(Scene& scene) {
     schema.number("checkpoint", output.checkpoint, "s", at_least(0.0),
                   "wall time between checkpoints; 0: none");
 
-    schema.variations("sweep",
-                      "What `asperity sweep` varies: any key above, with a list of values or a "
-                      "range start:stop:step. Other commands pass over it.",
-                      "surface.rms = [1, 2, 3]", scene.sweep);
+    schema.variations({"sweep",
+                       "What `asperity sweep` varies: any key above, with a list of values or a "
+                       "range start:stop:step. Other commands pass over it.",
+                       "surface.rms = [1, 2, 3]", &scene.sweep});
     return schema;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/segment.hpp"
 
-#include "io/spelling.hpp"
+#include "io/error.hpp"
 #include "io/units.hpp"
 
 #include <fmt/format.h>

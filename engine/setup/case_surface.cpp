@@ -5,11 +5,11 @@
 #include "engine/setup/case.hpp"
 
 #include "io/atoms_file.hpp"
-#include "io/available_memory.hpp"
-#include "io/digest.hpp"
 #include "io/error.hpp"
+#include "io/files.hpp"
 #include "io/height_map.hpp"
 #include "io/json.hpp"
+#include "io/machine.hpp"
 
 #include <fmt/format.h>
 
@@ -89,17 +89,17 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
         for (const std::int32_t t : file.type)
             type.push_back(rows[static_cast<std::size_t>(t)]);
     }
-    io::Digest digest;
+    std::uint32_t digest = 0;
     for (const auto* values : {&file.x, &file.y, &file.z})
-        digest.update(std::as_bytes(std::span(*values)));
-    digest.update(std::as_bytes(std::span(std::as_const(type))));
+        digest = io::digest_of(std::as_bytes(std::span(*values)), digest);
+    digest = io::digest_of(std::as_bytes(std::span(std::as_const(type))), digest);
     Surface surface = surface_from_atoms(
         options, {std::move(file.x), std::move(file.y), std::move(file.z), std::move(type)});
     surface.notes.insert(
         surface.notes.begin(),
         fmt::format("{}: {} atoms of {}", std::filesystem::path(s.file).filename().string(), count,
                     file.types.size() > 1 ? types_of(file) : "type " + shown(file.types[0])));
-    surface.file_digest = digest.value();
+    surface.file_digest = digest;
     return surface;
 }
 
@@ -112,9 +112,9 @@ io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
         map = io::read_height_map(c.file, {s.file_unit, s.file_missing == MapMissing::fill,
                                            s.file_crop == MapCrop::middle});
         if (ranks.size() == 1) return;
-        io::Json json = {{"sites", map.sites}, {"unit", map.unit}, {"origin", map.origin}};
+        io::Json json = {{"rows", map.rows}, {"unit", map.unit}, {"origin", map.origin}};
         json["notes"] = map.notes;
-        if (map.size) json["size"] = *map.size;
+        if (map.width) json["width"] = *map.width;
         head = io::json_text(json);
     });
     if (ranks.size() == 1) return map;
@@ -125,11 +125,11 @@ io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
     ranks.broadcast(std::as_writable_bytes(std::span(head)));
     ranks.broadcast(std::span(map.heights));
     const io::Json json = io::parse_json(head, s.file);
-    map.sites = json["sites"];
+    map.rows = map.columns = json["rows"];
     map.unit = json["unit"];
     map.origin = json["origin"];
     map.notes = json["notes"].get<std::vector<std::string>>();
-    if (json.contains("size")) map.size = json["size"].get<double>();
+    if (json.contains("width")) map.width = json["width"].get<double>();
     return map;
 }
 
@@ -175,14 +175,14 @@ Surface surface_of(const Case& c, const Communicator& world) {
         if (s.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
         if (s.kind != SurfaceKind::file) return make_surface(options);
         io::HeightMap map = map_of_file(c, world);
-        options.map_edge = s.file_size.value_or(map.size.value_or(0.0));
-        const int covered = sites_of_map(options);
-        if (map.sites != covered && s.resample == Resample::none)
+        options.map_edge = s.file_size.value_or(map.width.value_or(0.0));
+        const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
+        if (points != covered && s.resample == Resample::none)
             throw std::invalid_argument(fmt::format(
                 "the map in {} has {} x {} values, but covers {} x {} atoms of the substrate; give "
                 "a map of that size, set surface.sites = {}, or let it be resampled with "
                 "surface.resample = \"band-limited\"",
-                s.file, map.sites, map.sites, covered, covered, map.sites));
+                s.file, points, points, covered, covered, points));
         options.rms = scene.gives_rms() ? s.rms : 0.0;
         options.detrend = s.detrend != Detrend::none;
         options.periodic = s.detrend == Detrend::periodic;
@@ -191,19 +191,18 @@ Surface surface_of(const Case& c, const Communicator& world) {
             map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as "
                                             "wide as the box, {:.6g} Å (surface.file_size)",
                                             edge));
-        io::Digest digest;
-        digest.update(std::as_bytes(std::span(std::as_const(map.heights))));
-        const double width = map.size.value_or(0.0);
-        digest.update(std::as_bytes(std::span(&width, 1)));
-        Surface surface =
-            surface_from_heights(options, std::move(map.heights), map.sites, map.sites);
+        const double width = map.width.value_or(0.0);
+        const std::uint32_t digest =
+            io::digest_of(std::as_bytes(std::span(&width, 1)),
+                          io::digest_of(std::as_bytes(std::span(std::as_const(map.heights)))));
+        Surface surface = surface_from_heights(options, std::move(map.heights), points, points);
         surface.origin = std::move(map.origin);
-        surface.file_digest = digest.value();
+        surface.file_digest = digest;
         surface.notes.insert(
             surface.notes.begin(),
             fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",
-                        std::filesystem::path(s.file).filename().string(), map.sites, map.sites,
-                        edge / map.sites, edge, map.unit));
+                        std::filesystem::path(s.file).filename().string(), points, points,
+                        edge / points, edge, map.unit));
         surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
         return surface;
     } catch (const std::invalid_argument& e) {

@@ -7,8 +7,8 @@
 // cutoff.
 #include "engine/setup/resolving.hpp"
 
-#include "io/columns_file.hpp"
-#include "io/digest.hpp"
+#include "io/files.hpp"
+#include "io/scene_file.hpp"
 #include "io/units.hpp"
 #include "kernels/substrates.hpp"
 
@@ -50,12 +50,12 @@ const PotentialTable& table_of(Case& c, const std::string& file) {
     if (known != c.table_files.end())
         return *tables[static_cast<std::size_t>(known - c.table_files.begin())];
     try {
-        const auto columns = io::read_columns(found, 2);
+        const auto columns = io::read_two_columns(found);
         tables.push_back(std::make_shared<PotentialTable>(columns[0], columns[1]));
-        io::Digest digest;
+        std::uint32_t digest = 0;
         for (const auto& column : columns)
-            digest.update(std::as_bytes(std::span(column)));
-        c.table_digest = c.table_digest.value_or(0) * 31 + digest.value();
+            digest = io::digest_of(std::as_bytes(std::span(column)), digest);
+        c.table_digest = c.table_digest.value_or(0) * 31 + digest;
     } catch (const io::SceneError& error) {
         const io::Problem& p = error.problems().front();
         throw BadTable(p.where + " " + p.what);

@@ -3,7 +3,7 @@
 """Files that matter: written whole or not at all, and checked by the digests that they hold.
 
 A digest is the CRC-32 of all bytes before it: the last member of a JSON object (`digest`), the last 32 bytes
-of an HDF5 file of the program (io/output_file.cpp).
+of an HDF5 file of the program (io/files.cpp).
 """
 
 from __future__ import annotations

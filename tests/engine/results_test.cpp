@@ -48,7 +48,7 @@ public:
     /// A data set of run.h5 in this unit.
     std::vector<double> data(const std::string& path, const char* unit) const {
         std::vector<double> values = file->read<double>(path);
-        const double by = factor(file->read_text_attribute(path, "unit"), unit);
+        const double by = factor(file->text_attribute(path, "unit").value(), unit);
         for (double& value : values)
             value *= by;
         return values;
@@ -98,13 +98,13 @@ void expect_units_everywhere(const Written& run) {
     datasets(*run.file, "", all);
     EXPECT_GT(all.size(), 15u);
     for (const std::string& path : all)
-        EXPECT_TRUE(run.file->has_attribute(path, "unit") &&
-                    run.file->has_attribute(path, "description"))
+        EXPECT_TRUE(run.file->text_attribute(path, "unit") &&
+                    run.file->text_attribute(path, "description"))
             << path;
-    const std::string scene = run.file->read_text_attribute("/", "scene");
+    const std::string scene = run.file->text_attribute("/", "scene").value();
     EXPECT_EQ(scene_toml(read_scene_text(scene, "attribute"), false),
               scene_toml(run.scene(), false));
-    EXPECT_EQ(run.file->read_text_attribute("/", "version"),
+    EXPECT_EQ(run.file->text_attribute("/", "version"),
               run.json.at("run").at("version").get<std::string>());
 }
 
@@ -174,7 +174,7 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
     for (const char* name : {"contact_fraction", "repulsive_fraction"})
         EXPECT_EQ(run.data(std::string("/series/") + name, "1")[turn], run.number(name, "1"));
     EXPECT_NEAR(run.number("zero_load.mean_height", "Å"),
-                run.file->read_attribute<double>("/fields/zero-load", "reference_height") +
+                run.file->number_attribute("/fields/zero-load", "reference_height").value() +
                     mean(run.data(state + "u_z", "Å")),
                 1e-9);
     EXPECT_NEAR(area * gpa * mean(pressure), 0.0, 1e-2);
@@ -216,7 +216,8 @@ TEST(Results, OfACurvedSceneHoldTheTheoryOfTheSmoothSphere) {
     for (const char* name : {"jkr", "jkr_images", "maugis_images", "renormalised"}) {
         const std::string group = std::string("/curves/") + name;
         EXPECT_NE(
-            run.file->read_text_attribute(group, "label")
+            run.file->text_attribute(group, "label")
+                .value()
                 .find(std::string(name) == "renormalised" ? "renormalised law" : "smooth sphere"),
             std::string::npos);
         EXPECT_EQ(run.data(group + "/height", "Å").size(),

@@ -7,16 +7,14 @@
 #include "engine/run/run_storage.hpp"
 #include "target.hpp"
 
-#include "io/digest.hpp"
+#include "io/files.hpp"
 
 #include <cstring>
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace asperity;
     std::string bytes(reinterpret_cast<const char*>(data), size);
-    io::Digest digest;
-    digest.update(std::as_bytes(std::span(bytes)));
-    const std::uint64_t end[2] = {size, digest.value()};
+    const std::uint64_t end[2] = {size, io::digest_of(std::as_bytes(std::span(bytes)))};
     bytes.append("asperity digest\n", 16).append(reinterpret_cast<const char*>(end), sizeof end);
     const fuzz::MemoryFile file(bytes);
     fuzz::try_out([&] {

@@ -15,11 +15,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         const io::HeightMap map = io::read_height_map(
             file.name(), {flags & 1 ? "nm" : "auto", (flags & 2) != 0, (flags & 4) != 0});
         // What is not refused is a map: square, whole, finite.
-        const auto n = static_cast<std::size_t>(map.sites);
-        if (n < 1 || map.heights.size() != n * n) std::abort();
+        const std::size_t n = map.rows;
+        if (n < 1 || map.columns != n || map.heights.size() != n * n) std::abort();
         for (const double h : map.heights)
             if (!std::isfinite(h)) std::abort();
-        if (map.size && !(*map.size > 0.0 && std::isfinite(*map.size))) std::abort();
+        if (map.width && !(*map.width > 0.0 && std::isfinite(*map.width))) std::abort();
     });
     return 0;
 }

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "io/error.hpp"
-#include "io/output_file.hpp"
+#include "io/files.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The formats of height maps: the same heights, size and unit from each, and what is refused.
-#include "io/available_memory.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/height_map.hpp"
-#include "io/map_file.hpp"
+#include "io/machine.hpp"
 
 #include "support/scratch.hpp"
 
@@ -62,7 +61,7 @@ std::string numpy(const std::string& type, bool columns_first, double scale = 1.
     return bytes;
 }
 
-void expect_the_map(const MapFile& map, const char* what, double tolerance = 1e-9) {
+void expect_the_map(const HeightMap& map, const char* what, double tolerance = 1e-9) {
     ASSERT_EQ(map.rows, static_cast<std::size_t>(n)) << what;
     ASSERT_EQ(map.columns, static_cast<std::size_t>(n)) << what;
     EXPECT_EQ(map.missing, 0u) << what;
@@ -98,7 +97,7 @@ std::string hdf5(const Scratch& scratch, double scale, const std::function<void(
 TEST(MapFile, SameMapInEveryFormat) {
     const Scratch scratch;
     const auto expect_sized = [&](const std::string& file, const std::string& unit = "auto") {
-        const MapFile map = read_map_file(file, unit);
+        const HeightMap map = read_map_file(file, unit);
         expect_the_map(map, "HDF5");
         EXPECT_EQ(map.format, "HDF5");
         EXPECT_NEAR(map.width.value_or(0.0), 10.0 * pixel_nm * n, 1e-9);
@@ -114,7 +113,7 @@ TEST(MapFile, SameMapInEveryFormat) {
         set(file, "unit", "nm");
         set(file, "size_x", pixel_nm * n);
     }));
-    const MapFile scaled = expect_sized(hdf5(scratch, 2.0, [&](Hdf5File& file) {
+    const HeightMap scaled = expect_sized(hdf5(scratch, 2.0, [&](Hdf5File& file) {
         set(file, "unit", "nm");
         set(file, "scale", 0.5);
         set(file, "size_x", 10.0 * pixel_nm * n);
@@ -228,9 +227,10 @@ TEST(MapFile, MapsThatAreNotSquare) {
     };
     EXPECT_EQ(refused(wide(2.0)).what, "the height map is not square");
     const HeightMap map = read_height_map(scratch / "m.h5", {"Å", false, true});
-    EXPECT_EQ(map.sites, 2);
+    EXPECT_EQ(map.rows, 2u);
+    EXPECT_EQ(map.columns, 2u);
     EXPECT_EQ(map.heights, (std::vector<double>{3, 4, 11, 12}));
-    EXPECT_EQ(map.size, 20.0);
+    EXPECT_EQ(map.width, 20.0);
     EXPECT_EQ(refused(wide(1.0), {"Å", false, true}).why,
               "its pixels of 10 x 5 Å are not square, and the periodic box is");
 }
@@ -286,7 +286,9 @@ TEST(MapFile, Hdf5ThatIsHostile) {
         return refused(scratch / "m.h5");
     };
     EXPECT_EQ(made(nothing).what, "has no data set /heights");
-    EXPECT_EQ(made([](Hdf5File& f) { f.make_series<double>("/heights", {100000}); }).what,
+    EXPECT_EQ(made([](Hdf5File& f) {
+                  f.make_dataset<double>("/heights", {0, 100000});
+              }).what,
               "the height map is empty");
     // Declared and never written: no bytes in the file, 40 TB in memory.
     EXPECT_EQ(made([](Hdf5File& f) {
@@ -319,16 +321,19 @@ TEST(HeightMap, RowsAreYAndColumnsAreX) {
     for (const char* text : {"1 2 3\n4 5 6\n7 8 9\n", "1\t2  3\n4 5 6\n7 8 9",
                              "# a map\n\n1\t2 3 # first\r\n4 5 6\r\n+7 8.0 9e0\r\n"}) {
         const HeightMap map = read_height_map(scratch.write("m.txt", text));
-        EXPECT_EQ(map.sites, 3);
+        EXPECT_EQ(map.rows, 3u);
         EXPECT_EQ(map.heights, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
-        EXPECT_FALSE(map.size.has_value());
+        EXPECT_FALSE(map.width.has_value());
     }
     EXPECT_EQ(read_height_map(scratch.write("m.txt", "1 2\n3 4\n"), {"nm"}).heights.back(), 40.0);
 }
 
 TEST(HeightMap, RoundTripsAreExact) {
     const Scratch scratch;
-    HeightMap map{4, {}, 41.6, "Å", "somebody's, CC BY 4.0"};
+    HeightMap map;
+    map.rows = map.columns = 4;
+    map.width = map.height = 41.6;
+    map.origin = "somebody's, CC BY 4.0";
     std::string text;
     for (int i = 0; i < 16; ++i) {
         map.heights.push_back(std::sin(1.0 + i) * 1e-3);
@@ -337,10 +342,10 @@ TEST(HeightMap, RoundTripsAreExact) {
     write_height_map(scratch / "m.h5", map);
     for (const std::string& file : {scratch / "m.h5", scratch.write("m.txt", text)}) {
         const HeightMap back = read_height_map(file);
-        EXPECT_EQ(back.sites, 4) << file;
+        EXPECT_EQ(back.rows, 4u) << file;
         EXPECT_EQ(back.heights, map.heights) << file;
     }
-    EXPECT_EQ(read_height_map(scratch / "m.h5").size, map.size);
+    EXPECT_EQ(read_height_map(scratch / "m.h5").width, map.width);
     EXPECT_EQ(read_height_map(scratch / "m.h5").origin, map.origin);
     EXPECT_FALSE(std::filesystem::exists(scratch / "m.h5.tmp"));
     EXPECT_THROW(write_height_map(scratch / "no/dir.h5", map), FileError);
@@ -371,7 +376,7 @@ TEST(HeightMap, Hdf5Mistakes) {
     // The scene knows better than the file, for the heights.
     const HeightMap other = read_height_map(map({0.0, 0.5, 1.0, -1.0}), {"Å"});
     EXPECT_EQ(other.heights[1], 0.5);
-    EXPECT_EQ(other.size, 10.0);
+    EXPECT_EQ(other.width, 10.0);
 }
 
 TEST(HeightMap, TextMistakes) {

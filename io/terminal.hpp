@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a run is doing, how fast, and how long it will still take.
-//
-// "bar" redraws one line, on a terminal; "lines" prints a line now and then, for logs and under
-// mpirun (where ranks see no terminal); "auto" picks. Updates cost a look at the clock; call them
-// every few steps, from one rank.
+// What is shown in a terminal: tables; what a run is doing, how fast, and how long it will still
+// take.
 #pragma once
 
 #include <chrono>
@@ -14,33 +11,54 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace asperity::io {
 
+/// Columns aligned by what is seen (UTF-8 counts as one); headings bold on a terminal, unless
+/// NO_COLOR is set or TERM is "dumb".
+class Table {
+public:
+    /// sides: '<' for a column flush left, '>' for one flush right; without it the first is flush
+    /// left and the others flush right.
+    explicit Table(std::vector<std::string> heads, std::string sides = "");
+    void row(std::vector<std::string> cells); ///< missing cells are empty
+    void rule() { rows_.emplace_back(); }     ///< a line across
+    std::string text(bool with_colours) const;
+    void print(std::FILE* stream) const;
+
+private:
+    std::vector<std::string> heads_;
+    std::string sides_;
+    std::vector<std::vector<std::string>> rows_; ///< empty: a rule
+};
+
+/// Four significant digits, or "-" for nothing: for cells.
+std::string cell(double value, int digits = 4);
+
+/// "bar" redraws one line, on a terminal; "lines" prints a line now and then, for logs and under
+/// mpirun (where ranks see no terminal); "auto" picks.
 enum class ProgressMode { automatic, bar, lines, off };
 std::optional<ProgressMode> progress_mode(std::string_view name); ///< "auto", "bar", "lines", "off"
 
-/// Somebody sees what is written there at once. Open MPI's mpirun gives its ranks a terminal of
-/// their own, wherever the output goes in the end: that is none.
-bool is_terminal(std::FILE* stream);
-
+/// Updates cost a look at the clock; call them every few steps, from one rank.
 class Progress {
 public:
-    /// quiet: never prints (ranks other than 0).
-    Progress(ProgressMode mode, bool quiet = false, std::FILE* to = stderr);
-    ~Progress();
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-
     struct State {
         std::string phase;      ///< "approach, F = -12.3 eV/Å"
         long long steps = 0;    ///< done so far, in all
         double time_fs = 0.0;   ///< simulated so far; 0: no clock in this run
         double fraction = -1.0; ///< done of the whole path, 0..1; negative: unknown
     };
-    /// Gets each state that update() is given, as often as a bar is redrawn. Not on quiet ranks.
     using Listener = std::function<void(const State&)>;
-    void tell(Listener listener);
+
+    /// quiet: nothing is printed or told (ranks other than 0). listener: is told each state that is
+    /// printed; where nothing is, as often as a bar would be redrawn.
+    Progress(ProgressMode mode, bool quiet = false, Listener listener = {}, std::FILE* to = stderr);
+    ~Progress() { finish(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
     /// True when enough time has passed that update() would print or tell: build the phase text
     /// only then.
     bool due() const;
@@ -56,16 +74,12 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     void put(const std::string& text);
-    bool print_due(Clock::time_point now) const;
-    bool tell_due(Clock::time_point now) const;
 
     ProgressMode mode_;
-    const bool quiet_;
     Listener listener_;
-    Clock::time_point last_told_;
     std::FILE* to_;
-    Clock::time_point start_;
-    Clock::time_point last_print_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_; ///< when it was printed or told
     long long first_steps_ = -1;
     long long last_steps_ = 0;
     double first_time_ = 0.0;

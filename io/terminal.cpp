@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "io/progress.hpp"
-
-#include "io/table.hpp"
+#include "io/terminal.hpp"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +16,26 @@
 namespace asperity::io {
 
 namespace {
+
+/// Characters seen, not bytes: the bytes that begin a character.
+int visible_width(std::string_view text) {
+    return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+    }));
+}
+
+/// Somebody sees what is written there at once. Open MPI's mpirun gives its ranks a terminal of
+/// their own, wherever the output goes in the end: that is none.
+bool is_terminal(std::FILE* stream) {
+    return ::isatty(::fileno(stream)) != 0 && !std::getenv("OMPI_COMM_WORLD_SIZE");
+}
+
+bool colours(std::FILE* stream) {
+    const char* const no_color = std::getenv("NO_COLOR");
+    const char* const term = std::getenv("TERM");
+    return is_terminal(stream) && !(no_color && *no_color) &&
+           !(term && std::string_view(term) == "dumb");
+}
 
 constexpr double bar_seconds = 0.2;
 /// Lines get rarer as a run gets longer: after 2 s, 10 s, then each 10 % of the time so far.
@@ -39,23 +59,73 @@ std::string simulated_per_day(double fs_per_day) {
     return fmt::format("{} ps/day", amount(fs_per_day / 1e3));
 }
 
-/// Cut to what one line of the terminal shows.
-std::string fitted(const std::string& text, std::FILE* stream) {
+/// Columns of the terminal that a line may fill.
+int columns_of(std::FILE* stream) {
     struct winsize window {};
-    const int columns = ::ioctl(::fileno(stream), TIOCGWINSZ, &window) == 0 && window.ws_col > 10
-                            ? window.ws_col - 1
-                            : 110;
-    if (visible_width(text) <= columns) return text;
-    std::string cut;
-    int width = 0;
-    for (const char c : text) {
-        if ((static_cast<unsigned char>(c) & 0xC0) != 0x80 && ++width > columns) break;
-        cut += c;
-    }
-    return cut;
+    const bool known = ::ioctl(::fileno(stream), TIOCGWINSZ, &window) == 0 && window.ws_col > 10;
+    return known ? window.ws_col - 1 : 110;
 }
 
 } // namespace
+
+Table::Table(std::vector<std::string> heads, std::string sides)
+    : heads_(std::move(heads)), sides_(std::move(sides)) {
+    if (sides_.empty()) sides_ = "<";
+    sides_.resize(heads_.size(), '>');
+}
+
+void Table::row(std::vector<std::string> cells) {
+    cells.resize(heads_.size());
+    rows_.push_back(std::move(cells));
+}
+
+std::string Table::text(bool with_colours) const {
+    std::vector<int> width;
+    for (const std::string& head : heads_)
+        width.push_back(visible_width(head));
+    for (const auto& row : rows_)
+        for (std::size_t i = 0; i < row.size(); ++i)
+            width[i] = std::max(width[i], visible_width(row[i]));
+
+    const auto line = [&](const std::vector<std::string>& cells) {
+        std::string text;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const std::string pad(static_cast<std::size_t>(width[i] - visible_width(cells[i])),
+                                  ' ');
+            text += "  " + (sides_[i] == '<' ? cells[i] + pad : pad + cells[i]);
+        }
+        text.erase(text.find_last_not_of(' ') + 1);
+        return text;
+    };
+    const int total =
+        std::accumulate(width.begin(), width.end(), 2 * static_cast<int>(width.size()));
+    const std::string rule_text = fmt::format("  {:─<{}}", "", std::max(0, total - 2));
+
+    std::string text;
+    const bool headed = std::any_of(heads_.begin(), heads_.end(),
+                                    [](const std::string& head) { return !head.empty(); });
+    if (headed) {
+        const std::string head = line(heads_);
+        text += (with_colours ? "\033[1m" + head + "\033[0m" : head) + "\n" + rule_text + "\n";
+    }
+    for (const auto& row : rows_)
+        text += (row.empty() ? rule_text : line(row)) + "\n";
+    return text;
+}
+
+void Table::print(std::FILE* stream) const {
+    const std::string out = text(colours(stream));
+    std::fwrite(out.data(), 1, out.size(), stream);
+}
+
+std::string cell(double value, int digits) {
+    if (!std::isfinite(value)) return "-";
+    const double size = std::abs(value);
+    if (value != 0.0 && (size < 1e-3 || size >= 1e6))
+        return fmt::format("{:.{}e}", value, digits - 1);
+    const int before = value == 0.0 ? 1 : static_cast<int>(std::floor(std::log10(size))) + 1;
+    return fmt::format("{:.{}f}", value, std::clamp(digits - before, 0, digits + 2));
+}
 
 std::optional<ProgressMode> progress_mode(std::string_view name) {
     static constexpr std::string_view names[] = {"auto", "bar", "lines", "off"};
@@ -64,44 +134,24 @@ std::optional<ProgressMode> progress_mode(std::string_view name) {
     return static_cast<ProgressMode>(at - std::begin(names));
 }
 
-bool is_terminal(std::FILE* stream) {
-    return ::isatty(::fileno(stream)) != 0 && !std::getenv("OMPI_COMM_WORLD_SIZE");
-}
-
-Progress::Progress(ProgressMode mode, bool quiet, std::FILE* to)
-    : mode_(mode), quiet_(quiet), to_(to), start_(Clock::now()), last_print_(start_) {
+Progress::Progress(ProgressMode mode, bool quiet, Listener listener, std::FILE* to)
+    : mode_(quiet ? ProgressMode::off : mode), listener_(quiet ? Listener() : std::move(listener)),
+      to_(to) {
     const bool terminal = is_terminal(to);
-    if (quiet)
-        mode_ = ProgressMode::off;
-    else if (mode == ProgressMode::automatic || (mode == ProgressMode::bar && !terminal))
+    if (mode_ == ProgressMode::automatic || (mode_ == ProgressMode::bar && !terminal))
         mode_ = terminal ? ProgressMode::bar : ProgressMode::lines;
+    if (mode_ != ProgressMode::off) last_ = start_; // a listener is told the first state at once
 }
 
-Progress::~Progress() { finish(); }
-
-void Progress::tell(Listener listener) {
-    if (!quiet_) listener_ = std::move(listener);
-}
-
-bool Progress::due() const { return tell_due(Clock::now()) || print_due(Clock::now()); }
-
-bool Progress::tell_due(Clock::time_point now) const {
-    return listener_ && seconds(now - last_told_) >= bar_seconds;
-}
-
-bool Progress::print_due(Clock::time_point now) const {
-    if (mode_ == ProgressMode::off) return false;
-    const bool bar = mode_ == ProgressMode::bar;
-    return seconds(now - last_print_) >= (bar ? bar_seconds : line_seconds(seconds(now - start_)));
+bool Progress::due() const {
+    if (mode_ == ProgressMode::off && !listener_) return false;
+    const auto now = Clock::now();
+    return seconds(now - last_) >=
+           (mode_ == ProgressMode::lines ? line_seconds(seconds(now - start_)) : bar_seconds);
 }
 
 void Progress::update(const State& state) {
     const auto now = Clock::now();
-    if (tell_due(now)) {
-        last_told_ = now;
-        listener_(state);
-    }
-    if (mode_ == ProgressMode::off) return;
     // Rates count from the first update (setting up is no stepping) of this count of steps.
     if (first_steps_ < 0 || state.steps < last_steps_) {
         first_steps_ = state.steps;
@@ -110,14 +160,16 @@ void Progress::update(const State& state) {
         start_ = now;
     }
     last_steps_ = state.steps;
-    if (!print_due(now)) return;
-    last_print_ = now;
+    if (!due()) return;
+    last_ = now;
+    if (listener_) listener_(state);
+    if (mode_ == ProgressMode::off) return;
     const double fraction_done =
         state.fraction >= 0.0 && first_fraction_ >= 0.0 ? state.fraction - first_fraction_ : -1.0;
     const std::string line = progress_line(state, seconds(now - start_), state.steps - first_steps_,
                                            state.time_fs - first_time_, fraction_done);
     if (mode_ == ProgressMode::bar) {
-        put("\r\033[K" + fitted(line, to_));
+        put(fmt::format("\r\033[K{:.{}}", line, columns_of(to_)));
         bar_drawn_ = true;
     } else {
         put(line + "\n");

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What this program was built from and with, and what it runs on: for `asperity info` and for every
-// result.
+// What this program was built from and with, and the machine that it runs on: for `asperity info`
+// and for every result.
 #pragma once
 
 #include <string>
@@ -24,5 +24,15 @@ void set_commit(const std::string& described);
 
 /// The processor that runs it and how many it sees: "AMD EPYC 9B14, 2 processors".
 std::string machine();
+
+/// How much memory a process of this machine can still have.
+struct AvailableMemory {
+    double bytes = 0.0;  ///< infinite where nothing says
+    std::string because; ///< what sets it: "MemAvailable", "the cgroup's memory.max", "ulimit -v"
+};
+/// The least of: free memory of the machine (MemAvailable of /proc/meminfo, without swap), what the
+/// control groups of this process leave (memory.max or memory.limit_in_bytes), and the limits of
+/// address space and data (ulimit -v, -d).
+AvailableMemory available_memory();
 
 } // namespace asperity::io

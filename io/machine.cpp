@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "io/available_memory.hpp"
+#include "io/machine.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,7 +9,10 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <thread>
 
+#include <fmt/format.h>
+#include <hdf5.h>
 #include <sys/resource.h>
 
 namespace asperity::io {
@@ -17,6 +20,8 @@ namespace asperity::io {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string commit = "unknown";
 
 /// Bytes behind a name in a file of "name: value kB" or "name value" lines, or of the number alone;
 /// empty if there is none ("max").
@@ -33,6 +38,32 @@ std::optional<double> entry(const fs::path& path, const std::string& name) {
 }
 
 } // namespace
+
+void set_commit(const std::string& described) { commit = described; }
+
+BuildInfo build_info() {
+    unsigned major = 0, minor = 0, release = 0;
+    H5get_libversion(&major, &minor, &release);
+#if defined(__clang__)
+    const std::string compiler = "clang " __clang_version__;
+#else
+    const std::string compiler = "g++ " __VERSION__;
+#endif
+    return {ASPERITY_VERSION, commit, compiler, ASPERITY_FLAGS,
+            fmt::format("{}.{}.{}", major, minor, release)};
+}
+
+std::string machine() {
+    std::ifstream file("/proc/cpuinfo");
+    std::string line, model = "unknown processor";
+    while (std::getline(file, line))
+        if (line.starts_with("model name") && line.find(": ") != std::string::npos) {
+            model = line.substr(line.find(": ") + 2);
+            break;
+        }
+    const unsigned count = std::thread::hardware_concurrency();
+    return fmt::format("{}, {} processor{}", model, count, count == 1 ? "" : "s");
+}
 
 AvailableMemory available_memory() {
     AvailableMemory least{std::numeric_limits<double>::infinity(), "nothing"};

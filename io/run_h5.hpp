@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What run.h5 is made of: data sets with their units, and the parts of H5MD 1.1 (nongnu.org/h5md)
+// that a run of rough solids has: who wrote the file, and a trajectory of particles.
+//
+//     /particles/trajectory/box          dimension 3, periodic in x and y; edges of each frame
+//     /particles/trajectory/position     value [frame][particle][3], step [frame], time [frame]
+//     /particles/trajectory/velocity     the same, where asked for
+//
+// All elements of a frame share their step and time; numbers are single precision, in Å, ps and
+// Å/ps (units as MDAnalysis reads them: "Angstrom", "ps"). Particles keep their order.
+#pragma once
+
+#include "io/hdf5_file.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace asperity::io {
+
+/// Gives a data set its `unit` and `description` from io/quantities.hpp; a path that is not
+/// described there throws std::logic_error.
+void describe(Hdf5File& file, const std::string& dataset);
+
+/// A new data set with these attributes.
+template <class T>
+void write_described(Hdf5File& file, const std::string& dataset, const Hdf5File::Shape& shape,
+                     const std::vector<T>& data) {
+    file.write<T>(dataset, shape, data);
+    describe(file, dataset);
+}
+
+/// An attribute of an object, and its unit as the attribute <name>_unit.
+void write_described_attribute(Hdf5File& file, const std::string& object, const std::string& name,
+                               double value);
+
+/// The attributes of "/": the scene as TOML, version and commit of the program.
+void describe_origin(Hdf5File& file, const std::string& scene);
+
+/// /h5md with version, author and creator.
+void write_h5md_head(Hdf5File& file);
+
+/// A frame of the trajectory.
+struct H5mdFrame {
+    std::array<double, 3> edges{}; ///< of the box, Å
+    std::int64_t step = 0;
+    double time = 0.0;                     ///< ps
+    std::vector<float> position, velocity; ///< [particle][3]; velocity is empty where not asked for
+};
+/// Appends it; the first one makes the group.
+void append_h5md(Hdf5File& file, const H5mdFrame& frame);
+
+} // namespace asperity::io

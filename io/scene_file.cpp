@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "io/scene_file.hpp"
+
+#include "io/machine.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace asperity::io {
+
+void refuse(std::string where, std::string what, std::string why, std::string fix) {
+    throw SceneError(Problem{std::move(where), std::move(what), std::move(why), std::move(fix)});
+}
+
+std::string convert_first(const std::string& file) {
+    const auto quoted = [](const std::string& name) {
+        return name.find_first_of(" '\"\\$&;()<>*?[]|`!#~") == std::string::npos ? name
+                                                                                 : "'" + name + "'";
+    };
+    const std::filesystem::path path(file);
+    const std::string out =
+        path.stem().string() + (path.extension() == ".h5" ? "-converted.h5" : ".h5");
+    return fmt::format("convert it first: asperity convert {} {}", quoted(file), quoted(out));
+}
+
+void require_memory(const std::string& where, const char* what, double bytes) {
+    const AvailableMemory there = available_memory();
+    if (bytes > there.bytes)
+        refuse(where, fmt::format("{} is larger than the memory", what),
+               fmt::format("it needs {:.3g} GB, and {:.3g} GB are free", bytes / 1e9,
+                           there.bytes / 1e9),
+               "cut a piece out of it before");
+}
+
+bool is_hdf5(const std::string& file) {
+    char head[8] = {};
+    std::ifstream(file, std::ios::binary).read(head, sizeof head);
+    return std::memcmp(head, "\x89HDF\r\n\x1a\n", sizeof head) == 0;
+}
+
+Hdf5File open_hdf5(const std::string& file) {
+    try {
+        return {FilePlace(file), Hdf5File::Mode::read};
+    } catch (const FileError& error) {
+        Problem problem = error.problems().front();
+        problem.fix = convert_first(file);
+        throw SceneError(problem);
+    }
+}
+
+std::string_view take_word(std::string_view& line) {
+    constexpr std::string_view blanks = " \t\r\v\f";
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(blanks));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+std::optional<double> number_of(std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error == std::errc::result_out_of_range) return std::numeric_limits<double>::quiet_NaN();
+    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+    return value;
+}
+
+std::array<std::vector<double>, 2> read_two_columns(const std::string& file) {
+    const auto require = [&](bool holds, const std::string& where, const std::string& what) {
+        if (!holds) refuse(where, what, "", "write 2 numbers a line, separated by blanks");
+    };
+    std::ifstream in(file);
+    std::array<std::vector<double>, 2> columns;
+    std::string text;
+    for (int line = 1; std::getline(in, text); ++line) {
+        require(line <= 1'000'000, file, "has more than a million lines");
+        const std::string place = fmt::format("{}:{}", file, line);
+        std::string_view rest = std::string_view(text).substr(0, text.find('#'));
+        for (std::vector<double>& column : columns) {
+            const std::string_view word = take_word(rest);
+            if (word.empty()) break;
+            const std::optional<double> value = number_of(word);
+            require(value && std::isfinite(*value), place,
+                    fmt::format("'{}' is no number", word.substr(0, 40)));
+            column.push_back(*value);
+        }
+        require(columns[0].size() == columns[1].size(), place, "has fewer than 2 numbers");
+    }
+    require(!in.bad(), file, "cannot be read");
+    require(!columns[0].empty(), file, "holds no numbers");
+    return columns;
+}
+
+} // namespace asperity::io
