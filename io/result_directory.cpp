@@ -77,10 +77,12 @@ std::string choose(const ResultRequest& request) {
 /// Throws where the request does not fit what is there.
 void check(const ResultRequest& request, const std::string& path) {
     const Holds found = holds(path);
-    if (found == Holds::result && !request.resume)
+    if (found == Holds::result && !request.resume) {
+        const bool stopped = fs::exists(fs::path(path) / run_file::checkpoint);
         throw SceneError(Problem{path, "already holds a result", "results are not written over",
-                                 "name another directory (--out), remove this one, or go on with "
-                                 "it: --resume auto"});
+                                 std::string("name another directory (--out), or remove this one") +
+                                     (stopped ? "; or go on with it: --resume auto" : "")});
+    }
     if (found == Holds::unfinished && !request.resume && !request.restart)
         throw SceneError(Problem{path, "holds an unfinished run",
                                  "starting anew would throw away what it has done",

@@ -272,10 +272,8 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
                 Recorder::record_of_fields("", layer, Communicator(), grid, *interface, height);
             });
     };
-    // All states are searched for from the first one, which has to be there.
-    const bool to_the_end = timed || piece.on(Effect::states);
     const auto relax = [&](const auto& find) {
-        Limit limit(to_the_end);
+        Limit limit(timed);
         const auto begin = Clock::now();
         try {
             const std::optional<ZeroLoad> found =
@@ -314,7 +312,7 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
                                       piece, stop);
             });
         });
-        if (piece.on(Effect::states) && done.ended)
+        if (piece.on(Effect::states)) // which relaxes what the limit has left
             keep_points([&] {
                 search.emplace(*waves, *interface, search_options(piece, *waves, *interface));
                 search->start({});

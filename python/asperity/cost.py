@@ -234,7 +234,7 @@ class Runs:
             jobs[key] = self.made.setdefault(key, Job(name, self.directory / name, self.scene, given, point))
         outcomes = look_at_all(list(jobs.values()), print)
         there = sum(o.status != WAITING for o in outcomes)
-        print(f"{len(jobs)} runs in {self.directory}" + (f"; {there} are there already" if there else ""), flush=True)
+        print(f"{len(jobs)} run{'s' * (len(jobs) != 1)} in {self.directory}" + (f"; {there} are there already" if there else ""), flush=True)
         complete = Pool(list(jobs.values()), outcomes, self.options, self.directory).run()
         of_scene = dict(zip(jobs, outcomes))
         for row, point in zip(rows, points):

@@ -11,6 +11,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,8 @@ def path() -> str:
         places += [root / "build/release/engine/asperity", root / "asperity", root / "bin/asperity"]
     for place in places:
         if place and os.path.isfile(place) and os.access(place, os.X_OK):
+            if place in {root / "asperity" for root in package.parents[1:4]}:
+                print(f"asperity: there is no build; {place} makes one first, which takes minutes", file=sys.stderr)
             return str(place)
     found = shutil.which("asperity")
     if not found:

@@ -138,6 +138,9 @@ TEST(ResultDirectory, RefusesResultsAndUnfinishedRuns) {
     write("run.journal", "x");
     for (const bool restart : {false, true})
         EXPECT_TRUE(holds(refusal({path, "x", false, restart}), "already holds a result"));
+    EXPECT_FALSE(holds(refusal({path, "x"}), "--resume")) << "there is nothing to go on from";
+    write("checkpoint.h5", "x"); // of one that drive.max_steps ended
+    EXPECT_TRUE(holds(refusal({path, "x"}), "--resume auto"));
     for (const char* odd : {"", "[]", R"({"run": 3})", R"({"run": {"stopped": 7}})"}) {
         write("result.json", odd);
         EXPECT_TRUE(holds(refusal({path, "x"}), "already holds a result")) << odd;
