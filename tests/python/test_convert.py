@@ -12,7 +12,7 @@ import h5py
 import numpy
 import pytest
 from asperity import convert as module
-from asperity import files
+from asperity import files, program
 from asperity.convert import convert
 from asperity.errors import InputOutputError
 from conftest import command
@@ -83,6 +83,13 @@ def test_every_format_gives_the_same_heights(place, tmp_path, name):
         assert found == pytest.approx(10 * HEIGHTS.T, rel=1e-15, abs=0)
     else:
         assert (found == 10 * HEIGHTS.T).all()
+
+
+def test_units_are_the_programs(tmp_path):
+    (tmp_path / "s.toml").write_text("[surface]\nsites = 16\n")
+    for unit, power in module.LENGTHS.items():
+        checked = program.check(tmp_path / "s.toml", [f"surface.spacing={2.6 * 10.0 ** -power!r} {unit}"])
+        assert checked["scene"]["surface"]["spacing"] == pytest.approx(2.6, rel=1e-12), unit
 
 
 def test_gaps_are_missing_points(tmp_path):
