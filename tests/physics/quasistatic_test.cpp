@@ -6,10 +6,12 @@
 // rough surfaces. (Slow motion approaches the path: works_test.)
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/units.hpp"
+#include "support/nodes.hpp"
 #include "support/path_case.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -249,6 +251,28 @@ TEST(Quasistatic, AgainTheSameCycle) {
     EXPECT_NEAR(lost[1], 2.0 * lost[0], allowed);
     EXPECT_GT(lost_in[0], 10.0 * allowed);
     EXPECT_NEAR(lost_in[1], lost_in[0], allowed);
+}
+
+TEST(Dissipation, SaysWhichSitesMovedAndHowFar) {
+    Solids c(test::paper_block(16, 90, 0), test::self_affine(16, 0.7));
+    test::KeptPath path = c.path(1e-5);
+    path.start();
+    auto before = test::values_of(c.block.lowest_layer());
+    while (path.dissipation().events == 0) {
+        before = test::values_of(c.block.lowest_layer());
+        ASSERT_EQ(path.advance(Segment::approach), QuasistaticPath::Outcome::point);
+    }
+    const auto after = test::values_of(c.block.lowest_layer());
+    std::vector<double> moved(256);
+    for (std::size_t site = 0; site < moved.size(); ++site)
+        moved[site] = std::hypot(after[site] - before[site], after[256 + site] - before[256 + site],
+                                 after[512 + site] - before[512 + site]);
+    const auto most = std::max_element(moved.begin(), moved.end());
+    const Instability& jump = path.dissipation().jumps.back();
+    EXPECT_NEAR(jump.largest_move, *most, 1e-12);
+    EXPECT_EQ(jump.site_y * 16 + jump.site_x, most - moved.begin());
+    EXPECT_EQ(jump.sites_moved,
+              std::count_if(moved.begin(), moved.end(), [&](double m) { return m > 0.5 * *most; }));
 }
 
 TEST(Dissipation, KeepsTheStrongestInstabilitiesInTheOrderOfThePath) {

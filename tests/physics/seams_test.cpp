@@ -121,9 +121,11 @@ std::map<Node, std::array<double, 3>> changes_by_definition(Block& block) {
 
 TEST(Seams, TakeWhatTheirDefinitionSays) {
     // Two cells on level 0 (both absorb), three and five (the upper two); levels of 16 to 2 nodes.
-    for (const auto& [thickness, layers] :
-         {std::pair{14, 2}, std::pair{21, 3}, std::pair{50, 5}, std::pair{62, 2}}) {
-        Block block = made(absorbing(16, thickness, layers));
+    // After 50 fs a cell at a seam takes all, after 5 fs a fraction.
+    for (const auto& [thickness, layers, span] :
+         {std::tuple{14, 2, 50.0}, std::tuple{21, 3, 5.0}, std::tuple{50, 5, 50.0},
+          std::tuple{50, 5, 5.0}, std::tuple{62, 2, 50.0}}) {
+        Block block = made(absorbing(16, thickness, layers, span));
         stir(block);
         const auto expected = changes_by_definition(block);
         std::map<Node, std::array<double, 3>> before;
