@@ -133,7 +133,7 @@ std::uint32_t digest_of(Bytes bytes, std::uint32_t before = 0);
 /// Of the first bytes of a file; nothing where there are fewer.
 std::optional<std::uint32_t> digest_of(int fd, std::uint64_t length);
 
-// Calls of the system that are whole, or failed.
+// System calls, repeated until all bytes are transferred or one fails.
 
 /// Throws FileError: what the system refused, with the reason in errno.
 [[noreturn]] void fail_by_system(

@@ -55,7 +55,7 @@ public:
     /// Attributes of a group or data set; written over if there.
     void write_attribute(const std::string& object, const std::string& name,
                          const Attribute& value);
-    /// Nothing: the object has no such attribute. Throws FileError where it is of another kind.
+    /// Empty if the object has no such attribute. Throws FileError where it is of another kind.
     std::optional<std::string> text_attribute(const std::string& object,
                                               const std::string& name) const;
     std::optional<double> number_attribute(const std::string& object,

@@ -28,7 +28,7 @@ std::string machine();
 /// How much memory a process of this machine can still have.
 struct AvailableMemory {
     double bytes = 0.0;  ///< infinite where nothing says
-    std::string because; ///< what sets it: "MemAvailable", "the cgroup's memory.max", "ulimit -v"
+    std::string because; ///< what sets it: "MemAvailable", "ulimit -v", as in messages
 };
 /// The least of: free memory of the machine (MemAvailable of /proc/meminfo, without swap), what the
 /// control groups of this process leave (memory.max or memory.limit_in_bytes), and the limits of

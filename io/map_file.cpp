@@ -273,8 +273,12 @@ HeightMap read_map_numpy(std::string_view bytes, const std::string& file) {
     std::replace_if(
         digits.begin(), digits.end(), [](char c) { return c < '0' || c > '9'; }, ' ');
     std::istringstream shape(digits);
-    for (std::size_t value = 0; shape >> value;)
+    std::size_t value = 0;
+    while (shape >> value)
         extent.push_back(value);
+    if (value ==
+        std::numeric_limits<std::size_t>::max()) // what a number of more than 64 bits gives
+        damaged("its shape is no shape");
     if (extent.size() != 2)
         refuse(file, "is no height map",
                fmt::format("it has {} dimensions, a map has 2", extent.size()),

@@ -75,13 +75,15 @@ std::string choose(const ResultRequest& request) {
 }
 
 /// Throws where the request does not fit what is there.
-void check(const ResultRequest& request, const std::string& path) {
+void check(const ResultRequest& request, const Directory& directory) {
+    const std::string& path = directory.path();
     const Holds found = holds(path);
     if (found == Holds::result && !request.resume) {
-        const bool stopped = fs::exists(fs::path(path) / run_file::checkpoint);
+        const bool resumable =
+            directory.exists(run_file::checkpoint) || directory.exists(run_file::checkpoint_before);
         throw SceneError(Problem{path, "already holds a result", "results are not written over",
                                  std::string("name another directory (--out), or remove this one") +
-                                     (stopped ? "; or go on with it: --resume auto" : "")});
+                                     (resumable ? "; or go on with it: --resume auto" : "")});
     }
     if (found == Holds::unfinished && !request.resume && !request.restart)
         throw SceneError(Problem{path, "holds an unfinished run",
@@ -140,7 +142,7 @@ ResultDirectory::ResultDirectory(const ResultRequest& request, const std::string
 ResultDirectory::ResultDirectory(const ResultRequest& request)
     : ResultDirectory(request, choose(request)) {
     lock();
-    check(request, path());
+    check(request, directory_);
     remove_files(directory_, request.restart);
 }
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What run.h5 is made of: data sets with their units, and the parts of H5MD 1.1 (nongnu.org/h5md)
-// that a run of rough solids has: who wrote the file, and a trajectory of particles.
+// How data sets of run.h5 get their units and descriptions, and the parts of H5MD 1.1
+// (nongnu.org/h5md) that a run of rough solids has: who wrote the file, and a trajectory of
+// particles. Which data sets there are, engine/run/recorder.cpp decides.
 //
 //     /particles/trajectory/box          dimension 3, periodic in x and y; edges of each frame
 //     /particles/trajectory/position     value [frame][particle][3], step [frame], time [frame]

@@ -89,8 +89,8 @@ std::array<std::vector<double>, 2> read_two_columns(const std::string& file) {
             const std::string_view word = take_word(rest);
             if (word.empty()) break;
             const std::optional<double> value = number_of(word);
-            require(value && std::isfinite(*value), place,
-                    fmt::format("'{}' is no number", word.substr(0, 40)));
+            if (!value || !std::isfinite(*value))
+                require(false, place, fmt::format("'{}' is no finite number", word.substr(0, 40)));
             column.push_back(*value);
         }
         require(columns[0].size() == columns[1].size(), place, "has fewer than 2 numbers");

@@ -52,8 +52,8 @@ public:
     };
     using Listener = std::function<void(const State&)>;
 
-    /// quiet: nothing is printed or told (ranks other than 0). listener: is told each state that is
-    /// printed; where nothing is, as often as a bar would be redrawn.
+    /// quiet: nothing is printed or told (ranks other than 0). listener: gets each state that is
+    /// printed; with printing off, a state every 0.2 s at most.
     Progress(ProgressMode mode, bool quiet = false, Listener listener = {}, std::FILE* to = stderr);
     ~Progress() { finish(); }
     Progress(const Progress&) = delete;

@@ -195,7 +195,11 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
     NumberLists lists;
     ranks.on_root([&] {
         file = std::make_unique<io::Hdf5File>(open_checkpoint(place));
-        const std::string its = file->text_attribute("/", "scene").value_or("");
+        const std::optional<std::string> scene = file->text_attribute("/", "scene");
+        if (!scene)
+            throw io::FileError(file->path(), "is no checkpoint", "it lacks the attribute scene",
+                                "name another file, or run the scene again");
+        const std::string& its = *scene;
         if (its != fingerprint)
             throw io::SceneError({file->path(), "belongs to another scene",
                                   "this scene differs from it in " +

@@ -312,11 +312,10 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
                                       piece, stop);
             });
         });
-        if (piece.on(Effect::states)) // which relaxes what the limit has left
-            keep_points([&] {
+        if (piece.on(Effect::states))
+            part(Part::snapshots, [&] { // its copies of the block are all that it keeps
                 search.emplace(*waves, *interface, search_options(piece, *waves, *interface));
-                search->start({});
-                search->advance();
+                search->states();
             });
         record_maps(waves->lowest_layer());
         return done;

@@ -6,7 +6,7 @@
 // allocated and how long it took is continued to the size of the case, by the nodes and sites that
 // each part grows with. A case that is as small as a piece is rehearsed as it is.
 //
-// tests/engine/rehearsal_test.cpp holds the memory against that of real runs.
+// tests/engine/plan_test.cpp holds the memory against that of real runs.
 #pragma once
 
 #include "engine/setup/case.hpp"

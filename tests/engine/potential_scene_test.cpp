@@ -111,7 +111,10 @@ TEST(PotentialOfAScene, RefusesByName) {
           "interface.table=" + scratch.write("short.txt", "1 2\n2 1\n3\n")},
          "short.txt:3 has fewer than 2 numbers"},
         {{"interface.potential=table", "interface.table=" + scratch.write("no.txt", "1 2\nx 1\n")},
-         "no.txt:2 'x' is no number"}};
+         "no.txt:2 'x' is no finite number"},
+        {{"interface.potential=table",
+          "interface.table=" + scratch.write("inf.txt", "1 2\n2 inf\n")},
+         "inf.txt:2 'inf' is no finite number"}};
     for (const auto& [keys, said] : cases)
         EXPECT_NE(refusal(keys).find(said), std::string::npos) << said << "\n" << refusal(keys);
     EXPECT_EQ(refusal({"interface.potential=table", file}), "");

@@ -259,6 +259,7 @@ TEST(MapFile, NumpyThatIsDamaged) {
               "9 x 9 numbers of 8 bytes are declared, and 288 bytes are there");
     EXPECT_EQ(with("(6, 6), ", "(3000000000, 3000000000), ").what, "the height map cannot be read");
     EXPECT_EQ(with("(6, 6)", "(6,6,1").what, "is no height map");
+    EXPECT_EQ(with("(6, 6), ", "(6, 6, 99999999999999999999), ").why, "its shape is no shape");
     EXPECT_EQ(with("(6, 6), ", "(9000000000000000000, 0), ").what, "the height map is empty");
     EXPECT_EQ(with("<f8", "<c8").why,
               "its numbers are of type '<c8', and integers or floats are needed");
