@@ -197,7 +197,7 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
         file = std::make_unique<io::Hdf5File>(open_checkpoint(place));
         const std::optional<std::string> scene = file->text_attribute("/", "scene");
         if (!scene)
-            throw io::FileError(file->path(), "is no checkpoint", "it lacks the attribute scene",
+            throw io::FileError(file->path(), "is not a checkpoint", "it lacks the attribute scene",
                                 "name another file, or run the scene again");
         const std::string& its = *scene;
         if (its != fingerprint)

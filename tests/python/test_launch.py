@@ -28,6 +28,19 @@ def test_no_launcher(tmp_path, monkeypatch, named):
     assert asperity.runs.launcher(1) == [] and not any(tmp_path.iterdir())
 
 
+def test_a_build_that_has_to_be_made_is_told(tmp_path, monkeypatch, capsys):
+    """In a source tree the script `asperity` builds first, for minutes, and what it prints is not seen."""
+    monkeypatch.delenv("ASPERITY_PROGRAM")
+    monkeypatch.setattr(program, "__file__", str(tmp_path / "python/asperity/program.py"))
+    for name, told in (("asperity", "there is no build"), ("build/release/engine/asperity", "")):
+        file = tmp_path / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.touch(0o755)
+        assert program.path.__wrapped__() == str(file)
+        said = capsys.readouterr().err
+        assert told in said and bool(told) == bool(said)
+
+
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_ranks_share_the_processors_that_they_may_all_use(ranks):
     """Ranks bound to one socket have its processors together; one with others, or more, does not share with them."""
