@@ -5,7 +5,23 @@
 # from it: Intel MPI, MVAPICH, Cray) or "another"; ASPERITY_MPIRUN is the launcher with the options that
 # let tests start more ranks than there are cores, to be followed by -n RANKS.
 include(CheckSymbolExists)
-find_package(MPI QUIET COMPONENTS C)
+# Debian's openmpi-bin brings mpicc without the headers that it names (libopenmpi-dev), and find_package ends in an
+# error there instead of "not found".
+find_program(mpicc NAMES ${MPI_C_COMPILER} mpicc NO_CACHE)
+set(headers_of_mpi TRUE)
+if(mpicc)
+    execute_process(COMMAND ${mpicc} -show OUTPUT_VARIABLE text ERROR_QUIET)
+    string(REGEX MATCHALL "-I *[^ \n]+" folders "${text}")
+    list(TRANSFORM folders REPLACE "^-I *" "")
+    foreach(folder IN LISTS folders)
+        if(NOT EXISTS "${folder}")
+            set(headers_of_mpi FALSE)
+        endif()
+    endforeach()
+endif()
+if(headers_of_mpi)
+    find_package(MPI QUIET COMPONENTS C)
+endif()
 asperity_need(MPI_C_FOUND "MPI")
 if(MPI_C_FOUND AND MPI_C_VERSION VERSION_LESS 3.0)
     message(FATAL_ERROR "Asperity needs MPI 3.0; ${MPI_C_COMPILER} has ${MPI_C_VERSION}. "
