@@ -59,8 +59,6 @@ cp $place/readings/readings.svg $gallery/fig2-readings.svg
 made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-readings.svg $gallery/fig2-readings.svg \
     $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
 
-"$python" scenes/validation/seams.py returned --long --layers 4 --picture $gallery/seams.png >$place/seams.txt
-made $gallery/seams.png
 "$python" $gallery/lammps.py # of a table measured before
 made $gallery/lammps.svg
 

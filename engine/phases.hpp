@@ -12,7 +12,6 @@ namespace asperity {
 
 enum class Phase {
     interpolate, ///< constrained planes follow the coarse planes
-    absorb,      ///< seams take what the next level cannot carry, every so many steps
     interface,   ///< forces of the substrate
     advance,     ///< elastic forces, kick and drift, level by level
     thermostat,  ///< noise of a scene with a temperature
@@ -26,8 +25,8 @@ enum class Phase {
 };
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names =
-    {"interpolate", "absorb",  "interface", "advance",    "thermostat", "exchange",
-     "sums",        "observe", "relax",     "checkpoint", "output"};
+    {"interpolate", "interface", "advance", "thermostat", "exchange",
+     "sums",        "observe",   "relax",   "checkpoint", "output"};
 
 struct PhaseClock {
     double seconds = 0.0;

@@ -112,7 +112,7 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].work_of_interface", "meV/Å^2", per::area,
      "∫ F dz of the mean height; left out at a held top without time"},
     {"segments[].lost", "meV/Å^2", per::area,
-     "energy damped or radiated on the way (in time: vibrations are not in it), or dissipated at "
+     "energy damped on the way (in time: vibrations are not in it), or dissipated at "
      "instabilities"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
      "of work_of_drive and lost, without time, for the sequence of instabilities taken"},
@@ -209,8 +209,6 @@ inline constexpr Quantity result_quantities[] = {
      "energy of the interface at the last recorded step: pairs, or the wall's law"},
     {"energy.damped", "eV", per::block,
      "energy lost since the start: damped in time, dissipated at instabilities without time"},
-    {"energy.radiated", "eV", per::block,
-     "energy taken by absorbing seams since the start (block.seams = \"absorb\")"},
     {"surface.rms", "Å", "", "rms height of the substrate, without the cap"},
     {"surface.rms_slope", "1", "", "rms slope √⟨(∇h)²⟩, without the cap"},
     {"surface.min", "Å", "", "lowest height of the substrate"},
@@ -276,7 +274,6 @@ inline constexpr Quantity run_quantities[] = {
      "work of the interface's force on the mean height since the start, ∫ F dz; at a held mean "
      "height without time it is -work"},
     {"series/damped", "eV", per::block, "energy damped since the start"},
-    {"series/radiated", "eV", per::block, "energy taken by absorbing seams since the start"},
     {"series/dissipated", "eV", per::block, "energy dissipated at instabilities since the start"},
     {"series/balance_error", "1", "largest term",
      "energy balance: work less change of energy less loss"},

@@ -3,7 +3,6 @@
 //
 // The tables of kernels, one of each for every processor level (variant.hpp), and which of them the
 // running processor takes.
-#include "kernels/absorption.hpp"
 #include "kernels/elastic_level.hpp"
 #include "kernels/interface_kernels.hpp"
 #include "kernels/level_transfer.hpp"
@@ -14,7 +13,6 @@
     namespace variant {                                                                            \
     extern const ElasticKernels small_strain_kernels, finite_strain_kernels;                       \
     extern const TransferKernels transfer_kernels;                                                 \
-    extern const AbsorptionKernels absorption_kernels;                                             \
     extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;                        \
     extern const InterfaceKernels::Sweeps<RowSubstrate> row_sweeps;                                \
     extern const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps;                   \
@@ -55,7 +53,6 @@ const ElasticKernels& elastic_kernels(CellStrain strain) {
                                         : ASPERITY_TABLE(small_strain_kernels);
 }
 const TransferKernels& transfer_kernels() { return ASPERITY_TABLE(transfer_kernels); }
-const AbsorptionKernels& absorption_kernels() { return ASPERITY_TABLE(absorption_kernels); }
 const InterfaceKernels& interface_kernels() {
     static const InterfaceKernels kernels = {
         ASPERITY_TABLE(lattice_sweeps), ASPERITY_TABLE(row_sweeps), ASPERITY_TABLE(cell_sweeps),

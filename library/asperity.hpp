@@ -182,10 +182,9 @@ struct Tile {
 /// terms.
 struct Energies {
     double elastic = 0.0, interface = 0.0, kinetic = 0.0;
-    double work = 0.0;     ///< done on the block: by the top plane, the medium that damps, noise,
-                           ///< and an external field
-    double damped = 0.0;   ///< lost to the medium that damps
-    double radiated = 0.0; ///< taken by absorbing seams
+    double work = 0.0;   ///< done on the block: by the top plane, the medium that damps, noise,
+                         ///< and an external field
+    double damped = 0.0; ///< lost to the medium that damps
     double balance_error = 0.0;
 };
 

@@ -140,7 +140,6 @@ PYBIND11_MODULE(_engine, m) {
                       "work done on the block, eV: by the top plane, the medium that damps, noise, "
                       "and an external field")
         .def_readonly("damped", &Energies::damped, "energy lost to the medium that damps, eV")
-        .def_readonly("radiated", &Energies::radiated, "energy taken by absorbing seams, eV")
         .def_readonly("balance_error", &Energies::balance_error,
                       "what the energy balance is off by, over the largest of its terms")
         .def("__repr__", shown);
@@ -236,7 +235,7 @@ PYBIND11_MODULE(_engine, m) {
                                "mean height of the lowest layer above the substrate's zero, Å")
         .def_property_readonly("energy", &Simulation::energy,
                                "Energies of the last observed step, eV: elastic, interface, "
-                               "kinetic, work, damped, radiated, balance_error")
+                               "kinetic, work, damped, balance_error")
         .def_property_readonly(
             "contact", &Simulation::contact_fraction,
             "fraction of the sites whose nearest atom is in contact, at the last observed step")

@@ -345,7 +345,6 @@ private:
             v("now.repulsive", r.repulsive);
             v("now.work", r.work);
             v("now.damped", r.damped);
-            v("now.radiated", r.radiated);
             v("now.residual", r.residual);
         }
     };
@@ -533,8 +532,7 @@ double Simulation::mean_height() const { return inside_->now().mean_height; }
 
 Energies Simulation::energy() const {
     const asperity::StepRecord& r = inside_->now();
-    return {r.elastic_energy, r.interface_energy, r.kinetic_energy, r.work,
-            r.damped,         r.radiated,         r.residual};
+    return {r.elastic_energy, r.interface_energy, r.kinetic_energy, r.work, r.damped, r.residual};
 }
 
 double Simulation::contact_fraction() const {

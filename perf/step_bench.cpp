@@ -67,11 +67,7 @@ nlohmann::json measure(const Communicator& ranks, bool contact, double seconds,
     stretch(2);
     const double about = stretch(3);
     const StepRecord seen = simulation.step(true); // the sixth, whatever the clock says
-    // Whole periods between two absorptions of seams.
-    const double span = setup.simulation.block.absorption_span / setup.simulation.dt;
-    const int period = std::max(1, static_cast<int>(std::lround(span)));
-    const int steps =
-        (std::clamp(static_cast<int>(0.02 / about), 1, 200) + period - 1) / period * period;
+    const int steps = std::clamp(static_cast<int>(0.02 / about), 1, 200);
     const int stretches = std::clamp(static_cast<int>(seconds / (about * steps)), 3, 5000);
     double best = 1e300;
     Times phases{};

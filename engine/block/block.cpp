@@ -19,22 +19,6 @@ CellElasticity BlockOptions::elasticity(int level) const {
     return {shear_modulus() * s, (lame() - shear_modulus()) * s / 16.0};
 }
 
-double BlockOptions::absorbed_fraction(int level, int cells, int z) const {
-    const int from = absorbs_from(level, cells);
-    if (z < from) return 0.0;
-    // Rates over c_P / s, found by the search of docs/explanation/seams.md.
-    const double height = (z - from + 0.5) / (cells - from);
-    const double rate = level > 0 ? 3.0 * std::sqrt(height) : 2.3 * height;
-    // Time between two absorptions of a level, in that sound takes to cross a cell of it.
-    const double span = absorption_span * sound_speed() / spacing;
-    return std::min(1.0, rate * span);
-}
-
-int BlockOptions::absorbs_from(int level, int cells) const {
-    // Cells of level 0 cost most, and adhesion happens at the lowest.
-    return level > 0 ? 0 : std::max(0, cells - 2);
-}
-
 double BlockOptions::highest_frequency(double site_stiffness) const {
     // The largest eigenvalue of the bulk's dynamical matrix is that of a longitudinal wave, of
     // phases (pi, 0, 0) or, below a Poisson ratio of about 0.12, (t, t, t). With c = cos t it is
@@ -84,8 +68,7 @@ ElasticLevel Block::Level::view(double a) {
 Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid)
     : options_(options), communicator_(communicator), grid_(grid), halo_(communicator, grid) {
     double depth = 0.0;
-    const std::vector<LevelShape> shapes = level_shapes(options);
-    for (const LevelShape& shape : shapes) {
+    for (const LevelShape& shape : level_shapes(options)) {
         Level level;
         level.shape = shape;
         level.tile = grid.tile(shape.level);
@@ -100,13 +83,6 @@ Block::Block(const BlockOptions& options, const Communicator& communicator, cons
         level.transferred = VectorField<double>(level.tile, 1);
         level.upper_force = VectorField<double>(level.tile, 1);
         level.v = VectorField<double>(level.tile, shape.cells);
-        level.absorbs_from = shape.cells;
-        if (options.absorption_span > 0.0 && shape.level < shapes.back().level) {
-            level.absorbs_from = options.absorbs_from(shape.level, shape.cells);
-            for (int z = 0; z < shape.cells; ++z)
-                level.fraction.push_back(options.absorbed_fraction(shape.level, shape.cells, z));
-            level.constrained_v = VectorField<double>(level.tile, 1);
-        }
         depth += shape.cells * static_cast<double>(1 << shape.level);
         levels_.push_back(std::move(level));
     }
@@ -146,21 +122,17 @@ LevelSeam Block::seam(std::size_t fine) const {
 }
 
 void Block::interpolate() {
+    const auto& interpolate_row = transfer_kernels().interpolate;
 #pragma omp parallel
-    for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
-        follow(l, std::as_const(levels_[l + 1].u).plane(0),
-               levels_[l].u.plane(levels_[l].shape.cells));
-}
-
-/// A fine plane of the seam above level `fine_level`, halo included. Called by all threads.
-void Block::follow(std::size_t fine_level, const VectorPlane<const double>& coarse,
-                   const VectorPlane<double>& fine) const {
+    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+        const VectorPlane<const double> coarse = std::as_const(levels_[l + 1].u).plane(0);
+        const VectorPlane<double> fine = levels_[l].u.plane(levels_[l].shape.cells);
 #pragma omp for schedule(static) nowait
-    for (int y = -halo_width; y < fine.x.ny + halo_width; ++y) {
-        const auto& interpolate = transfer_kernels().interpolate;
-        interpolate(seam(fine_level), coarse.x, fine.x, y, halo_width);
-        interpolate(seam(fine_level), coarse.y, fine.y, y, halo_width);
-        interpolate(seam(fine_level), coarse.z, fine.z, y, halo_width);
+        for (int y = -halo_width; y < fine.x.ny + halo_width; ++y) {
+            interpolate_row(seam(l), coarse.x, fine.x, y, halo_width);
+            interpolate_row(seam(l), coarse.y, fine.y, y, halo_width);
+            interpolate_row(seam(l), coarse.z, fine.z, y, halo_width);
+        }
     }
 }
 
@@ -219,17 +191,8 @@ std::size_t Block::finite_bytes() const {
     return total;
 }
 
-std::size_t Block::absorption_bytes() const {
-    std::size_t total = 0;
-    for (const Level& level : levels_)
-        total += level.constrained_v.bytes();
-    for (const std::vector<double>& rows : absorption_rows_)
-        total += rows.size() * sizeof(double);
-    return total;
-}
-
 std::size_t Block::bytes() const {
-    std::size_t total = finite_bytes() + absorption_bytes();
+    std::size_t total = finite_bytes();
     for (const Level& level : levels_)
         total += level.bytes();
     return total;

@@ -44,8 +44,6 @@ struct BlockOptions {
     int layers_per_level = 4;
     bool multiscale = true;
     bool finite_strain = false;
-    /// Time between two absorptions at the seam above level 0, fs; 0: seams reflect.
-    double absorption_span = 0.0;
 
     double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
     double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
@@ -57,11 +55,6 @@ struct BlockOptions {
     /// Speed of longitudinal waves, Å/fs.
     double sound_speed() const;
     CellElasticity elasticity(int level) const;
-    /// Fraction of the velocities' differences in cell z of a level of so many cells that an
-    /// absorption takes (kernels/absorption.hpp).
-    double absorbed_fraction(int level, int cells, int z) const;
-    /// The first such cell.
-    int absorbs_from(int level, int cells) const;
     /// Largest angular frequency of the bulk lattice with the interface's stiffness per site
     /// (eV/Å^2) added to a surface atom, 1/fs.
     double highest_frequency(double site_stiffness) const;
@@ -104,13 +97,8 @@ public:
         VectorField<double> u, transferred;
         VectorField<double> v;
         VectorField<double> upper_force; ///< on the prescribed plane; one plane
-        std::vector<double> fraction;    ///< of each cell that an absorption takes; empty: no cell
-        int absorbs_from = 0;            ///< first cell that absorbs; shape.cells if none does
-        VectorField<double>
-            constrained_v; ///< velocity of the constrained plane of a level that absorbs
 
         std::size_t bytes() const;
-        bool absorbs() const { return absorbs_from < shape.cells; }
         double edge(double a) const { return a * (1 << shape.level); }
         /// Mass of a node of plane z, eV fs^2/Å^2.
         double mass(int z) const;
@@ -160,10 +148,6 @@ public:
     bool has_constrained_planes() const { return levels_.size() > 1; }
     void interpolate();
     void advance(const StepParameters& step, KickSums& sums);
-    /// Only where seams absorb; before interpolate(), for it takes the places of the forces between
-    /// levels. number: of the absorption since the start; level l takes part in every 2^l-th.
-    /// taken: this rank's share of the kinetic energy that is lost is added, eV.
-    void absorb(long long number, ExactSum& taken);
     void exchange();
     /// In place of advance: forces on all moving planes (transferred ones included) into
     /// out[level].
@@ -178,13 +162,9 @@ public:
     void add_lowest_z(ExactSum& sum) const;
     std::size_t bytes() const;
     /// Of these, what lies in levels coarser than the first.
-    std::size_t coarse_bytes() const {
-        return bytes() - levels_.front().bytes() - finite_bytes() - absorption_bytes();
-    }
+    std::size_t coarse_bytes() const { return bytes() - levels_.front().bytes() - finite_bytes(); }
     /// Of these, what a path in time at finite strain needs: nothing before its first step.
     std::size_t finite_bytes() const;
-    /// Of these, what absorbing seams need; rows to work on are not there before the first time.
-    std::size_t absorption_bytes() const;
     std::size_t halo_bytes() const { return halo_.bytes_sent(); }
 
     /// True if this rank counts a level's nodes in global sums (levels held whole count once).
@@ -199,16 +179,9 @@ private:
     double top_ = 0.0;
     /// Forces at finite strain: of each thread, two planes of a band of rows.
     std::vector<VectorField<double>> scratch_;
-    /// Rows of an absorption, of each thread.
-    std::vector<std::vector<double>> absorption_rows_;
 
     static Tile scratch_tile(const ProcessGrid& grid, int levels);
     LevelSeam seam(std::size_t fine) const;
-    void follow(std::size_t fine_level, const VectorPlane<const double>& coarse,
-                const VectorPlane<double>& fine) const;
-    void exchange_absorbing(std::size_t absorbing);
-    void absorb_in_cells(std::size_t level, ExactSum& taken);
-    void absorb_from_below(std::size_t level, ExactSum& taken);
     void restrict_forces(std::size_t fine);
     void share_restricted_forces(std::size_t fine);
 };

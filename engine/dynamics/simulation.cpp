@@ -17,8 +17,6 @@ Simulation::Simulation(const SimulationOptions& options, const Surface& substrat
     : options_(options), block_(options.block, communicator, grid),
       interface_(substrate, grid.tile(0), options.block.spacing, options.interface),
       drive_(options.drive) {
-    if (options.block.absorption_span > 0.0)
-        absorbs_every_ = std::max(1LL, std::llround(options.block.absorption_span / options.dt));
     if (options.temperature > 0.0)
         thermostat_.emplace(options.temperature, options.damping, options.seed);
     if (options.device.kind != DeviceChoice::Kind::none)
@@ -35,7 +33,6 @@ void Simulation::start(double height) {
 }
 
 // A step, and what must be current when:
-//   absorb        every so many steps, where seams absorb: v(n-1/2) of the cells that do
 //   interpolate   constrained planes of u(n), from coarse planes with current halos
 //   interface     forces of the substrate at u(n)          -> transferred of level 0
 //   observe       energies of u(n), if this step is observed
@@ -57,8 +54,6 @@ const StepRecord& Simulation::step(bool observe) {
 }
 
 void Simulation::step_on_processor(bool observe) {
-    if (absorbs() && step_ % absorbs_every_ == 0)
-        phases_.during(Phase::absorb, [&] { absorb_at_seams(); });
     if (block_.has_constrained_planes())
         phases_.during(Phase::interpolate, [&] { block_.interpolate(); });
     phases_.during(Phase::interface, [&] { sweep_interface(observe); });
@@ -108,8 +103,6 @@ void Simulation::download() const {
     if (block_.has_constrained_planes()) block_.interpolate();
     device_is_newer_ = false;
 }
-
-void Simulation::absorb_at_seams() { block_.absorb(step_ / absorbs_every_, radiated_); }
 
 void Simulation::sweep_interface(bool observe) {
     if (slides()) interface_.slide_to(slide_[0], slide_[1]);
@@ -218,13 +211,11 @@ void Simulation::begin_record(bool observe) {
 
 void Simulation::update_energy_balance() {
     // One reduction a step (and one for the counts of an observed one).
-    const auto sums =
-        global_sums(communicator(),
-                    std::array{interface_sums_.force_z, lowest_z_, top_force_,
-                               kick_sums_.dissipated, kick_sums_.dragged, heat_,
-                               interface_sums_.energy, elastic_, kick_sums_.kinetic, radiated_});
-    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic,
-                radiated] = sums;
+    const auto sums = global_sums(communicator(),
+                                  std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                                             kick_sums_.dissipated, kick_sums_.dragged, heat_,
+                                             interface_sums_.energy, elastic_, kick_sums_.kinetic});
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic] = sums;
 
     const double sites = static_cast<double>(options_.block.sites);
     const double mean_height = reference_height_ + lowest / (sites * sites);
@@ -243,10 +234,6 @@ void Simulation::update_energy_balance() {
 
     if (slides()) update_slide();
     if (external_ || external_pending_ != 0.0) integrate_external_work();
-
-    // Taken at the start of the step, before its energies.
-    balance_.radiated += radiated;
-    radiated_ = {};
 
     has_previous_ = true;
     pending_ = {dissipated, velocity * dragged, heat};
@@ -267,16 +254,15 @@ void Simulation::update_energy_balance() {
     if (!energy_at_start_) {
         energy_at_start_ = lj + elastic + kinetic;
         work_at_start_ = balance_.work();
-        lost_at_start_ = balance_.lost();
+        damped_at_start_ = balance_.damped;
     }
     scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(balance_.work())});
     const double change = lj + elastic + kinetic - *energy_at_start_;
     record_.work = balance_.work();
     record_.interface_work = balance_.interface;
     record_.damped = balance_.damped;
-    record_.radiated = balance_.radiated;
     const double balance =
-        (record_.work - work_at_start_) - change - (balance_.lost() - lost_at_start_);
+        (record_.work - work_at_start_) - change - (balance_.damped - damped_at_start_);
     record_.residual = scale_ > 0.0 ? balance / scale_ : 0.0;
 }
 

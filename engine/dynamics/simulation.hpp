@@ -53,9 +53,8 @@ struct StepRecord {
     long long in_contact = 0, repulsive = 0; ///< sites
     double closest = 0.0;                    ///< smallest pair distance, Å
     double work = 0.0, damped = 0.0;         ///< since the start, at that step
-    double radiated = 0.0;                   ///< taken by absorbing seams, likewise
     double interface_work = 0.0;             ///< int F dz of the mean height, likewise
-    /// (work - change of energy - damped - radiated) over the largest of these terms and of the
+    /// (work - change of energy - damped) over the largest of these terms and of the
     /// interface energy met so far.
     double residual = 0.0;
 };
@@ -66,12 +65,10 @@ struct EnergyBalance {
     double lateral = 0.0;   ///< of this, by what moves the block sideways
     double drag_work = 0.0; ///< done on the block by the moving damping medium
     double damped = 0.0;    ///< dissipated against the medium
-    double radiated = 0.0;  ///< taken by absorbing seams
     double heat = 0.0;      ///< given by the thermostat's noise
     double external = 0.0;  ///< done by forces from outside
     double interface = 0.0; ///< int F dz of the mean height
     double work() const { return top_work + drag_work + heat + external; }
-    double lost() const { return damped + radiated; }
 };
 
 class Simulation {
@@ -143,8 +140,6 @@ private:
     void update_slide();
     bool next_is_observed(bool observe);
     void begin_record(bool observe);
-    bool absorbs() const { return absorbs_every_ > 0; }
-    void absorb_at_seams();
     void sweep_interface(bool observe);
     void add_external();
     ExactSum power_of_external() const;
@@ -166,14 +161,13 @@ private:
               between_observed_ = 0; ///< the last such step, and since the one before
     mutable Phases phases_;          ///< of a device, up to the last step but one
 
-    long long absorbs_every_ = 0;   ///< so many steps; 0: seams reflect
     double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
     std::array<double, 2> slide_{}; ///< of the block over the substrate, Å
     long long step_ = 0;
     StepRecord record_;
     EnergyBalance balance_;
     std::optional<double> energy_at_start_; ///< set by the first observed step
-    double work_at_start_ = 0.0, lost_at_start_ = 0.0;
+    double work_at_start_ = 0.0, damped_at_start_ = 0.0;
     double scale_ = 0.0;        ///< largest energy seen, for the residual
     bool has_previous_ = false; ///< a step came before: trapezia can be formed
     struct Pending {
@@ -187,7 +181,7 @@ private:
     // Sums of the step under way, this rank's share.
     InterfaceSums interface_sums_;
     KickSums kick_sums_;
-    ExactSum top_force_, lowest_z_, elastic_, heat_, radiated_;
+    ExactSum top_force_, lowest_z_, elastic_, heat_;
     std::array<ExactSum, 2> lateral_; ///< of a path that slides
 };
 
@@ -220,16 +214,12 @@ void Simulation::visit(Visitor& v) {
     v("balance.interface", balance_.interface);
     v("energy.at_start", energy_at_start_);
     v("energy.work_at_start", work_at_start_);
-    v("energy.damped_at_start", lost_at_start_);
+    v("energy.damped_at_start", damped_at_start_);
     v("energy.scale", scale_);
     v("has_previous", has_previous_);
     v("pending.dissipated", pending_.dissipated);
     v("pending.drag", pending_.drag);
     v("pending.heat", pending_.heat);
-    if (absorbs()) {
-        v("record.radiated", record_.radiated);
-        v("balance.radiated", balance_.radiated);
-    }
     if (slides()) {
         v("slide", slide_);
         v("record.slide", record_.slide);

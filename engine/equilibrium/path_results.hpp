@@ -99,7 +99,7 @@ struct SegmentResults {
     std::size_t number = 0;  ///< in the path
     double drive_work = 0.0; ///< done on the block by what drives or holds it, meV/Å^2
     std::optional<double> interface_work; ///< int F dz / A0, meV/Å^2; empty as above
-    double lost = 0.0;                    ///< damped, radiated or dissipated, meV/Å^2
+    double lost = 0.0;                    ///< damped or dissipated, meV/Å^2
     std::optional<double> uncertainty;    ///< of the drive's work; without time only, meV/Å^2
     double attraction = 0.0;              ///< the largest, eV/Å
     std::optional<double> lateral_mean;   ///< force against a slide, work over distance, eV/Å

@@ -101,7 +101,7 @@ void DrivenPath::conclude_pull_off(const Account& now, std::size_t number) {
     apart_ = now;
 }
 
-/// Damped or radiated since the solids were last apart, less what vibrated there, eV.
+/// Damped since the solids were last apart, less what vibrated there, eV.
 double DrivenPath::lost_since_apart(const Account& now) const {
     return now.lost - apart_.lost - (apart_.energy - apart_.bound - apart_.moving);
 }
@@ -115,7 +115,7 @@ DrivenPath::Account DrivenPath::account() const {
     const StepRecord& now = simulation_.now();
     const EnergyBalance& balance = simulation_.balance();
     return {balance.top_work + balance.drag_work,
-            balance.lost(),
+            balance.damped,
             now.interface_energy + now.elastic_energy + now.kinetic_energy,
             now.interface_energy,
             interface_work_,

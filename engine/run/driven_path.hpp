@@ -63,7 +63,7 @@ private:
     /// At an observed step, eV.
     struct Account {
         double drive_work = 0.0;     ///< of the top plane and the damping medium, which move alike
-        double lost = 0.0;           ///< damped, or taken by absorbing seams
+        double lost = 0.0;           ///< damped
         double energy = 0.0;         ///< kinetic, elastic and of the interface
         double bound = 0.0;          ///< of the interface alone
         double interface_work = 0.0; ///< int F dz of the mean height

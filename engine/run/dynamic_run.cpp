@@ -248,7 +248,6 @@ private:
         result.set("run.device", describe_device(case_.simulation.device));
         if (simulation_.steps() == 0) return;
         add_energies(now, result);
-        if (case_.on(Effect::seams)) result.set("energy.radiated", now.radiated);
     }
 
     RunSession run_;

@@ -22,8 +22,8 @@ struct Row {
     double sites;   ///< N^2
 };
 
-/// absorbing: in time, where seams absorb; sliding: where the path slides.
-enum class In { both, dynamic, absorbing, sliding, quasistatic };
+/// sliding: where the path slides.
+enum class In { both, dynamic, sliding, quasistatic };
 
 struct RecordColumn {
     const char* name;
@@ -49,7 +49,6 @@ const RecordColumn record_columns[] = {
     {"work", In::both, [](const Row& w) { return w.r.work; }},
     {"interface_work", In::dynamic, [](const Row& w) { return w.r.interface_work; }},
     {"damped", In::dynamic, [](const Row& w) { return w.r.damped; }},
-    {"radiated", In::absorbing, [](const Row& w) { return w.r.radiated; }},
     {"dissipated", In::quasistatic, [](const Row& w) { return w.r.damped; }},
     {"balance_error", In::both, [](const Row& w) { return w.r.residual; }},
     {"contact_fraction", In::both,
@@ -60,7 +59,6 @@ const RecordColumn record_columns[] = {
 };
 
 bool is_in(const RecordColumn& c, DriveMode mode, const Effects& effects) {
-    if (c.in == In::absorbing) return effects.on(Effect::seams);
     if (c.in == In::sliding) return effects.on(Effect::sliding);
     return c.in == In::both || (c.in == In::dynamic) == (mode == DriveMode::dynamic);
 }

@@ -335,7 +335,7 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
     part(Part::snapshots, [&] {
         if (piece.on(Effect::observation)) snapshot.take(*simulation);
     });
-    constexpr int few_steps = 8; // seams that absorb do so every few
+    constexpr int few_steps = 8;
     const auto steps = [&] {
         for (int n = 0; n < few_steps; ++n)
             simulation->step(false);

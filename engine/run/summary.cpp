@@ -263,10 +263,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         fmt::print(to,
                    "  Energy balance: work done = energy gained + energy {}, to {:.1e} of the "
                    "largest term.\n",
-                   of("dissipated.energy") ? "dissipated"
-                   : of("energy.radiated") ? "damped + energy radiated"
-                                           : "damped",
-                   std::abs(*residual));
+                   of("dissipated.energy") ? "dissipated" : "damped", std::abs(*residual));
     fmt::print(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

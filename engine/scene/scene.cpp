@@ -145,10 +145,10 @@ io::Schema bind(Scene& scene) {
     schema.choice<Strain>("strain", block.strain,
                           {{"linear", Strain::linear}, {"finite", Strain::finite}},
                           "small strain, or geometrically exact springs");
-    schema.choice<Seams>("seams", block.seams,
-                         {{"reflect", Seams::reflect}, {"absorb", Seams::absorb}},
-                         "what the levels of the multiscale block do with waves that the next "
-                         "level cannot carry");
+    schema.removed({"block.seams", "",
+                    "levels always reflect the waves that the next level cannot carry",
+                    "leave it out; drive.damping with drive.damping_from damps the sound that the "
+                    "rigid top would return"});
 
     auto& interface = scene.interface;
     schema.section("interface", "What acts between substrate and lowest layer.");

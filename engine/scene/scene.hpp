@@ -31,7 +31,6 @@ enum class Resample { none, band_limited };
 /// How the block is resolved on a path in time. Without time it is the waves of the lattice.
 enum class BlockModel { lattice, multiscale };
 enum class Strain { linear, finite };
-enum class Seams { reflect, absorb };
 enum class InterfaceKind { atoms, wall };
 enum class WallLawKind { smeared, exponential };
 enum class DriveMode { dynamic, quasistatic };
@@ -83,7 +82,6 @@ struct Scene {
         int thickness = 512; ///< lattice layers; after reading: N unless the scene says otherwise
         int layers_per_level = 4;
         Strain strain = Strain::linear;
-        Seams seams = Seams::reflect;
     } block;
 
     struct Interface {

@@ -221,13 +221,6 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "in time the top plane is driven, and the lowest layer's mean height is what "
                      "the waves in the block make of it",
                      "take drive.mode = \"quasistatic\", or hold = \"top\"");
-    if (c.simulation.block.multiscale && scene.block.seams == Seams::absorb &&
-        drive.temperature > 0.0)
-        problems.add(
-            "block.seams",
-            fmt::format("= \"absorb\" with drive.temperature = {:.6g} K", drive.temperature),
-            "seams that take energy and give no noise would cool the block",
-            "take seams = \"reflect\", or no temperature");
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
@@ -281,9 +274,6 @@ std::vector<io::Problem> device_problems(const Case& c) {
         refuse("surface.kind = \"atoms\"",
                "the device sums over a map of heights, and has no lists of cells of atoms anywhere",
                "take numerics.device = \"none\"");
-    if (c.scene.block.seams == Seams::absorb && c.simulation.block.multiscale)
-        refuse("block.seams = \"absorb\"", "seams absorb on the processor only",
-               "take numerics.device = \"none\", or block.seams = \"reflect\"");
     if (c.has(Segment::slide))
         refuse("a slide in drive.path",
                "a device keeps its copy of the substrate where it is, and a slide moves it",
@@ -375,7 +365,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
         for (const char* key :
              {"drive.temperature", "drive.seed", "drive.velocity", "drive.timestep",
               "drive.damping", "drive.damping_from", "drive.ramp", "output.series",
-              "block.atom_mass", "block.model", "block.layers_per_level", "block.seams"})
+              "block.atom_mass", "block.model", "block.layers_per_level"})
             idle(key, "no time passes on this path");
     else
         idle("drive.step", "drive.mode is \"dynamic\"");
@@ -406,8 +396,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                                 "surface.seed", "surface.amplitudes"})
             idle(key, "surface.kind is not \"self-affine\"");
     if (c.in_time && scene.block.model != BlockModel::multiscale)
-        for (const char* key : {"block.layers_per_level", "block.seams"})
-            idle(key, "block.model is not \"multiscale\"");
+        idle("block.layers_per_level", "block.model is not \"multiscale\"");
     return list;
 }
 

@@ -101,12 +101,6 @@ constexpr std::array<Rule, effect_count> rules = {{
                                                        : Switch{false, "block.strain = \"linear\""};
      }},
     {Effect::coarse_levels, "coarse levels", coarse_levels},
-    {Effect::seams, "absorbing seams",
-     [](const Case& c) {
-         if (const Switch levels = coarse_levels(c); !levels.on) return levels;
-         const bool absorb = c.scene.block.seams == Seams::absorb;
-         return Switch{absorb, fmt::format("block.seams = \"{}\"", absorb ? "absorb" : "reflect")};
-     }},
     {Effect::skipping, "skipping of far sites",
      [](const Case& c) {
          if (c.scene.interface.kind == InterfaceKind::wall)

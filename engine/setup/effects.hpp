@@ -25,7 +25,6 @@ enum class Effect {
     temperature,   ///< thermal noise
     finite_strain, ///< geometrically exact springs
     coarse_levels, ///< a block that gets coarser with depth
-    seams,         ///< levels that absorb what the next one cannot carry
     skipping,      ///< sites out of reach are left out of the sweep
     sliding,       ///< of the block over the substrate
     tail,          ///< continuum correction beyond the cutoff

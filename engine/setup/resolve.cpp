@@ -260,22 +260,14 @@ void fill_motion(Case& c, io::Problems& refused) {
 
     c.longest_timestep = 2.0 / block.highest_frequency(c.site_stiffness);
     const double period = std::numbers::pi * c.longest_timestep; // of the fastest vibration
-    if (c.on(Effect::seams)) {
-        // Every 0.7 of the limit of a step, or as often as there are steps. That of a single step
-        // is stable where (omega dt/2)² + fraction/2 < 1, and a fraction is 1 at most.
-        const double rare = std::floor(0.7 * c.longest_timestep / scene.drive.timestep);
-        c.simulation.block.absorption_span = std::max(1.0, rare) * scene.drive.timestep;
-        c.longest_timestep *= std::numbers::sqrt2 / 2.0;
-    }
     if (c.on(Effect::inertia) && scene.drive.timestep >= c.longest_timestep)
         refused.add(
             "drive.timestep",
             fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",
                         scene.drive.timestep, c.longest_timestep),
             fmt::format("the block's fastest vibration has a period of {:.4g} fs, and velocity "
-                        "Verlet diverges for steps longer than 1/{} of it{}",
-                        period, c.on(Effect::seams) ? "(√2 pi)" : "pi",
-                        c.on(Effect::seams) ? " where seams absorb" : ""),
+                        "Verlet diverges for steps longer than 1/pi of it",
+                        period),
             fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a "
                         "fraction of a percent",
                         0.1 * period));

@@ -24,7 +24,6 @@ class Energies:
     kinetic: Final[float]
     work: Final[float]
     damped: Final[float]
-    radiated: Final[float]
     balance_error: Final[float]
 
 class BothWays:

@@ -37,7 +37,7 @@ FIGURES = {
     "energies": ("Energies", (
         ("energy", "Energies",
          "Energies over the path. Work is done by the top plane and the moving medium of the damping."),
-        ("balance", "Energy balance", "Work done minus energy gained minus energy damped or radiated, over the largest "
+        ("balance", "Energy balance", "Work done minus energy gained minus energy damped, over the largest "
          "of these terms so far."),
         ("loading", "Force and displacement of the top plane", "Elastic force on the driven top plane over its "
          "displacement: what a testing machine would record. Between the curves lies the energy lost in a cycle."),

@@ -68,10 +68,9 @@ TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
     const Effects effects =
         effects_with({"drive.damping=0", "block.model=lattice", "block.thickness=4",
                       "output.fields=[]", "output.checkpoint=0"});
-    for (Effect off :
-         {Effect::damping, Effect::temperature, Effect::finite_strain, Effect::coarse_levels,
-          Effect::tail, Effect::curvature, Effect::maps, Effect::trajectory, Effect::checkpoints,
-          Effect::states, Effect::device, Effect::seams})
+    for (Effect off : {Effect::damping, Effect::temperature, Effect::finite_strain,
+                       Effect::coarse_levels, Effect::tail, Effect::curvature, Effect::maps,
+                       Effect::trajectory, Effect::checkpoints, Effect::states, Effect::device})
         EXPECT_FALSE(effects.on(off)) << name(off);
     for (Effect on :
          {Effect::inertia, Effect::lateral, Effect::skipping, Effect::observation, Effect::theory})
@@ -125,16 +124,6 @@ TEST(Effects, EachHasAKeyThatSwitchesIt) {
         EXPECT_TRUE(on.on(effect)) << key;
         EXPECT_FALSE(on.why(effect).empty()) << key;
     }
-    // Seams are those of levels.
-    const std::vector<std::string> levels = {"block.model=multiscale", "block.thickness=32"};
-    for (const char* seams : {"reflect", "absorb"})
-        for (const bool multiscale : {false, true}) {
-            std::vector<std::string> keys = multiscale ? levels : plain;
-            keys.push_back(std::string("block.seams=") + seams);
-            EXPECT_EQ(effects_with(keys).on(Effect::seams),
-                      multiscale && std::string(seams) == "absorb")
-                << seams;
-        }
     const Effects late = effects_with({"output.fields=[\"after-zero-load:3\"]"});
     EXPECT_TRUE(late.on(Effect::maps));
     const Effects timeless = effects_with({"drive.path=zero-load", "drive.temperature=100"});
@@ -153,9 +142,6 @@ TEST(Effects, OffInAStepIsNoCallAndNoByte) {
         follow(case_with({"drive.damping=0", "block.model=lattice", "block.thickness=4"}), 20);
     EXPECT_EQ(s.phases()[Phase::thermostat].calls, 0);
     EXPECT_EQ(s.phases()[Phase::interpolate].calls, 0);
-    EXPECT_EQ(s.phases()[Phase::absorb].calls, 0);
-    EXPECT_EQ(s.block().absorption_bytes(), 0u);
-    EXPECT_EQ(s.balance().radiated, 0.0);
     EXPECT_EQ(s.block().coarse_bytes(), 0u);
     EXPECT_EQ(s.block().finite_bytes(), 0u);
     EXPECT_EQ(s.interface().tail_bytes(), 0u);
@@ -179,35 +165,6 @@ TEST(Effects, OnInAStepTakesPlace) {
     EXPECT_GT(s.balance().damped, 0.0);
     EXPECT_NE(s.balance().drag_work, 0.0);
     EXPECT_NE(s.balance().heat, 0.0);
-}
-
-TEST(Effects, SeamsAbsorbEveryFewSteps) {
-    // Every 0.7 of the limit of a step, 73.7 fs here.
-    const auto calls = [](const char* step) {
-        return follow(case_with({"block.seams=absorb", "block.thickness=32", step}), 24)
-            .phases()[Phase::absorb]
-            .calls;
-    };
-    EXPECT_EQ(calls("drive.timestep=10"), 5);
-    EXPECT_EQ(calls("drive.timestep=13"), 8);
-    EXPECT_EQ(calls("drive.timestep=30"), 24);
-    const Simulation s = follow(case_with({"block.seams=absorb", "block.thickness=32"}), 100);
-    EXPECT_GT(s.balance().radiated, 0.0);
-    EXPECT_GT(s.block().absorption_bytes(), 0u);
-}
-
-TEST(Effects, WhatSeamsCannotAbsorbWithIsRefused) {
-    const auto problem = [](const std::vector<std::string>& keys) {
-        std::vector<std::string> all = {"block.seams=absorb"};
-        all.insert(all.end(), keys.begin(), keys.end());
-        return refusal(all);
-    };
-    EXPECT_NE(problem({"drive.temperature=100"}).find("block.seams"), std::string::npos);
-    EXPECT_NE(problem({"numerics.device=emulated"}).find("block.seams"), std::string::npos);
-    // A step that velocity Verlet would still take.
-    EXPECT_NE(problem({"drive.timestep=60"}).find("where seams absorb"), std::string::npos);
-    EXPECT_EQ(problem({"drive.timestep=50"}), "");
-    EXPECT_FALSE(effects_with({"block.seams=absorb", "numerics.device=auto"}).on(Effect::device));
 }
 
 TEST(Effects, DampingActsOnTheLayersItIsGivenAlone) {

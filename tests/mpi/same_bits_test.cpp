@@ -31,11 +31,10 @@ struct Stack {
     const char* name;
     int thickness, layers;
     double temperature;
-    bool finite = false;  ///< strain
-    bool atoms = false;   ///< a substrate of atoms anywhere
-    bool types = false;   ///< of two types
-    bool absorbs = false; ///< at its seams
-    bool slides = false;  ///< in contact
+    bool finite = false; ///< strain
+    bool atoms = false;  ///< a substrate of atoms anywhere
+    bool types = false;  ///< of two types
+    bool slides = false; ///< in contact
 };
 constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"deep", 62, 2, 0.0},
@@ -45,10 +44,8 @@ constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"finite lattice", 6, 0, 0.0, true},
                             {"atoms", 32, 3, 0.0, false, true},
                             {"types", 32, 3, 0.0, false, true, true},
-                            {"absorbing", 32, 3, 0.0, false, false, false, true},
-                            {"absorbing, deep", 62, 2, 0.0, true, false, false, true},
-                            {"sliding", 32, 3, 0.0, false, false, false, false, true},
-                            {"sliding over atoms", 32, 3, 0.0, false, true, false, false, true}};
+                            {"sliding", 32, 3, 0.0, false, false, false, true},
+                            {"sliding over atoms", 32, 3, 0.0, false, true, false, true}};
 void PrintTo(const Stack& s, std::ostream* out) { *out << s.name; }
 
 Surface surface_of(const Stack& stack, const char* name) {
@@ -70,7 +67,6 @@ InterfaceOptions interface_of(const Stack& stack) {
 BlockOptions block_of(const Stack& stack) {
     BlockOptions options = test::paper_block(32, stack.thickness, stack.layers);
     options.finite_strain = stack.finite;
-    options.absorption_span = stack.absorbs ? 30.0 : 0.0;
     return options;
 }
 

@@ -25,6 +25,9 @@ BAD = {
     "a key that is gone": (
         '[numerics]\naccuracy = "1%"',
         ["scene.toml:2:1: numerics.accuracy is not a key any more", "asperity cost SCENE --target 1%"]),
+    "absorbing seams": (
+        '[block]\nseams = "absorb"',
+        ["scene.toml:2:1: block.seams is not a key any more", "leave it out; drive.damping with drive.damping_from"]),
     "waves at finite strain": (
         '[block]\nstrain = "finite"\n[drive]\npath = ["zero-load"]',
         ['scene.toml:2:10: block.strain = "finite" on a path without time', "waves do not add up"]),

@@ -12,7 +12,6 @@ from conftest import ROOT
 sys.path.insert(0, str(ROOT / "scenes/validation"))
 import adhesion  # noqa: E402
 import rings  # noqa: E402
-import seams  # noqa: E402
 import snaps  # noqa: E402
 
 
@@ -53,17 +52,3 @@ def test_strong_adhesion_makes_a_surface_sticky(results):
     assert strong["kappa"] < 0 < weak["kappa"]
     # Without adhesion κ is about 2: adhesion always takes from 1/κ.
     assert weak["kappa"] < 0.5
-
-
-def test_what_seams_return_does_not_depend_on_a_choice_of_eigenvectors(monkeypatch):
-    """SV and SH of an isotropic solid are nearly one: a library may return any two directions of their plane."""
-    def mixed(matrix):
-        values, vectors = eigh(matrix)
-        for i in range(len(values) - 1):
-            if abs(values[i + 1] - values[i]) < 0.01 * abs(values[i]):
-                vectors[:, i:i + 2] = vectors[:, i:i + 2] @ np.array([[0.8, -0.6], [0.6, 0.8]])
-        return values, vectors
-
-    eigh, expected = np.linalg.eigh, seams.returned(2, 3, 10, 45, True)
-    monkeypatch.setattr(np.linalg, "eigh", mixed)
-    assert seams.returned(2, 3, 10, 45, True) == pytest.approx(expected, rel=1e-6)

@@ -181,14 +181,14 @@ std::uint64_t mix(std::uint64_t hash, const StepRecord& r) {
     if (!r.observed) return hash;
     for (double value : {r.interface_energy, r.elastic_energy, r.kinetic_energy, r.closest,
                          static_cast<double>(r.in_contact), static_cast<double>(r.repulsive),
-                         r.work, r.damped, r.radiated, r.interface_work, r.residual})
+                         r.work, r.damped, r.interface_work, r.residual})
         hash = mix(hash, value);
     return hash;
 }
 
 std::uint64_t mix(std::uint64_t hash, const EnergyBalance& b) {
-    for (double value : {b.top_work, b.lateral, b.drag_work, b.damped, b.radiated, b.heat,
-                         b.external, b.interface})
+    for (double value :
+         {b.top_work, b.lateral, b.drag_work, b.damped, b.heat, b.external, b.interface})
         hash = mix(hash, value);
     return hash;
 }

@@ -122,7 +122,7 @@ def energy(run: Result, ax: Axes) -> bool:
     for name, label, colour, line in (
             ("interface_energy", "interface", BLUE, "-"), ("elastic_energy", "elastic", RED, DASHES[1]),
             ("kinetic_energy", "kinetic", GREEN, DASHES[3]), ("work", "work of the drive", GREY, DASHES[2]),
-            ("damped", "damped", PINK, DASHES[4]), ("radiated", "radiated", PINK, "-"),
+            ("damped", "damped", PINK, DASHES[4]),
             ("dissipated", "dissipated", PINK, DASHES[4])):
         if name in run.series:
             curve(ax, along[0], run.series[name] * unit, label, colour=colour, line=line)
