@@ -59,9 +59,6 @@ cp $place/readings/readings.svg $gallery/fig2-readings.svg
 made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-readings.svg $gallery/fig2-readings.svg \
     $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
 
-"$python" $gallery/lammps.py # of a table measured before
-made $gallery/lammps.svg
-
 if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then
     ./asperity run scenes/first-contact.toml --set drive.path=zero-load surface.sites=96 \
         --progress off --out $place/maps >$place/log.txt

@@ -12,7 +12,7 @@ import os
 import subprocess
 import sys
 
-import hosts
+import extrapolate
 import machine
 import page
 import scaling
@@ -28,7 +28,7 @@ def say(text=""):
 
 def programs(args):
     folder = os.path.join(args.build, "perf")
-    for name in ("interface_bench", "elastic_bench", "step_bench", "message_bench", "volumes"):
+    for name in ("interface_bench", "elastic_bench", "step_bench", "message_bench"):
         if not os.access(os.path.join(folder, name), os.X_OK):
             sys.exit(f"bench: {folder} lacks {name}\n    fix: run ./asperity bench, which builds it")
     return folder
@@ -186,10 +186,8 @@ def main():
     parser = argparse.ArgumentParser(prog="./asperity bench", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default=os.path.join(SOURCE, "build", "release"), help=argparse.SUPPRESS)
-    parser.add_argument("--scaling", action="store_true", help="the scaling study and its model, too (2 minutes more)")
+    parser.add_argument("--scaling", action="store_true", help="the scaling study on two cores and its extrapolation, too (2 minutes more)")
     parser.add_argument("--study", action="store_true", help="nothing but a short scaling study (a quarter of a minute)")
-    parser.add_argument("--network", action="store_true",
-                        help="nothing but two ranks on two hosts (network namespaces; root) and the model for them (6 minutes)")
     parser.add_argument("--page", nargs="?", const=os.path.join(SOURCE, "docs"), metavar="DIR",
                         help="write reports/performance.md, its tables and plots there (default: docs); runs all of it")
     parser.add_argument("--out", metavar="FILE", help="JSON with all numbers (default: bench.json in the build)")
@@ -202,18 +200,9 @@ def main():
 
     if args.study:
         watch = machine.Watch()
-        for table in page.study_tables(scaling.study(programs(args), "short"), PHASES):
+        for table in page.scaling_tables(scaling.study(programs(args), "short"), {}, PHASES):
             say(page.terminal(table))
         say(machine.words(watch.report()))
-        return
-    if args.network:
-        watch = machine.Watch()
-        try:
-            table = page.network_table(scaling.networks(programs(args)))
-        except hosts.CannotMakeHosts as problem:
-            sys.exit(f"bench: there cannot be two hosts here: {problem}")
-        say(page.terminal(table))
-        say(f"Load before: {watch.load:.1f}; a rank that another program delays is waited for.")
         return
     if args.earlier:
         with open(args.earlier) as file:
@@ -242,7 +231,11 @@ def main():
     if os.path.exists(stored) and not args.quick:
         with open(stored) as file:
             baseline = json.load(file)
-    for table in page.tables(results, baseline, PHASES):
+    shown = list(page.tables(results, baseline, PHASES))
+    if "scaling" in results:
+        shown += page.scaling_tables(results["scaling"], results["limits"], PHASES)
+        shown += extrapolate.tables(results["scaling"])
+    for table in shown:
         say(page.terminal(table))
     say(machine.words(results["load"]))
     if not args.quick:

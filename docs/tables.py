@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Writes the tables of the pages from their CSV files: docs/tables.py [--check] [PAGE ...]
+
+A table stands in a page between <!-- table: FILE.csv --> and <!-- end of table -->, with the file relative to the
+page. --check changes nothing and fails where a table is not that of its file.
+"""
+import csv
+import re
+import sys
+from pathlib import Path
+
+BLOCK = re.compile(r"^<!-- table: (\S+\.csv) -->\n.*?^<!-- end of table -->$", re.M | re.S)
+
+
+def markdown(rows: list[list[str]]) -> str:
+    """Rows, the first of which is the head, as a table of Markdown."""
+    lines = ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
+    return "\n".join([lines[0], "|" + "---|" * len(rows[0]), *lines[1:]])
+
+
+def block(file: str, page: Path) -> str:
+    """A table with its marks; file: as the page names it."""
+    with open(page.parent / file, newline="") as table:
+        rows = list(csv.reader(table))
+    widths = {len(row) for row in rows}
+    if len(widths) != 1:
+        sys.exit(f"{page}: the rows of {file} have {sorted(widths)} cells")
+    return f"<!-- table: {file} -->\n\n{markdown(rows)}\n\n<!-- end of table -->"
+
+
+def with_tables(page: Path, text: str) -> str:
+    """The text of a page with its tables as their files are."""
+    return BLOCK.sub(lambda found: block(found[1], page), text)
+
+
+def main() -> None:
+    words = sys.argv[1:]
+    check = "--check" in words
+    pages = [Path(word) for word in words if word != "--check"] or sorted(Path(__file__).parent.rglob("*.md"))
+    stale = []
+    for page in pages:
+        text = page.read_text()
+        new = with_tables(page, text)
+        if new != text:
+            stale.append(str(page))
+            if not check:
+                page.write_text(new)
+    if check and stale:
+        sys.exit("tables are not those of their files in " + ", ".join(stale) + "; docs/tables.py writes them")
+
+
+if __name__ == "__main__":
+    main()
