@@ -6,32 +6,23 @@
     sphinx-build -W -b html docs build/docs             # the same with the program that is built already
 
 Needs python3-sphinx, python3-myst-parser and furo of Debian; with libjs-katex formulas need no network. Pages are
-Markdown that reads the same elsewhere; two of the reference are completed here: the commands by what the program
-prints, the C++ interface by its header. The program is that of $ASPERITY_PROGRAM or the build of this source tree.
+Markdown that reads the same elsewhere. The lists of docs/index.md become the navigation of the site; the C++ interface is
+completed here by its header.
 """
 
-import os
 import re
-import sys
-import types
 from pathlib import Path
 
-from sphinx.errors import ConfigError
-
 root = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(root / "python"), str(root / "packaging")]
-
-from generate import commands_of, say  # noqa: E402
 
 project = "Asperity"
 author = "The Asperity authors"
 project_copyright = "2026 " + author
 version = re.search(r"project\(\w+\s+VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text())[1]
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
+extensions = ["myst_parser", "sphinx.ext.mathjax"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 smartquotes = False  # options keep their dashes, examples their quotes
-default_role = "code"  # of docstrings
 suppress_warnings = ["myst.header"]  # a page that is completed here may begin its second part below "#"
 highlight_language = "none"
 html_theme = "furo"
@@ -44,24 +35,6 @@ if (katex / "contrib/auto-render.js").is_file():  # formulas without a network; 
     html_css_files.append("katex.min.css")
     mathjax_path, mathjax_options = "katex.min.js", {"defer": "defer"}
     html_js_files = [("contrib/auto-render.js", {"defer": "defer", "onload": "renderMathInElement(document.body)"})]
-autodoc_member_order = "bysource"
-autodoc_typehints = "signature"
-
-try:
-    import asperity.engine  # noqa: E402, F401
-except ImportError:  # a build without pybind11: what is compiled is missing from the page
-    names = ("Simulation", "Statics", "RestState", "SiteMaps", "Energies", "Point")
-    sys.modules["asperity._engine"] = types.SimpleNamespace(**{name: type(name, (), {}) for name in names})
-
-
-def commands() -> str:
-    """The help of every command of the program, and of the two that only the script has."""
-    found = os.environ.get("ASPERITY_PROGRAM") or str(root / "build/release/engine/asperity")
-    if not os.access(found, os.X_OK):
-        raise ConfigError(f"there is no program {found}: build it (./asperity info), or set ASPERITY_PROGRAM")
-    general = say(found, "--help")
-    pages = [(name, say(found, name, "--help")) for name, _ in commands_of(general)]
-    return "".join(f"\n## {title}\n\n```text\n{text.strip()}\n```\n" for title, text in [("asperity", general), *pages])
 
 
 def header() -> str:
@@ -88,12 +61,15 @@ def header() -> str:
 
 def complete(app, page, source):
     """A page before it is parsed: of a link to a Markdown file that is no page of the site the file's name is left;
-    what is generated comes behind the text of its page."""
+    what is generated comes behind the text of its page. The front page's lists of links are tables of contents, too."""
     up = re.escape("../" * (page.count("/") + 1))
     source[0] = re.sub(rf"\[[^\]]+\]\({up}([^)#]+\.md)(?:#[^)]*)?\)", r"`\1`", source[0])
-    made = {"reference/command-line": commands, "reference/cpp": header}.get(page)
-    if made:
-        source[0] += made()
+    if page == "reference/cpp":
+        source[0] += header()
+    if page == "index":
+        for caption, items in re.findall(r"^## (.*)\n\n((?:- .*\n)+)", source[0], re.M):
+            names = "\n".join(re.findall(r"\]\((.*)\.md\)", items))
+            source[0] += f"\n```{{toctree}}\n:caption: {caption}\n:maxdepth: 1\n:hidden:\n\n{names}\n```\n"
 
 
 def whole_words(app, page, template, context, doctree):
@@ -103,16 +79,6 @@ def whole_words(app, page, template, context, doctree):
                              context.get("body", ""), flags=re.S)
 
 
-def docstring(app, what, name, thing, options, lines):
-    """Our docstrings are plain text: examples are indented, lists of arguments have two blanks behind the name."""
-    out = []
-    for part in "\n".join(lines).strip("\n").split("\n\n"):
-        literal = re.match(r" {4}|\w+ {2,}\S", part)
-        out += ["::", "", *("    " + line for line in part.split("\n")), ""] if literal else [*part.split("\n"), ""]
-    lines[:] = out
-
-
 def setup(app):
     app.connect("source-read", complete)
     app.connect("html-page-context", whole_words)
-    app.connect("autodoc-process-docstring", docstring)

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Writes the generated parts of the reference, docs/reference/{command-line,python}.md: docs/reference.py [--check]
+
+The commands are what the program prints of itself, the Python interface what its docstrings say; each stands behind a
+mark in its page. --check changes nothing and fails where a page is not current. The program is that of
+$ASPERITY_PROGRAM or the build of this source tree.
+"""
+
+import inspect
+import os
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "packaging")]
+os.environ["COLUMNS"] = "100"
+os.environ.setdefault("ASPERITY_PROGRAM", str(ROOT / "build/release/engine/asperity"))
+
+from generate import commands_of, say  # noqa: E402
+
+MARK = "<!-- What follows is written by docs/reference.py. -->\n"
+
+
+def commands() -> str:
+    """The help of every command of the program."""
+    program = os.environ["ASPERITY_PROGRAM"]
+    general = say(program, "--help")
+    pages = [("asperity", general), *((name, say(program, name, "--help")) for name, _ in commands_of(general))]
+    return "".join(f"\n## {title}\n\n```text\n{text.strip()}\n```\n" for title, text in pages)
+
+
+def prose(doc: str | None) -> str:
+    """A docstring as Markdown: examples are indented in it, and lists of arguments have two blanks behind the name."""
+    doc = re.sub(r"^\w+\(self.*\n+", "", doc or "")  # the signature that pybind11 writes
+    parts = []
+    for part in inspect.cleandoc(doc).split("\n\n"):
+        if re.match(r" {4}", part):
+            part = f"```{'python' if 'asperity' in part else 'text'}\n" + inspect.cleandoc("\n" + part) + "\n```"
+        elif re.match(r"\w+ {2,}\S", part):
+            part = f"```text\n{part}\n```"
+        else:
+            part = re.sub(r"`[^`]*`|[<*$]", lambda found: found[0] if found[0][0] == "`" else "\\" + found[0], part)
+        parts.append(part)
+    return "\n\n".join(parts).strip() + "\n"
+
+
+def called(name: str, thing: object) -> str:
+    """A function with its arguments, without types."""
+    try:
+        given = inspect.signature(thing)
+    except ValueError:  # compiled: the first line of its docstring
+        words = re.match(r"\w+\(self: [\w.]+(?:, )?(.*)\) ->", thing.__doc__ or "")
+        return f"{name}({re.sub(r': [^,=]+', '', words[1]) if words else ''})"
+    some = [p.replace(annotation=inspect.Parameter.empty) for n, p in given.parameters.items() if n not in ("self", "cls")]
+    return name + str(given.replace(parameters=some, return_annotation=inspect.Signature.empty))
+
+
+def members(kind: type) -> list[tuple[str, str]]:
+    """Members of a class that have a docstring, those of its bases first: as they are written, and what they are."""
+    found = {}
+    for base in (base for base in reversed(kind.__mro__) if base.__module__.startswith("asperity")):
+        for name, thing in vars(base).items():
+            if name.startswith("_"):
+                continue
+            thing = getattr(thing, "__func__", thing)
+            if thing.__doc__ and (callable(thing) or isinstance(thing, property)):
+                found[name] = called(name, thing) if callable(thing) else name, prose(thing.__doc__)
+    return list(found.values())
+
+
+def python() -> str:
+    """The names of the package."""
+    import asperity
+
+    out = ["\n", prose(asperity.__doc__)]
+    for name in ("run", "load", "sweep", "load_sweep", "Result", "Sweep", "Simulation", "Statics"):
+        thing = getattr(asperity, name)
+        out += [f"\n## asperity.{name}\n\n", f"`{called(name, thing)}`\n\n", prose(thing.__doc__)]
+        if isinstance(thing, type):
+            for shown, doc in members(thing):
+                out += [f"\n**`{shown}`**\n\n", doc]
+    out += ["\n## Errors\n\n", prose(asperity.errors.__doc__), "\n"]
+    for name, kind in vars(asperity.errors).items():
+        if isinstance(kind, type) and kind.__module__ == "asperity.errors":
+            out += [f"- `{name}`({kind.__bases__[0].__name__}): ", " ".join(prose(kind.__doc__).split()), "\n"]
+    return "".join(out)
+
+
+def main() -> None:
+    stale = []
+    for name, make in (("command-line", commands), ("python", python)):
+        page = ROOT / "docs/reference" / f"{name}.md"
+        text = page.read_text()
+        new = text.partition(MARK)[0] + MARK + make()
+        if new != text:
+            stale.append(page.name)
+            if sys.argv[1:] != ["--check"]:
+                page.write_text(new)
+    if stale and sys.argv[1:] == ["--check"]:
+        sys.exit(f"not current in docs/reference: {', '.join(stale)}; docs/reference.py writes them")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The Markdown pages as a code host shows them: by a CommonMark renderer with tables, nothing of Sphinx is left in the
+text and every link leads somewhere. What is generated (tables, the references) is current."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from urllib.parse import unquote
+
+import pytest
+from conftest import ROOT
+
+markdown_it = pytest.importorskip("markdown_it", reason="no markdown_it: apt-get install python3-markdown-it")
+RENDERER = markdown_it.MarkdownIt("commonmark").enable("table")
+
+
+def pages():
+    for folder, folders, names in os.walk(ROOT):
+        folders[:] = [f for f in folders if f not in ("results", "node_modules") and not f.startswith(("build", "."))]
+        yield from (Path(folder, name) for name in names if name.endswith(".md"))
+
+
+PAGES = sorted(pages())
+
+
+def anchors(page):
+    """Of the headings, as code hosts make them."""
+    tokens = RENDERER.parse(page.read_text())
+    for opening, inline in zip(tokens, tokens[1:]):
+        if opening.type == "heading_open":
+            title = "".join(part.content for part in inline.children if part.type in ("text", "code_inline"))
+            yield re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+
+
+def links(tokens):
+    for token in tokens:
+        yield from (value for name, value in token.attrs.items() if name in ("href", "src"))
+        yield from links(token.children or [])
+
+
+def formulas(text):
+    """Of a paragraph: each with the character before and behind it."""
+    text = re.sub(r"`[^`]*`", lambda code: "x" * len(code[0]), text)
+    for found in re.finditer(r"(?s)(\$\$?)(.+?)\1", text):
+        yield text[:found.start()][-1:], found[0], text[found.end():][:1]
+
+
+def words_of_sphinx(text):
+    """Directives, their options and roles in what a reader sees, and formulas that a code host does not show."""
+    for token in RENDERER.parse(text):
+        if token.type == "fence" and (token.info.startswith("{") or re.search(r"^:[\w-]+:", token.content, re.M)):
+            yield token.info
+        if token.type == "inline":
+            shown = "".join("\n" if "break" in part.type else part.content if part.type == "text" else "`" * (part.type == "code_inline")
+                            for part in token.children)
+            yield from re.findall(r"^:{3,}.*|^:[\w-]+:.*|\{[\w:]+\}`|^\.\. \w+::.*", shown, re.M)
+            for before, formula, behind in formulas(token.content):
+                inner = formula.strip("$")
+                if formula not in shown:  # an emphasis or an escape to CommonMark
+                    yield formula
+                if not formula.startswith("$$") and (inner != inner.strip() or re.match(r"\w", before) or re.match(r"\w", behind)):
+                    yield before + formula + behind
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[str(page.relative_to(ROOT)) for page in PAGES])
+def test_a_page_reads_anywhere(page):
+    text = page.read_text()
+    assert list(words_of_sphinx(text)) == []
+    for target in links(RENDERER.parse(text)):
+        if re.match(r"\w+:", target):
+            continue
+        file, _, anchor = unquote(target).partition("#")
+        there = page.parent / file if file else page
+        assert there.exists(), f"{target} leads nowhere"
+        assert not anchor or anchor in anchors(there), f"{target}: there is no such heading"
+
+
+@pytest.mark.parametrize("text", ["```{csv-table}\n:file: a.csv\n```\n", ":::{note}\nx\n:::\n", "a {math}`x` b\n",
+                                  "half$x$\n", ".. automodule:: asperity\n"])
+def test_what_a_code_host_would_not_show_is_found(text):
+    assert list(words_of_sphinx(text))
+
+
+def test_tables_are_those_of_their_files():
+    done = subprocess.run([sys.executable, ROOT / "docs/tables.py", "--check"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_references_are_current():
+    try:
+        import asperity.engine  # noqa: F401
+    except ImportError as problem:
+        pytest.skip(str(problem))
+    done = subprocess.run([sys.executable, ROOT / "docs/reference.py", "--check"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
