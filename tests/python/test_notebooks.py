@@ -25,18 +25,25 @@ def test_progress(with_tqdm, capfd, monkeypatch):
     assert ("300/300" if with_tqdm else "300 of 300 steps") in said and "eV/Å" in said, said
 
 
+def results(notebook):
+    """Values that its cells end with."""
+    return [output["data"]["text/plain"] for cell in notebook.cells for output in cell.get("outputs", [])
+            if output["output_type"] == "execute_result"]
+
+
 def test_notebooks(tmp_path):
-    """From top to bottom, without a display."""
+    """From top to bottom, without a display; the outputs that are kept with it are those of today."""
     notebooks = sorted((ROOT / "examples").glob("*.ipynb"))
     assert notebooks
     for file in notebooks:
         notebook = nbformat.read(file, 4)
-        assert not any(cell.get("outputs") for cell in notebook.cells)  # as it is kept
+        kept = results(notebook)
         with pytest.MonkeyPatch.context() as patch:
             patch.setenv("PYTHONPATH", str(ROOT / "python"))
             patch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")
             nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
         outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
         assert [kind for output in outputs for kind in output.get("data", {})].count("image/png") == 2
+        assert results(notebook) == kept and len(kept) == 3  # what a reader sees before it is run
         said = "".join(output.get("text", "") for output in outputs)
         assert "400/400" in said, said  # the bar
