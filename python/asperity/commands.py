@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from . import files, program
 from .cost import TARGETS, Cost, Runs, target_of
-from .cost_parameters import Row, cost_case
+from .cost_parameters import cost_case
 from .errors import SceneError
 from .plots.sweep import write_plots
 from .pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
@@ -44,17 +44,14 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
 
 def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
                  target: str | None = None) -> int:
-    """Returns the exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the
-    target."""
+    """Its exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the target."""
     asked = None if target is None else target_of(target)
     found = program.check(scene, overrides)
     case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
     if found["problems"]:
         raise SceneError("\n".join(found["problems"]))
-    cost = Cost(found["name"], found["scene"], case)
-    cost.rows = [Row("reference", "reference", case.reference, case.reference, compared=False),
-                 Row("scene", "as it is", [], []), *(row for parameter in case.parameters for row in parameter.rows)]
-    directory = files.chosen(out, f"results/{cost.name}-cost")
+    cost = Cost(case, asked)
+    directory = files.chosen(out, f"results/{found['name']}-cost")
     print(f"reference: {case.reference_text}", flush=True)
     with files.in_use(directory):
         runs = Runs(scene, overrides, directory, options)
@@ -64,17 +61,13 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
             print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
             return reference.exit_code
         cost.compare()
-        searches = [cost.search(base, t) for base in case.bases for t in (TARGETS if asked is None else [asked])]
-        if asked is not None:
-            cost.asked = searches[0]
-        complete = complete and cost.choose(searches, runs.run)
+        complete = complete and cost.choose(TARGETS if asked is None else (asked,), runs.run)
         written = write(cost, directory)
     print(text_of(cost))
     print(f"in {directory}:" + "".join(f" {name}" for name in written))
     if not complete:
         print("Stopped early: the same command goes on from here.")
         return STOPPED
-    if cost.asked is None:
-        return 0
-    print("\n" + answer_of(cost, cost.asked))
-    return 0 if cost.asked.chosen else PHYSICS
+    if asked is not None:
+        print("\n" + answer_of(cost))
+    return 0 if asked is None or cost.chosen else PHYSICS

@@ -1,38 +1,31 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""`asperity cost`: what accuracy costs in time for a scene.
-
-Runs the reference, the scene as it is, every value of every parameter (cost_parameters.py), and then
-combinations: a value of each parameter, the cheapest whose own errors add up to no more than a target. Each is
-a process of its own with one thread, in a directory of its own; those that are there are not run again.
-
-With a target of the user only the numerics are varied, and a combination is chosen once it was run and its error
-against the reference is within the target.
+"""`asperity cost`: runs the reference, the scene as it is, every value of every parameter (cost_parameters.py), and then
+combinations: a value of each parameter, the cheapest whose own errors add up to no more than a target. Each is a process
+of its own with one thread, in a directory of its own; those that are there are not run again. For a target of the user a
+combination is chosen once it was run and its error against the reference is within the target.
 """
 
 from __future__ import annotations
 
 import contextlib
+import functools
 import itertools
 import json
 import math
-import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from . import program
-from .cost_parameters import ASKED, NAN, QUANTITIES, Base, CostCase, Parameter, Row, joined, nothing
+from .cost_parameters import ASKED, NAN, Base, CostCase, Row, joined
 from .errors import SceneError
 from .pool import DONE, WAITING, Job, Pool, PoolOptions, look_at_all
 from .result import Values
 
 TARGETS = (0.05, 0.01, 0.001)
-TRIES = 4
-"""combinations that are run for a target of the user"""
+TRIES = 4  # combinations that are run for a target
 
 
 def numbers_of(result: Values) -> np.ndarray:
@@ -64,152 +57,82 @@ def pareto_front(seconds: np.ndarray, errors: np.ndarray) -> np.ndarray:
     return ~(np.isnan(s) | np.isnan(e) | beaten.any(axis=1))
 
 
-def cheapest_within(seconds: np.ndarray, errors: np.ndarray, target: float) -> int | None:
-    """The one of the least time with an error within the target."""
-    return min((i for i, e in enumerate(errors) if e <= target), key=lambda i: seconds[i], default=None)
-
-
-def order_of(x: list[float], errors: list[float], x0: float | None, floor: float = 1e-6) -> float | None:
-    """error = c |x^p - x0^p|: the power p that fits best (least squares of the logarithms).
-
-    x0: the parameter of the run that the errors are measured against; None: no error is left there. Errors that
-    are NaN or below `floor` are left out. 0.05 <= |p| <= 8, positive where the error grows with x.
-    """
-    points = [(v, abs(e)) for v, e in zip(x, errors) if abs(e) > floor and v > 0 and v != x0]
-    if len({v for v, _ in points}) < 2:
-        return None
-    at, error = np.array(points).T
-    power = np.array([s * 0.01 * i for i in range(5, 801) for s in (1, -1)])[:, None]
-    with np.errstate(divide="ignore", invalid="ignore"):  # of a power that leaves no difference
-        misfit = np.var(np.log(error) - np.log(np.abs(at**power - (0.0 if x0 is None else x0**power))), axis=1)
-    return float(power[np.argmin(np.nan_to_num(misfit, nan=np.inf)), 0])
-
-
-@dataclass
-class Combination:
-    """A row of each part of a base: own errors add, factors of time multiply."""
-
-    rows: tuple[Row, ...]
-    error: float
-    time: float
-    """over that of the reference runs"""
-
-    def row(self, base: Base) -> Row:
-        setting = base.setting
-        for one in self.rows:
-            setting = joined(setting, one.own)
-        label = ", ".join([*filter(None, [base.label]), *(one.label for one in self.rows)])
-        return Row("combination", label, setting, [], added=self.error)
-
-
-@dataclass
-class Search:
-    """For the cheapest combination of a base that keeps a target: what was measured of it decides."""
-
-    base: Base
-    target: float
-    left: list[Combination]
-    """that may keep it, the cheapest first; none: the search has ended"""
-    smallest: float
-    """smallest error: measured, or sum of own errors if none was run"""
-    tried: int = 0
-    chosen: Row | None = None
-
-    def look_at(self, row: Row) -> None:
-        """row: of the first that is left, after its run."""
-        error = row.error[self.base.question]
-        self.smallest = error if self.tried == 0 else float(np.fmin(error, self.smallest))
-        self.tried += 1
-        if error <= self.target:
-            self.chosen, self.left = row, []
-        elif math.isnan(error):  # the run failed, something is too coarse there: what is finer takes longer
-            self.left = [c for c in self.left if c.time >= 1.5 * self.left[0].time]
-        else:  # own errors added up to less than it has: the next has to promise half
-            self.left = [c for c in self.left[1:] if c.error <= 0.5 * self.left[0].error]
-
-
-@dataclass
 class Cost:
     """The rows: the first is the reference, the second the scene itself."""
 
-    name: str
-    scene: dict[str, Any]
-    case: CostCase
-    rows: list[Row] = field(default_factory=list)
-    asked: Search | None = None
-    """for a target of the user"""
-    orders: list[tuple[Parameter, list[float | None]]] = field(default_factory=list)
-    cheapest: dict[str, list[int | None]] = field(default_factory=dict)
+    def __init__(self, case: CostCase, target: float | None = None):
+        self.case, self.target = case, target
+        self.rows = [Row("reference", "reference", case.reference, compared=False), Row("scene", "as it is", []),
+                     *(row for parameter in case.parameters for row in parameter.rows)]
+        self.cheapest: dict[str, list[Row | None]] = {}
+        self.chosen: Row | None = None  # for the target of the user
+        self.smallest = NAN  # error: measured, or sum of own errors if none was run
 
     def answered(self, question: str) -> bool:
         return any(r.compared and not math.isnan(r.error[question]) for r in self.rows)
 
     def compare(self) -> None:
-        """Errors, fronts, orders and cheapest settings of the rows that are there."""
+        """Errors, fronts and cheapest settings of the rows that are there."""
         for row in self.rows:
             row.error = {q: largest_error(row.numbers, self.rows[0].numbers, q) for q in ASKED}
-            row.own_error = nothing()
-        seconds = [r.seconds for r in self.rows]
         for question in ASKED:
             errors = [r.error[question] if r.compared else NAN for r in self.rows]
-            for row, front in zip(self.rows, pareto_front(seconds, errors).tolist()):
+            for row, front in zip(self.rows, pareto_front([r.seconds for r in self.rows], errors).tolist()):
                 row.front[question] = front
-            self.cheapest[question] = [cheapest_within(seconds, errors, t) for t in TARGETS]
-        self.orders = []
-        for parameter in self.case.parameters:
-            reference = parameter.reference
-            if reference is None:
-                continue
-            others = [row for row in parameter.rows if row is not reference]
-            for row in others:
-                row.own_error = errors_of(row.numbers, reference.numbers)
-            x0 = None if parameter.reference_is_exact else reference.x
-            self.orders.append((parameter, [order_of([r.x for r in others], [r.own_error[q] for r in others], x0)
-                                       for q in range(len(QUANTITIES))]))
+            self.cheapest[question] = [min((r for r, e in zip(self.rows, errors) if e <= t), key=lambda r: r.seconds,
+                                           default=None) for t in TARGETS]
 
-    def _of_part(self, part: str, question: str) -> list[Combination]:
-        """The values of a part's parameters, those that have an error."""
-        found = []
-        for parameter in self.case.parameters:
-            reference = parameter.reference
-            if parameter.part != part or reference is None:
-                continue
-            for row in parameter.rows:
-                # Without time the velocity is another base.
-                if row is reference and (not parameter.reference_is_exact or parameter.name == "velocity"):
-                    continue
-                error = largest_error(row.numbers, reference.numbers, question)
+    def combinations(self, base: Base) -> list[tuple[float, float, Row]]:
+        """A value of each part: time over that of the reference runs, sum of own errors, the row to run; the cheapest first."""
+        parts: dict[str, list[tuple[float, float, Row]]] = {p.part: [] for p in self.case.parameters if p.part in base.parts}
+        for parameter in (p for p in self.case.parameters if p.part in parts):
+            reference = parameter.rows[-1]
+            # Without time the velocity is another base.
+            exact = parameter.exact and parameter.name != "velocity"
+            for row in parameter.rows if exact else parameter.rows[:-1]:
+                error = largest_error(row.numbers, reference.numbers, base.question)
                 if not math.isnan(error):
-                    found.append(Combination((row,), error, row.seconds / reference.seconds))
-        return found
+                    parts[parameter.part].append((row.seconds / reference.seconds, error, row))
+        found = []
+        for some in itertools.product(*(parts[name] for name in base.parts if name in parts)):
+            times, errors, rows = zip(*some)
+            label = ", ".join(filter(None, [base.label, *(row.label for row in rows)]))
+            setting = functools.reduce(joined, (row.own for row in rows), base.setting)
+            found.append((math.prod(times), sum(errors), Row("combination", label, setting)))
+        return sorted(found, key=lambda one: one[0])
 
-    def search(self, base: Base, target: float) -> Search:
-        there = {parameter.part for parameter in self.case.parameters}
-        parts = [self._of_part(part, base.question) for part in base.parts if part in there]
-        every = [Combination(tuple(one.rows[0] for one in some), sum(one.error for one in some),
-                             math.prod(one.time for one in some)) for some in itertools.product(*parts)]
-        return Search(base, target, sorted((c for c in every if c.error <= target), key=lambda c: c.time),
-                      min((c.error for c in every), default=NAN))
+    def _add(self, rows: list[Row], run: Callable[[list[Row]], bool]) -> bool:
+        """Runs those that are not there. False: stopped before the end."""
+        there = [row.setting for row in self.rows if row.parameter == "combination"]
+        new = [row for i, row in enumerate(rows) if row.setting not in there + [one.setting for one in rows[:i]]]
+        self.rows += new
+        complete = not new or run(new)
+        self.compare()
+        return complete
 
-    def choose(self, searches: list[Search], run: Callable[[list[Row]], bool]) -> bool:
-        """Runs the first combination of each, and the next of those that missed. False: stopped before."""
-        there: list[Row] = []
-        for _ in range(TRIES):
-            tried, new = [], []
-            for search in (s for s in searches if s.left):
-                row = search.left[0].row(search.base)
-                same = next((other for other in there + new if other.setting == row.setting), None)
-                if same is None:
-                    new.append(row)
-                tried.append((search, same or row))
-            complete = not new or run(new)
-            there += new
-            self.rows += new
-            self.compare()
-            if not complete:
+    def choose(self, targets: tuple[float, ...], run: Callable[[list[Row]], bool]) -> bool:
+        """Runs the cheapest combination of each base that may keep each target, side by side, and then further ones of
+        those that missed. False: stopped before the end."""
+        searches = [(base, target, self.combinations(base)) for base in self.case.bases for target in targets]
+        firsts = [next((row for _, error, row in every if error <= target), None) for _, target, every in searches]
+        return self._add([row for row in firsts if row], run) and all(self._search(*one, run) for one in searches)
+
+    def _search(self, base: Base, target: float, every: list[tuple[float, float, Row]],
+                run: Callable[[list[Row]], bool]) -> bool:
+        left, measured = [one for one in every if one[1] <= target], []
+        self.smallest = min((one[1] for one in every), default=NAN)
+        while left and len(measured) < TRIES:
+            _, added, row = left[0]
+            if not self._add([row], run):
                 return False
-            for search, row in tried:
-                search.look_at(row)
+            row = next(r for r in self.rows if r.parameter == "combination" and r.setting == row.setting)
+            measured.append(row.error[base.question])
+            self.smallest = float(np.fmin.reduce(measured))
+            if measured[-1] <= target:
+                self.chosen = row
+                break
+            # Own errors added up to less than it has, or its run failed: the next has to promise half.
+            left = [one for one in left if one[1] <= 0.5 * added]
         return True
 
 
@@ -234,25 +157,24 @@ class Runs:
             jobs[key] = self.made.setdefault(key, Job(name, self.directory / name, self.scene, given, point))
         outcomes = look_at_all(list(jobs.values()), print)
         there = sum(o.status != WAITING for o in outcomes)
-        print(f"{len(jobs)} run{'s' * (len(jobs) != 1)} in {self.directory}" + (f"; {there} are there already" if there else ""), flush=True)
+        print(f"{len(jobs)} run{'s' * (len(jobs) != 1)} in {self.directory}" + f"; {there} are there already" * (there > 0),
+              flush=True)
         complete = Pool(list(jobs.values()), outcomes, self.options, self.directory).run()
         of_scene = dict(zip(jobs, outcomes))
         for row, point in zip(rows, points):
             row.outcome = of_scene[json.dumps(point["scene"])]
             if row.outcome.status == DONE:
-                result = row.outcome.result
-                row.numbers = numbers_of(result)
-                row.seconds, row.wall = (result.number(f"run.{k}_seconds", NAN) for k in ("processor", "wall"))
+                row.numbers = numbers_of(row.outcome.result)
+                row.seconds = row.outcome.result.number("run.processor_seconds", NAN)
         return complete
 
 
 def target_of(text: str) -> float:
     """"1%" and "0.01" are 0.01. Raises SceneError."""
-    found, target = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(%?)\s*", text), NAN
+    words = text.strip()
     with contextlib.suppress(ValueError):
-        target = float(found[1]) * (0.01 if found[2] else 1.0) if found else NAN
-    if not 0.0 < target < 1.0:
-        raise SceneError(f"--target {text}", "is no error to keep",
-                         "a relative error is needed, above 0 and below 100 %",
-                         "for example --target 1%, or --target 0.01")
-    return target
+        target = float(words.removesuffix("%")) * (0.01 if words.endswith("%") else 1.0)
+        if 0.0 < target < 1.0:
+            return target
+    raise SceneError(f"--target {text}", "is no error to keep",
+                     "a relative error is needed, above 0 and below 100 %", "for example --target 1%, or --target 0.01")
