@@ -51,13 +51,18 @@ for study in renormalised fig5-equilibrium; do cp $place/$study/sweep.csv $data/
 cp $place/parameters/parameters.csv $data
 made $data/renormalised.csv $data/fig5-equilibrium.csv $data/parameters.csv
 "$python" $gallery/renormalised.py
-"$python" $gallery/fig5.py >$place/fig5.txt
+"$python" $gallery/fig5.py
 ./asperity sweep scenes/paper/small/fig2-quasistatic.toml --set surface.rms=0.5,1,1.5,2,3,4.5 --out $place/readings >$place/log.txt
 cp $place/readings/readings.svg $gallery/fig2-readings.svg
 ./asperity sweep scenes/paper/small/fig5-quasistatic.toml --out $place/spheres >$place/log.txt
 "$python" $gallery/spheres.py $place/spheres $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
-made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-readings.svg $gallery/fig2-readings.svg \
+made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-readings.svg $data/tables/fig5-readings.csv \
+    $gallery/fig2-readings.svg \
     $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
+
+"$python" docs/reference.py
+"$python" docs/tables.py # those of all pages, from docs/data
+made docs/reference/command-line.md docs/reference/python.md
 
 if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then
     ./asperity run scenes/first-contact.toml --set drive.path=zero-load surface.sites=96 \

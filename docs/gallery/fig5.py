@@ -3,7 +3,7 @@
 """Fig. 5 of the paper with γ by JKR from the force and from the energy at zero load: python3 docs/gallery/fig5.py
 
 Reads docs/data/fig5.csv (5 m/s) and fig5-equilibrium.csv (scenes/paper/fig5-equilibrium.toml), writes fig5-readings.svg beside
-itself and prints the table docs/data/tables/fig5-readings.csv of docs/reports/paper.md. What a Maugis-Dugdale sphere with the renormalised law has is integrated here.
+itself and the table docs/data/tables/fig5-readings.csv of docs/reports/paper.md. What a Maugis-Dugdale sphere with the renormalised law has is integrated here.
 Needs numpy and matplotlib (Debian: python3-numpy python3-matplotlib)."""
 import csv
 import math
@@ -51,7 +51,8 @@ points = {}
 for row in rows("fig5-equilibrium.csv"):
     points.setdefault(float(row["surface.rms"]), []).append(row)
 paths = {float(r["surface.rms"]): r for r in rows("fig5.csv")}
-table = []
+table, cells = [], [["h_rms, Å", "in, averaged, 5 m/s", "out, 5 m/s", "by energy, surface 1", "by energy, six places",
+                     "flat, renormalised theory", "Maugis' λ of that law", "law's sphere, by force", "law's sphere, by energy"]]
 for rms, these in points.items():
     one = these[0]
     flat, w = float(one["delta_gamma"]), float(one["theory.renormalised.gamma_eff"]) / 1e3
@@ -61,8 +62,10 @@ for rms, these in points.items():
                   float(one["sphere.renormalised_parameter"]), float(one["sphere.renormalised_ratio"]), law))
     path = paths.get(rms)
     ways = [f"{float(path[k]):.3f}" if path else "" for k in ("jkr.in_averaged_ratio", "jkr.out_ratio")]
-    print(f"| {rms:g} | {ways[0]} | {ways[1]} | {energy[0]:.3f} | {energy.mean():.3f} ± {energy.std(ddof=1):.3f} | "
-          + " | ".join(f"{v:.3f}" for v in table[-1][4:5]) + f" | {table[-1][5]:.2f} | {table[-1][6]:.3f} | {table[-1][7]:.3f} |")
+    cells.append([f"{rms:g}", *ways, f"{energy[0]:.3f}", f"{energy.mean():.3f} ± {energy.std(ddof=1):.3f}", f"{table[-1][4]:.3f}",
+                  f"{table[-1][5]:.2f}", f"{table[-1][6]:.3f}", f"{law:.3f}"])
+with open(GALLERY.parent / "data/tables/fig5-readings.csv", "w", newline="") as file:
+    csv.writer(file, lineterminator="\n").writerows(cells)
 
 matplotlib.rcParams.update({"svg.hashsalt": "asperity", "font.size": 9, "axes.linewidth": 0.7, "legend.frameon": False,
                             "xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True})
