@@ -12,12 +12,28 @@
 #   Sources of the layer <name> that make and read text: -O1 compiles them in about half the time, and
 #   no result waits for them.
 
-# For builds whose compile time matters more than their speed: sanitizers, fuzzing.
-option(ASPERITY_ONE_VARIANT "Compile the kernels once, for any processor" OFF)
+# x86-64 levels that the kernels are compiled for, one table of functions each (kernels/variant.hpp).
+set(ASPERITY_LEVELS all CACHE STRING
+    "all (for a program that is passed on), native (that of this machine, for short builds), none (any processor)")
+set_property(CACHE ASPERITY_LEVELS PROPERTY STRINGS all native none)
 set(ASPERITY_KERNEL_OPTIONS "" CACHE STRING "Compiler options of the kernels alone, behind all others")
 set(ASPERITY_VARIANTS "")
-if(NOT ASPERITY_ONE_VARIANT AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+if(NOT ASPERITY_LEVELS MATCHES "^(all|native|none)$")
+    message(FATAL_ERROR "ASPERITY_LEVELS=${ASPERITY_LEVELS}: it is all, native or none")
+elseif(NOT ASPERITY_LEVELS STREQUAL "none" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(ASPERITY_VARIANTS v2 v3 v4)
+    if(ASPERITY_LEVELS STREQUAL "native")
+        execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -dM -E -x c++ /dev/null
+                        OUTPUT_VARIABLE has ERROR_QUIET)
+        if(has MATCHES "__AVX512F__" AND has MATCHES "__AVX512DQ__" AND has MATCHES "__AVX512BW__"
+           AND has MATCHES "__AVX512VL__" AND has MATCHES "__AVX512CD__")
+            set(ASPERITY_VARIANTS v4)
+        elseif(has MATCHES "__AVX2__" AND has MATCHES "__FMA__" AND has MATCHES "__BMI2__")
+            set(ASPERITY_VARIANTS v3)
+        elseif(has MATCHES "__SSE4_2__")
+            set(ASPERITY_VARIANTS v2)
+        endif()
+    endif()
 endif()
 
 # The layers go into the program and into libasperity.so, which shows its header's names alone.
@@ -54,9 +70,11 @@ function(asperity_layer name)
         endif()
     endforeach()
     if(ARG_VARIANTS)
-        list(JOIN ASPERITY_VARIANTS "," list)
-        target_compile_definitions(asperity_${name} PRIVATE
-            ASPERITY_HAS_X86_VARIANTS=$<BOOL:${ASPERITY_VARIANTS}>)
+        foreach(variant IN ITEMS v2 v3 v4) # ASPERITY_HAS_V2 and so on: 0 or 1
+            string(TOUPPER ASPERITY_HAS_${variant} macro)
+            target_compile_definitions(asperity_${name}
+                PRIVATE ${macro}=$<IN_LIST:${variant},${ASPERITY_VARIANTS}>)
+        endforeach()
     endif()
 endfunction()
 

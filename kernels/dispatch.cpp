@@ -22,11 +22,27 @@
 
 namespace asperity {
 
-#if ASPERITY_HAS_X86_VARIANTS
+#if ASPERITY_HAS_V2 || ASPERITY_HAS_V3 || ASPERITY_HAS_V4
 ASPERITY_TABLES(v2)
 ASPERITY_TABLES(v3)
 ASPERITY_TABLES(v4)
-#define ASPERITY_TABLE(name) of_processor(v2::name, v3::name, v4::name)
+#if ASPERITY_HAS_V2
+#define ASPERITY_V2(name) &v2::name
+#else
+#define ASPERITY_V2(name) nullptr
+#endif
+#if ASPERITY_HAS_V3
+#define ASPERITY_V3(name) &v3::name
+#else
+#define ASPERITY_V3(name) nullptr
+#endif
+#if ASPERITY_HAS_V4
+#define ASPERITY_V4(name) &v4::name
+#else
+#define ASPERITY_V4(name) nullptr
+#endif
+#define ASPERITY_TABLE(name)                                                                       \
+    of_processor<decltype(v2::name)>(ASPERITY_V2(name), ASPERITY_V3(name), ASPERITY_V4(name))
 #else
 ASPERITY_TABLES(portable)
 #define ASPERITY_TABLE(name) portable::name
@@ -34,15 +50,16 @@ ASPERITY_TABLES(portable)
 
 namespace {
 
+/// Null: not compiled, and so never processor_level().
 template <class Table>
-[[maybe_unused]] const Table& of_processor(const Table& v2, const Table& v3, const Table& v4) {
+[[maybe_unused]] Table& of_processor(Table* v2, Table* v3, Table* v4) {
     switch (processor_level()) {
     case ProcessorLevel::v4:
-        return v4;
+        return *v4;
     case ProcessorLevel::v3:
-        return v3;
+        return *v3;
     default:
-        return v2;
+        return *v2;
     }
 }
 

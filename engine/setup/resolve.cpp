@@ -5,6 +5,7 @@
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "kernels/device/device.hpp"
+#include "kernels/variant.hpp"
 
 #include <fmt/format.h>
 
@@ -334,6 +335,11 @@ void Case::require_runnable() const {
 }
 
 Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
+    if (const auto missing = missing_level())
+        throw io::SceneError(io::Problem{
+            "asperity", "is built for another processor",
+            fmt::format("its kernels need x86-64-{}, which this processor lacks", name(*missing)),
+            "build it on this machine, or for all with -DASPERITY_LEVELS=all"});
     Case c;
     c.scene = scene;
     c.ranks = ranks;

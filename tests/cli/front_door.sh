@@ -105,6 +105,12 @@ expect 0 test
 says "tested"
 [ "$(grep -c ^cmake calls)" -eq 5 ] || fail "configured otherwise than for the run, the tests twice, and their installation: $(cat calls)"
 
+# A first build is for this machine alone; tests are of every level of kernels, and stay so.
+grep -m 1 ^cmake calls | grep -q "LEVELS=native" || fail "a first build has all kernels: $(cat calls)"
+grep ^cmake calls | tail -n 1 | grep -q "LEVELS=all" || fail "tests are of one level: $(cat calls)"
+expect 0 run
+[ "$(grep -c ^cmake calls)" -eq 5 ] || fail "a run after the tests configures anew: $(cat calls)"
+
 # Without CMake, Ninja and a compiler, all that a build needs is named at once; so it is where there is no apt-get.
 mkdir bare
 for name in awk bash cat chmod cp date flock grep head id mkdir mv readlink rm sed tail touch; do ln -s "$(PATH=$given_path command -v $name)" bare/; done
