@@ -80,7 +80,7 @@ std::vector<Command> all_commands() {
          "make or read the surface, print and write its statistics and heights",
          {takes::scene, takes::set, takes::out("results/<scene>-surface")},
          [](const Arguments& given, const Communicator& world) {
-             return surface_command(case_of(given, world.size()), given.out, world);
+             return surface_command(surface_case_of(given, world.size()), given.out, world);
          }},
         {"theory",
          "the analytic theory of a scene, without simulating it",

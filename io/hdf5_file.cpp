@@ -126,7 +126,7 @@ Hdf5File::Hdf5File(const FilePlace& place, Mode mode)
         if (!open_->input) fail_by_system(path_, "cannot be opened", "check the path");
         open_->disk.fd = open_->input.get();
         const Seal seal = check_seal(open_->disk.fd);
-        if (seal == Seal::none)
+        if (seal == Seal::none && mode == Mode::read)
             throw FileError(
                 path_, "cannot be opened",
                 "it has no digest at its end: it was cut short, or another program wrote it",
@@ -178,6 +178,25 @@ bool Hdf5File::exists(const std::string& object) const {
 
 bool Hdf5File::is_dataset(const std::string& object) const {
     return exists(object) && H5Iget_type(open_->object(object, "cannot be opened")) == H5I_DATASET;
+}
+
+std::vector<std::string> Hdf5File::datasets(std::size_t dimensions) const {
+    std::vector<std::string> names, found;
+    const auto each = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+        auto& all = *static_cast<std::vector<std::string>*>(out);
+        all.push_back(std::string("/") + name);
+        return all.size() >= 10000 ? 1 : 0; // enough of them
+    };
+    if (H5Lvisit(open_->id, H5_INDEX_NAME, H5_ITER_INC, each, &names) < 0)
+        open_->fail("/", "cannot be listed");
+    for (const std::string& name : names)
+        if (is_dataset(name) && holds_numbers(name) && shape(name).size() == dimensions)
+            found.push_back(name);
+    return found;
+}
+
+std::uint64_t Hdf5File::stored_bytes(const std::string& dataset) const {
+    return H5Dget_storage_size(open_->dataset(dataset));
 }
 
 bool Hdf5File::holds_numbers(const std::string& dataset) const {
@@ -318,13 +337,24 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
 std::optional<std::string> Hdf5File::text_attribute(const std::string& object,
                                                     const std::string& name) const {
     const std::string what = "has an attribute " + name + " that is not one string";
+    constexpr std::size_t longest = 1u << 16;
     std::string text;
     const bool found = open_->attribute(object, name, what, [&](hid_t attribute) {
         const Handle type(H5Aget_type(attribute), H5Tclose);
-        char* data = nullptr;
-        if (H5Tis_variable_str(type) <= 0 || H5Aread(attribute, type, &data) < 0) return false;
-        if (data) text = data;
-        H5free_memory(data);
+        if (H5Tget_class(type) != H5T_STRING) return false;
+        if (H5Tis_variable_str(type) > 0) {
+            char* data = nullptr;
+            if (H5Aread(attribute, type, &data) < 0) return false;
+            if (data) text = data;
+            H5free_memory(data);
+            return true;
+        }
+        const std::size_t size = H5Tget_size(type);
+        if (size > longest) return false;
+        text.resize(size);
+        if (H5Aread(attribute, type, text.data()) < 0) return false;
+        text.resize(std::min(text.find('\0'), size)); // or blanks, as Fortran pads
+        text.resize(text.find_last_not_of(' ') + 1);
         return true;
     });
     return found ? std::optional(text) : std::nullopt;

@@ -10,8 +10,9 @@
 //
 // A file is written like every other that matters (files.hpp): it appears in its place, whole
 // and on the disk, when close() returns; without a close it is dropped. It ends in a digest of all
-// its bytes, metadata included. (HDF5 ignores what comes after its own data.) Only files whose
-// digest is right are opened: libhdf5 crashes on some damaged ones.
+// its bytes, metadata included. (HDF5 ignores what comes after its own data.) In the program's own
+// process only files whose digest is right are opened: libhdf5 crashes on some damaged ones. Files
+// that users bring are opened by a process of their own (hdf5_numbers.hpp).
 #pragma once
 
 #include "io/files.hpp"
@@ -32,9 +33,9 @@ public:
     using Attribute = std::variant<std::int64_t, double, std::string, std::vector<std::int64_t>,
                                    std::vector<std::string>>;
 
-    enum class Mode { create, read };
+    enum class Mode { create, read, read_any };
     /// create: a new file, which replaces an old one. read: throws FileError if the file is damaged
-    /// as far as its digest tells, or has none.
+    /// as far as its digest tells, or has none. read_any: it need not have one.
     Hdf5File(const FilePlace& place, Mode mode);
     ~Hdf5File();
     Hdf5File(Hdf5File&&) noexcept;
@@ -49,8 +50,12 @@ public:
     /// Names of the members of a group, in alphabetical order.
     std::vector<std::string> members(const std::string& group) const;
     bool is_dataset(const std::string& object) const;
+    /// All data sets of numbers with so many dimensions, wherever they are, in alphabetical order.
+    std::vector<std::string> datasets(std::size_t dimensions) const;
     /// Of a data set: are its values plain integers or floats?
     bool holds_numbers(const std::string& dataset) const;
+    /// What its values take in the file, bytes.
+    std::uint64_t stored_bytes(const std::string& dataset) const;
 
     /// Attributes of a group or data set; written over if there.
     void write_attribute(const std::string& object, const std::string& name,

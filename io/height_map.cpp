@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/height_map.hpp"
 
+#include "io/hdf5_file.hpp"
 #include "io/scene_file.hpp"
 
 #include <algorithm>
@@ -44,8 +45,10 @@ void make_square(HeightMap& map, bool crop) {
         refuse(map.source, "the height map is not square",
                fmt::format("it has {} rows and {} columns, and the periodic box is square",
                            map.rows, map.columns),
-               "cut a square out of it before, or take the middle with "
-               "surface.file_crop = \"middle\"");
+               std::min(map.rows, map.columns) <= 2
+                   ? "it is a line scan, and a surface needs a map: measure or export an area"
+                   : "cut a square out of it before, or take the middle with "
+                     "surface.file_crop = \"middle\"");
     const std::size_t n = std::min(map.rows, map.columns);
     if (map.width && map.height) {
         const double pixel = *map.width / static_cast<double>(map.columns);

@@ -4,15 +4,15 @@
 // Height maps: what a file holds, and what a scene takes of it.
 //
 //     format       recognized by         size and unit
-//     HDF5         its first bytes       attributes unit, scale, size_x, size_y, size_unit
+//     HDF5         its first bytes       attributes unit (or units), scale, size_x, size_y, size_unit
 //     NumPy        its first bytes       none
 //     text matrix  numbers               none
 //
-// HDF5: the data set /heights of a file that `asperity convert` or `asperity surface` wrote, or the
-// one named after a colon ("map.h5:/NAME"); attribute origin says whose map it is. Sizes are in
-// size_unit, else in the unit of the heights. Text: one row of the map a line, numbers separated by
-// blanks; # starts a comment. Row r is y = r, column c is x = c. A map of n points is n pixels
-// wide. Files of other formats, and HDF5 of other programs, are converted first
+// HDF5: the data set named after a colon ("map.h5:/NAME"), else /heights, else the only one of
+// numbers with two dimensions; attribute origin says whose map it is. Sizes are in size_unit, else
+// in the unit of the heights; an attribute that the data set has not is looked for at the file.
+// Text: one row of the map a line, numbers separated by blanks; # starts a comment. Row r is y = r,
+// column c is x = c. A map of n points is n pixels wide. Files of other formats are converted first
 // (python/asperity/convert.py).
 #pragma once
 

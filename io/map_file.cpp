@@ -4,6 +4,7 @@
 // Reading of the formats; what a scene makes of a map is in height_map.cpp.
 #include "io/height_map.hpp"
 
+#include "io/hdf5_numbers.hpp"
 #include "io/scene_file.hpp"
 #include "io/units.hpp"
 
@@ -21,6 +22,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace asperity::io {
 
@@ -49,33 +51,65 @@ double length_unit(const std::string& unit, const std::string& where) {
     return *factor;
 }
 
-/// The map of an HDF5 file of Asperity, as `asperity convert` and `asperity surface` write them.
-HeightMap read_map_hdf5(const Hdf5File& file, const std::string& dataset, Units& units) {
+/// The data set that is named, else /heights, else the only one that can be a map.
+std::string map_in(const Hdf5File& file, const std::string& named) {
+    std::string name = named.empty() ? "/heights" : named;
+    if (named.empty() && !file.exists(name)) {
+        const std::vector<std::string> maps = file.datasets(2);
+        if (maps.size() > 1)
+            refuse(
+                file.path(), "holds more than one map",
+                fmt::format("{} data sets of numbers have 2 dimensions: {}{}", maps.size(),
+                            fmt::join(maps.begin(),
+                                      maps.begin() + std::min<std::ptrdiff_t>(std::ssize(maps), 8),
+                                      ", "),
+                            maps.size() > 8 ? ", ..." : ""),
+                fmt::format("name one: file = \"{}:{}\"", file.path(), maps[0]));
+        if (maps.size() == 1) name = maps[0];
+    }
+    if (!file.is_dataset(name))
+        refuse(file.path(), "has no data set " + name, "the file was opened and searched for it",
+               "`h5ls -r FILE` lists what it has; name one: file = \"FILE:/NAME\"");
+    const std::size_t dimensions = file.shape(name).size();
+    if (dimensions != 2 || !file.holds_numbers(name))
+        refuse(file.path() + ":" + name, "is no height map",
+               fmt::format("a map is numbers of 2 dimensions, it has {}", dimensions),
+               "name another data set");
+    return name;
+}
+
+template <class T>
+std::optional<T> find(const std::map<std::string, T>& attributes, const char* name) {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? std::nullopt : std::optional(found->second);
+}
+
+HeightMap read_map_hdf5(const std::string& file, const std::string& named, Units& units) {
+    auto sets = read_numbers(
+        file, {"the height map",
+               [&](const Hdf5File& opened) { return std::vector{map_in(opened, named)}; },
+               {"unit", "units", "size_unit", "origin"},
+               {"scale", "size_x", "size_y"}});
+    const NumberSet whole = std::move(sets.extract("/").mapped());
+    NumberSet& set = sets.begin()->second;
     HeightMap map;
     map.format = "HDF5";
-    map.source = file.path() + ":" + dataset;
-    if (!file.is_dataset(dataset))
-        refuse(file.path(), "has no data set " + dataset, "the file was opened and searched for it",
-               "`h5ls -r FILE` lists what it has; name one: file = \"FILE:/NAME\"");
-    const Hdf5File::Shape shape = file.shape(dataset);
-    if (shape.size() != 2 || !file.holds_numbers(dataset))
-        refuse(map.source, "is no height map",
-               fmt::format("a map is numbers of 2 dimensions, it has {}", shape.size()),
-               "name another data set");
-    map.rows = shape[0];
-    map.columns = shape[1];
-    require_memory(map.source, "the height map",
-                   24.0 * static_cast<double>(map.rows) * static_cast<double>(map.columns));
-    map.heights = file.read<double>(dataset);
-    map.origin = file.text_attribute(dataset, "origin")
-                     .value_or(file.text_attribute("/", "origin").value_or(""));
-    units.unit = file.text_attribute(dataset, "unit");
-    units.scale = file.number_attribute(dataset, "scale").value_or(1.0);
-    map.width = file.number_attribute(dataset, "size_x");
+    map.source = file + ":" + sets.begin()->first;
+    map.rows = set.shape.at(0);
+    map.columns = set.shape.at(1);
+    map.heights = std::move(set.values);
+    // The file may say once what holds of all that is in it.
+    set.texts.insert(whole.texts.begin(), whole.texts.end());
+    set.numbers.insert(whole.numbers.begin(), whole.numbers.end());
+    map.origin = find(set.texts, "origin").value_or("");
+    units.unit = find(set.texts, "unit");
+    if (!units.unit) units.unit = find(set.texts, "units");
+    units.scale = find(set.numbers, "scale").value_or(1.0);
+    map.width = find(set.numbers, "size_x");
     if (!map.width) return map;
-    map.height = file.number_attribute(dataset, "size_y").value_or(*map.width);
+    map.height = find(set.numbers, "size_y").value_or(*map.width);
     // Sizes are in the file's own unit, whatever the scene says of the heights.
-    std::optional<std::string> unit = file.text_attribute(dataset, "size_unit");
+    std::optional<std::string> unit = find(set.texts, "size_unit");
     if (!unit) unit = units.unit;
     units.of_sizes = !unit;
     const double factor = unit ? length_unit(*unit, map.source) : 1.0;
@@ -144,10 +178,15 @@ void complete(HeightMap& map, const Units& units, const std::string& unit_wanted
                            map.unit));
 }
 
-/// Does a comment of a matrix say what Gwyddion and SPIP write into their headers?
+/// Does a comment of a matrix say what Gwyddion and SPIP write into their headers? Gwyddion writes
+/// the names in the language of its user, and always the unit of the heights: "# Wert-Einheiten:
+/// nm".
 bool is_header(std::string_view comment) {
     std::string name(comment.substr(0, comment.find_first_of(":=")));
     if (name.size() == comment.size()) return false;
+    std::string_view value = comment.substr(name.size() + 1);
+    if (const std::string_view word = take_word(value); take_word(value).empty() && word != "A")
+        if (conversion(word, "Å")) return true;
     std::erase_if(name, [](char c) { return c == ' ' || c == '\t' || c == '#'; });
     for (char& c : name)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -206,6 +245,10 @@ HeightMap read_map_text(std::string_view text, const std::string& file) {
                                map.columns),
                    "give every row as many numbers");
     }
+    if (map.columns == 3 && map.rows > 3)
+        refuse(file, "has three numbers a line",
+               "they are points x, y and height rather than the rows of a map",
+               convert_first(file));
     return map;
 }
 
@@ -303,10 +346,7 @@ HeightMap read_map_numpy(std::string_view bytes, const std::string& file) {
 
 HeightMap read_raw(const std::string& file, const std::string& dataset, Units& units) {
     const fs::path name(file);
-    if (is_hdf5(file))
-        return read_hdf5(file, [&](const Hdf5File& opened) {
-            return read_map_hdf5(opened, dataset.empty() ? "/heights" : dataset, units);
-        });
+    if (is_hdf5(file)) return read_map_hdf5(file, dataset, units);
     if (!dataset.empty() || name.extension() == ".h5")
         refuse(file, "the height map cannot be read", "it is not an HDF5 file",
                "name another file; a text matrix must not be called .h5");

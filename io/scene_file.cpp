@@ -26,9 +26,7 @@ std::string convert_first(const std::string& file) {
         return name.find_first_of(" '\"\\$&;()<>*?[]|`!#~") == std::string::npos ? name
                                                                                  : "'" + name + "'";
     };
-    const std::filesystem::path path(file);
-    const std::string out =
-        path.stem().string() + (path.extension() == ".h5" ? "-converted.h5" : ".h5");
+    const std::string out = std::filesystem::path(file).stem().string() + ".h5";
     return fmt::format("convert it first: asperity convert {} {}", quoted(file), quoted(out));
 }
 
@@ -45,16 +43,6 @@ bool is_hdf5(const std::string& file) {
     char head[8] = {};
     std::ifstream(file, std::ios::binary).read(head, sizeof head);
     return std::memcmp(head, "\x89HDF\r\n\x1a\n", sizeof head) == 0;
-}
-
-Hdf5File open_hdf5(const std::string& file) {
-    try {
-        return {FilePlace(file), Hdf5File::Mode::read};
-    } catch (const FileError& error) {
-        Problem problem = error.problems().front();
-        problem.fix = convert_first(file);
-        throw SceneError(problem);
-    }
 }
 
 std::string_view take_word(std::string_view& line) {

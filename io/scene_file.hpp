@@ -4,12 +4,11 @@
 // What the readers of files that a scene names share (maps, atoms, tables).
 //
 // Such files come from elsewhere and may be damaged: sizes are compared with the file and with the
-// memory there is before anything is allocated, and libhdf5, which crashes on some damaged files,
-// opens those alone whose digest is right. What is wrong is a mistake of the scene: SceneError.
+// memory there is before anything is allocated. What is wrong is a mistake of the scene:
+// SceneError.
 #pragma once
 
 #include "io/error.hpp"
-#include "io/hdf5_file.hpp"
 
 #include <array>
 #include <optional>
@@ -27,18 +26,6 @@ void require_memory(const std::string& where, const char* what, double bytes);
 
 /// Whether the first bytes are those of HDF5.
 bool is_hdf5(const std::string& file);
-/// Refused if it has no digest.
-Hdf5File open_hdf5(const std::string& file);
-/// Opens the file, and what read(file) makes of it.
-template <class Read>
-auto read_hdf5(const std::string& name, const Read& read) {
-    const Hdf5File file = open_hdf5(name);
-    try {
-        return read(file);
-    } catch (const FileError& error) {
-        throw SceneError(error.problems());
-    }
-}
 
 /// Takes the next word off a line, which ends at its "#"; empty: there is none.
 std::string_view take_word(std::string_view& line);

@@ -48,6 +48,21 @@ Case case_of(const Arguments& given, int ranks) {
     return read_case(file, overrides, ranks);
 }
 
+Case surface_case_of(const Arguments& given, int ranks) {
+    std::vector<std::string> overrides;
+    const std::string file = scene_file(given, overrides);
+    io::Problems found;
+    const Scene scene = read_scene_text(
+        io::read_scene_file(file), file == io::standard_input ? "stdin" : file, overrides, found);
+    found.throw_if_any();
+    Case c = resolve(scene, ranks, found);
+    std::vector<io::Problem> of_surface;
+    for (const io::Problem& problem : found.list()) // that begin with the name of the key
+        if (problem.what.starts_with("surface.")) of_surface.push_back(problem);
+    if (!of_surface.empty()) throw io::SceneError(of_surface);
+    return c;
+}
+
 RunOptions run_options(const Arguments& given) {
     RunOptions options;
     options.out = given.out;

@@ -43,6 +43,8 @@ struct Arguments {
 
 /// The case of the scene named by the words, with its overrides, for so many ranks.
 Case case_of(const Arguments& given, int ranks);
+/// The same for its surface alone: what is wrong with keys of other sections is left out.
+Case surface_case_of(const Arguments& given, int ranks);
 /// The scene's file; the overrides among the words are added to the list: `--set a=1 b=2
 /// scene.toml` means what it looks like.
 std::string scene_file(const Arguments& given, std::vector<std::string>& overrides);

@@ -97,9 +97,8 @@ io::Schema bind(Scene& scene) {
     schema.number_or("radius", surface.radius, "none", "Å", positive(), "of a spherical cap");
     schema.key(
         "file", surface.file,
-        "for kind = \"file\": HDF5 of Asperity (file.h5 or file.h5:/path), .npy or a plain matrix "
-        "of "
-        "numbers; for kind = \"atoms\": HDF5 of Asperity, with the block's periodic box; other "
+        "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), .npy or a plain matrix of numbers; "
+        "for kind = \"atoms\": HDF5 with /position, /type and the block's periodic /box; other "
         "formats are converted first (asperity convert); looked for beside the scene, then in the "
         "working directory");
     schema.number_or("file_size", surface.file_size, "auto", "Å", positive(),

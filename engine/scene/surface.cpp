@@ -191,6 +191,12 @@ Surface make_surface(const SurfaceOptions& o) {
 int sites_of_map(const SurfaceOptions& o) {
     const double ratio = o.map_edge > 0.0 ? o.map_edge / o.length : 1.0;
     if (std::abs(ratio - 1.0) <= 0.005) return o.sites;
+    constexpr double most = 131072.0; // along an edge, as in the file of a map
+    require(ratio * o.sites <= most,
+            fmt::format("the map is {:.6g} Å wide, {:.3g} times the box of {:.6g} Å, and would "
+                        "cover {:.3g} atoms along an edge, of {:.0f} at most; check the map's "
+                        "size and unit (surface.file_size) and surface.spacing",
+                        o.map_edge, ratio, o.length, ratio * o.sites, most));
     return static_cast<int>(std::lround(ratio * o.sites));
 }
 

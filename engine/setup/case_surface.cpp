@@ -10,6 +10,7 @@
 #include "io/height_map.hpp"
 #include "io/json.hpp"
 #include "io/machine.hpp"
+#include "io/scene_file.hpp"
 
 #include <fmt/format.h>
 
@@ -183,6 +184,10 @@ Surface surface_of(const Case& c, const Communicator& world) {
                 "a map of that size, set surface.sites = {}, or let it be resampled with "
                 "surface.resample = \"band-limited\"",
                 s.file, points, points, covered, covered, points));
+        // The resampled map and its waves, before the box is cut out of it.
+        if (points != covered)
+            io::require_memory(s.file, "the resampled map",
+                               32.0 * covered * static_cast<double>(covered));
         options.rms = scene.gives_rms() ? s.rms : 0.0;
         options.detrend = s.detrend != Detrend::none;
         options.periodic = s.detrend == Detrend::periodic;

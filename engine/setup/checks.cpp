@@ -115,8 +115,9 @@ void check_atoms(const Scene& scene, io::Problems& problems) {
         refuse_number("surface.file_size", *surface.file_size,
                       "the file says how wide its periodic box is", "leave it out");
     if (surface.file_unit != "auto")
-        refuse("surface.file_unit", "\"" + surface.file_unit + "\"", "files of atoms are in Å",
-               "leave it out, and write the file in Å");
+        refuse("surface.file_unit", "\"" + surface.file_unit + "\"",
+               "files of atoms say their unit, or are in Å",
+               "leave it out; give /position and /box of the file an attribute unit");
     if (surface.detrend != Detrend::none)
         refuse("surface.detrend", surface.detrend == Detrend::plane ? "\"plane\"" : "\"periodic\"",
                as_they_are, "leave it out");

@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 from . import program
-from .errors import Error, SceneError
+from .errors import NEEDED, Error, SceneError, to_install
 from .terminal import launched
 
 EXIT = "Exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard, 4 files, 75 stopped early."
@@ -81,10 +81,11 @@ def _parser() -> argparse.ArgumentParser:
     export.add_argument("directory", metavar="DIR", help="the result directory")
     export.add_argument("--to", required=True, metavar="FORMAT", dest="format", help="xyz, lammps, xdmf, vtk or png")
     convert = add("convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names",
-                  "Maps: text with headers, ESRI grids, XYZ, HDF5 (FILE:/dataset), and by SurfaceTopography Gwyddion "
-                  "and\ninstruments' files. Atoms: LAMMPS data, and by ASE extended XYZ.")
+                  "Maps: text with headers, ESRI grids, XYZ, and by SurfaceTopography Gwyddion and instruments' files.\n"
+                  "Atoms: LAMMPS data, and by ASE extended XYZ.")
     convert.add_argument("source", metavar="FILE", help="the file to convert")
     convert.add_argument("target", metavar="OUT.h5", help="the file to write")
+    convert.add_argument("--channel", metavar="NAME", help="of an instrument's file: this channel, by name or number")
     return parser
 
 
@@ -127,7 +128,7 @@ def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "convert":
         from .convert import convert
 
-        print(convert(given.source, given.target))
+        print(convert(given.source, given.target, given.channel))
         return 0
     from .pool import PoolOptions, executor_of
     from .commands import cost_command, sweep_command
@@ -186,10 +187,7 @@ def main(words: list[str]) -> int:
             print(f"{n} problem{'' if n == 1 else 's'}; nothing was written", file=sys.stderr)
         return error.code
     except ImportError as error:
-        names = ("numpy", "h5py", "matplotlib", "jinja2")
-        own = sys.prefix != sys.base_prefix  # a virtual environment does not see Debian's packages
-        fix = (f"{sys.executable} -m pip install {' '.join(names)}" if own
-               else "apt-get install " + " ".join("python3-" + name for name in names))
+        fix = to_install(*NEEDED)
         print(f"asperity {words[0]}: a Python package is missing\n    why: {sys.executable}: {error}\n    fix: {fix}",
               file=sys.stderr)
         return 1

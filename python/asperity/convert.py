@@ -2,29 +2,28 @@
 # SPDX-License-Identifier: MIT
 """`asperity convert IN OUT.h5`: a map of heights or the atoms of a substrate, as the HDF5 that a scene names.
 
-    text, HDF5       a matrix with the headers of Gwyddion or SPIP, ESRI grid, XYZ (three columns), map.h5:/dataset
+    text             a matrix with the headers of Gwyddion or SPIP, ESRI grid, XYZ (three columns)
     LAMMPS data      read here: ASE 3.22 and 3.29 leave out xlo and ylo, and make up or drop atoms that are not counted
     extended XYZ     by ASE (python3-ase)
     all others       maps, by SurfaceTopography (PyPI): Gwyddion .gwy, SDF, X3P, netCDF and those of many instruments
 
 OUT of a map: /heights [y][x], numbers and unit as IN has them (attributes unit, scale; size_x, size_y in
 size_unit or else in unit), NaN where a height is missing. OUT of atoms: /position [atom][3] from the box's lower
-corner along x and y, /type [atom] (attribute names), /box [2]; in Å. Both end in a digest: the program opens no
-HDF5 without one, for the HDF5 library may crash on a damaged file.
+corner along x and y, /type [atom] (attribute names), /box [2]; in Å. Both end in a digest, by which the program
+notices damage.
 """
 
 from __future__ import annotations
 
+import contextlib
 import re
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import h5py
 import numpy
 
 from . import files
-from .errors import Error, InputOutputError
+from .errors import Error, InputOutputError, to_install
 
 LENGTHS = {"Å": 0, "\u212b": 0, "A": 0, "Ang": 0, "angstrom": 0, "Angstrom": 0, "fm": -5, "pm": -2, "nm": 1, "um": 4,
            "\u00b5m": 4, "\u03bcm": 4, "mm": 7, "cm": 8, "m": 10, "km": 13}
@@ -32,6 +31,9 @@ LENGTHS = {"Å": 0, "\u212b": 0, "A": 0, "Ang": 0, "angstrom": 0, "Angstrom": 0,
 STYLES = {"atomic": (1, 2, 5), "charge": (1, 3, 6), "bond": (2, 3, 6), "angle": (2, 3, 6), "molecular": (2, 3, 6),
           "full": (2, 4, 7)}
 """LAMMPS' atom styles: the column of the type, that of x, and how many there are without image flags."""
+SIZE = r"([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)"
+HEADERS = ("width", "height", "edge", "x-length", "y-length", "value units", "x-unit", "y-unit", "z-unit", "bit2nm")
+"""Of which _matrix() takes sizes and units."""
 FARTHEST = 1e7
 """Å; coordinates beyond (1 mm) lose the digits that forces need."""
 
@@ -47,7 +49,7 @@ class _Text:
         self.path, self.header, self.lines, self.separators = path, {}, [], str.maketrans(",;\t", "   ")
         for number, line in enumerate(content.split("\n"), 1):
             line, _, comment = line.partition("#")
-            if said := re.match(r"([^:=]*)[:=](.*)", comment):
+            if said := re.match(r"([^:=：]*)[:=：](.*)", comment):
                 self.header.setdefault(said[1].strip().lower(), said[2].strip())
             if line.strip():
                 self.lines.append((number, line.strip()))
@@ -87,10 +89,32 @@ class _Text:
                               f"its header says {key} = {said[key]}, and {there} are there", "export it again")
         return heights
 
+    def translate(self) -> None:
+        """Gwyddion writes its headers in the language of its user, always in this order: title, width, height, unit
+        of the heights. Gives them their English names."""
+        if {"width", "height", "value units"} & self.header.keys():
+            return
+        said = list(self.header.items())
+        for (_, width), (_, height), (_, unit) in zip(said, said[1:], said[2:]):
+            sizes = [re.fullmatch(SIZE, text) for text in (width, height)]
+            if unit in LENGTHS and all(size and size[2] in LENGTHS for size in sizes):
+                self.header |= {"width": width, "height": height, "value units": unit}
+                return
+
+    def unused(self) -> list[str]:
+        """Headers that state a length, of which nothing was taken."""
+        def states(text: str) -> bool:
+            size = re.fullmatch(SIZE, text)
+            return text in LENGTHS or bool(size and size[2] in LENGTHS)
+
+        taken = {self.header.get(key) for key in HEADERS}
+        return [f"{key}: {text}" for key, text in self.header.items()
+                if key not in HEADERS and text not in taken and states(text)]
+
     def size(self, keys: tuple[str, ...], unit: str | None) -> float | None:
         """Å, by the first header that gives a number: with its unit, or in this one."""
         for key in keys:
-            if found := re.fullmatch(r"([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)", self.header.get(key, "")):
+            if found := re.fullmatch(SIZE, self.header.get(key, "")):
                 value, unit = float(found[1].replace(",", ".")), found[2] or unit
                 if unit not in LENGTHS or not 0.0 < value < numpy.inf:
                     raise _refuse(self.path, f"the header '{key}: {self.header[key]}' is no size",
@@ -102,6 +126,7 @@ class _Text:
 def _matrix(text: _Text) -> dict:
     """With the headers of Gwyddion ("# Value units: nm") and SPIP ("# Bit2nm = 0.03"), or without."""
     text.take_commas()
+    text.translate()
     said = {key: value for key, value in text.header.items() if value}
     spip = "x-pixels" in said or "bit2nm" in said or said.get("file format", "").lower() == "ascii"
     found = {"heights": text.matrix(said, ("x-pixels", "y-pixels")),
@@ -113,7 +138,21 @@ def _matrix(text: _Text) -> dict:
     lateral = said.get("x-unit", "nm" if spip else found["unit"])
     size = (text.size(("width", "x-length", "edge"), lateral),
             text.size(("height", "y-length", "edge"), said.get("y-unit", lateral)))
+    found |= {"notes": [f"the header '{header}' is not understood" for header in text.unused()]}
     return found | ({"size": size, "size_unit": "Å"} if all(size) else {})
+
+
+def _matrix_or_points(text: _Text) -> dict:
+    """More than three rows of three numbers are the points of a map where they lie on a grid."""
+    found = _matrix(text)
+    rows, columns = found["heights"].shape
+    if columns == 3 < rows:
+        with contextlib.suppress(InputOutputError):
+            points = _points(text)
+            found["notes"].append("its three columns are taken as points x, y and height")
+            return points | {"unit": found["unit"], "notes": found["notes"]}
+        found["notes"].append("its three columns are rows of a map: as points x, y and height they are on no grid")
+    return found
 
 
 def _esri(text: _Text) -> dict:
@@ -166,38 +205,35 @@ def _points(text: _Text) -> dict:
     return {"heights": heights.reshape(lines, columns), "size": (dx * columns, dy * lines)}
 
 
-def _hdf5(path: str, named: str) -> dict:
-    """The data set named, or the only one with two dimensions. Runs in a process of its own: HDF5 may crash."""
-    with h5py.File(path) as file:
-        maps = {}
-        file.visititems(lambda name, item: maps.update({name: item}) if getattr(item, "ndim", 0) == 2 else None)
-        if not named and len(maps) > 1:
-            raise ValueError("it holds more than one map: say which, " + " or ".join(f"{path}:/{n}" for n in maps))
-        data = file.get(named) if named else next(iter(maps.values()), None)
-        if getattr(data, "ndim", 0) != 2 or data.dtype.kind not in "iuf":
-            raise ValueError(f"it holds no map {named}")
-        if data.id.get_storage_size() < data.size / 1100:  # no filter of HDF5 makes a map smaller
-            raise ValueError(f"{data.shape} values are declared, and {data.id.get_storage_size()} bytes are stored")
-        said = {**file.attrs, **data.attrs}
-        x = said.get("size_x")
-        return {"heights": data[()] if data.dtype in ("f4", "f8") else data[()].astype(float),
-                "size": None if x is None else (float(x), float(said.get("size_y", x))),
-                "scale": said.get("scale", 1.0),
-                **{key: str(said[key]) for key in ("unit", "size_unit", "origin") if key in said}}
-
-
-def _instrument(path: Path) -> dict:
+def _instrument(path: Path, wanted: str | None) -> dict:
+    """One channel of an instrument's file: the one wanted, by name or number from 1, or the reader's first choice."""
     try:
         from SurfaceTopography import open_topography
     except ImportError as error:
         raise _refuse(path, "is in no format that is read without SurfaceTopography", error,
-                      "python3 -m pip install SurfaceTopography, or export it as text with a header") from None
-    topography = open_topography(str(path)).topography()
-    if topography.dim != 2 or topography.unit is None:
-        raise ValueError(f"it has {topography.dim} dimensions and the unit {topography.unit}")
+                      to_install("SurfaceTopography") + "; or export it as text with a header") from None
+    reader = open_topography(str(path))
+    names = [str(channel.name) for channel in reader.channels]
+    number = reader.default_channel.index
+    listed = ", ".join(f"{k} {name}" for k, name in enumerate(names, 1))
+    if wanted is not None:
+        number = names.index(wanted) if wanted in names else int(wanted) - 1 if wanted.isdecimal() else -1
+        if not 0 <= number < len(names):
+            raise _refuse(path, f"has no channel '{wanted}'", f"its channels: {listed}",
+                          f"name one of them, or its number: --channel {min(2, len(names))}")
+    topography = reader.topography(channel_index=number)
+    if topography.dim != 2:
+        raise _refuse(path, f"holds no map in channel {number + 1} ({names[number]})",
+                      f"it is a line scan; its channels: {listed}", "measure or export an area")
+    if topography.unit is None:
+        raise _refuse(path, f"does not say the unit of channel {number + 1} ({names[number]})",
+                      f"its channels: {listed}", "take another channel (--channel), or export it as text with a header")
     # heights() is [x, y]; masked where there is no height.
     heights = numpy.ma.filled(numpy.ma.asarray(topography.heights(), dtype=float), numpy.nan).T
-    return {"heights": heights, "unit": topography.unit, "size": topography.physical_sizes}
+    others = [f"{k} {name}" for k, name in enumerate(names, 1) if k != number + 1]
+    return {"heights": heights, "unit": topography.unit, "size": topography.physical_sizes,
+            "notes": [f"channel {number + 1} ({names[number]}) was taken"
+                      + (f"; --channel takes another: {', '.join(others)}" if others else "")]}
 
 
 def _lammps(path: Path, content: str) -> dict:
@@ -220,6 +256,9 @@ def _lammps(path: Path, content: str) -> dict:
             elif words and section == "Atoms":
                 columns = columns or len(words)
                 style = style or {5: "atomic", 8: "atomic", 7: "full", 10: "full"}.get(columns, "")
+                if style not in STYLES:
+                    raise ValueError(f"its atom style is {style}" if style else f"no atom style is named, and {columns} "
+                                     "columns may be of several")
                 kind, x, plain = STYLES[style]
                 if len(words) != columns or columns not in (plain, plain + 3) or int(words[0]) in atoms:
                     raise ValueError(f"atom {words[0]} with {len(words)} columns, of style {style} with {plain}")
@@ -244,7 +283,7 @@ def _extended_xyz(path: Path) -> dict:
     try:
         from ase.io import read
     except ImportError as error:
-        raise _refuse(path, "needs ASE", error, "apt-get install python3-ase, or python3 -m pip install ase") from None
+        raise _refuse(path, "needs ASE", error, to_install("ase")) from None
     frames = read(str(path), index=":", format="extxyz")
     cell = numpy.array(frames[0].cell)
     if len(frames) > 1 or not all(frames[0].pbc[:2]) or abs(cell - numpy.diag(numpy.diag(cell))).max() > 1e-9:
@@ -276,18 +315,15 @@ def _folded(path: Path, atoms: dict) -> dict:
             "outside": outside}
 
 
-def _found(source: str) -> dict:
-    """What the file holds: "heights", or "position" of atoms."""
-    name, _, dataset = source.partition(":/")
-    path = Path(name)
+def _found(source: str, channel: str | None) -> dict:
+    """What the file holds: "heights", or "position" of atoms; and "notes" on it."""
+    path = Path(source)
     try:
         with path.open("rb") as file:
             head = file.read(8)
-        if head == b"\x89HDF\r\n\x1a\n":
-            with ProcessPoolExecutor(1) as process:
-                return process.submit(_hdf5, name, dataset).result()
-        if head.startswith(b"\x93NUMPY"):
-            raise _refuse(path, "needs no conversion", "the program reads .npy", "name it in the scene")
+        for kind, first in (("HDF5", b"\x89HDF\r\n\x1a\n"), (".npy", b"\x93NUMPY")):
+            if head.startswith(first):
+                raise _refuse(path, "needs no conversion", f"the program reads {kind}", "name it in the scene")
         raw = path.read_bytes()
         try:
             content = raw.decode("utf-8-sig")
@@ -300,24 +336,27 @@ def _found(source: str) -> dict:
         text = _Text(path, content)
         first = text.lines[0][1] if text.lines and "\0" not in content else "no text"
         if not re.match(r"[-+.\d]|nan|inf|bad|void|ncols", first, re.I):
-            return _instrument(path)
-        return (_esri if first.lower().startswith("ncols") else _points if path.suffix == ".xyz" else _matrix)(text)
+            return _instrument(path, channel)
+        return (_esri if first.lower().startswith("ncols") else _points if path.suffix == ".xyz" else
+                _matrix_or_points)(text)
     except Error:
         raise
-    except BrokenProcessPool:
-        raise _refuse(source, "cannot be read", "the HDF5 library crashed on it: it is damaged") from None
     except FileNotFoundError:
         raise _refuse(source, "cannot be read", "there is no such file", "check the path") from None
     except Exception as error:  # every library has its own
         raise _refuse(source, "cannot be read", f"{type(error).__name__}: {error}") from None
 
 
-def convert(source: str | Path, target: str | Path) -> str:
-    """Writes the map or the atoms of `source` to `target`. Returns what was found, as a line of text."""
+def convert(source: str | Path, target: str | Path, channel: str | None = None) -> str:
+    """Writes the map or the atoms of `source` to `target`; of an instrument's file the channel of this name or number.
+    Returns what was found, as lines of text."""
     source, target = str(source), Path(target)
     if target.exists():
         raise _refuse(target, "is there already", "", "name another file, or remove it")
-    found = _found(source)
+    found = _found(source, channel)
+    if channel is not None and not any(note.startswith("channel") for note in found.get("notes", [])):
+        raise _refuse(source, f"has no channel '{channel}'", "it is no file of an instrument: it holds one map",
+                      "leave --channel out")
     with files.replacing(target) as beside:
         with h5py.File(beside, "w", libver="earliest") as file:
             file.attrs["origin"] = found.get("origin", Path(source).name)
@@ -328,7 +367,7 @@ def convert(source: str | Path, target: str | Path) -> str:
                 size = found.get("size") or ()
                 attributes.update(dict(zip(("size_x", "size_y"), map(float, size))))
                 unit = found.get("unit") or "? (surface.file_unit)"
-                said = " x ".join(f"{s:g}" for s in size) + " " + found.get("size_unit", unit)
+                said = " x ".join(f"{s:g}" for s in size) + " " + (found.get("size_unit") or unit)
                 text = (f"{heights.shape[1]} x {heights.shape[0]} points, {said if size else 'of unknown size'}, "
                         f"heights in {unit}, {int(numpy.isnan(heights).sum())} without a height")
             else:
@@ -339,4 +378,4 @@ def convert(source: str | Path, target: str | Path) -> str:
                         f"{found['box'][0]:.8g} x {found['box'][1]:.8g} Å; {found['outside']} coordinates of atoms lay "
                         "outside of the box and were folded back")
         files.seal_hdf5(beside)
-    return text
+    return "\n".join([text, *(f"note: {note}" for note in found.get("notes", []))])

@@ -11,6 +11,25 @@ Each has the exit code of the command it ends, as in the program, and a message 
 
 from __future__ import annotations
 
+import sys
+import sysconfig
+from pathlib import Path
+
+NEEDED = ("numpy", "h5py", "matplotlib", "jinja2")
+"""Packages of PyPI that this one imports."""
+
+
+def to_install(*packages: str) -> str:
+    """The commands that install packages of PyPI for this Python. Debian's own takes none by pip."""
+    if not (Path(sysconfig.get_path("stdlib")) / "EXTERNALLY-MANAGED").exists() or sys.prefix != sys.base_prefix:
+        return f"{sys.executable} -m pip install {' '.join(packages)}"
+    debian = {name: "python3-" + name for name in (*NEEDED, "ase")}
+    if all(name in debian for name in packages):
+        return "apt-get install " + " ".join(debian[name] for name in packages)
+    place = "~/asperity-python"
+    return (f"{sys.executable} -m venv {place}; {place}/bin/pip install {' '.join((*NEEDED, *packages))}; "
+            f"export ASPERITY_PYTHON={place}/bin/python3")
+
 
 class Error(Exception):
     """Base class; `code` is the exit code, `problems` the number of things that are wrong."""

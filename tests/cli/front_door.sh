@@ -66,6 +66,9 @@ given_path=$PATH
 export PATH="$PWD/bin:$PATH"
 rm -r "../a house/build"
 expect 0 --help
+expect 0 bench --help
+expect 0 test --help
+says "Usage: asperity test"
 [ ! -e "../a house/build" ] || fail "--help builds"
 
 # What CMake does not find is named, with the lines to type, for those who may not install it, and by commands that
@@ -135,6 +138,14 @@ says "dnf install of-fedora"
 rm fftw-is-missing
 PATH=$PWD/bare expect 0 run
 
+# What is to be compiled is counted when CMake's files are up to date, which a new build's are not.
+stand_in ninja 'case " $* " in *" build.ninja "*) touch "'"$PWD"'/up-to-date" ;;
+    *" -n "*) [ -e "'"$PWD"'/up-to-date" ] && printf "[%s/3] Building x\n" 1 2 3 || echo "[1/2] Re-running CMake..." ;; esac'
+rm -rf calls "../a house/build"
+expect 0 run
+says "building (3 files to compile)"
+stand_in ninja 'true'
+
 # Modules of Python that a command imports.
 stand_in python 'echo h5py jinja2'
 expect 2 report
@@ -146,7 +157,7 @@ rm -rf calls "../a house/build"
 # Every start builds what is out of date, in a batch job of several tasks too (SLURM gives its script rank 0 and the
 # number of tasks), and after a failed build the next start tries again and says why.
 builds=$PWD/builds broken=$PWD/broken
-stand_in ninja 'case " $* " in *" -n "*) ;; *) echo "error: built" | tee -a "'"$builds"'"; [ ! -e "'"$broken"'" ] ;; esac'
+stand_in ninja 'case " $* " in *" -n "* | *" build.ninja "*) ;; *) echo "error: built" | tee -a "'"$builds"'"; [ ! -e "'"$broken"'" ] ;; esac'
 export SLURM_JOB_ID=7 SLURM_NTASKS=4 SLURM_NPROCS=4 SLURM_PROCID=0
 built() { [ "$(wc -l <"$builds")" -eq "$1" ] || fail "$(wc -l <"$builds") builds, not $1: $2"; }
 expect 0 check

@@ -274,6 +274,9 @@ TEST(MapFromAFile, KeepsItsWidth) {
                         wave(24 + 2 * x, 24 + 2 * y), 1e-12);
     o.map_edge = 48.2; // as good as the box
     EXPECT_EQ(sites_of_map(o), 24);
+    o.map_edge *= 1e14; // more than an int holds
+    EXPECT_THROW(sites_of_map(o), std::invalid_argument);
+    o.map_edge /= 1e14;
     EXPECT_NO_THROW(surface_from_heights(o, h, m, m));
     o.map_edge = 40.0;
     const auto message =

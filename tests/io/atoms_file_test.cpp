@@ -81,16 +81,47 @@ TEST(AtomsFile, RefusesWhatCouldBecomeAWrongNumber) {
 
 TEST(AtomsFile, OtherFormatsAreToldTheCommandThatConvertsThem) {
     const Scratch scratch;
-    for (const char* name : {"solid.data", "solid.xyz", "solid.h5"}) {
+    for (const char* name : {"solid.data", "solid.xyz"}) {
         const std::string file = scratch.write(name, "a title\n\n3 atoms\n"),
                           command =
                               fmt::format("convert it first: asperity convert {} solid", file);
         EXPECT_NE(refusal(file).find(command), std::string::npos) << refusal(file);
     }
-    // HDF5 of another program, or cut short.
+}
+
+TEST(AtomsFile, Hdf5OfAnotherProgram) {
+    const Scratch scratch;
+    const auto changed = [&](const std::function<void(Hdf5File&)>& change) {
+        Hdf5File out(scratch / "b.h5", Hdf5File::Mode::create);
+        out.write<double>("/position", {1, 3}, std::vector<double>{0.1, 0.2, 0.3});
+        out.write<double>("/box", {2}, std::vector<double>{1.0, 1.5});
+        change(out);
+        out.close();
+        const std::string whole = contents(scratch / "b.h5");
+        return scratch.write("b.h5", whole.substr(0, whole.size() - 32)); // without the digest
+    };
+    const AtomsFile atoms = read_atoms_file(changed([](Hdf5File& out) {
+        out.write<std::int64_t>("/type", {1}, std::vector<std::int64_t>{0});
+        out.write_attribute("/type", "names", "Au");
+        out.write_attribute("/position", "units", "nm");
+        out.write_attribute("/box", "unit", "nm");
+    }));
+    EXPECT_EQ(atoms.x[0], 1.0);
+    EXPECT_EQ(atoms.width_y, 15.0);
+    EXPECT_NE(refusal(changed([](Hdf5File& out) {
+                  out.write<double>("/type", {1}, std::vector<double>{0.5});
+                  out.write_attribute("/type", "names", "Au");
+              })).find("atom 1 has no type"),
+              std::string::npos);
+    EXPECT_NE(refusal(changed([](Hdf5File& out) {
+                  out.write<double>("/type", {1}, std::vector<double>{0.0});
+                  out.write_attribute("/position", "unit", "eV");
+              })).find("is no unit of length"),
+              std::string::npos);
+    // Cut short: the library says why it does not take it.
     const std::string whole = contents(write_atoms(scratch / "a.h5", three()));
-    for (std::size_t size = 8; size < whole.size(); size += 41)
-        EXPECT_NE(refusal(scratch.write("b.h5", whole.substr(0, size))).find("asperity convert"),
+    for (std::size_t size = 8; size + 32 < whole.size(); size += 211)
+        EXPECT_NE(refusal(scratch.write("b.h5", whole.substr(0, size))).find("cannot be opened"),
                   std::string::npos);
 }
 
