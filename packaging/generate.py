@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 # Values that an option takes, where they are files or fixed words.
-VALUES = {"--progress": "auto bar lines off", "--to": "xyz lammps xdmf vtk png", "--resume": "auto"}
+VALUES = {"--progress": "auto bar lines off", "--to": "xyz vtk png", "--resume": "auto"}
 
 
 def say(program, *words):

@@ -79,7 +79,7 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument("directory", metavar="DIR", help="the result directory")
     export = add("export", "maps and trajectory of a run for OVITO, ParaView, or as PNG")
     export.add_argument("directory", metavar="DIR", help="the result directory")
-    export.add_argument("--to", required=True, metavar="FORMAT", dest="format", help="xyz, lammps, xdmf, vtk or png")
+    export.add_argument("--to", required=True, metavar="FORMAT", dest="format", help="xyz (OVITO, ASE), vtk (ParaView) or png")
     convert = add("convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names",
                   "Maps: text with headers, ESRI grids, XYZ, and by SurfaceTopography Gwyddion and instruments' files.\n"
                   "Atoms: LAMMPS data, and by ASE extended XYZ.")

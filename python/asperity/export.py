@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""`asperity export DIR --to xyz|lammps|xdmf|vtk|png`: what run.h5 holds, for other programs.
+"""`asperity export DIR --to xyz|vtk|png`: what run.h5 holds, for other programs.
 
-    xyz, lammps   DIR/export/<state>.xyz (.dump): the atoms of the substrate and of the block's lowest layer, for
-                  every state with maps, with what is known of each atom as columns; DIR/export/trajectory.xyz
-                  (.dump): the frames of the trajectory. With lammps, DIR/export/<state>.data to start from
-    xdmf          DIR/run.xdmf: opens run.h5 in ParaView
-    vtk           DIR/export/<state>.vti, substrate.vti: the maps as images of VTK, each a file of its own
-    png           DIR/export/<map>-<state>.png, .pdf, .svg: gap, pressure and contact from above
+    xyz    DIR/export/<state>.xyz: the atoms of the substrate and of the block's lowest layer, for every state with
+           maps, with what is known of each atom as columns; DIR/export/trajectory.xyz: the frames of the trajectory
+    vtk    DIR/export/<state>.vti, substrate.vti: the maps as images, each a file of its own; DIR/export/trajectory.pvd:
+           the frames of the trajectory with their times, each in trajectory/ as points
+    png    DIR/export/<map>-<state>.png, .pdf, .svg: gap, pressure and contact from above
 
 These files are the export's own: a second export writes them anew.
 """
@@ -23,7 +22,6 @@ from pathlib import Path
 from typing import IO, Any
 from xml.sax.saxutils import quoteattr
 
-import h5py
 import jinja2
 import numpy as np
 
@@ -101,49 +99,34 @@ def write_xyz(file: IO[str], atoms: Atoms) -> None:
     _rows(file, atoms, [atoms.species], [atoms.types, *columns.values()])
 
 
-LAMMPS_NAMES = {"velocity": ("vx", "vy", "vz")}
-
-
-def write_dump(file: IO[str], atoms: Atoms) -> None:
-    """A frame of a LAMMPS dump; velocities under LAMMPS' own names."""
-    low, high = atoms.box_z
-    names = "id type element x y z"
-    for name, values in atoms.columns.items():
-        vector = LAMMPS_NAMES.get(name, tuple(f"{name}[{k + 1}]" for k in range(3)))
-        names += " " + (" ".join(vector) if values.ndim == 2 else name)
-    # The order of `dump_modify time yes`: LAMMPS' reader refuses a time behind the step.
-    file.write(f"ITEM: TIME\n{atoms.time:.8g}\nITEM: TIMESTEP\n{atoms.step}\n"
-               f"ITEM: NUMBER OF ATOMS\n{len(atoms.types)}\nITEM: BOX BOUNDS pp pp ff\n0 {atoms.edge:.8g}\n"
-               f"0 {atoms.edge:.8g}\n{low:.8g} {high:.8g}\nITEM: ATOMS {names}\n")
-    _rows(file, atoms, [np.arange(1, len(atoms.types) + 1), atoms.types, atoms.species], list(atoms.columns.values()))
-
-
-def write_data(file: IO[str], atoms: Atoms, name: str, mass: float) -> None:
-    """A LAMMPS data file, atom_style atomic, units metal."""
-    low, high = atoms.box_z
-    types = atoms.types.max()
-    masses = "".join(f"{t} {mass:.8g} # {'substrate' if t < types else 'block'}\n" for t in range(1, types + 1))
-    file.write(f"{name} (asperity export)\n\n{len(atoms.types)} atoms\n{types} atom types\n\n"
-               f"0 {atoms.edge:.8g} xlo xhi\n0 {atoms.edge:.8g} ylo yhi\n{low:.8g} {high:.8g} zlo zhi\n\n"
-               f"Masses\n\n{masses}\nAtoms # atomic\n\n")
-    _rows(file, atoms, [np.arange(1, len(atoms.types) + 1), atoms.types], [])
-
-
 def _text(template: str, **values: Any) -> str:
     loader = jinja2.FileSystemLoader(Path(__file__).parent / "templates")
     environment = jinja2.Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
-    environment.filters |= {"quoted": quoteattr, "short": "{:.9g}".format, "long": "{:.12g}".format}
+    environment.filters |= {"quoted": quoteattr, "long": "{:.12g}".format}
     return environment.get_template(template).render(**values)
 
 
+def _packed(values: np.ndarray, form: str) -> str:
+    """An array as VTK's XML takes it: base64, the length in bytes first."""
+    data = np.ascontiguousarray(values, form).tobytes()
+    return base64.b64encode(struct.pack("<Q", len(data)) + data).decode()
+
+
 def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> str:
-    """VTK's XML image of one layer: maps [y, x], or [y, x, 3] for vectors; values as base64, lengths first."""
+    """VTK's XML image of one layer: maps [y, x], or [y, x, 3] for vectors."""
     arrays = []
     for name, values in maps.items():
         kind, form = ("Float64", "<f8") if values.dtype.kind == "f" else ("UInt8", "u1")
-        data = np.ascontiguousarray(values, form).tobytes()
-        arrays.append((kind, name, values.ndim * 2 - 3, base64.b64encode(struct.pack("<Q", len(data)) + data).decode()))
+        arrays.append((kind, name, values.ndim * 2 - 3, _packed(values, form)))
     return _text("image.vti", n=len(next(iter(maps.values()))), spacing=spacing, origin=origin, arrays=arrays)
+
+
+def points_text(points: np.ndarray, vectors: dict[str, np.ndarray]) -> str:
+    """VTK's XML of points [point, 3], each a vertex, with vectors [point, 3] by name."""
+    n = len(points)
+    return _text("points.vtp", n=n, points=_packed(points, "<f4"), vertices=_packed(np.arange(n), "<i8"),
+                 ends=_packed(np.arange(1, n + 1), "<i8"),
+                 arrays=[(name, _packed(values, "<f4")) for name, values in vectors.items()])
 
 
 class Export:
@@ -215,37 +198,36 @@ class Export:
                 columns[name] = np.concatenate([np.zeros(rigid, values.dtype), values])
         return self._atoms(rest + u, columns)
 
-    def _trajectory(self) -> Iterator[Atoms]:
+    def _trajectory(self) -> Iterator[tuple[int, float, np.ndarray, dict[str, np.ndarray]]]:
+        """Step, time (ps), the lowest layer [site, 3], and what else there is of it, of each frame."""
         file = self.run.file
         steps, times = (file.array(f"{TRAJECTORY}/position/{n}", 1) for n in ("step", "time"))
         moving = "velocity" in file.members(TRAJECTORY)
         for frame in range(len(steps)):
             layer = file.array(TRAJECTORY + "/position/value", 2, frame).astype(float)
-            columns = {}
-            if moving:
-                v = file.array(TRAJECTORY + "/velocity/value", 2, frame).astype(float)
-                columns["velocity"] = np.vstack([np.zeros_like(self.rigid), v])
-            yield self._atoms(layer, columns, int(steps[frame]), float(times[frame]), self._mass)
+            more = {"velocity": file.array(TRAJECTORY + "/velocity/value", 2, frame).astype(float)} if moving else {}
+            yield int(steps[frame]), float(times[frame]), layer, more
 
-    def atoms(self, xyz: bool) -> list[Path]:
+    def _trajectory_atoms(self) -> Iterator[Atoms]:
+        for step, time, layer, more in self._trajectory():
+            columns = {name: np.vstack([np.zeros_like(self.rigid), values]) for name, values in more.items()}
+            yield self._atoms(layer, columns, step, time, self._mass)
+
+    def atoms(self) -> list[Path]:
         """Every state, and the trajectory."""
-        write, end = (write_xyz, ".xyz") if xyz else (write_dump, ".dump")
         written = []
 
-        def save(name: str, frames: Iterable[Atoms], write: Callable[[IO[str], Atoms], None]) -> None:
+        def save(name: str, frames: Iterable[Atoms]) -> None:
             path = self._path(name)
             with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
                 for frame in frames:
-                    write(file, frame)
+                    write_xyz(file, frame)
             written.append(path)
 
         for state in self.run.fields.values():
-            atoms, name = self._state_atoms(state), file_name(state.name)
-            save(name + end, [atoms], write)
-            if not xyz:
-                save(name + ".data", [atoms], partial(write_data, name=state.name, mass=self._mass))
+            save(file_name(state.name) + ".xyz", [self._state_atoms(state)])
         if self._frames():
-            save("trajectory" + end, self._trajectory(), write)
+            save("trajectory.xyz", self._trajectory_atoms())
         return written
 
     def pictures(self) -> list[Path]:
@@ -268,27 +250,19 @@ class Export:
             texts[file_name(state.name)] = image_text(self.spacing, 0.5 * self.spacing, maps)
         for name, text in texts.items():
             files.write(self._path(name + ".vti"), text)
-        return [self._path(name + ".vti") for name in texts]
+        return [*(self._path(name + ".vti") for name in texts), *self._film()]
 
-    def xdmf(self) -> list[Path]:
-        """run.xdmf beside run.h5; frames one by one in export/trajectory.h5."""
-        n = len(self.run.substrate.height)
-        grids = [("substrate", n, self.run.edge / n, 0.0, [("height (Å)", "/substrate/height", False)])]
-        for state in self.run.fields.values():
-            maps = [(_title(name), f"/fields/{state.name}/{name}", name == "contact") for name in state]
-            if maps:
-                grids.append((state.name, self._sites(state), self.spacing, 0.5 * self.spacing, maps))
-        path, frames, times, points = self.run.directory / "run.xdmf", [], [], 0
-        if self._frames():
-            frames = [self._path("trajectory.h5")]
-            times = self.run.file.array(TRAJECTORY + "/position/time", 1).tolist()
-            with files.replacing(frames[0]) as beside, h5py.File(beside, "w") as copy:
-                for number in range(len(times)):
-                    values = self.run.file.array(TRAJECTORY + "/position/value", 2, number).astype("f4")
-                    copy[f"position-{number}"] = values
-                    points = len(values)
-        files.write(path, _text("run.xdmf", grids=grids, points=points, times=times))
-        return [*frames, path]
+    def _film(self) -> list[Path]:
+        """The frames as points, and trajectory.pvd, which has their times."""
+        if not self._frames():
+            return []
+        place, frames = files.directory(self._path("trajectory")), []
+        for number, (_, time, layer, more) in enumerate(self._trajectory()):
+            frames.append((time, f"trajectory/{number:05}.vtp"))
+            files.write(place / f"{number:05}.vtp",
+                        points_text(layer, {f"{name} (Å/ps)": values for name, values in more.items()}))
+        files.write(self._path("trajectory.pvd"), _text("trajectory.pvd", frames=frames))
+        return [self._path("trajectory.pvd")]
 
 
 def _title(name: str) -> str:
@@ -296,13 +270,17 @@ def _title(name: str) -> str:
     return name if name == "contact" else f"{name} ({'GPa' if name == 'pressure' else 'Å'})"
 
 
-FORMATS: dict[str, Callable[[Export], list[Path]]] = {
-    "xyz": partial(Export.atoms, xyz=True), "lammps": partial(Export.atoms, xyz=False), "xdmf": Export.xdmf,
-    "vtk": Export.images, "png": Export.pictures}
+FORMATS: dict[str, Callable[[Export], list[Path]]] = {"xyz": Export.atoms, "vtk": Export.images, "png": Export.pictures}
+GONE = {"lammps": "its atoms are in --to xyz, which OVITO and ASE convert for LAMMPS",
+        "xdmf": "ParaView opens what --to vtk writes: maps and the trajectory"}
+"""Formats of earlier versions, and what to use instead."""
 
 
 def export(directory: Path, kind: str) -> list[Path]:
     """The files that were written. Raises InputOutputError for a directory with nothing to export."""
+    if kind in GONE:
+        raise SceneError(f"--to {kind}", "is not written any more", GONE[kind],
+                         f"asperity export {directory} --to {'xyz' if kind == 'lammps' else 'vtk'}")
     if kind not in FORMATS:
         raise SceneError(f"--to {kind}", "is no format of export", "formats: " + ", ".join(FORMATS),
                          f"for example: asperity export {directory} --to xyz")

@@ -4,9 +4,9 @@
 #
 #     others.sh PROGRAM
 #
-# Maps of heights against SurfaceTopography, exports against ASE, OVITO, MDAnalysis, VTK and LAMMPS (the last
-# if `lmp` is installed). The packages go into the virtual environment $ASPERITY_OTHERS, made if it is not
-# there (default: a temporary one). Exit code 77: they cannot be installed.
+# Maps of heights against SurfaceTopography, exports against ASE, OVITO, MDAnalysis and VTK. The packages go
+# into the virtual environment $ASPERITY_OTHERS, made if it is not there (default: a temporary one). Exit
+# code 77: they cannot be installed.
 set -u
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 place=${ASPERITY_OTHERS:-}

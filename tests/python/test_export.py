@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Atoms and maps for other programs: read back by plain text, h5py and XML, and the same through a stop."""
+"""Atoms and maps for other programs: read back as plain text and XML, and the same through a stop."""
 
+import base64
+import re
 import shutil
 import xml.etree.ElementTree as tree
 
@@ -22,17 +24,6 @@ def frames_of_xyz(path):
         n = int(lines[0])
         found.append((lines[1], np.array([line.split()[1:] for line in lines[2:2 + n]], float)))
         lines = lines[2 + n:]
-    return found
-
-
-def frames_of_dump(path):
-    found = []
-    for block in path.read_text().split("ITEM: TIME\n")[1:]:
-        lines = block.splitlines()[2:]
-        names = next(line for line in lines if line.startswith("ITEM: ATOMS")).split()[2:]
-        start = next(i for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-        rows = [line.split() for line in lines[start:]]
-        found.append((int(lines[0]), {n: [r[k] for r in rows] for k, n in enumerate(names)}))
     return found
 
 
@@ -57,19 +48,15 @@ def test_states_and_trajectory_as_atoms(path_run):
     d[:, :2] -= path_run.edge * np.round(d[:, :2] / path_run.edge)
     assert np.sqrt((d**2).sum(1)).min() == pytest.approx(state.distance.ravel()[5], abs=1e-5)
 
-    command("export", place, "--to", "lammps")
-    (step, dump), = frames_of_dump(place / "export/zero-load.dump")
-    assert np.array(dump["z"], float) == pytest.approx(column["z"]) and set(dump["element"]) == {"X", "Au"}
     with h5py.File(place / "run.h5") as file:
         value = file["particles/trajectory/position/value"][:]
         velocity = file["particles/trajectory/velocity/value"][:]
         steps = list(file["particles/trajectory/position/step"])
-    dumps, texts = frames_of_dump(place / "export/trajectory.dump"), frames_of_xyz(place / "export/trajectory.xyz")
-    assert [s for s, _ in dumps] == steps and len(texts) == len(value) > 3
+    texts = frames_of_xyz(place / "export/trajectory.xyz")
+    assert len(texts) == len(value) > 3
+    assert [int(re.search(r"step=(\d+)", head)[1]) for head, _ in texts] == steps
     for k in (0, len(value) - 1):
         assert texts[k][1][1024:, :3] == pytest.approx(value[k], abs=1e-4)
-        moving = np.array([dumps[k][1][v][1024:] for v in ("vx", "vy", "vz")], float).T
-        assert moving == pytest.approx(velocity[k], abs=1e-5)
         # What OVITO and ASE take for velocities (test_viewers.py asks them).
         head, rows = texts[k]
         assert ":velo:R:3:masses:R:1:momenta:R:3" in head
@@ -80,56 +67,50 @@ def test_states_and_trajectory_as_atoms(path_run):
     assert "time=" in texts[0][0]
 
 
-def test_xdmf_points_to_what_is_there(path_run):
+def packed(item, form):
+    """The values of an array of VTK's XML: base64, the length first."""
+    data = base64.b64decode(item.text)
+    assert int.from_bytes(data[:8], "little") == len(data) - 8
+    return np.frombuffer(data[8:], form)
+
+
+def test_maps_and_trajectory_for_paraview(path_run):
     place = path_run.directory
-    assert "export/trajectory.h5" in command("export", place, "--to", "xdmf")
+    assert f"{place}/export/trajectory.pvd" in command("export", place, "--to", "vtk")
+    state = path_run.fields["zero-load"]
+    found = {}
+    for item in tree.parse(place / "export/zero-load.vti").iter("DataArray"):
+        found[item.get("Name")] = packed(item, "<f8" if item.get("type") == "Float64" else "u1")
+    assert (found["pressure (GPa)"] == state.pressure.ravel()).all() and (found["contact"] == state.contact.ravel()).all()
+    assert (found["displacement (Å)"].reshape(-1, 3)[:, 2] == state.u_z.ravel()).all()
     with h5py.File(place / "run.h5") as run:
-        value = run["particles/trajectory/position/value"][:]
-    frames = maps = 0
-    for item in tree.parse(place / "run.xdmf").iter("DataItem"):
-        if item.get("Format") != "HDF":
-            continue
-        file, dataset = item.text.split(":")
-        with h5py.File(place / file) as opened:
-            data = opened[dataset]
-            said = [int(n) for n in item.get("Dimensions").split()]
-            assert [n for n in said if n > 1] == list(data.shape), dataset
-            assert data.dtype.itemsize == int(item.get("Precision")), dataset
-            if dataset.startswith("/position-"):
-                assert (data[:] == value[frames]).all()
-                frames += 1
-            else:
-                maps += 1
-    assert frames == len(value) and maps == 8
+        group = run["particles/trajectory"]
+        value, velocity, times = group["position/value"][:], group["velocity/value"][:], group["position/time"][:]
+    frames = list(tree.parse(place / "export/trajectory.pvd").iter("DataSet"))
+    assert [float(frame.get("timestep")) for frame in frames] == pytest.approx(times, rel=1e-11)
+    for k in (0, len(value) - 1):
+        points = tree.parse(place / "export" / frames[k].get("file")).find("PolyData/Piece")
+        assert points.get("NumberOfPoints") == points.get("NumberOfVerts") == "1024"
+        assert (packed(points.find("Points/DataArray"), "<f4").reshape(-1, 3) == value[k].astype("f4")).all()
+        assert (packed(points.find("PointData/DataArray"), "<f4").reshape(-1, 3) == velocity[k].astype("f4")).all()
+        connected, ends = (packed(item, "<i8") for item in points.find("Verts"))
+        assert (connected == np.arange(1024)).all() and (ends == connected + 1).all()
 
 
 def test_maps_lie_where_the_atoms_are(path_run):
-    """Substrate and sites as a mesh (XDMF), an image (VTK) and atoms (XYZ): the same places, of the sites at rest."""
+    """Substrate and sites as an image (VTK) and atoms (XYZ): the same places, of the sites at rest."""
     place = path_run.directory
-    for kind in ("xyz", "xdmf", "vtk"):
+    for kind in ("xyz", "vtk"):
         command("export", place, "--to", kind)
     (_, rows), = frames_of_xyz(place / "export/zero-load.xyz")
     rigid, sites = rows[rows[:, 3] == 1, :2], rows[rows[:, 3] == 2]
-    atoms = {"substrate": rigid, "zero-load": sites[:, :2] - sites[:, 4:6]}
-
-    def places(origin, spacing, n):
-        y, x = np.divmod(np.arange(n * n), n)
-        return np.column_stack([origin[0] + spacing[0] * x, origin[1] + spacing[1] * y])
-
-    found = 0
-    for grid in tree.parse(place / "run.xdmf").iter("Grid"):
-        if grid.get("Name") not in atoms:
-            continue
-        found += 1
-        n = int(grid.find("Topology").get("Dimensions").split()[-1])
-        origin, spacing = ([float(v) for v in item.text.split()][::-1] for item in grid.find("Geometry"))  # z first
-        assert places(origin, spacing, n) == pytest.approx(atoms[grid.get("Name")], abs=1e-4), grid.get("Name")
-    assert found == 2
-    for name, expected in atoms.items():
+    for name, expected in {"substrate": rigid, "zero-load": sites[:, :2] - sites[:, 4:6]}.items():
         image = tree.parse(place / f"export/{name}.vti").find("ImageData")
         origin, spacing = ([float(v) for v in image.get(key).split()] for key in ("Origin", "Spacing"))
         n = int(image.get("WholeExtent").split()[1]) + 1
-        assert places(origin, spacing, n) == pytest.approx(expected, abs=1e-4), name
+        y, x = np.divmod(np.arange(n * n), n)
+        places = np.column_stack([origin[0] + spacing[0] * x, origin[1] + spacing[1] * y])
+        assert places == pytest.approx(expected, abs=1e-4), name
 
 
 def test_the_h5md_has_what_the_specification_demands(path_run):
@@ -177,7 +158,9 @@ def test_a_trajectory_changes_no_numbers_and_survives_a_stop(path_run, tmp_path)
 
 
 def test_what_cannot_be_exported_is_a_message(path_run, tmp_path):
-    assert "formats: xyz, lammps, xdmf, vtk, png" in command("export", path_run.directory, "--to", "pdb", expect=2)
+    assert "formats: xyz, vtk, png" in command("export", path_run.directory, "--to", "pdb", expect=2)
+    command("export", path_run.directory, "--to", "lammps", expect=2, says=f"{path_run.directory} --to xyz")
+    command("export", path_run.directory, "--to", "xdmf", expect=2, says=f"{path_run.directory} --to vtk")
     command("export", path_run.directory, expect=2)
     command("export", tmp_path / "gone", "--to", "xyz", expect=4)
     scene = tmp_path / "s.toml"
@@ -185,14 +168,14 @@ def test_what_cannot_be_exported_is_a_message(path_run, tmp_path):
     command("theory", scene, "--out", tmp_path / "theory")
     assert "run.h5 is not in it" in command("export", tmp_path / "theory", "--to", "xyz", expect=4)
     asperity.run(SMALL, {"drive.max_steps": 5}, out=tmp_path / "short")
-    said = command("export", tmp_path / "short", "--to", "lammps", expect=4)
+    said = command("export", tmp_path / "short", "--to", "xyz", expect=4)
     assert "neither maps of a state nor a trajectory" in said
-    command("export", tmp_path / "short", "--to", "xdmf")  # the substrate is there
+    command("export", tmp_path / "short", "--to", "vtk")  # the substrate is there
 
 
 @pytest.mark.parametrize("name, shape", [("substrate/height", (3000, 1)), ("substrate/height", ()),
                                          ("fields/zero-load/u_x", (7,)), ("fields/zero-load/gap", (5, 5))])
-@pytest.mark.parametrize("kind", ["xyz", "xdmf"])
+@pytest.mark.parametrize("kind", ["xyz", "vtk"])
 def test_damaged_files_are_a_message(path_run, tmp_path, name, shape, kind):
     copy = tmp_path / "copy"
     shutil.copytree(path_run.directory, copy, ignore=shutil.ignore_patterns("report*", "export"))

@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Exports opened by the programs that they are for: ASE, OVITO, MDAnalysis, VTK (ParaView's readers) and LAMMPS.
+"""Exports opened by the programs that they are for: ASE, OVITO, MDAnalysis and VTK (ParaView's readers).
 
-Needs them (PyPI: ase ovito MDAnalysis vtk; LAMMPS as `lmp`); tests of what is not there are skipped.
+Needs them (PyPI: ase ovito MDAnalysis vtk); tests of what is not there are skipped.
 """
 
 import os
-import shutil
-import subprocess
+import xml.etree.ElementTree as tree
 
 import numpy as np
 import pytest
@@ -21,7 +20,7 @@ SITES = 32 * 32
 
 @pytest.fixture(scope="module")
 def exported(path_run):
-    for kind in ("xyz", "lammps", "xdmf", "vtk"):
+    for kind in ("xyz", "vtk"):
         command("export", path_run.directory, "--to", kind)
     return path_run.directory / "export"
 
@@ -59,16 +58,15 @@ def test_ase_reads_extended_xyz(path_run, exported, block, frames):
     assert kinetic == pytest.approx(0.5 * 197.0 * (velocity.astype(float)**2).sum() * 1.036427e-4, rel=1e-4)
 
 
-@pytest.mark.parametrize("end", ["xyz", "dump"])
-def test_ovito_reads_atoms(path_run, exported, block, frames, end):
+def test_ovito_reads_atoms(path_run, exported, block, frames):
     import_file = pytest.importorskip("ovito.io").import_file
-    data = import_file(str(exported / f"zero-load.{end}")).compute()
+    data = import_file(str(exported / "zero-load.xyz")).compute()
     assert data.particles.count == 2 * SITES
     assert data.particles.positions[SITES:] == pytest.approx(block, abs=1e-4)
     assert data.cell[0][0] == pytest.approx(path_run.edge) and list(data.cell.pbc) == [True, True, False]
     pressure = path_run.fields["zero-load"].pressure.ravel()
     assert data.particles["pressure"][SITES:] == pytest.approx(pressure, rel=1e-5, abs=1e-9)
-    film = import_file(str(exported / f"trajectory.{end}"))
+    film = import_file(str(exported / "trajectory.xyz"))
     assert film.source.num_frames == len(frames)
     last = film.compute(len(frames) - 1)
     assert last.particles.positions[SITES:] == pytest.approx(frames[-1], abs=1e-4)
@@ -97,30 +95,6 @@ def vtk_arrays(data):
     return {points.GetArrayName(k): vtk_to_numpy(points.GetArray(k)) for k in range(points.GetNumberOfArrays())}
 
 
-def test_paraviews_reader_of_xdmf(path_run, exported, frames):
-    vtk = pytest.importorskip("vtk")
-    reader = vtk.vtkXdmfReader()
-    reader.SetFileName(str(path_run.directory / "run.xdmf"))
-    reader.UpdateInformation()
-    times = path_run.file.array("/particles/trajectory/position/time", 1)
-    reader.UpdateTimeStep(float(times[-1]))
-    blocks, found = reader.GetOutputDataObject(0), {}
-    for k in range(blocks.GetNumberOfBlocks()):
-        found[blocks.GetMetaData(k).Get(vtk.vtkCompositeDataSet.NAME())] = blocks.GetBlock(k)
-    state = found["zero-load"]
-    assert state.GetDimensions() == (32, 32, 1)
-    arrays = vtk_arrays(state)
-    assert arrays["gap (Å)"] == pytest.approx(path_run.fields["zero-load"].gap.ravel(), nan_ok=True)
-    assert arrays["pressure (GPa)"] == pytest.approx(path_run.fields["zero-load"].pressure.ravel())
-    assert state.GetSpacing()[0] == pytest.approx(path_run.edge / 32)
-    assert vtk_arrays(found["substrate"])["height (Å)"] == pytest.approx(path_run.substrate.height.ravel())
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    layer = next(found[name] for name in found if name.startswith("lowest layer"))
-    layer = layer.GetBlock(0) if layer.IsA("vtkMultiBlockDataSet") else layer
-    assert vtk_to_numpy(layer.GetPoints().GetData()) == pytest.approx(frames[-1], abs=1e-4)
-
-
 def test_vtk_reads_maps(path_run, exported):
     vtk = pytest.importorskip("vtk")
     for name, at, maps in (("zero-load", 0.5, path_run.fields["zero-load"]), ("substrate", 0.0, None)):
@@ -141,29 +115,17 @@ def test_vtk_reads_maps(path_run, exported):
         assert (arrays["contact"] == maps.contact.ravel()).all()
 
 
-def lammps(script, place):
-    program = shutil.which("lmp")
-    if not program:
-        pytest.skip("LAMMPS is not installed")
-    (place / "in.lammps").write_text(script)
-    done = subprocess.run([program, "-in", "in.lammps", "-log", "none"], cwd=place, capture_output=True, text=True,
-                          env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
-    assert done.returncode == 0 and "ERROR" not in done.stdout, done.stdout + done.stderr
-    lines = (place / "back.dump").read_text().split("ITEM: ATOMS")[1].splitlines()[1:]
-    return np.array([line.split() for line in lines], float)
+def test_vtk_reads_the_trajectory(path_run, exported, frames):
+    vtk = pytest.importorskip("vtk")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
 
-
-def test_lammps_reads_data_and_dump(path_run, exported, block, frames, tmp_path):
-    for name in ("zero-load.data", "trajectory.dump"):  # LAMMPS takes no path with a space
-        shutil.copy(exported / name, tmp_path)
-    start = "units metal\natom_style atomic\nboundary p p f\npair_style zero 3\n"
-    end = "pair_coeff * *\nwrite_dump all custom back.dump id type x y z vx vy vz modify sort id format float %.10g\n"
-    back = lammps(f"{start}read_data zero-load.data\n{end}", tmp_path)
-    assert back[SITES:, 2:5] == pytest.approx(block, abs=1e-5)
-    assert (back[:, 1] == np.repeat([1, 2], SITES)).all()
-    last = path_run.file.array("/particles/trajectory/position/step", 1)[-1]
-    back = lammps(f"{start}read_data zero-load.data\n"
-                  f"read_dump trajectory.dump {last} x y z vx vy vz box yes\n{end}", tmp_path)
-    assert back[SITES:, 2:5] == pytest.approx(frames[-1], abs=1e-4)
-    assert back[SITES:, 5:] == pytest.approx(path_run.file.array("/particles/trajectory/velocity/value", 3)[-1],
-                                             rel=1e-4, abs=1e-5)
+    film = list(tree.parse(exported / "trajectory.pvd").iter("DataSet"))  # that ParaView itself reads
+    assert len(film) == len(frames)
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(exported / film[-1].get("file")))
+    reader.Update()
+    layer = reader.GetOutput()
+    assert vtk_to_numpy(layer.GetPoints().GetData()) == pytest.approx(frames[-1], abs=1e-4)
+    assert layer.GetNumberOfVerts() == SITES
+    velocity = path_run.file.array("/particles/trajectory/velocity/value", 3)[-1]
+    assert vtk_arrays(layer)["velocity (Å/ps)"] == pytest.approx(velocity, rel=1e-5, abs=1e-6)
