@@ -141,8 +141,7 @@ class Runs:
 
     def __init__(self, scene: str, overrides: list[str], directory: Path, options: PoolOptions):
         self.scene, self.directory, self.options = scene, directory, options
-        # Maps and frames would be timed too.
-        self.common = joined(overrides, ["output.fields=zero-load", "output.trajectory=none"])
+        self.common = joined(overrides, ["output.fields=zero-load", "output.trajectory=none"])  # those would be timed too
         self.made: dict[str, Job] = {}
 
     def run(self, rows: list[Row]) -> bool:

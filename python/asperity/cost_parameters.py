@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import program
 from .errors import SceneError
 from .pool import Outcome
 from .result import Values
@@ -24,8 +25,8 @@ Setting = list[str]
 QUANTITIES = ("gamma", "contact", "approach", "pull-off", "force")
 """What is compared: binding energy at zero load over flat, contact fraction there, works of the two branches over flat,
 largest attraction of the pull-off (eV/Å). Flat is that of the same interaction: a cutoff takes adhesion from both."""
+# What a setting can be asked for: the relaxed state (the first two quantities), or all of the path too.
 ASKED = {"state": 2, "path": len(QUANTITIES)}
-"""What a setting can be asked for: the relaxed state (the first two quantities), or all of the path too."""
 NAN = math.nan
 
 
@@ -33,19 +34,16 @@ NAN = math.nan
 class Row:
     """A setting to run (own: the part of it that is the parameter's value) and what came of it."""
 
-    parameter: str
-    """its name, or "reference", "scene", "combination"."""
+    parameter: str  # its name, or "reference", "scene", "combination"
     label: str
     setting: Setting
     own: Setting = field(default_factory=list)
-    compared: bool = True
-    """its error is one of settings: not the reference, not another solid"""
+    compared: bool = True  # its error is one of settings: not the reference, not another solid
     outcome: Outcome = field(default_factory=Outcome)
     numbers: np.ndarray = field(default_factory=lambda: np.full(len(QUANTITIES), NAN))
     error: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ASKED, NAN))
     front: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(ASKED, False))
-    seconds: float = NAN
-    """of the processor"""
+    seconds: float = NAN  # of the processor
 
 
 class Parameter(NamedTuple):
@@ -62,7 +60,6 @@ class Parameter(NamedTuple):
 
 class Base(NamedTuple):
     """Where a combination starts: how the path is followed ("": as the scene says), the parts that matter, what it answers."""
-
     label: str
     setting: Setting
     parts: list[str]
@@ -98,7 +95,7 @@ def _chosen(parameters: list[Parameter], names: list[str] | None) -> list[Parame
     there = [parameter.name for parameter in parameters]
     for name in names or []:
         if name not in there:
-            raise SceneError(f"--parameters {name}", "is none of the parameters", "this scene has " + ", ".join(there),
+            raise SceneError(f"--parameters {name}", "is none of them", "this scene has " + ", ".join(there),
                              "name some of these, or leave --parameters out for all of them")
     return [parameter for parameter in parameters if not names or parameter.name in names]
 
@@ -118,15 +115,18 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     def own(key: str) -> float:
         return scene.number(key, 0.0)
 
-    def at(key: str, unit: str, *values: float) -> list[tuple[str, Setting]]:
-        return [(f"{v:.6g} {unit}".strip(), [f"{key}={v:.6g}"]) for v in values]
+    def worded(key: str, v: float) -> str:
+        return f"{v:.6g} {program.schema()[key].get('unit') or 'layers' * (key == 'block.thickness')}".strip()
 
-    def scaled(key: str, unit: str, *factors: float) -> list[tuple[str, Setting]]:
-        return at(key, unit, *(f * own(key) for f in factors))
+    def at(key: str, *values: float) -> list[tuple[str, Setting]]:
+        return [(worded(key, v), [f"{key}={v:.6g}"]) for v in values]
+
+    def scaled(key: str, *factors: float) -> list[tuple[str, Setting]]:
+        return at(key, *(f * own(key) for f in factors))
 
     def cut(tail: bool, *cutoffs: float) -> list[tuple[str, Setting]]:
         return [(label + " + tail" * tail, [*setting, f"interface.tail={str(tail).lower()}"])
-                for label, setting in at("interface.cutoff", "Å", *cutoffs)]
+                for label, setting in at("interface.cutoff", *cutoffs)]
 
     def vary(name: str, values: list[tuple[str, Setting]], part: str = "", exact: bool = False, moved: bool = False) -> None:
         rows = [Row(name, label, joined(at_rest if moved else [], setting), setting, name != "thickness")
@@ -138,6 +138,8 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     length = own(lengths.get(scene.text("interface.potential"), ""))
     widest = min(8 * length, 0.5 * own("surface.sites") * own("surface.spacing"))
     tolerance, step = 0.1 * own("drive.tolerance"), 0.5 * own("drive.step")
+    mixed = (scene.text("interface.kind") == "atoms" and scene.text("surface.kind") != "atoms"
+             and own("surface.lattice_ratio") == 1 and scene.text("interface.potential") != "table")
     reference = ["numerics.precision=double", f"drive.tolerance={tolerance:.6g}"]
     if length:
         reference += ["interface.tail=true", f"interface.cutoff={widest:.6g}"]
@@ -147,28 +149,28 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     if moves:
         reference += [*at_rest, f"drive.step={step:.6g}"]
     text = ("without time, " + f"no inertia (velocity to 0), steps of {step:.6g} Å, " * moves
-            + f"cutoff {widest:.6g} Å and tail, " * bool(length) + f"double precision, tolerance {tolerance:.6g} eV/Å")
+            + f"cutoff {widest:.6g} Å and tail, " * bool(length) + f"double precision, tolerance {worded('drive.tolerance', tolerance)}")
     if dynamic:
         vary("layers", [*((f"{m} a level", [f"block.layers_per_level={m}", "block.model=multiscale"]) for m in (2, 3, 4, 6, 8)),
                         ("lattice", ["block.model=lattice"])], "block", True)
     thick = int(own("block.thickness"))
-    vary("thickness", at("block.thickness", "layers", *filter(None, (thick // 4, thick // 2, thick, 2 * thick, 8 * thick))))
-    vary("precision", [(word, ["numerics.precision=" + word]) for word in ("mixed", "double")], "precision", True)
+    vary("thickness", at("block.thickness", *filter(None, (thick // 4, thick // 2, thick, 2 * thick, 8 * thick))))
+    if mixed:  # pairs over a lattice
+        vary("precision", [(word, ["numerics.precision=" + word]) for word in ("mixed", "double")], "precision", True)
     if dynamic:
         stable = [f for f in (6, 5, 4, 3, 2, 1) if f * own("drive.timestep") < 0.9 * longest_timestep]
-        vary("timestep", scaled("drive.timestep", "fs", *stable, 0.5), "timestep")
-        vary("velocity", [*scaled("drive.velocity", "m/s", 4, 2, 1, 0.5, 0.25), ("quasi-static", at_rest)], "velocity", True)
+        vary("timestep", scaled("drive.timestep", *stable, 0.5), "timestep")
+        vary("velocity", [*scaled("drive.velocity", 4, 2, 1, 0.5, 0.25), ("quasi-static", at_rest)], "velocity", True)
         if own("drive.damping") > 0:
-            vary("damping", scaled("drive.damping", "1/ps", 4, 2, 1, 0.5, 0.125))
-    vary("tolerance", scaled("drive.tolerance", "eV/Å", 100, 10, 1, 0.1), "tolerance", moved=dynamic)
+            vary("damping", scaled("drive.damping", 4, 2, 1, 0.5, 0.125))
+    vary("tolerance", scaled("drive.tolerance", 100, 10, 1, 0.1), "tolerance", moved=dynamic)
     if moves:
-        vary("step", scaled("drive.step", "Å", 4, 2, 1, 0.5, 0.25), "step", moved=dynamic)
+        vary("step", scaled("drive.step", 4, 2, 1, 0.5, 0.25), "step", moved=dynamic)
         vary("model", [("lattice, in time", ["block.model=lattice"])] * dynamic
              + [("quasi-static", at_rest), ("zero load alone", ["drive.path=zero-load"])])
 
     if same_experiment:
-        numerics = ("block", "precision", "timestep", "tolerance", "step")  # parts that change no experiment
-        parameters = _chosen([k for k in parameters if k.part in numerics and not k.moved], names)
+        parameters = _chosen([k for k in parameters if k.part not in ("", "interaction", "velocity") and not k.moved], names)
         best = [k.rows[-1] for k in parameters]
         return CostCase([key for one in best for key in one.own], "the scene with " + ", ".join(one.label for one in best),
                         parameters, [Base("", [], [k.part for k in parameters], "path" if moves else "state")])

@@ -47,7 +47,7 @@ def case(same_experiment=False, **sections):
 
 
 def parameters(**sections):
-    return [k.name for k in case(surface={"sites": 16}, **sections).parameters]
+    return [k.name for k in case(**{"surface": {"sites": 16}, **sections}).parameters]
 
 
 def test_parameters_are_those_that_the_scene_has():
@@ -55,6 +55,8 @@ def test_parameters_are_those_that_the_scene_has():
                             "tolerance", "step", "model"]
     assert parameters(drive={"path": ["zero-load"]}) == ["cutoff", "tail", "thickness", "precision", "tolerance"]
     assert "damping" not in parameters(drive={"damping": 0})
+    for other in ({"interface": {"kind": "wall"}, "drive": {"path": ["zero-load"]}}, {"surface": {"sites": 16, "lattice_ratio": 2.0}}):
+        assert "precision" not in parameters(**other)  # pairs are in double
     for parameter in case(surface={"sites": 32}).parameters:  # no value comes twice
         assert len({tuple(row.setting) for row in parameter.rows}) == len(parameter.rows) > 1, parameter.name
     for bad in ({"block": {"strain": "finite"}}, {"drive": {"temperature": 300}}, {"drive": {"max_steps": 10}}):
