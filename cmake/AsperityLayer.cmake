@@ -36,7 +36,7 @@ elseif(NOT ASPERITY_LEVELS STREQUAL "none" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x
     endif()
 endif()
 
-# The layers go into the program and into libasperity.so, which shows its header's names alone.
+# The layers go into the program and into the module of Python, which shows no names of theirs.
 set(ASPERITY_IN_A_LIBRARY POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
                           VISIBILITY_INLINES_HIDDEN ON)
 

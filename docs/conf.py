@@ -6,8 +6,7 @@
     sphinx-build -W -b html docs build/docs             # the same with the program that is built already
 
 Needs python3-sphinx, python3-myst-parser and furo of Debian; with libjs-katex formulas need no network. Pages are
-Markdown that reads the same elsewhere. The lists of docs/index.md become the navigation of the site; the C++ interface is
-completed here by its header.
+Markdown that reads the same elsewhere. The lists of docs/index.md become the navigation of the site.
 """
 
 import re
@@ -23,7 +22,6 @@ extensions = ["myst_parser", "sphinx.ext.mathjax"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 smartquotes = False  # options keep their dashes, examples their quotes
-suppress_warnings = ["myst.header"]  # a page that is completed here may begin its second part below "#"
 highlight_language = "none"
 html_theme = "furo"
 html_title = f"Asperity {version}"
@@ -37,35 +35,11 @@ if (katex / "contrib/auto-render.js").is_file():  # formulas without a network; 
     html_js_files = [("contrib/auto-render.js", {"defer": "defer", "onload": "renderMathInElement(document.body)"})]
 
 
-def header() -> str:
-    """The header of libasperity: a part for each class and function, its comment as text, its declarations as code."""
-    lines = (root / "library/asperity.hpp").read_text().split("namespace libasperity {\n")[1].splitlines()
-    out, comment, code = [], [], []
-    for line in lines:
-        if line.startswith("///"):
-            comment.append(line[4:])
-        elif code or re.match("class|struct|LIBASPERITY_API", line):
-            code.append(line.replace("LIBASPERITY_API ", ""))
-            if line != "};" and ("{" in code[0] or not line.endswith(";")):
-                continue  # a class ends with its brace, a function with its semicolon
-            name = re.match(r"(?:class|struct) (\w+)", code[0]) or re.search(r"(\w+)\(", code[0])
-            public = re.sub(r"\nprivate:\n.*(?=\n};)", "", "\n".join(code), flags=re.S)
-            public = re.sub(r"\n *(class Inside;|const Inside& inside.*)(?=\n)", "", public)
-            public = re.sub(r"\n+(?=\n};)", "", public)
-            example = "\n".join(text for text in comment if text.startswith("    "))
-            out += [f"\n## {name[1]}\n\n", "\n".join(text for text in comment if not text.startswith("    "))]
-            out += [f"\n\n```cpp\n{text}\n```\n" for text in (example, public) if text]
-            comment, code = [], []
-    return "".join(out)
-
-
 def complete(app, page, source):
-    """A page before it is parsed: of a link to a Markdown file that is no page of the site the file's name is left;
-    what is generated comes behind the text of its page. The front page's lists of links are tables of contents, too."""
+    """A page before it is parsed: of a link to a Markdown file that is no page of the site the file's name is left.
+    The front page's lists of links are tables of contents, too."""
     up = re.escape("../" * (page.count("/") + 1))
     source[0] = re.sub(rf"\[[^\]]+\]\({up}([^)#]+\.md)(?:#[^)]*)?\)", r"`\1`", source[0])
-    if page == "reference/cpp":
-        source[0] += header()
     if page == "index":
         for caption, items in re.findall(r"^## (.*)\n\n((?:- .*\n)+)", source[0], re.M):
             names = "\n".join(re.findall(r"\]\((.*)\.md\)", items))

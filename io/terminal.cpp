@@ -134,17 +134,16 @@ std::optional<ProgressMode> progress_mode(std::string_view name) {
     return static_cast<ProgressMode>(at - std::begin(names));
 }
 
-Progress::Progress(ProgressMode mode, bool quiet, Listener listener, std::FILE* to)
-    : mode_(quiet ? ProgressMode::off : mode), listener_(quiet ? Listener() : std::move(listener)),
-      to_(to) {
+Progress::Progress(ProgressMode mode, bool quiet, std::FILE* to)
+    : mode_(quiet ? ProgressMode::off : mode), to_(to) {
     const bool terminal = is_terminal(to);
     if (mode_ == ProgressMode::automatic || (mode_ == ProgressMode::bar && !terminal))
         mode_ = terminal ? ProgressMode::bar : ProgressMode::lines;
-    if (mode_ != ProgressMode::off) last_ = start_; // a listener is told the first state at once
+    last_ = start_;
 }
 
 bool Progress::due() const {
-    if (mode_ == ProgressMode::off && !listener_) return false;
+    if (mode_ == ProgressMode::off) return false;
     const auto now = Clock::now();
     return seconds(now - last_) >=
            (mode_ == ProgressMode::lines ? line_seconds(seconds(now - start_)) : bar_seconds);
@@ -162,8 +161,6 @@ void Progress::update(const State& state) {
     last_steps_ = state.steps;
     if (!due()) return;
     last_ = now;
-    if (listener_) listener_(state);
-    if (mode_ == ProgressMode::off) return;
     const double fraction_done =
         state.fraction >= 0.0 && first_fraction_ >= 0.0 ? state.fraction - first_fraction_ : -1.0;
     const std::string line = progress_line(state, seconds(now - start_), state.steps - first_steps_,

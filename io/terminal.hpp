@@ -50,16 +50,13 @@ public:
         double time_fs = 0.0;   ///< simulated so far; 0: no clock in this run
         double fraction = -1.0; ///< done of the whole path, 0..1; negative: unknown
     };
-    using Listener = std::function<void(const State&)>;
-
-    /// quiet: nothing is printed or told (ranks other than 0). listener: gets each state that is
-    /// printed; with printing off, a state every 0.2 s at most.
-    Progress(ProgressMode mode, bool quiet = false, Listener listener = {}, std::FILE* to = stderr);
+    /// quiet: nothing is printed (ranks other than 0).
+    Progress(ProgressMode mode, bool quiet = false, std::FILE* to = stderr);
     ~Progress() { finish(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// True when enough time has passed that update() would print or tell: build the phase text
+    /// True when enough time has passed that update() would print: build the phase text
     /// only then.
     bool due() const;
     void update(const State& state);
@@ -76,10 +73,9 @@ private:
     void put(const std::string& text);
 
     ProgressMode mode_;
-    Listener listener_;
     std::FILE* to_;
     Clock::time_point start_ = Clock::now();
-    Clock::time_point last_; ///< when it was printed or told
+    Clock::time_point last_; ///< when it was printed
     long long first_steps_ = -1;
     long long last_steps_ = 0;
     double first_time_ = 0.0;

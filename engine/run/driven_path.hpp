@@ -3,7 +3,7 @@
 //
 // A path in time as its scene's drive takes it: where it starts, what the drive is told after each
 // step, and the works of a segment that has ended. It steps nothing and writes nothing: a run does
-// that (dynamic_run.cpp), or a program with a loop of its own (library/asperity.hpp).
+// that (dynamic_run.cpp), or a script with a loop of its own (time_path.hpp).
 //
 //     path.start();
 //     while (!path.over()) {

@@ -14,7 +14,6 @@ namespace asperity {
 Interruption Interruptions::here() const {
     if (stop_signals::caught()) return Interruption::signal;
     if (!ranks_.root()) return Interruption::none;
-    if (options_.stop && options_.stop()) return Interruption::signal;
     const double now = seconds();
     if (options_.wall_limit && now >= *options_.wall_limit) return Interruption::wall_limit;
     return now - last_checkpoint_ >= checkpoint_ ? Interruption::checkpoint : Interruption::none;

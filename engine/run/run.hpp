@@ -7,7 +7,6 @@
 #include "engine/setup/case.hpp"
 #include "io/terminal.hpp"
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,17 +19,11 @@ struct RunOptions {
     std::optional<double> wall_limit; ///< s
     io::ProgressMode progress = io::ProgressMode::automatic;
 
-    // Of a program that runs scenes itself (library/asperity.hpp); called on rank 0.
-    bool silent = false;             ///< neither opening nor summary on the standard output
-    io::Progress::Listener listener; ///< told of progress
-    std::function<bool()> stop; ///< true: a checkpoint is written and the run ends, as by a signal
-
     bool resuming() const { return !resume.empty(); }
 };
 
 /// Runs the case on all ranks of the communicator, which are as many as it was made for. Returns
-/// the exit code; errors are thrown (io::Error) and printed by main. Prints the summary on rank 0,
-/// unless silent.
+/// the exit code; errors are thrown (io::Error) and printed by main. Prints the summary on rank 0.
 int run(const Case& c, const RunOptions& options, const Communicator& communicator);
 
 } // namespace asperity

@@ -63,7 +63,7 @@ RunSession::RunSession(const Case& c, const RunOptions& options, const Communica
       grid(c.grid(ranks.rank())), storage_(options, c.scene.name, ranks),
       interruptions_(options, c.on(Effect::checkpoints) ? c.scene.output.checkpoint : HUGE_VAL,
                      ranks),
-      progress(options.progress, !ranks.root(), options.listener), maps(c.maps, grid),
+      progress(options.progress, !ranks.root()), maps(c.maps, grid),
       fingerprint_(physics_of(c, surface)) {
     print_notes();
 }
@@ -78,7 +78,7 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
                           const AddToResult& add_to) {
     interruptions_.checkpoint_written();
     try {
-        if (ranks.root() && !options_.silent)
+        if (ranks.root())
             print_unless_closed([&] {
                 print_opening(stdout, case_, surface, grid, omp_get_max_threads(), bytes,
                               storage_.path());
@@ -102,7 +102,6 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
     progress.finish();
     ranks.on_root([&] {
         const io::Result result = write_result(nullptr, add_to);
-        if (options_.silent) return;
         print_unless_closed([&] {
             print_summary(stdout, case_, result, results, storage_.path());
             if (stopped_ != Stopped::no)

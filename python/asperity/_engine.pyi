@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 #
-# Types of the compiled module (library/python.cpp); Final: to be read. What each name means: help(asperity.Simulation).
+# Types of the compiled module (_engine.cpp); Final: to be read. What each name means: help(asperity.Simulation).
 import os
 from collections.abc import Callable
 from typing import Any, Final, NamedTuple, overload
@@ -83,8 +83,7 @@ class Simulation:
     _substrate_edge: float
     _substrate_height: _Array
     _top_position: float
-    _top_velocity: float
-    def _release_top(self) -> None: ...
+    _top_velocity: Any
 
 class Point:
     top: Final[float]
@@ -100,11 +99,20 @@ class Point:
     repulsive_fraction: Final[float]
     number: Final[int]
 
+class State:
+    def __init__(self, u: ArrayLike, top: float = 0.0) -> None: ...
+    u: Final[_Array]
+    top: float
+
 class Statics:
     def __init__(self, file: str, overrides: list[str]) -> None: ...
     def relax(self) -> Point: ...
+    def free(self) -> RestState: ...
+    def copy(self) -> State: ...
+    def restore(self, state: State) -> None: ...
     def maps(self) -> SiteMaps: ...
     now: Final[Point]
     mean_height: float
     top: float
+    _case: dict[str, Any]
     def _load(self, pressure: float | str) -> None: ...

@@ -34,7 +34,7 @@ def load() -> Any:
         return sys.modules[NAME]
     folders = [Path(__file__).parent]
     try:
-        folders.append(Path(program.path()).resolve().parents[1] / "library")
+        folders.append(Path(program.path()).resolve().parents[1] / "python")
     except (InputOutputError, IndexError):
         pass
     for folder in folders:
@@ -61,6 +61,7 @@ if TYPE_CHECKING:
 else:
     _engine = load()
 RestState, SiteMaps, Energies, Point = _engine.RestState, _engine.SiteMaps, _engine.Energies, _engine.Point
+State = _engine.State
 
 
 class Components(NamedTuple):
@@ -103,10 +104,7 @@ class Top:
 
     @velocity.setter
     def velocity(self, v: float | None) -> None:
-        if v is None:
-            self._simulation._release_top()
-        else:
-            self._simulation._top_velocity = v
+        self._simulation._top_velocity = v
 
 
 class Substrate(NamedTuple):
@@ -349,6 +347,14 @@ class Statics(_engine.Statics):
     lost on it is counted. The mean height is held, or the top plane: the first one that is written decides (a
     load holds what drive.hold of the scene says). Of a scene in time the same solids are taken, as if
     drive.mode were "quasistatic". scene and overrides are as for Simulation.
+
+    free() is the state with nothing held; copy() keeps a state, and restore() leads back to it:
+
+        statics.mean_height = 3.1
+        statics.relax()
+        held = statics.copy()
+        print(statics.free().binding_energy)
+        statics.restore(held)
     """
 
     __setattr__ = _set_what_is_there

@@ -4,9 +4,9 @@
 #
 #     debian_package.sh SOURCE BUILD
 #
-# Makes the Debian package and installs it on a bare Debian 12 in a chroot, with nothing else but man and, at
-# the end, a compiler. There: the man page is read, first-contact run, two ranks, a report made, the Python
-# example of docs/howto/results.md run, the example of libasperity compiled and run, the package removed.
+# Makes the Debian package and installs it on a bare Debian 12 in a chroot, with nothing else but man. There: the
+# man page is read, first-contact run, two ranks, a report made, the Python example of docs/howto/results.md
+# run, the package removed.
 # Needs root, debootstrap and a mirror ($ASPERITY_MIRROR, else that of the first source in apt's list).
 # ASPERITY_CHROOT: a bare tree that debootstrap --variant=minbase has made, to be copied instead of made.
 # Exit code 77: not possible here.
@@ -69,13 +69,6 @@ in_root 'mpirun -n 2 asperity run scenes/first-contact.toml --set drive.path=zer
 in_root 'asperity report results/first-contact && [ -s results/first-contact/report.html ]' || fail "report"
 in_root "python3 notebook.py && python3 -c 'import asperity; print(asperity.load(\"results/smoother\").binding_energy)'" ||
     fail "the Python example of docs/howto/results.md"
-
-# The library: a compiler and CMake, and nothing of what the library itself was built with.
-install_packages g++ cmake make pkg-config || fail "installation: $(tail -n 5 "$work/install.log")"
-cp -r "$source/library/example" "$root/root/project"
-in_root 'cmake -S project -B made && cmake --build made' >"$work/consumer.log" 2>&1 || fail "the example of libasperity: $(tail -n 9 "$work/consumer.log")"
-in_root 'made/first_contact scenes/first-contact.toml results/library' || fail "the example of libasperity"
-in_root 'g++ -std=c++17 project/first_contact.cpp -o by-hand $(pkg-config --cflags --libs asperity) && [ -x by-hand ]' || fail "pkg-config"
 
 in_root 'apt-get remove -y asperity && ! command -v asperity && [ ! -e /usr/share/asperity ]' >/dev/null 2>&1 || fail "removal"
 echo "all fine"

@@ -69,11 +69,11 @@ TEST(Progress, ModesAndFiles) {
     std::FILE* file = std::tmpfile();
     ASSERT_NE(file, nullptr);
     {
-        Progress progress(ProgressMode::bar, false, {}, file); // a file is no terminal
+        Progress progress(ProgressMode::bar, false, file); // a file is no terminal
         EXPECT_EQ(progress.mode(), ProgressMode::lines);
         progress.update({"a", 1, 0.0, 0.0}); // too soon to print
         progress.say("pull-off begins");
-        Progress quiet(ProgressMode::lines, true, {}, file);
+        Progress quiet(ProgressMode::lines, true, file);
         quiet.say("never");
         EXPECT_FALSE(quiet.due());
     }

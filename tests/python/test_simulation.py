@@ -190,6 +190,32 @@ def test_save_and_resume(tmp_path):
     assert sim.energy.balance_error == again.energy.balance_error
 
 
+def test_save_replaces_nothing_but_its_own_files(tmp_path, state_run):
+    sim = tiny()
+    sim.step(3)
+    theirs = tmp_path / "notes.h5"
+    theirs.write_text("mine")
+    link, dangling = tmp_path / "link.h5", tmp_path / "dangling.h5"
+    link.symlink_to(theirs)
+    dangling.symlink_to(tmp_path / "nothing")
+    (tmp_path / "folder").mkdir()
+    os.mkfifo(tmp_path / "pipe")
+    for place, says in ((theirs, "no file of Simulation.save"), (link, "symbolic link"), (dangling, "symbolic link"),
+                        (tmp_path / "folder", "is a directory"), (tmp_path / "pipe", "no regular file"),
+                        (state_run.directory / "run.h5", "no file of Simulation.save")):
+        with pytest.raises(asperity.SceneError, match=says) as error:
+            sim.save(place)
+        assert "fix: name another file" in str(error.value)
+    assert theirs.read_text() == "mine" and link.is_symlink() and dangling.is_symlink()
+    assert (tmp_path / "pipe").is_fifo() and not (tmp_path / "nothing").exists()
+    assert asperity.load(state_run.directory).binding_energy == state_run.binding_energy
+    sim.save(tmp_path / "a.h5")
+    sim.step(4)
+    sim.save(tmp_path / "a.h5")
+    assert asperity.Simulation.resume(tmp_path / "a.h5").steps == 7
+    assert sorted(f.name for f in tmp_path.iterdir()) == ["a.h5", "dangling.h5", "folder", "link.h5", "notes.h5", "pipe"]
+
+
 def test_observers():
     sim, seen = tiny(), []
     sim.every(10, lambda s: seen.append((s.steps - 1, s.energy.elastic)))
@@ -393,6 +419,39 @@ def test_statics_under_loads():
         at("-50 GPa")
     assert statics.relax().contact == 0.0  # where it is
     assert at(0.0).contact > 0.0  # and in again
+
+
+@pytest.mark.parametrize("hold", ["top", "mean-height"])
+def test_statics_copied_and_set_free(hold):
+    """A copy leads back to where it was taken; what is set free is a state of a run, from wherever it started."""
+    statics = asperity.Statics(STATIC, {"drive.hold": hold, "drive.tolerance": 1e-6})
+    name = {"top": "top", "mean-height": "mean_height"}[hold]
+    setattr(statics, name, getattr(statics, name) - 10.0)
+    held = statics.relax()
+    there = statics.copy()
+    assert there.u.shape == (3, 16, 16) and there.u[2].mean() == pytest.approx(
+        held.mean_height - asperity.Statics(STATIC).mean_height, abs=1e-9)
+    rest = statics.free()
+    assert rest.contact_fraction > 0.0 and abs(rest.maps.pressure.mean()) < 1e-4 and rest.residual < 1e-6
+    at_rest = statics.relax()  # held where the free state is, no force is needed
+    assert abs(at_rest.force) < 1e-4 and at_rest.number == at_rest.work == at_rest.dissipated == 0
+    assert -1000 * at_rest.energy / (16 * 2.6)**2 == pytest.approx(rest.binding_energy, abs=1e-4)
+    assert at_rest.mean_height == pytest.approx(rest.mean_height, abs=1e-6)
+    statics.restore(there)
+    back = statics.relax()
+    assert (back.energy, back.force) == pytest.approx((held.energy, held.force), abs=1e-4)
+    assert statics.free().binding_energy == pytest.approx(rest.binding_energy, abs=1e-5)
+    # In another engine, and written to: the sites come back from 0.1 Å.
+    other, moved = asperity.Statics(STATIC, {"drive.hold": hold, "drive.tolerance": 1e-6}), there
+    moved.u[...] += 0.1 * numpy.sin(numpy.arange(16.0))
+    other.restore(asperity.engine.State(moved.u, moved.top))
+    assert other.free().binding_energy == pytest.approx(rest.binding_energy, abs=1e-4)
+    for wrong in (asperity.engine.State(numpy.zeros((3, 8, 8))),
+                  asperity.engine.State(numpy.full((3, 16, 16), numpy.nan))):
+        with pytest.raises(asperity.SceneError, match="fix:"):
+            statics.restore(wrong)
+    with pytest.raises(asperity.SceneError, match="3, y, x"):
+        asperity.engine.State(numpy.zeros((2, 4, 4)))
 
 
 def test_statics_refuses():

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A scene without time in a loop of the caller's own (asperity.Statics of Python): its solids in
+// force balance, where they are led. What is found depends on the way there, as on a path of a run;
+// what is lost on it is counted. It starts out of reach.
+//
+// The mean height is held, or the top plane; the first one that is set decides, or a load, which
+// then holds what drive.hold says. Of a scene in time the same solids are taken, as if drive.mode
+// were "quasistatic".
+#pragma once
+
+#include "engine/equilibrium/quasistatic.hpp"
+#include "engine/run/time_path.hpp"
+
+#include <exception>
+#include <optional>
+#include <vector>
+
+namespace asperity {
+
+class StaticPath {
+public:
+    explicit StaticPath(const Case& c);
+    const Case& scene_case() const { return case_; }
+
+    // Where the next relax() goes. Throw io::SceneError where the other one is held.
+
+    void set_mean_height(double z); ///< Å above the substrate's zero
+    void set_top(double z);         ///< displacement since the start, Å
+    /// MPa; positive presses. Reached where the force comes to it, from below on the way in, from
+    /// above on the way out.
+    void set_load(double pressure);
+    void set_load(const std::string& pressure); ///< "100 MPa"
+
+    /// Force balance at what is held. Work, damped (dissipated at instabilities), instabilities and
+    /// step (points) count from where the path began: out of reach, or the last restore() or
+    /// release().
+    struct Point : StepRecord {
+        long long instabilities = 0;
+        double contact_fraction = 0.0, repulsive_fraction = 0.0;
+        double energy() const { return interface_energy + elastic_energy; }
+    };
+    /// Goes there, point by point; without a target: where it is. After what look throws, the same
+    /// call goes on. Throws io::PhysicsError where no equilibrium is found, or where the solids
+    /// part before a pull is reached.
+    Point relax(const Look& look);
+    Point now() const; ///< of the last relax()
+    InterfaceMaps maps() const;
+
+    /// The state that the sites come to from where they are with nothing held but drive.load; from
+    /// out of reach the one that the segment "zero-load" of a run leads to. The next relax() begins
+    /// a new path there. Where none is found (io::PhysicsError), or look
+    /// throws, the sites stay where they were.
+    RestState release(const Look& look);
+
+    /// All that a state depends on.
+    struct State {
+        int sites = 0;         ///< across
+        std::vector<double> u; ///< displacements of the lowest layer, [component][y][x], Å
+        double top = 0.0;      ///< displacement of the top plane, Å
+    };
+    State copy() const;
+    /// Puts the sites, and a held top plane, there; the next relax() begins a new path there, at
+    /// the mean height that they have where that is held. Throws io::SceneError for another number
+    /// of sites and for values that are no numbers.
+    void restore(const State& state);
+
+private:
+    using Held = Constraint::Of;
+    void go_to(Held held, double at);
+    void hold(Held held);
+    void begin();
+    void place(const State& state);
+    bool interrupts();
+    void lead();
+    void guard() const;
+
+    const Case case_;
+    const Surface surface_;
+    Interface interface_;
+    SpectralBlock block_;
+    std::optional<Held> held_;
+    /// Of the block as it is; none: it has not begun, or is to begin anew.
+    std::optional<QuasistaticPath> path_;
+    bool placed_ = false; ///< it begins where the block is, not out of reach
+    Point before_;        ///< the last of the path before
+    struct Goal {
+        std::optional<double> at{}, load{}; ///< Å, eV/Å
+    };
+    Goal target_; ///< where the next relaxation leads it
+    LookNowAndThen* looking_ = nullptr;
+    std::exception_ptr thrown_;
+};
+
+} // namespace asperity

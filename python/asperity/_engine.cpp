@@ -1,0 +1,451 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// asperity._engine: the paths of the engine that a script steps and leads, for Python. engine.py
+// makes the classes of them that users see.
+#include "decomposition/communicator.hpp"
+#include "engine/run/static_path.hpp"
+#include "engine/run/time_path.hpp"
+#include "engine/units.hpp"
+#include "io/machine.hpp"
+#include "io/scene_reader.hpp"
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace py = pybind11;
+using namespace asperity;
+using namespace pybind11::literals;
+
+namespace {
+
+/// Other threads of Python run meanwhile. FFTW's plans and HDF5 are of the process, and threads are
+/// shared: one call works at a time.
+template <class Work>
+auto working(const Work& work) {
+    static std::recursive_mutex one_at_a_time;
+    const py::gil_scoped_release release;
+    const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
+    return work();
+}
+
+/// Ctrl-C, seen between steps.
+void look_for_signals() {
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+/// The ranks of a communicator, by its number in Fortran, or this process alone.
+Communicator ranks_of(const std::optional<int>& number) {
+    if (!number) return {};
+    Communicator ranks = Communicator::of_fortran(*number);
+    ranks.share_processors();
+    return ranks;
+}
+
+struct Given {
+    Case resolved;
+    SceneText text;
+};
+/// What a scene's author should know is said as warnings of Python at the caller of the class.
+Given read(const std::string& file, const std::vector<std::string>& overrides, int ranks = 1) {
+    Given given = working([&] {
+        SceneText text{io::read_scene_file(file), file, overrides};
+        Case resolved = text.read(ranks);
+        return Given{std::move(resolved), std::move(text)};
+    });
+    const py::object kind = py::module_::import("asperity.errors").attr("SceneWarning");
+    for (const std::string& note : given.resolved.notes)
+        if (PyErr_WarnEx(kind.ptr(), note.c_str(), 2) != 0) throw py::error_already_set();
+    return given;
+}
+
+/// An array over memory of the engine, which the owner keeps alive.
+py::array array_of(const PlaneView<double>& plane, std::shared_ptr<const void> of, bool writable) {
+    using Owner = std::shared_ptr<const void>;
+    const py::capsule owner(new Owner(std::move(of)),
+                            [](void* p) { delete static_cast<Owner*>(p); });
+    const auto size = static_cast<py::ssize_t>(sizeof(double));
+    py::array_t<double> array({plane.ny, plane.nx}, {plane.row * size, size}, plane.origin, owner);
+    if (!writable) array.attr("flags").attr("writeable") = false;
+    return array;
+}
+
+py::object arrays_of(TimePath& path, const std::optional<TimePath::View>& view,
+                     bool writable = true) {
+    if (!view) return py::none();
+    const auto one = [&](const PlaneView<double>& plane) {
+        return array_of(plane, path.lease(), writable);
+    };
+    return py::module_::import("asperity.engine")
+        .attr("Components")(one(view->x), one(view->y), one(view->z));
+}
+
+/// One of the maps of a state, copied.
+template <class T>
+py::array array_of(const InterfaceMaps& maps, const std::vector<T>& values) {
+    return py::array_t<T>({maps.ny, maps.nx}, values.data());
+}
+
+/// [y, x, 3], or three of [y, x].
+void set_external(TimePath& path, const py::object& field) {
+    if (field.is_none()) return path.clear_external();
+    const py::module_ numpy = py::module_::import("numpy");
+    py::object planes = numpy.attr("asarray")(field, "float64");
+    const auto shape = planes.attr("shape").cast<std::vector<long long>>();
+    if (shape.size() == 3 && shape[2] == 3) // also of three sites across
+        planes = numpy.attr("moveaxis")(planes, -1, 0);
+    else if (shape.size() != 3 || shape[0] != 3)
+        throw io::SceneError({"external",
+                              "has the shape " + py::str(planes.attr("shape")).cast<std::string>(),
+                              "it is a force of three components on each site",
+                              "give an array [y, x, 3], or three arrays [y, x]"});
+    const py::array_t<double, py::array::c_style | py::array::forcecast> all(planes);
+    const auto plane = [&](int component) {
+        const int ny = static_cast<int>(all.shape(1)), nx = static_cast<int>(all.shape(2));
+        return PlaneView<const double>{all.data(component, 0, 0), nx, nx, ny};
+    };
+    path.set_external({plane(0), plane(1), plane(2)});
+}
+
+void translate(std::exception_ptr thrown) {
+    try {
+        if (thrown) std::rethrow_exception(thrown);
+    } catch (const io::Error& error) {
+        const py::module_ errors = py::module_::import("asperity.errors");
+        const py::object type =
+            errors.attr("BY_CODE").attr("get")(error.code(), errors.attr("InternalError"));
+        PyErr_SetObject(type.ptr(), type(error.what()).ptr());
+    }
+}
+
+/// Of the two ways of a path, meV/Å^2.
+struct BothWays {
+    std::optional<double> approach, pull_off;
+};
+
+/// "Point(contact=0.98, energy=-492.5, ...)", every number of it by its name.
+std::string shown(const py::object& of) {
+    const py::object type = py::type::of(of);
+    std::string text;
+    for (const py::handle& name : py::module_::import("builtins").attr("dir")(type)) {
+        const auto word = name.cast<std::string>();
+        if (word.starts_with("_")) continue;
+        const py::object value = of.attr(name);
+        const bool number = py::isinstance<py::float_>(value);
+        text += (text.empty() ? "" : ", ") + word + "=" +
+                (number ? py::str("{:.6g}").attr("format")(value) : py::repr(value))
+                    .cast<std::string>();
+    }
+    return type.attr("__name__").cast<std::string>() + "(" + text + ")";
+}
+
+} // namespace
+
+PYBIND11_MODULE(_engine, m) {
+    m.doc() = "The engine of asperity.Simulation and asperity.Statics";
+    m.attr("version") = io::build_info().version;
+    py::register_exception_translator(translate);
+
+    py::class_<StepRecord>(m, "Energies", "Energies in eV, since the start of the path.")
+        .def_readonly("elastic", &StepRecord::elastic_energy, "elastic energy of the block, eV")
+        .def_readonly("interface", &StepRecord::interface_energy,
+                      "energy of the interface, eV; negative where it binds")
+        .def_readonly("kinetic", &StepRecord::kinetic_energy, "kinetic energy of the block, eV")
+        .def_readonly("work", &StepRecord::work,
+                      "work done on the block, eV: by the top plane, the medium that damps, noise, "
+                      "and an external field")
+        .def_readonly("damped", &StepRecord::damped, "energy lost to the medium that damps, eV")
+        .def_readonly("balance_error", &StepRecord::residual,
+                      "what the energy balance is off by, over the largest of its terms")
+        .def("__repr__", shown);
+
+    py::class_<BothWays>(
+        m, "BothWays",
+        "A number of the approach and one of the pull-off, meV/Å²; None until that way has ended.")
+        .def_readonly("approach", &BothWays::approach, "of the approach, meV/Å²")
+        .def_readonly("pull_off", &BothWays::pull_off, "of the pull-off, meV/Å²")
+        .def("__repr__", shown);
+
+    py::class_<InterfaceMaps>(m, "SiteMaps", "Maps of the sites, [y, x].")
+        .def_property_readonly(
+            "gap", [](const InterfaceMaps& of) { return array_of(of, of.gap); },
+            "height above the substrate below, Å")
+        .def_property_readonly(
+            "contact",
+            [](const InterfaceMaps& of) { return array_of(of, of.contact).attr("astype")("bool"); },
+            "whether the nearest atom is in contact")
+        .def_property_readonly(
+            "pressure", [](const InterfaceMaps& of) { return array_of(of, of.pressure); },
+            "normal force on a site over its area, GPa; positive pushes apart");
+
+    py::class_<RestState>(m, "RestState",
+                          "A state of force balance, of Simulation.relax() and Statics.free().")
+        .def_readonly("binding_energy", &RestState::binding_energy,
+                      "the least work that separates the solids from here, meV/Å²")
+        .def_readonly("elastic_energy", &RestState::elastic, "elastic energy, meV/Å²")
+        .def_readonly("contact_fraction", &RestState::contact_fraction,
+                      "fraction of the sites in contact")
+        .def_readonly("repulsive_fraction", &RestState::repulsive_fraction,
+                      "fraction of the sites that are pushed away")
+        .def_readonly("mean_height", &RestState::mean_height,
+                      "of the lowest layer above the substrate's zero, Å")
+        .def_readonly("residual", &RestState::residual, "largest force left on a site, eV/Å")
+        .def_readonly("iterations", &RestState::iterations, "iterations of the relaxation")
+        .def_readonly("maps", &RestState::maps, "its SiteMaps: gap, contact, pressure")
+        .def("__repr__", shown);
+
+    using Sim = TimePath;
+    py::class_<Sim, std::shared_ptr<Sim>>(m, "Simulation")
+        .def(py::init([](const std::string& file, const std::vector<std::string>& overrides,
+                         const std::optional<int>& communicator) {
+            const Communicator ranks = ranks_of(communicator);
+            Given scene = read(file, overrides, ranks.size());
+            return working([&] {
+                return std::make_shared<Sim>(std::move(scene.resolved), std::move(scene.text),
+                                             ranks);
+            });
+        }))
+        .def(py::init([](const std::string& saved, const std::optional<int>& communicator) {
+            return working([&] { return Sim::resume(saved, ranks_of(communicator)); });
+        }))
+        .def("_step",
+             [](Sim& sim, long long n, const py::object& look) {
+                 return working([&] {
+                     return sim.step(n, [&] {
+                         look_for_signals();
+                         const py::gil_scoped_acquire acquire;
+                         if (!look.is_none()) look();
+                     });
+                 });
+             })
+        .def("_every", &Sim::every)
+        .def(
+            "relax", [](Sim& sim) { return working([&] { return sim.relax(look_for_signals); }); },
+            "The state at zero load that the sites come to from where they are: a RestState.\n\n"
+            "A copy is relaxed; the simulation stays as it is. Raises PhysicsError if no state is "
+            "found.")
+        .def(
+            "save",
+            [](Sim& sim, const std::filesystem::path& file) {
+                working([&] { sim.save(file.string()); });
+            },
+            py::arg("file"),
+            "Writes everything but the observers into one file (HDF5), for Simulation.resume().\n\n"
+            "A file of an earlier save() is replaced, nothing else is: that raises SceneError.")
+        .def(
+            "maps", [](const Sim& sim) { return working([&] { return sim.maps(); }); },
+            "The SiteMaps of the sites as they are now: gap, contact, pressure.")
+        .def_property_readonly(
+            "done", &Sim::done,
+            "whether the scene's path has come to its end; never while the top is led by hand")
+        .def_property_readonly(
+            "steps", [](const Sim& sim) { return sim.simulation().steps(); }, "steps made")
+        .def_property_readonly(
+            "time", [](const Sim& sim) { return sim.now().time * 1e-3; }, // as the series has it
+            "time at the start of the last step, ps")
+        .def_property_readonly(
+            "force", [](const Sim& sim) { return sim.now().force; },
+            "total normal force of the substrate on the lowest layer, eV/Å; positive pushes apart")
+        .def_property_readonly(
+            "top_force", [](const Sim& sim) { return sim.now().top_force; },
+            "elastic force on the top plane along z, eV/Å")
+        .def_property_readonly(
+            "mean_height", [](const Sim& sim) { return sim.now().mean_height; },
+            "mean height of the lowest layer above the substrate's zero, Å")
+        .def_property_readonly(
+            "energy", [](const Sim& sim) { return sim.now(); },
+            "Energies of the last observed step, eV: elastic, interface, kinetic, work, damped, "
+            "balance_error")
+        .def_property_readonly(
+            "contact", [](const Sim& sim) { return sim.fraction(sim.now().in_contact); },
+            "fraction of the sites whose nearest atom is in contact, at the last observed step")
+        .def_property_readonly(
+            "repulsive_fraction", [](const Sim& sim) { return sim.fraction(sim.now().repulsive); },
+            "fraction of the sites that are pushed away, at the last observed step")
+        .def_property_readonly("segment", &Sim::segment,
+                               "where the scene's path is: 'approach', 'pull-off' or 'done'")
+        .def_property_readonly(
+            "work_of_adhesion",
+            [](const Sim& sim) {
+                const PathResults& found = sim.results();
+                return BothWays{found.approach.interface_work, found.pull_off.interface_work};
+            },
+            "work of the interface's force on the mean height, meV/Å²: .approach, .pull_off")
+        .def_property_readonly(
+            "work_of_drive",
+            [](const Sim& sim) {
+                const PathResults& found = sim.results();
+                return BothWays{found.approach.drive_work, found.pull_off.drive_work};
+            },
+            "work that the drive takes up and gives, meV/Å²: .approach, .pull_off")
+        .def_property_readonly(
+            "lost_in_cycle", [](const Sim& sim) { return sim.results().lost_in_cycle; },
+            "energy lost over approach and pull-off, meV/Å²; None before")
+        .def_property_readonly(
+            "u", [](Sim& sim) { return arrays_of(sim, sim.u()); },
+            "displacements of the lowest layer, Å: views .x, .y, .z, [y, x]; what is written is "
+            "felt by the next step")
+        .def_property_readonly(
+            "v", [](Sim& sim) { return arrays_of(sim, sim.v()); },
+            "velocities of the lowest layer half a step before u, Å/fs: views .x, .y, .z, [y, x], "
+            "to be written as well")
+        .def_property_readonly(
+            "f", [](Sim& sim) { return arrays_of(sim, sim.f(), false); },
+            "forces on the lowest layer in the last step (substrate and external), eV/Å: views .x, "
+            ".y, .z, to be read")
+        .def_property(
+            "external", [](Sim& sim) { return arrays_of(sim, sim.external()); }, &set_external,
+            "forces on the lowest layer from outside, eV/Å, from the next step on: an array [y, x, "
+            "3], or three of\n"
+            "[y, x]; they are copied. Reads as views .x, .y, .z of what acts, to be changed in "
+            "place; None: no field")
+        .def_property_readonly(
+            "external_work", [](const Sim& sim) { return sim.simulation().balance().external; },
+            "work of the external field so far, eV")
+        .def_property_readonly(
+            "tile",
+            [](const Sim& sim) {
+                const Tile tile = sim.tile();
+                return py::make_tuple(py::slice(tile.y0, tile.y0 + tile.ny, 1),
+                                      py::slice(tile.x0, tile.x0 + tile.nx, 1));
+            },
+            "which sites are this rank's, as an index [y, x]: u.z is whole[tile]; without comm, "
+            "all")
+        .def_property_readonly(
+            "spacing", [](const Sim& sim) { return sim.scene_case().scene.surface.spacing; },
+            "distance of the sites, Å")
+        .def_property_readonly("_substrate_height",
+                               [](Sim& sim) {
+                                   const Surface& of = sim.surface();
+                                   const PlaneView<double> heights{
+                                       const_cast<double*>(of.height.data()), of.sites, of.sites,
+                                       of.sites};
+                                   return array_of(heights, sim.shared_from_this(), false);
+                               })
+        .def_property_readonly(
+            "_scene", [](const Sim& sim) { return scene_toml(sim.scene_case().scene, false); })
+        .def_property_readonly("_name", [](const Sim& sim) { return sim.scene_case().scene.name; })
+        .def_property_readonly("_substrate_edge",
+                               [](const Sim& sim) { return sim.surface().length; })
+        .def_property("_top_position", &Sim::top_position, &Sim::set_top_position)
+        .def_property("_top_velocity", &Sim::top_velocity, &Sim::set_top_velocity);
+
+    using Point = StaticPath::Point;
+    py::class_<Point>(m, "Point", "A point of a path without time: force balance at what is held.")
+        .def_readonly(
+            "top", &Point::top,
+            "displacement of the top plane since the start, Å; 0 where the mean height is held")
+        .def_readonly("mean_height", &Point::mean_height,
+                      "mean height of the lowest layer above the substrate's zero, Å")
+        .def_readonly(
+            "force", &Point::force,
+            "total normal force of the substrate on the lowest layer, eV/Å; positive pushes apart")
+        .def_property_readonly("energy", &Point::energy,
+                               "elastic energy and that of the interface, eV")
+        .def_readonly("elastic_energy", &Point::elastic_energy, "elastic energy, eV")
+        .def_readonly("interface_energy", &Point::interface_energy, "energy of the interface, eV")
+        .def_readonly("work", &Point::work,
+                      "work of what holds the block, since the path began, eV")
+        .def_readonly("dissipated", &Point::damped,
+                      "energy dissipated at instabilities, since the path began, eV")
+        .def_readonly("instabilities", &Point::instabilities, "how many points of the path had one")
+        .def_readonly("contact", &Point::contact_fraction,
+                      "fraction of the sites whose nearest atom is in contact")
+        .def_readonly("repulsive_fraction", &Point::repulsive_fraction,
+                      "fraction of the sites that are pushed away")
+        .def_readonly("number", &Point::step, "points of the path since it began")
+        .def("__repr__", shown);
+
+    using State = StaticPath::State;
+    py::class_<State>(m, "State",
+                      "Where the sites stand, of Statics.copy(): all that a state depends on.")
+        .def(py::init([](const py::array_t<double, py::array::c_style | py::array::forcecast>& u,
+                         double top) {
+                 if (u.ndim() != 3 || u.shape(0) != 3 || u.shape(1) != u.shape(2))
+                     throw io::SceneError({"State", "is given another shape",
+                                           "it is three components on a square of sites",
+                                           "give an array [3, y, x]"});
+                 return State{static_cast<int>(u.shape(1)), {u.data(), u.data() + u.size()}, top};
+             }),
+             py::arg("u"), py::arg("top") = 0.0)
+        .def_property_readonly(
+            "u",
+            [](const py::object& self) {
+                State& s = self.cast<State&>();
+                return py::array_t<double>({3, s.sites, s.sites}, s.u.data(), self);
+            },
+            "displacements of the lowest layer, Å, [component, y, x], to be read and written")
+        .def_readwrite("top", &State::top, "displacement of the top plane, Å");
+
+    py::class_<StaticPath>(m, "Statics")
+        .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
+            const Given scene = read(file, overrides);
+            return working([&] { return std::make_unique<StaticPath>(scene.resolved); });
+        }))
+        .def(
+            "relax",
+            [](StaticPath& s) { return working([&] { return s.relax(look_for_signals); }); },
+            "Goes where mean_height, top or load was set, point by point; the Point there.\n\n"
+            "Without a new target: the point where it is. Ctrl-C ends it at a point; the next "
+            "relax() goes on.\n"
+            "Raises PhysicsError where no equilibrium is found, or the solids part before a pull "
+            "is reached.")
+        .def(
+            "free",
+            [](StaticPath& s) { return working([&] { return s.release(look_for_signals); }); },
+            "The state that the sites come to from where they are with nothing held but "
+            "drive.load: "
+            "a RestState.\n\n"
+            "From out of reach: the state that the segment \"zero-load\" of a run leads to. The "
+            "next "
+            "relax() begins\na path there. Raises PhysicsError if no state is found; the "
+            "sites then stay.")
+        .def("copy", &StaticPath::copy, "Where the sites stand: a State, for restore().")
+        .def("restore", &StaticPath::restore, py::arg("state"),
+             "Puts the sites where a State has them. The next relax() begins a path there: work, "
+             "dissipated and number\ncount from there.")
+        .def(
+            "maps", [](const StaticPath& s) { return working([&] { return s.maps(); }); },
+            "The SiteMaps of the sites there: gap, contact, pressure.")
+        .def_property_readonly("now", &StaticPath::now, "the Point of the last relax()")
+        .def_property(
+            "mean_height", [](const StaticPath& s) { return s.now().mean_height; },
+            &StaticPath::set_mean_height,
+            "mean height of the lowest layer above the substrate's zero, Å. Written: where the "
+            "next relax() leads it")
+        .def_property(
+            "top", [](const StaticPath& s) { return s.now().top; }, &StaticPath::set_top,
+            "displacement of the top plane since the start, Å. Written: where the next relax() "
+            "leads it")
+        .def_property_readonly(
+            "_case", // what a search needs of it, in the units of the engine
+            [](const StaticPath& s) {
+                const Case& c = s.scene_case();
+                const bool atoms = c.scene.surface.kind == SurfaceKind::atoms;
+                return py::dict("name"_a = c.scene.name, "scene"_a = scene_toml(c.scene, false),
+                                "area"_a = c.area(), "load"_a = c.simulation.drive.load_force,
+                                "step"_a = std::min(c.scene.drive.step, c.longest_step),
+                                "tension"_a = c.largest_tension * units::gigapascal,
+                                "modulus"_a = c.simulation.block.contact_modulus(),
+                                // Atoms anywhere can bind more than a flat layer does.
+                                "deepest"_a = atoms ? HUGE_VAL : c.flat.work_of_adhesion * 1e-3,
+                                "spacing"_a = c.scene.surface.spacing,
+                                "scale"_a = c.flat.work_of_adhesion,
+                                "lateral"_a = !c.scene.interface.frictionless &&
+                                              c.scene.interface.kind != InterfaceKind::wall);
+            })
+        .def("_load", py::overload_cast<double>(&StaticPath::set_load))
+        .def("_load", py::overload_cast<const std::string&>(&StaticPath::set_load));
+}
