@@ -43,7 +43,7 @@ made $gallery/small-fig6.png
 
 # States at zero load against both theories (half an hour of one core), spheres, and the readings of the work.
 data=docs/data
-./asperity sweep scenes/paper/fig2-equilibrium.toml --set theory.spectrum=realised --set drive.states=first \
+./asperity sweep scenes/paper/fig2-equilibrium.toml --set theory.spectrum=realised \
     --out $place/renormalised >$place/log.txt
 ./asperity sweep scenes/paper/fig5-equilibrium.toml --out $place/fig5-equilibrium >$place/log.txt
 for study in renormalised fig5-equilibrium; do cp $place/$study/sweep.csv $data/$study.csv; done

@@ -108,6 +108,7 @@ std::vector<Command> all_commands() {
         {"cost",
          "what accuracy costs in time: a scene with each of its numerical settings varied",
          {}},
+        {"states", "the stable states of a contact under its load", {}},
         {"report", "a run or a sweep as one self-contained HTML page", {}},
         {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}},
         {"convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names", {}},

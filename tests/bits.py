@@ -34,7 +34,6 @@ SCENES = {
     "path without time": REST,
     "mean height held": [*REST, "drive.hold=mean-height"],
     "wall": [*REST, "interface.kind=wall", "drive.hold=mean-height"],
-    "all states": [*SMALL, "drive.path=zero-load", "drive.states=all", "surface.rms=2"],
 }
 # Of the build, of the machine and of the clock, at any depth of result.json.
 NOT_COMPARED = {"version", "git", "compiler", "flags", "mpi", "hdf5", "fftw", "machine", "host", "date", "digest",

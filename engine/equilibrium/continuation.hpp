@@ -67,8 +67,6 @@ public:
     using Report = std::function<bool(long long, double)>;
     RelaxedState relax_at(double at, bool predicted, const Report& report,
                           const ForceWindow& window = {});
-    /// Towards the last point from where the block is: this fraction of the way.
-    void retreat(double fraction) { last_.extrapolate(-fraction, state_of(block_)); }
 
     /// Along z, with the coordinate there.
     Constraint constraint(double at) const {

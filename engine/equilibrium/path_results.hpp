@@ -45,32 +45,6 @@ struct ZeroLoad {
     }
 };
 
-/// The stable states under one load that a search has passed (state_search.hpp).
-struct StateList {
-    struct State {
-        ZeroLoad numbers;
-        /// Largest force on the way to the next state inwards, over the load and the area, eV/Å^3;
-        /// empty for the innermost.
-        std::optional<double> barrier;
-    };
-    /// Why the search ended: no area is left to attract, what is left cannot make a deeper state,
-    /// or no equilibrium was found further in.
-    enum class End { none, contact, energy, no_equilibrium };
-
-    std::vector<State> all; ///< from the outermost inwards
-    std::size_t first = 0;  ///< of these, the one that the search started in
-    double step = 0.0;      ///< of the mean height, Å
-    double innermost = HUGE_VAL;
-    long long points = 0, instabilities = 0;
-    End end = End::none;
-
-    const State& deepest() const {
-        return *std::max_element(all.begin(), all.end(), [](const State& a, const State& b) {
-            return a.numbers.binding_energy < b.numbers.binding_energy;
-        });
-    }
-};
-
 /// Energies of an approach or a pull-off that has ended, meV/Å^2. Works are positive where the
 /// solids attract: taken up on the way in, given on the way out.
 struct WayEnergies {
@@ -129,7 +103,6 @@ struct SegmentResults {
 
 struct PathResults {
     std::optional<ZeroLoad> zero_load;     ///< of the last approach, or of the path's start
-    std::optional<StateList> states;       ///< where all were asked for
     WayEnergies approach, pull_off;        ///< the last of each
     std::optional<double> lost_in_cycle;   ///< from out of reach to out of reach, meV/Å^2
     double attraction_in = 0.0;            ///< largest attraction of the last approach, eV/Å
@@ -176,7 +149,7 @@ struct PathResults {
         return r;
     }
 
-    /// For checkpoints; but the states and what was dissipated, which those who find them keep.
+    /// For checkpoints; but what was dissipated, which the path keeps.
     template <class Visitor>
     void visit(Visitor& v) {
         v("approach", approach);

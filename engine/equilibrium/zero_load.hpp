@@ -15,7 +15,8 @@
 namespace asperity {
 
 /// Where the block, undisplaced, feels the strongest attraction on its way down: the descent that
-/// starts there ends in the state that a slow approach reaches. Collective.
+/// starts there ends where a slow approach does, but for lateral forces on steep, soft surfaces.
+/// Collective.
 double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
                                       double lowest_atom);
 

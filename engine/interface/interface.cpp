@@ -240,28 +240,6 @@ double reach_of(const InterfaceOptions& options) {
 
 double Interface::start_height() const { return map_.highest() + reach_of(options_); }
 
-std::vector<double> Interface::heights_below() const {
-    const double cutoff = options_.pairs().cutoff;
-    std::vector<double> heights(static_cast<std::size_t>(tile_.nx) *
-                                static_cast<std::size_t>(tile_.ny));
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < tile_.ny; ++y)
-        for (int x = 0; x < tile_.nx; ++x) {
-            double highest = -1e30;
-            if (wall())
-                highest = wall()->height()(x, y);
-            else // the height at which the nearest atom is at the cutoff, less the cutoff
-                map_.around((tile_.x0 + x + 0.5) * spacing_, (tile_.y0 + y + 0.5) * spacing_,
-                            cutoff, [&](double lateral, double h) {
-                                const double above = std::sqrt(cutoff * cutoff - lateral * lateral);
-                                highest = std::max(highest, h + above - cutoff);
-                            });
-            heights[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile_.nx) +
-                    static_cast<std::size_t>(x)] = highest;
-        }
-    return heights;
-}
-
 double Interface::attraction_grows_down_to() const {
     if (!wall()) return start_height();
     return map_.highest() +

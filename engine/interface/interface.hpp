@@ -81,10 +81,6 @@ public:
     /// The reference height from which nothing is in reach of undisplaced sites: highest atom +
     /// reach_of().
     double start_height() const;
-    /// Heights that distances of the tile's undisplaced sites count from, Å, [y * nx + x]: of a
-    /// wall; over atoms such that a site that is z - height above it, within the cutoff, has no
-    /// atom closer than that. Not over atoms anywhere.
-    std::vector<double> heights_below() const;
     /// Down to this reference height the attraction of undisplaced sites only grows; the start
     /// height, where no better bound is known.
     double attraction_grows_down_to() const;

@@ -4,7 +4,6 @@
 // The segments of the path one after the other: "zero-load" is one relaxation with the top plane
 // free, the others are points of a quasi-static path, until the path says that it is there.
 #include "engine/equilibrium/quasistatic.hpp"
-#include "engine/equilibrium/state_search.hpp"
 #include "engine/equilibrium/zero_load.hpp"
 #include "engine/interface/flat_reference.hpp"
 #include "engine/run/guard.hpp"
@@ -30,8 +29,7 @@ public:
           interface_(run_.surface, run_.grid.tile(0), c.scene.surface.spacing,
                      c.simulation.interface),
           block_(c.simulation.block, ranks, c.scene.interface.frictionless),
-          path_(block_, interface_, path_options(c, interface_, report())),
-          search_(block_, interface_, search_options(c, block_, interface_, report())) {}
+          path_(block_, interface_, path_options(c, interface_, report())) {}
 
     int carry_out() {
         const auto work = [&] {
@@ -56,11 +54,6 @@ private:
 
     /// Straight to the relaxed state under the load. False where it was stopped.
     bool relax_free() {
-        if (!searching_ && !relax_first()) return false;
-        return scene_.drive.states == States::first || find_all_states();
-    }
-
-    bool relax_first() {
         if (!resumed_) {
             const double height =
                 height_of_strongest_attraction(block_, interface_, run_.surface.statistics.lowest);
@@ -72,23 +65,6 @@ private:
             run_.stop_now(state_writer(), position());
             return false;
         }
-        return true;
-    }
-
-    /// From the first state inwards. False where it was stopped.
-    bool find_all_states() {
-        if (!searching_) search_.start(*run_.results.zero_load);
-        searching_ = true;
-        resumed_ = false;
-        for (auto outcome = StateSearch::Outcome::point; outcome != StateSearch::Outcome::done;) {
-            if (run_.stop_here(state_writer(), position())) return false;
-            const auto t = run_.phases.time(Phase::relax);
-            outcome = search_.advance();
-            run_.results.states = search_.found();
-            if (outcome == StateSearch::Outcome::interrupted) return stop_at_last_point();
-        }
-        search_.restore_first();
-        searching_ = false;
         return true;
     }
 
@@ -226,10 +202,7 @@ private:
 
     bool points() const { return path_.now().observed; }
     std::string position() const {
-        return searching_ ? fmt::format("point {} of the search for states",
-                                        run_.results.states ? run_.results.states->points : 0)
-               : points() ? fmt::format("point {}", path_.now().step)
-                          : "an unfinished relaxation";
+        return points() ? fmt::format("point {}", path_.now().step) : "an unfinished relaxation";
     }
     /// Points and energies.
     void add_to(io::Result& result) const {
@@ -242,8 +215,7 @@ private:
             if (!run_.results.zero_load) return;
             const ZeroLoad& z = *run_.results.zero_load;
             const double area = case_.area() / units::milli_per_unit;
-            result.set("run.iterations",
-                       static_cast<long long>(z.iterations) + search_.iterations());
+            result.set("run.iterations", static_cast<long long>(z.iterations));
             result.set("energy.elastic", z.elastic * area);
             result.set("energy.interface", -z.pairwise * area);
         }
@@ -254,15 +226,13 @@ private:
     struct Place {
         double top;
         std::size_t segment;
-        bool at_end, on_path, searching, searched;
+        bool at_end, on_path;
         template <class Visitor>
         void visit(Visitor& v) {
             v("top", top);
             v("segment", segment);
             v("at_end", at_end);
             v("on_path", on_path);
-            v("searching", searching);
-            v("searched", searched);
         }
     };
     RunSession::WriteState state_writer() {
@@ -270,19 +240,15 @@ private:
     }
     void write_state(const io::FilePlace& file) {
         CollectNumbers collect;
-        Place place{block_.top(), segment_,   at_end_,
-                    points(),     searching_, run_.results.states && !searching_};
+        Place place{block_.top(), segment_, at_end_, points()};
         collect("place", place);
         if (place.on_path) collect("path", path_);
-        if (place.searching || place.searched) collect("search", search_);
         run_.collect(collect);
         write_checkpoint(file, run_.ranks, run_.grid, arrays(place), collect.numbers,
                          run_.fingerprint());
     }
     std::vector<StateArray> arrays(const Place& place) {
-        std::vector<StateArray> list = place.on_path     ? path_.states()
-                                       : place.searching ? search_.states()
-                                                         : state_of(block_);
+        std::vector<StateArray> list = place.on_path ? path_.states() : state_of(block_);
         for (const StateArray& array : run_.maps.arrays())
             list.push_back(array);
         return list;
@@ -303,16 +269,7 @@ private:
             path_.resume();
             run_.results.dissipated = path_.dissipation();
         }
-        if (place.searching || place.searched) {
-            restore("search", search_);
-            run_.results.states = search_.found();
-        }
-        if (place.searching) {
-            search_.resume();
-            searching_ = true;
-        } else if (!place.on_path) {
-            block_.apply_constraint(Constraint::top(place.top));
-        }
+        if (!place.on_path) block_.apply_constraint(Constraint::top(place.top));
         run_.restore(restore);
         resumed_ = true;
         run_.progress.say(fmt::format("going on from {} of {}", position(), from->path()));
@@ -323,9 +280,7 @@ private:
     std::function<bool(long long, double)> report() {
         return [this](long long iteration, double) {
             if (run_.progress.due()) {
-                io::Progress::State now =
-                    searching_ ? io::Progress::State{position(), search_.iterations()}
-                               : path_progress();
+                io::Progress::State now = path_progress();
                 now.phase += ", relaxing";
                 now.steps += iteration;
                 run_.progress.update(now);
@@ -340,11 +295,9 @@ private:
     Interface interface_;
     SpectralBlock block_;
     QuasistaticPath path_;
-    StateSearch search_;
     std::size_t segment_ = 0; ///< number of the one under way
     bool at_end_ = false;     ///< it has come to its end and is to be concluded
     bool resumed_ = false;    ///< it goes on from a checkpoint
-    bool searching_ = false;  ///< for all states, the first being found
 };
 
 } // namespace

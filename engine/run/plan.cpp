@@ -216,11 +216,7 @@ void print_plan(std::FILE* to, const Case& c, const Plan& plan) {
     if (c.on(Effect::relaxation))
         line("relaxation", plan.state,
              fmt::format("{}{} iterations{}", plan.state_ended ? "about " : "more than ",
-                         plan.iterations,
-                         plan.typical           ? " (typical of a path)"
-                         : c.on(Effect::states) ? " of the first state; the search for all takes "
-                                                  "many times as long"
-                                                : ""));
+                         plan.iterations, plan.typical ? " (typical of a path)" : ""));
     if (c.on(Effect::maps)) line("maps", plan.maps, "while nothing is relaxed");
     if (c.on(Effect::checkpoints)) line("checkpoints", plan.checkpoints, "");
     table.rule();

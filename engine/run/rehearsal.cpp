@@ -3,7 +3,6 @@
 #include "engine/run/rehearsal.hpp"
 
 #include "engine/equilibrium/quasistatic.hpp"
-#include "engine/equilibrium/state_search.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "engine/run/memory_meter.hpp"
 #include "engine/run/recorder.hpp"
@@ -292,7 +291,6 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
         find_height();
         const double start = interface->start_height();
         std::optional<QuasistaticPath> path;
-        std::optional<StateSearch> search;
         const auto keep_points = [&](const auto& work) {
             try {
                 part(Part::snapshots, work);
@@ -312,11 +310,6 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
                                       piece, stop);
             });
         });
-        if (piece.on(Effect::states))
-            part(Part::snapshots, [&] { // its copies of the block are all that it keeps
-                search.emplace(*waves, *interface, search_options(piece, *waves, *interface));
-                search->states();
-            });
         record_maps(waves->lowest_layer());
         return done;
     }

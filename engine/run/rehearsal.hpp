@@ -28,7 +28,7 @@ public:
     /// On this rank alone. surface: of a case whose surface is read from a file, else not needed.
     Rehearsal(const Case& c, Kind kind, const Surface* surface = nullptr);
 
-    /// Parts of a run. Snapshots: of the energy guard, or the points that a path or a search goes
+    /// Parts of a run. Snapshots: of the energy guard, or the points that a path goes
     /// back to. State: a relaxation. Maps: while one state's are written.
     enum class Part { surface, interface, block, snapshots, state, maps, count };
     static constexpr std::size_t parts = static_cast<std::size_t>(Part::count);

@@ -134,49 +134,7 @@ void add_effects(const Effects& effects, io::Result& result) {
     }
 }
 
-void add_states(const StateList& states, io::Result& result) {
-    /// Puts a state's value under the first key as a member, or under the second as an element.
-    const auto add = [&](const StateList::State& state, const auto& put) {
-        const ZeroLoad& z = state.numbers;
-        put("states.*.binding_energy", "states.all[].binding_energy", z.binding_energy);
-        put("states.*.contact_fraction", "states.all[].contact_fraction", z.contact_fraction);
-        put("states.*.repulsive_fraction", "states.all[].repulsive_fraction", z.repulsive_fraction);
-        put("states.*.mean_height", "states.all[].mean_height", z.mean_height);
-        put("states.*.elastic_energy", "states.all[].elastic_energy", z.elastic);
-        put("states.*.barrier", "states.all[].barrier",
-            state.barrier ? *state.barrier / units::megapascal : std::nan("")); // written as null
-    };
-    const auto add_named = [&](const char* name, const StateList::State& state) {
-        add(state, [&](io::Key named, io::Key, double value) { result.set(named, name, value); });
-    };
-    add_named("first", states.all[states.first]);
-    add_named("deepest", states.deepest());
-    for (std::size_t i = 0; i < states.all.size(); ++i)
-        add(states.all[i],
-            [&](io::Key, io::Key listed, double value) { result.set(listed, i, value); });
-    result.set("states.search.step", states.step);
-    result.set("states.search.points", states.points);
-    result.set("states.search.instabilities", states.instabilities);
-    result.set("states.search.innermost", states.innermost);
-    result.set("states.search.ended",
-               states.end == StateList::End::contact          ? "no area left to attract"
-               : states.end == StateList::End::energy         ? "no deeper state further in"
-               : states.end == StateList::End::no_equilibrium ? "no equilibrium"
-                                                              : "stopped");
-    result.set("states.search.may_miss", states_missed(states));
-}
-
 } // namespace
-
-std::string states_missed(const StateList& states) {
-    return fmt::format(
-        "states whose force crosses the load and back within one step ({:.4g} Å of "
-        "the mean height near a crossing), branches that no instability of the path leads to, as "
-        "far in as it went, or whose instability lost little, "
-        "states further in than the search went that are not the deepest, and states that pressing "
-        "the solids together does not lead to",
-        states.step);
-}
 
 io::Result scene_result(const Scene& scene) {
     io::Result result;
@@ -199,7 +157,6 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     add_path(results, c.scene.surface.radius, result);
     if (results.zero_load) add_zero_load(*results.zero_load, result);
     if (!results.segments.empty()) add_segments(results, c, result);
-    if (results.states) add_states(*results.states, result);
     if (results.dissipated) add_dissipation(results, c, result);
     add_theory(c, surface, result);
     add_sphere(c, result);

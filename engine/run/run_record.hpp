@@ -21,9 +21,6 @@ io::Result surface_result(const Case& c, const Surface& surface);
 /// results, theory, ranks and threads.
 io::Result run_result(const Case& c, const Surface& surface, const PathResults& results);
 
-/// What the search for all states at zero load may have missed, in words.
-std::string states_missed(const StateList& states);
-
 /// Energies of the last observed step or point.
 void add_energies(const StepRecord& now, io::Result& result);
 void add_phases(const Phases& phases, io::Result& result);

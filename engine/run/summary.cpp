@@ -122,32 +122,6 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     table.print(to);
 }
 
-/// All states at zero load.
-void print_states(std::FILE* to, const StateList& states) {
-    const ZeroLoad& deepest = states.deepest().numbers;
-    fmt::print(to, "  {} stable state{} passed inwards down to a mean height of {:.2f} Å{}\n",
-               states.all.size(), states.all.size() == 1 ? "" : "s", states.innermost,
-               states.all.size() == 1 ? "." : ":");
-    if (states.all.size() > 1) {
-        for (const StateList::State& state : states.all) {
-            const ZeroLoad& z = state.numbers;
-            fmt::print(to, "    {:8.3f} meV/Å² at {:.2f} Å, contact {:.4f}", z.binding_energy,
-                       z.mean_height, z.contact_fraction);
-            if (state.barrier)
-                fmt::print(to, "; {:.3g} MPa to the next", *state.barrier / units::megapascal);
-            fmt::print(to, "\n");
-        }
-        fmt::print(to,
-                   "  A slow approach ends in the {}. The binding energy of the pair of "
-                   "surfaces is the deepest's,\n  {:.3f} meV/Å².\n",
-                   states.first == 0 ? "first"
-                                     : fmt::format("one at {:.2f} Å",
-                                                   states.all[states.first].numbers.mean_height),
-                   deepest.binding_energy);
-    }
-    fmt::print(to, "  May be missed: {}.\n", states_missed(states));
-}
-
 } // namespace
 
 void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,
@@ -257,7 +231,6 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         fmt::print(to,
                    "  At finite strain no state at zero load is given: states are sums of waves, "
                    "which do not add up.\n");
-    if (results.states) print_states(to, *results.states);
     if (drive_in && drive_out) print_cycle(to, c, of, flat);
     if (const Number residual = of("energy.balance_error"))
         fmt::print(to,

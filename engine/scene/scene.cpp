@@ -212,13 +212,10 @@ io::Schema bind(Scene& scene) {
                         {{"top", Hold::top}, {"mean-height", Hold::mean_height}},
                         "what is moved from point to point (quasistatic): the top plane, or the "
                         "lowest layer's mean height, at which no block snaps as a whole");
-    schema.choice<States>("states", drive.states, {{"first", States::first}, {"all", States::all}},
-                          "of path = [\"zero-load\"]: the state that a slow approach ends in, or "
-                          "all that a path at a prescribed mean height passes from there inwards");
-    schema.number(
-        "step", drive.step, "Å", positive(),
-        "largest displacement of what is held per point (quasistatic); the search for all "
-        "states starts with it and takes up to four times that");
+    schema.removed({"drive.states", "", "a run reports one state at zero load",
+                    "leave it out; `asperity states SCENE` searches for further states"});
+    schema.number("step", drive.step, "Å", positive(),
+                  "largest displacement of what is held per point (quasistatic)");
     schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet");
     schema.number("damping", drive.damping, "1/ps", at_least(0.0),
                   "rate Γ of the force -m Γ v, v relative to the top plane");

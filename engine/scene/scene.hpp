@@ -35,7 +35,6 @@ enum class InterfaceKind { atoms, wall };
 enum class WallLawKind { smeared, exponential };
 enum class DriveMode { dynamic, quasistatic };
 enum class Hold { top, mean_height };
-enum class States { first, all };
 using theory::AreaFactor;
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
@@ -108,7 +107,6 @@ struct Scene {
         double velocity = 5.0;                                    ///< m/s
         double step = 0.25;                                       ///< Å
         Hold hold = Hold::top;                                    ///< of a quasi-static path
-        States states = States::first;                            ///< to be found at zero load
         double timestep = 10.0;                                   ///< fs
         double damping = 0.05;                                    ///< 1/ps
         double damping_from = 0.0;  ///< fraction of the thickness above which damping acts

@@ -360,8 +360,6 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     };
     if (c.path.size() == 1 && c.starts_with(Segment::zero_load))
         idle("drive.hold", "drive.path relaxes with nothing held");
-    if (!c.has(Segment::zero_load))
-        idle("drive.states", "drive.path does not start at \"zero-load\"");
     if (!c.in_time)
         for (const char* key :
              {"drive.temperature", "drive.seed", "drive.velocity", "drive.timestep",

@@ -126,11 +126,6 @@ constexpr std::array<Rule, effect_count> rules = {{
                                        : Switch{false, "surface.radius = \"none\""};
      }},
     {Effect::relaxation, "relaxation", relaxation},
-    {Effect::states, "all states",
-     [](const Case& c) {
-         const bool all = c.scene.drive.states == States::all && c.has(Segment::zero_load);
-         return Switch{all, fmt::format("drive.states = \"{}\"", all ? "all" : "first")};
-     }},
     {Effect::observation, "energies and contact", observation},
     {Effect::maps, "maps", maps},
     {Effect::trajectory, "trajectory",

@@ -30,7 +30,6 @@ enum class Effect {
     tail,          ///< continuum correction beyond the cutoff
     curvature,     ///< a spherical cap under the roughness
     relaxation,    ///< states of equilibrium
-    states,        ///< all of them at zero load, not the first alone
     observation,   ///< energies, contacts and the energy balance: a row of the series
     maps,          ///< of the states that the scene asks for
     trajectory,    ///< frames of the lowest layer

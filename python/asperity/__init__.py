@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .engine import Simulation as Simulation
     from .engine import Statics as Statics
     from .forms import Result, Sweep, load, load_sweep, run, sweep
+    from .state_search import states as states
 
 __all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "SceneWarning",
            "Stopped", "Sweep", "load", "load_sweep", "run", "sweep"]
@@ -38,4 +39,6 @@ def __getattr__(name: str):
         return getattr(importlib.import_module(".forms", __name__), name)
     if name in ("Simulation", "Statics"):
         return getattr(importlib.import_module(".engine", __name__), name)
+    if name == "states":
+        return importlib.import_module(".state_search", __name__).states
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """The command line: `python3 -m asperity` is `asperity`.
 
-sweep, cost, report, export and convert are carried out here; the program hands them over. Every other command is
-handed to the program.
+sweep, cost, states, report, export and convert are carried out here; the program hands them over. Every other
+command is handed to the program.
 """
 
 from __future__ import annotations
@@ -75,6 +75,12 @@ def _parser() -> argparse.ArgumentParser:
     cost.add_argument("--target", metavar="ERROR",
                       help="find the cheapest numerical settings that keep this error: 1%%, 0.01")
     cost.add_argument("--parameters", default="", metavar="NAMES", help="only these: timestep,cutoff,layers,...")
+    states = add("states", "the stable states of a contact under its load",
+                 "A path at a held mean height goes inwards and back; the states are told with the pressures between\n"
+                 "them. The same command goes on where it was stopped.")
+    scene(states, "results/<scene>-states")
+    states.add_argument("--starts", type=_many, default=3, metavar="N",
+                        help="states from so many random lateral displacements")
     report = add("report", "a run or a sweep as one self-contained HTML page")
     report.add_argument("directory", metavar="DIR", help="the result directory")
     export = add("export", "maps and trajectory of a run for OVITO, ParaView, or as PNG")
@@ -114,6 +120,14 @@ def _scenes(given: argparse.Namespace) -> list[str]:
     return found
 
 
+def _one_scene(given: argparse.Namespace) -> str:
+    scenes = _scenes(given)
+    if len(scenes) > 1:
+        raise SceneError("command line", "more than one scene is given", f"{scenes[0]} and {scenes[1]}",
+                         f"for example: asperity {given.command} scenes/first-contact.toml")
+    return scenes[0]
+
+
 def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "report":
         from .report_sweep import write_page
@@ -130,16 +144,17 @@ def _carry_out(given: argparse.Namespace) -> int:
 
         print(convert(given.source, given.target, given.channel))
         return 0
+    if given.command == "states":
+        from .state_search import states_command
+
+        return states_command(_one_scene(given), given.sets, given.out, given.starts, given.progress)
     from .pool import PoolOptions, executor_of
     from .commands import cost_command, sweep_command
     from .terminal import Progress, parse_duration
 
     Progress(given.progress)  # refuses what is no mode before anything is done
-    scenes = _scenes(given)
     cost = given.command == "cost"
-    if cost and len(scenes) > 1:
-        raise SceneError("command line", "more than one scene is given", f"{scenes[0]} and {scenes[1]}",
-                         "for example: asperity cost scenes/cost/small.toml")
+    scenes = [_one_scene(given)] if cost else _scenes(given)
     options = PoolOptions(given.jobs, 1 if cost else 0, progress=given.progress)
     if not cost:
         options.launch = given.launch.split()

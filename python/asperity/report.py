@@ -18,7 +18,7 @@ from .result import Result, State, Values
 from .units import shown
 
 MOST_STATES = 6
-OF_AREA = ("binding_energy", "work_of_adhesion", "work_of_drive", "lost", "states", "zero_load")
+OF_AREA = ("binding_energy", "work_of_adhesion", "work_of_drive", "lost", "zero_load")
 """Energies over the nominal area, which says nothing of a sphere."""
 
 FIGURES = {
@@ -26,8 +26,6 @@ FIGURES = {
         ("separation", "Force and separation", "{path}"),
         ("contact", "Contact over the path",
          "{contact} (in contact), and sites whose net normal force is repulsive."))),
-    "states": ("States {at}", (
-        ("states", "Energy of every state", "Binding energy of the states {at} over their mean height."),)),
     "surface": ("Surface and theory", (
         ("height", "Height of the substrate", "The substrate from above. The colour bar spans 99\u00a0% of it."),
         ("spectrum", "Roughness spectrum",
@@ -59,9 +57,6 @@ DISTRIBUTIONS = (
     ("pressures", "Distribution of pressure", "How the interface’s pressure is distributed over the sites that feel "
      "any: the left wing is attractive, the right one repulsive. Per site of the box."),
     ("gaps", "Distribution of gaps", "Distribution of the gaps of all sites, normalised to one."))
-STATE_COLUMNS = {"": "state", "binding_energy": "binding energy, meV/Å²", "contact_fraction": "contact",
-                 "repulsive_fraction": "repulsive", "mean_height": "mean height, Å",
-                 "elastic_energy": "elastic energy, meV/Å²", "barrier": "barrier to the next, MPa"}
 SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive, meV/Å²", "lost": "lost, meV/Å²",
                    "pressure": "ends at, MPa", "mean_height": "mean height, Å", "contact_fraction": "contact",
                    "friction": "friction, eV/Å"}
@@ -121,8 +116,6 @@ def _states(page: Page, run: Result) -> None:
         _state(page, run, states[i * (n - 1) // (few - 1) if few > 1 else i])
     if few < n:
         page.add("paragraph", f"{few} of the {n} states in run.h5 are shown; `asperity export` writes them all.")
-    _figures("states", page, run)
-    _table(page, STATE_COLUMNS, run.listed("states.all", dict), 6)
 
 
 def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) -> None:

@@ -22,7 +22,7 @@ RENAMED_BACK = {column: path for path, column in RENAMED.items()}
 OVER_FLAT = ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off", "work_of_drive.approach",
              "work_of_drive.pull_off", "lost.cycle", "work_of_adhesion.pairwise",
              "jkr.in", "jkr.out", "jkr.in_averaged", "jkr.out_averaged", "jkr.zero_load", "sphere.maugis_images",
-             "sphere.renormalised", "states.first.binding_energy", "states.deepest.binding_energy")
+             "sphere.renormalised")
 """Energies of a result that also have a column of their ratio to the flat reference."""
 FIRST = ("delta_gamma", "binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off",
          "work_of_drive.approach", "work_of_drive.pull_off", "lost.approach", "lost.pull_off", "lost.cycle",
@@ -35,7 +35,7 @@ THEORY_FIRST = ("delta_gamma", "gamma_eff", "gamma_eff_ratio", "contact_fraction
                 "gamma_full_contact_ratio", "theta", "gamma_eff_ratio_error", "contact_fraction_error")
 OF_AREA = ("binding_energy_ratio", "work_of_adhesion.approach_ratio", "work_of_adhesion.pull_off_ratio",
            "work_of_drive.approach_ratio", "work_of_drive.pull_off_ratio", "lost.cycle_ratio",
-           "work_of_adhesion.pairwise_ratio", "states.deepest.binding_energy_ratio", "contact_fraction",
+           "work_of_adhesion.pairwise_ratio", "contact_fraction",
            "zero_load.mean_height")
 """Columns over the nominal area, which means nothing for a sphere."""
 
@@ -53,8 +53,6 @@ def columns_of(result: Values) -> dict[str, float]:
     """The numbers of a result.json that a table holds, by column."""
     flat = result.number("delta_gamma")
     found: dict[str, float] = {}
-    if isinstance(states := result.find("states.all"), list):
-        found["states.count"] = len(states)
     for path, value in result.numbers().items():
         if path.split(".")[0] in ("scene", "units", "failure", "theory", "run") and path != "run.wall_seconds":
             continue

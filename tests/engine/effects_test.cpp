@@ -70,7 +70,7 @@ TEST(Effects, ThePlainestSceneSwitchesEverythingElseOff) {
                       "output.fields=[]", "output.checkpoint=0"});
     for (Effect off : {Effect::damping, Effect::temperature, Effect::finite_strain,
                        Effect::coarse_levels, Effect::tail, Effect::curvature, Effect::maps,
-                       Effect::trajectory, Effect::checkpoints, Effect::states, Effect::device})
+                       Effect::trajectory, Effect::checkpoints, Effect::device})
         EXPECT_FALSE(effects.on(off)) << name(off);
     for (Effect on :
          {Effect::inertia, Effect::lateral, Effect::skipping, Effect::observation, Effect::theory})
@@ -131,7 +131,6 @@ TEST(Effects, EachHasAKeyThatSwitchesIt) {
         EXPECT_FALSE(timeless.on(off)) << name(off);
     EXPECT_FALSE(
         effects_with({"drive.path=zero-load", "interface.frictionless=true"}).on(Effect::lateral));
-    EXPECT_TRUE(effects_with({"drive.path=zero-load", "drive.states=all"}).on(Effect::states));
     // Waves of finite strain do not add up: no state is relaxed.
     EXPECT_FALSE(effects_with({"block.strain=finite"}).on(Effect::relaxation));
     EXPECT_TRUE(effects_with({}).on(Effect::relaxation));

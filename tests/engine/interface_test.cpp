@@ -318,25 +318,6 @@ TEST(InterfaceMaps, TheGapIsBilinearBetweenTheAtomsBelow) {
         }
 }
 
-TEST(InterfaceMaps, HeightsBelowAreThoseAtWhichTheNearestAtomIsAtTheCutoff) {
-    const int n = 16;
-    for (const Surface& surface : {scattered(13, n * a, 0.5, 6), test::self_affine(n, 1.0, 7)}) {
-        const Tile tile{3, 5, 9, 7, n};
-        const Interface interface(surface, tile, a, {});
-        const std::vector<double> below = interface.heights_below();
-        const double cutoff = interface.options().pairs().cutoff;
-        VectorField<double> u(tile, 1);
-        for (int y = 0; y < tile.ny; ++y)
-            for (int x = 0; x < tile.nx; ++x) {
-                const std::size_t at =
-                    static_cast<std::size_t>(y) * 9 + static_cast<std::size_t>(x);
-                const double z = below[at] + cutoff;
-                EXPECT_TRUE(std::isinf(interface.maps(u.plane(0), z + 1e-6).distance[at]));
-                EXPECT_NEAR(interface.maps(u.plane(0), z - 1e-6).distance[at], cutoff, 1e-5);
-            }
-    }
-}
-
 TEST(InterfaceTail, RepulsiveSitesAreCountedWithTheTail) {
     // The tail attracts: with it fewer sites are repelled, and the count is that of the forces.
     InterfaceOptions options;

@@ -258,19 +258,3 @@ TEST(Results, AStateIsTheOneBelowTheStrongestAttraction) {
     EXPECT_NEAR(json.at("binding_energy").get<double>(), alone.binding_energy,
                 1e-9 * alone.binding_energy);
 }
-
-TEST(Results, TheFirstOfSeveralStatesIsWhereTheSearchStarted) {
-    const Case c = read_case_text("[surface]\nsites = 16\nrms = 0\n[block]\nthickness = 8\n"
-                                  "[drive]\npath = [\"zero-load\"]\nstates = \"all\"\n",
-                                  "s.toml");
-    PathResults results;
-    StateList& states = results.states.emplace();
-    for (const double energy : {1.0, 2.0, 3.0}) {
-        states.all.emplace_back();
-        states.all.back().numbers.binding_energy = energy;
-    }
-    states.first = 1;
-    const Json json = run_result(c, surface_of(c), results).json();
-    EXPECT_EQ(json.at("states").at("first").at("binding_energy"), 2.0);
-    EXPECT_EQ(json.at("states").at("deepest").at("binding_energy"), 3.0);
-}

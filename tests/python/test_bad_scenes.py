@@ -25,6 +25,9 @@ BAD = {
     "a key that is gone": (
         '[numerics]\naccuracy = "1%"',
         ["scene.toml:2:1: numerics.accuracy is not a key any more", "asperity cost SCENE --target 1%"]),
+    "a search for states": (
+        '[drive]\npath = ["zero-load"]\nstates = "all"',
+        ["scene.toml:3:1: drive.states is not a key any more", "`asperity states SCENE` searches for further states"]),
     "absorbing seams": (
         '[block]\nseams = "absorb"',
         ["scene.toml:2:1: block.seams is not a key any more", "leave it out; drive.damping with drive.damping_from"]),

@@ -14,7 +14,7 @@ ORDER = """errors units terminal
     pool runs tables sweeps cost_parameters cost
     plots.__init__ plots.style plots.run plots.sweep
     page sentences report report_cost report_sweep export commands
-    forms engine __init__ __main__""".split()
+    forms engine state_search __init__ __main__""".split()
 PLACE = {name: place for place, name in enumerate(ORDER)}
 
 

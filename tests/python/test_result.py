@@ -220,8 +220,7 @@ def test_a_huge_array_is_not_read(path_run, tmp_path):
         damaged(path_run, tmp_path, change).substrate.height
 
 
-@pytest.mark.parametrize("effects", [[], ["interface.frictionless=true"], ["drive.states=all"],
-                                     ["block.model=multiscale", "numerics.precision=mixed"]])
+@pytest.mark.parametrize("effects", [[], ["interface.frictionless=true"], ["block.model=multiscale", "numerics.precision=mixed"]])
 def test_a_run_takes_the_memory_that_its_plan_says(results, effects):
     keys = ["surface.rms=4", "drive.path=zero-load", "drive.tolerance=0.3", *effects]
 

@@ -1,23 +1,24 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""All states of a contact as a user meets them: in result.json and in the summary, the same after stops, and told apart
-by a load: under less than the barrier a relaxation stays near the first, under more it ends in the second."""
+"""The states of a contact as a user meets them: told apart by the work between them and by a load, the same after a
+stop, and where lateral forces make more of them than a path leads to."""
 
-import os
-import subprocess
+import json
 from pathlib import Path
 
 import pytest
 from conftest import command, started, wait_for
 
 import asperity
+import asperity.state_search
 
 SCENE = """surface = { sites = 64, rms = 4, seed = 2 }
 block = { thickness = 64 }
 interface = { frictionless = true }
-drive = { path = ["zero-load"], states = "all" }
+drive = { path = ["zero-load"] }
 theory = { renormalised = false }
 """
+AREA = (64 * 2.6)**2
 RUN = ["run", "hill.toml", "--progress", "off", "--out"]
 
 
@@ -25,8 +26,12 @@ RUN = ["run", "hill.toml", "--progress", "off", "--out"]
 def whole(tmp_path_factory):
     work = tmp_path_factory.mktemp("whole")
     (work / "hill.toml").write_text(SCENE)
-    command(*RUN, "whole", cwd=work, says=["2 stable states", "May be missed"])
-    return asperity.load(work / "whole")
+    said = command("states", "hill.toml", cwd=work, says=["to the next, MPa", "run, approach", "May be missed: "])
+    found = json.loads((work / "results/hill-states/states.json").read_text())
+    assert f"The deepest binds {found['states'][1]['binding_energy']:.4g} meV/Å²" in said
+    assert not list(work.glob("results/*/*.npz"))
+    command("states", "hill.toml", cwd=work, expect=2, says="already holds a result")
+    return found
 
 
 @pytest.fixture()
@@ -35,60 +40,108 @@ def place(place):
     return place
 
 
-def test_two_states(whole):
-    states = whole.states
-    assert len(states.all) == 2 and states.search.ended == "no area left to attract"
-    assert states.first.binding_energy == whole.binding_energy < states.deepest.binding_energy / 2
+def test_two_states_and_the_work_between_them(whole, place):
+    first, deeper = whole["states"]
+    assert whole["deepest"] == 1 and first["found"] == ["run", "approach"] and whole["approach_less_run"] == 0.0
+    assert first["binding_energy"] == asperity.run("hill.toml").binding_energy < deeper["binding_energy"] / 2
+    # A path from the one to the other: no force at both ends, between them the work and the barrier.
+    statics = asperity.Statics("hill.toml", {"drive.hold": "mean-height"})
+    statics.free()
+    largest, work, z = 0.0, 0.0, first["mean_height"]
+    while z > deeper["mean_height"]:
+        z = max(z - 0.1, deeper["mean_height"])
+        statics.mean_height = z
+        point = statics.relax()
+        largest, work = max(largest, point.force), point.work
+    assert abs(point.force) < 1e-2 * largest and point.dissipated == 0.0
+    assert -1000 * work / AREA == pytest.approx(deeper["binding_energy"] - first["binding_energy"], abs=1e-3)
+    assert first["barrier"] == pytest.approx(largest / AREA * 160217.66, rel=0.01) and deeper["barrier"] is None
 
 
-def test_a_search_that_is_stopped_again_and_again(place, whole):
-    """A first relaxation that was stopped ends at another place within the tolerance; the search resumes to the bit."""
-    command(*RUN, "parts", "--wall-limit", "0.01s", expect=75)
-    words = [os.environ["ASPERITY_PROGRAM"], *RUN, "parts", "--resume", "auto", "--wall-limit", "0.08s"]
-    for _ in range(8):
-        if (code := subprocess.run(words, capture_output=True).returncode) != 75:
-            break
-    if code == 75:
-        command(*RUN, "parts", "--resume", "auto")
-    parts = asperity.load("parts").states
-    for one, other in zip(parts.all, whole.states.all, strict=True):
+def test_a_load_tells_states_apart(whole, place):
+    """In MPa."""
+    barrier, heights = whole["states"][0]["barrier"], {}
+    for factor in (0.8, 1.2):
+        heights[factor] = asperity.Statics("hill.toml", {"drive.load": factor * barrier}).free().mean_height
+    assert heights[0.8] > sum(state["mean_height"] for state in whole["states"]) / 2 > heights[1.2]
+    found = asperity.states("hill.toml", {"drive.load": 0.5 * barrier})["states"]  # the load is part of the way
+    assert len(found) == 2 and found[0]["barrier"] == pytest.approx(0.5 * barrier, rel=0.02)
+
+
+def test_a_search_that_is_stopped_again_and_again(whole, place, monkeypatch):
+    monkeypatch.setattr(asperity.state_search, "SAVE_EVERY", 0.0)
+
+    def until(number):
+        def stop(text):
+            told.append(text)
+            if len(told) == number:
+                raise KeyboardInterrupt
+
+        told = []
+        return stop
+
+    for number in (1, 30, 25):
+        with pytest.raises(KeyboardInterrupt):
+            asperity.states("hill.toml", out="parts", report=until(number))
+    assert [path.name for path in Path("parts").iterdir()] == ["states-unfinished.npz"]
+    with pytest.raises(asperity.SceneError, match="another scene"):
+        asperity.states("hill.toml", {"surface.seed": 3}, out="parts")
+    parts = asperity.states("hill.toml", out="parts")
+    assert parts["points"] == whole["points"]
+    for one, other in zip(parts["states"], whole["states"], strict=True):
         for key in ("binding_energy", "mean_height", "contact_fraction"):
             assert one[key] == pytest.approx(other[key], abs=1e-3)
-    assert parts.search.points == whole.states.search.points
+    assert [path.name for path in Path("parts").iterdir()] == ["states.json"]
+    Path("broken").mkdir()
+    Path("broken/states-unfinished.npz").write_bytes(b"PK no such file")
+    with pytest.raises(asperity.SceneError, match="cannot be read"):
+        asperity.states("hill.toml", out="broken")
 
 
-def test_states_stay_known_on_the_path_that_follows(place, whole):
-    """Also over a stop."""
-    sets = ["--set", "drive.mode=quasistatic", 'drive.path=["zero-load", "pull-off"]']
-    command(*RUN, "apart", *sets, "drive.max_steps=3")
-    command(*RUN, "apart", "--resume", "auto", *sets)
-    states = asperity.load("apart").states
-    assert len(states.all) == 2
-    assert states.deepest.binding_energy == pytest.approx(whole.states.deepest.binding_energy, abs=1e-3)
+def test_lateral_forces_on_a_soft_steep_surface(place):
+    """An approach, a run, a press and random displacements end in states of their own, and none is called complete."""
+    Path("soft.toml").write_text("surface = { sites = 16, rms = 4, seed = 2, rolloff = 1 }\n"
+                                 "block = { young = 8, thickness = 16 }\ndrive = { path = [\"zero-load\"] }\n"
+                                 "theory = { renormalised = false }\n")
+    said = command("states", "soft.toml", says=["meV/Å² relative to that of a run", "random starts led to"])
+    found = json.loads(Path("results/soft-states/states.json").read_text())
+    by = {name: state for state in found["states"] for name in state["found"]}
+    assert by["run"]["binding_energy"] == pytest.approx(asperity.run("soft.toml").binding_energy, abs=1e-9)
+    assert found["approach_less_run"] == by["approach"]["binding_energy"] - by["run"]["binding_energy"]
+    assert abs(found["approach_less_run"]) > 0.1 and f"{found['approach_less_run']:+.3g} meV/Å²" in said
+    pressed = found["states"][-1]
+    assert pressed["found"] == ["outwards"] and pressed["binding_energy"] > by["run"]["binding_energy"] + 0.2
+    assert by["random start"]["binding_energy"] > by["run"]["binding_energy"] + 0.2
+    assert by["approach"]["barrier"] > 21.6  # MPa; a path of its own found this at least
+    assert found["pressed_to"] == pytest.approx(0.125 * 8000 / (1 - 0.42**2), rel=1e-3)
+    # Each is a state: set free from a little beside it the sites come back.
+    statics = asperity.Statics("soft.toml", {"drive.tolerance": 1e-6})
+    rest = statics.free()
+    there = statics.copy()
+    there.u[...] += 1e-3
+    statics.restore(there)
+    assert statics.free().binding_energy == pytest.approx(rest.binding_energy, abs=1e-6)
 
 
 def test_a_checkpoint_while_a_relaxation_goes_on(place):
     """It survives a kill."""
-    words = [*RUN, "killed", "--set", "surface.sites=256", "block.thickness=256", "drive.states=first",
-             "drive.tolerance=1e-13", "output.checkpoint=0.1s"]
+    words = [*RUN, "killed", "--set", "surface.sites=256", "block.thickness=256", "drive.tolerance=1e-13",
+             "output.checkpoint=0.1s"]
     with started(*words):
         wait_for(Path("killed/checkpoint.h5").exists)
     assert Path("killed/checkpoint.h5").exists()
 
 
-def test_a_load_tells_states_apart(place, whole):
-    """In MPa."""
-    heights = {}
-    for factor in (0.8, 1.2):
-        load = factor * whole.states.first.barrier
-        command(*RUN, f"load-{factor}", "--set", "drive.states=first", f"drive.load={load}")
-        heights[factor] = asperity.load(f"load-{factor}").zero_load.mean_height
-    assert heights[0.8] > sum(state["mean_height"] for state in whole.states.all) / 2 > heights[1.2]
-
-
 def test_jkr_is_of_a_state_without_load(place):
     for load in (0, 20):
-        command(*RUN, f"sphere-{load}", "--set", "surface.kind=flat", "surface.radius=500", "drive.states=first",
-                f"drive.load={load}")
+        command(*RUN, f"sphere-{load}", "--set", "surface.kind=flat", "surface.radius=500", f"drive.load={load}")
         assert (asperity.load(f"sphere-{load}").find("jkr.zero_load") is not None) == (load == 0)
-    command("check", "hill.toml", "--set", 'drive.path=["approach"]', "drive.mode=quasistatic", says="drive.states")
+
+
+@pytest.mark.parametrize("words, says", [
+    (["hill.toml", "--starts", "0"], "0 is no number from 1"), (["hill.toml", "hill.toml"], "more than one scene"),
+    (["nothing.toml"], "there is no such file"), (["hill.toml", "--out", "hill.toml"], "is not a directory"),
+    (["hill.toml", "--set", "block.strain=finite"], "finite")])
+def test_what_is_refused(place, words, says):
+    command("states", *words, expect=2, says=says)
+    assert not Path("results").exists()

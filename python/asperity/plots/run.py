@@ -205,17 +205,6 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     return curves
 
 
-def states(run: Result, ax: Axes) -> bool:
-    """Energies of all states at zero load over their mean height (drive.states = "all")."""
-    points = [(s.number("mean_height"), s.number("binding_energy")) for s in run.listed("states.all", dict)]
-    points = [p for p in points if None not in p]
-    if len(points) < 2:
-        return False
-    x, y = zip(*points)
-    curve(ax, x, y, line="-", marker="o")
-    return finish(ax, "mean height of the lowest layer (Å)", "binding energy (meV/Å²)")
-
-
 def _histogram(ax: Axes, edges: np.ndarray, density: np.ndarray, x: str, y: str) -> bool:
     curve(ax, np.repeat(edges, 2)[1:-1], np.repeat(np.where(density > 0, density, np.nan), 2))
     return finish(ax, x, y, log="y")
@@ -261,14 +250,14 @@ def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
     return image(ax, state[name], run.edge, **look)
 
 
-OF_RUN = {f.__name__: f for f in (separation, loading, contact, energy, balance, spectrum, roughness, states, height)}
+OF_RUN = {f.__name__: f for f in (separation, loading, contact, energy, balance, spectrum, roughness, height)}
 OF_STATE = {f.__name__: f for f in (gaps, pressures)}
 
 
 class RunPlots:
     """result.plot: every plot as a method that takes an axes (or makes one) and returns it.
 
-    Of the run: separation, loading, contact, energy, balance, spectrum, roughness, states, height.
+    Of the run: separation, loading, contact, energy, balance, spectrum, roughness, height.
     Of a state: gaps(state="zero-load"), pressures(...), map("gap", state="zero-load").
     """
 

@@ -42,14 +42,11 @@ class Trace:
     marker: str = ""
     filled: bool = True
     unit: float = 1.0
-    unless: str = ""
-    """not drawn where it equals this column"""
     uncertainty: str = ""
     """column of what its energy (the column without _ratio) may be wrong by"""
 
     def values(self, table: Table) -> np.ndarray:
-        values = table.values(self.column) / self.unit
-        return np.where(values == table.values(self.unless), np.nan, values) if self.unless else values
+        return table.values(self.column) / self.unit
 
     def average(self, table: Table) -> tuple[np.ndarray, np.ndarray]:
         """Means, and error bars: the spread over the seeds and the mean uncertainty of one, as independent errors."""
@@ -82,8 +79,6 @@ SIMULATED: dict[str, Spec] = {
               uncertainty="work_of_drive.uncertainty.pull_off"),
         Trace("state {at}", "binding_energy_ratio", GREEN, "", "^",
               uncertainty="binding_energy_uncertainty"),
-        Trace("deepest state", "states.deepest.binding_energy_ratio", GREEN, "", "^", False,
-              unless="states.first.binding_energy_ratio"),
         Trace("curved, in", "jkr.in_ratio", SKY, "", "D"),
         Trace("curved, out", "jkr.out_ratio", YELLOW, "", "v", False),
         Trace("curved, energy at zero load", "jkr.zero_load_ratio", PINK, "", "^"),
@@ -243,13 +238,11 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
             continue
         table = sweep.table
         prefix = f"{sweep.name}: " if len(shared) > 1 else ""
-        last = GREY
         for trace in points:
             if not np.isfinite(trace.values(table)).any():
                 continue
-            if not trace.unless:  # else of the same colour as what it is compared with
-                last = unused((trace.colour, *COLOURS), used, trace.colour)
-            look = replace(trace, label=prefix + trace.label.format(**words(sweep)), colour=last)
+            colour = unused((trace.colour, *COLOURS), used, trace.colour)
+            look = replace(trace, label=prefix + trace.label.format(**words(sweep)), colour=colour)
             simulated |= _trace(ax, table, x, look, colours, told)
     if not ax.lines or (shared[0].simulated and not simulated):
         return False
