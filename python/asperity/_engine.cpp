@@ -274,8 +274,9 @@ PYBIND11_MODULE(_engine, m) {
         .def_property_readonly(
             "repulsive_fraction", [](const Sim& sim) { return sim.fraction(sim.now().repulsive); },
             "fraction of the sites that are pushed away, at the last observed step")
-        .def_property_readonly("segment", &Sim::segment,
-                               "where the scene's path is: 'approach', 'pull-off' or 'done'")
+        .def_property_readonly(
+            "segment", &Sim::segment,
+            "the segment of drive.path under way, as the scene has it; 'done' after the last")
         .def_property_readonly(
             "work_of_adhesion",
             [](const Sim& sim) {

@@ -52,8 +52,7 @@ class Search:
         return self.log["points"][-1]
 
     def spread(self) -> float:
-        energies = [p["energy"] for p in self.log["points"]]
-        return max(energies) - min(energies)
+        return float(numpy.ptp([p["energy"] for p in self.log["points"]]))
 
     def put(self, state: State) -> None:
         self.statics.restore(state)
@@ -255,10 +254,10 @@ def states_command(scene: str, sets: list[str], out: str | None, starts: int, pr
     try:
         found = states(scene, sets, place, starts, lambda text: shown.update(text) if shown.due() else None)
     except KeyboardInterrupt:
-        shown.finish()
         print("Stopped early: the same command goes on from here.")
         return 75
-    shown.finish()
+    finally:
+        shown.finish()
     rows = [[*(f"{s[name]:.4g}" for name in NUMBERS), f"{s['barrier']:.3g}" if s["barrier"] else "-",
              ", ".join(s["found"])] for s in found["states"]]
     print(table(["binding energy, meV/Å²", "elastic, meV/Å²", "mean height, Å", "contact", "repulsive",
