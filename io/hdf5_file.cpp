@@ -3,14 +3,16 @@
 //
 // The C library prints its own error stack unless told not to; it is silenced once, and the stack's
 // innermost entry becomes the cause in our message.
+//
+// The library does not survive a failed write: what it could not write stays in its caches, and
+// closing the file, or its exit handler, may crash on it. So a file that could not be written is
+// never closed, and the exit handler is not installed.
 #include "io/hdf5_file.hpp"
 
 #include "io/error.hpp"
 #include "io/files.hpp"
-#include "io/hdf5_disk.hpp"
 
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 #include <functional>
 #include <numeric>
 #include <type_traits>
@@ -28,7 +30,7 @@ static_assert(std::is_same_v<hid_t, std::int64_t>);
 namespace {
 
 /// What the library says went wrong, from the bottom of its stack.
-std::string cause() {
+std::string cause(bool* by_system = nullptr) {
     std::string text;
     H5Ewalk2(
         H5E_DEFAULT, H5E_WALK_UPWARD,
@@ -37,6 +39,13 @@ std::string cause() {
             return 0;
         },
         &text);
+    // Of a call of the system: "..., errno = 28, error message = 'No space left on device', ...".
+    constexpr std::string_view system = "error message = '";
+    if (const std::size_t at = text.find(system); at != std::string::npos) {
+        if (by_system) *by_system = true;
+        const std::size_t start = at + system.size();
+        return text.substr(start, text.find('\'', start) - start);
+    }
     return text.empty() ? "the HDF5 library gives no reason" : "HDF5: " + text;
 }
 
@@ -45,12 +54,18 @@ std::vector<hsize_t> extents(const Hdf5File::Shape& shape) { return {shape.begin
 /// Tells readers that the file ended in a digest when it was whole.
 constexpr const char* seal_attribute = "asperity_digest";
 
-/// One handle, closed by the function of its kind.
+/// Of a file that is written: why the disk refused it; empty: it did not.
+using Refusal = std::string;
+
+/// One handle, closed by the function of its kind. refusal: of an object of a file that is written,
+/// whose data may reach the disk only when it is closed.
 class Handle {
 public:
-    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+    Handle(hid_t id, herr_t (*close)(hid_t), Refusal* refusal = nullptr)
+        : id_(id), close_(close), refusal_(refusal) {}
     ~Handle() {
-        if (id_ >= 0) close_(id_);
+        if (id_ < 0 || (refusal_ && !refusal_->empty())) return;
+        if (close_(id_) < 0 && refusal_) *refusal_ = cause();
     }
     Handle(const Handle&) = delete;
     Handle& operator=(const Handle&) = delete;
@@ -59,7 +74,22 @@ public:
 private:
     hid_t id_;
     herr_t (*close_)(hid_t);
+    Refusal* refusal_;
 };
+
+/// Before anything else is asked of the library, anywhere: its start installs the exit handler.
+const herr_t no_exit_handler = H5dont_atexit();
+
+/// How a file is opened that a descriptor of ours leads to, whatever has become of its directory.
+/// Without the library's locks: who may write a file is decided elsewhere (result_directory.hpp).
+hid_t open_descriptor(int fd, bool create) {
+    const std::string path = fmt::format("/proc/self/fd/{}", fd);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_file_locking(access, false, true);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    return create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
+                  : H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+}
 
 } // namespace
 
@@ -68,28 +98,31 @@ struct Hdf5File::Open {
     std::string path;
     std::unique_ptr<OutputFile> output; ///< null: the file is read
     Descriptor input;
-    Hdf5Disk disk;
+    mutable Refusal refusal;
     hid_t id = -1;
     ~Open() {
-        if (id >= 0) H5Fclose(id);
+        if (id >= 0 && refusal.empty()) H5Fclose(id);
     }
 
     /// Throws FileError if the disk has refused anything so far.
     void check_disk() const {
-        if (disk.error != 0)
-            throw FileError(path, "cannot be written", std::strerror(disk.error),
-                            "check the space on its disk");
+        if (!refusal.empty())
+            throw FileError(path, "cannot be written", refusal, "check the space on its disk");
     }
     /// Throws FileError: what is wrong with the object, and the library's reason.
     [[noreturn]] void fail(const std::string& object, const std::string& what) const {
         check_disk();
-        throw FileError(path, object + " " + what, cause(), "check that the file is whole");
+        bool by_system = false;
+        const std::string reason = cause(&by_system);
+        if (output && by_system) refusal = reason;
+        check_disk();
+        throw FileError(path, object + " " + what, reason, "check that the file is whole");
     }
     /// The handle of an object; fails where the library gave none.
     Handle handle(hid_t made, herr_t (*close)(hid_t), const std::string& object,
                   const std::string& what) const {
         if (made < 0) fail(object, what);
-        return {made, close};
+        return {made, close, output ? &refusal : nullptr};
     }
     Handle object(const std::string& name, const std::string& what) const {
         return handle(H5Oopen(id, name.c_str(), H5P_DEFAULT), H5Oclose, name, what);
@@ -117,15 +150,14 @@ Hdf5File::Hdf5File(const FilePlace& place, Mode mode)
     open_->path = path_;
     static const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     static_cast<void>(silenced);
+    static_cast<void>(no_exit_handler);
     const bool create = mode == Mode::create;
     if (create) {
         open_->output = std::make_unique<OutputFile>(place);
-        open_->disk.fd = open_->output->fd();
     } else {
         open_->input = place.open(O_RDONLY);
         if (!open_->input) fail_by_system(path_, "cannot be opened", "check the path");
-        open_->disk.fd = open_->input.get();
-        const Seal seal = check_seal(open_->disk.fd);
+        const Seal seal = check_seal(open_->input.get());
         if (seal == Seal::none && mode == Mode::read)
             throw FileError(
                 path_, "cannot be opened",
@@ -135,9 +167,7 @@ Hdf5File::Hdf5File(const FilePlace& place, Mode mode)
             throw FileError(path_, "is damaged", "its bytes are not those its digest was made of",
                             "take a copy that is whole");
     }
-    const Handle access(hdf5_access(open_->disk), H5Pclose);
-    open_->id = create ? H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
-                       : H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);
+    open_->id = open_descriptor(create ? open_->output->fd() : open_->input.get(), create);
     if (open_->id < 0)
         throw FileError(path_, create ? "cannot be created" : "cannot be opened", cause(),
                         create ? "check its directory and the space on its disk"
@@ -160,8 +190,8 @@ std::uint64_t Hdf5File::volume(const Shape& shape) {
 
 void Hdf5File::close() {
     if (open_->id < 0) return;
-    if (H5Fclose(std::exchange(open_->id, -1)) < 0) open_->fail("/", "cannot be closed");
     open_->check_disk();
+    if (H5Fclose(std::exchange(open_->id, -1)) < 0) open_->fail("/", "cannot be written");
     if (!open_->output) return;
     open_->output->seal();
     open_->output->commit();
