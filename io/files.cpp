@@ -35,6 +35,17 @@ std::uint64_t size_of(int fd) {
     return ::fstat(fd, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
+std::optional<SealBytes> seal_at_end(int fd) {
+    const std::uint64_t size = size_of(fd);
+    SealBytes end{};
+    if (size < sizeof end ||
+        read_some(fd, std::as_writable_bytes(std::span(&end, 1)), size - sizeof end) !=
+            static_cast<std::ptrdiff_t>(sizeof end) ||
+        std::memcmp(end.name, seal_name, sizeof end.name) != 0)
+        return std::nullopt;
+    return end;
+}
+
 } // namespace
 
 Descriptor::~Descriptor() {
@@ -147,15 +158,17 @@ void write_whole(const FilePlace& place, const std::string& text) {
 }
 
 Seal check_seal(int fd) {
-    const std::uint64_t size = size_of(fd);
-    SealBytes end{};
-    if (size < sizeof end ||
-        read_some(fd, std::as_writable_bytes(std::span(&end, 1)), size - sizeof end) !=
-            static_cast<std::ptrdiff_t>(sizeof end) ||
-        std::memcmp(end.name, seal_name, sizeof end.name) != 0)
-        return Seal::none;
-    const bool whole = end.length == size - sizeof end && digest_of(fd, end.length) == end.digest;
+    const std::optional<SealBytes> end = seal_at_end(fd);
+    if (!end) return Seal::none;
+    const bool whole =
+        end->length == size_of(fd) - sizeof *end && digest_of(fd, end->length) == end->digest;
     return whole ? Seal::whole : Seal::broken;
+}
+
+std::optional<std::uint32_t> sealed_digest(const Directory& directory, const std::string& name) {
+    const Descriptor file = directory.open(name, O_RDONLY);
+    const std::optional<SealBytes> end = file ? seal_at_end(file.get()) : std::nullopt;
+    return end ? std::optional(static_cast<std::uint32_t>(end->digest)) : std::nullopt;
 }
 
 std::uint32_t digest_of(Bytes bytes, std::uint32_t before) {

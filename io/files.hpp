@@ -124,6 +124,8 @@ void write_whole(const FilePlace& place, const std::string& text);
 /// What the end of a file says of it.
 enum class Seal { none, whole, broken };
 Seal check_seal(int fd);
+/// The digest at the end of a file, as it is stated there; nothing where there is none.
+std::optional<std::uint32_t> sealed_digest(const Directory& directory, const std::string& name);
 
 /// The digest by which damage is noticed, of these bytes after those of `before`: the CRC-32 of
 /// zlib, so that other programs can check it too; Python has it as zlib.crc32. A change within 32

@@ -4,9 +4,8 @@
 // Height maps: what a file holds, and what a scene takes of it.
 //
 //     format       recognized by         size and unit
-//     HDF5         its first bytes       attributes unit (or units), scale, size_x, size_y, size_unit
-//     NumPy        its first bytes       none
-//     text matrix  numbers               none
+//     HDF5         its first bytes       attributes unit (or units), scale, size_x, size_y,
+//     size_unit NumPy        its first bytes       none text matrix  numbers               none
 //
 // HDF5: the data set named after a colon ("map.h5:/NAME"), else /heights, else the only one of
 // numbers with two dimensions; attribute origin says whose map it is. Sizes are in size_unit, else

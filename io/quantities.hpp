@@ -26,7 +26,8 @@ struct Quantity {
 
 namespace per {
 inline constexpr std::string_view area = "nominal area", block = "whole block",
-                                  sites = "all sites of the lowest layer", rank = "first rank";
+                                  sites = "all sites of the lowest layer", rank = "first rank",
+                                  contact = "area in contact of a sphere";
 }
 
 /// In the order of the file.
@@ -79,26 +80,26 @@ inline constexpr Quantity result_quantities[] = {
      "sites whose net normal force is repulsive, at zero load"},
     {"approach_force", "eV/Å", per::block, "largest attraction during the approach"},
     {"pull_off_force", "eV/Å", per::block, "largest attraction during the pull-off"},
-    {"jkr.in", "meV/Å^2", per::area,
+    {"jkr.in", "meV/Å^2", per::contact,
      "work of adhesion by JKR, F/(1.5 π R), from the largest attraction of the approach (spheres)"},
-    {"jkr.out", "meV/Å^2", per::area, "the same of the pull-off"},
-    {"jkr.in_averaged", "meV/Å^2", per::area,
+    {"jkr.out", "meV/Å^2", per::contact, "the same of the pull-off"},
+    {"jkr.in_averaged", "meV/Å^2", per::contact,
      "as jkr.in, from the largest attraction of a running mean over 2 ps, which leaves out the "
      "vibrations after an instability; needs output.series of 0.5 ps or less"},
-    {"jkr.out_averaged", "meV/Å^2", per::area, "the same of the pull-off"},
-    {"jkr.zero_load", "meV/Å^2", per::area,
+    {"jkr.out_averaged", "meV/Å^2", per::contact, "the same of the pull-off"},
+    {"jkr.zero_load", "meV/Å^2", per::contact,
      "work of adhesion by JKR from the binding energy at zero load, which needs no largest force; "
      "not of a state under drive.load"},
     {"contact_radius.zero_load", "Å", "", "√(contact area/π) of the state (spheres)"},
     {"contact_radius.pull_off", "Å", "", "√(contact area/π) at the largest attraction"},
-    {"sphere.jkr", "meV/Å^2", per::area,
+    {"sphere.jkr", "meV/Å^2", per::contact,
      "pull-off force of the smooth sphere by JKR, as a work of adhesion by JKR"},
     {"sphere.maugis_parameter", "1", "",
      "Maugis' λ of the smooth sphere; its stress is the largest tension of flat on flat"},
-    {"sphere.jkr_images", "meV/Å^2", per::area, "as sphere.jkr, with the periodic images"},
-    {"sphere.maugis_images", "meV/Å^2", per::area,
+    {"sphere.jkr_images", "meV/Å^2", per::contact, "as sphere.jkr, with the periodic images"},
+    {"sphere.maugis_images", "meV/Å^2", per::contact,
      "as sphere.jkr_images, by the theory of Maugis and Dugdale"},
-    {"sphere.renormalised", "meV/Å^2", per::area,
+    {"sphere.renormalised", "meV/Å^2", per::contact,
      "as sphere.maugis_images, of a smooth sphere with the work of adhesion and the largest "
      "tension that the renormalised theory leaves the rough interface"},
     {"sphere.renormalised_parameter", "1", "", "its Maugis' λ"},
@@ -208,6 +209,7 @@ inline constexpr Quantity result_quantities[] = {
      "iterations: of a path's points, or of the state and of the search for others"},
     {"run.stopped", "", "",
      "\"max_steps\", \"wall_limit\" or \"signal\": the path is not complete"},
+    {"run.file_digest", "", "", "digest at the end of the run.h5 that belongs to these numbers"},
     {"run.ranks", "1", "", "MPI ranks"},
     {"run.threads", "1", "", "threads of a rank"},
     {"run.phases.*.seconds", "s", per::rank,

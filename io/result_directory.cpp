@@ -146,6 +146,17 @@ ResultDirectory::ResultDirectory(const ResultRequest& request)
     remove_files(directory_, request.restart);
 }
 
+void ResultDirectory::require_in_place() const {
+    std::error_code error;
+    const std::string handle = fmt::format("/proc/self/fd/{}", directory_.fd());
+    if (fs::equivalent(path(), handle, error)) return;
+    const fs::path now = fs::read_symlink(handle, error);
+    throw FileError(path(), "is not where it was when the run began",
+                    error ? std::string("it was moved or replaced")
+                          : fmt::format("it is {} now", now.string()),
+                    "look for the result there");
+}
+
 ResultDirectory::~ResultDirectory() {
     if (is_lock_in_place()) ::unlinkat(directory_.fd(), run_file::lock, 0);
     lock_ = Descriptor();

@@ -118,13 +118,25 @@ void Table::print(std::FILE* stream) const {
     std::fwrite(out.data(), 1, out.size(), stream);
 }
 
+std::string number(double value, int decimals) {
+    if (!std::isfinite(value)) return "-";
+    const double size = std::abs(value);
+    if (size >= 1e7) return fmt::format("{:.3e}", value);
+    // Rounded to so many decimals it has three digits.
+    if (value == 0.0 || size * std::pow(10.0, decimals) >= 99.5)
+        return fmt::format("{:.{}f}", value == 0.0 ? 0.0 : value, decimals);
+    if (size < 0.9995e-3) return fmt::format("{:.2e}", value);
+    const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
+    return fmt::format("{:.{}f}", value, 3 - before);
+}
+
 std::string cell(double value, int digits) {
     if (!std::isfinite(value)) return "-";
     const double size = std::abs(value);
     if (value != 0.0 && (size < 1e-3 || size >= 1e6))
         return fmt::format("{:.{}e}", value, digits - 1);
     const int before = value == 0.0 ? 1 : static_cast<int>(std::floor(std::log10(size))) + 1;
-    return fmt::format("{:.{}f}", value, std::clamp(digits - before, 0, digits + 2));
+    return number(value, std::clamp(digits - before, 0, digits + 2));
 }
 
 std::optional<ProgressMode> progress_mode(std::string_view name) {

@@ -33,7 +33,11 @@ private:
     std::vector<std::vector<std::string>> rows_; ///< empty: a rule
 };
 
-/// Four significant digits, or "-" for nothing: for cells.
+/// A number for people: with so many decimals, or with more where these would show less than three
+/// significant digits, and by powers of ten where it is tiny or huge: "69.91", "0.00412",
+/// "4.12e-07". "-" for what is not finite.
+std::string number(double value, int decimals);
+/// The same with so many significant digits, where powers of ten are not needed.
 std::string cell(double value, int digits = 4);
 
 /// "bar" redraws one line, on a terminal; "lines" prints a line now and then, for logs and under

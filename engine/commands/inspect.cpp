@@ -265,7 +265,7 @@ int schema_command(bool results, const Communicator& world) {
     io::Json all;
     if (results) {
         for (const io::Quantity& q : io::result_quantities)
-            all[std::string(q.name)] = {{"unit", q.unit}, {"meaning", q.meaning}};
+            all[std::string(q.name)] = {{"unit", q.unit}, {"per", q.per}, {"meaning", q.meaning}};
     } else {
         Scene defaults;
         const io::Schema schema = bind(defaults);

@@ -235,7 +235,7 @@ private:
 
     io::Progress::State progress_state(const StepRecord& now) const {
         const Drive& drive = simulation_.drive();
-        return {fmt::format("{}, F = {:.1f} eV/Å", drive.now().text, now.force),
+        return {fmt::format("{}, F = {} eV/Å", drive.now().text, io::number(now.force, 1)),
                 simulation_.steps(), now.time,
                 run_.way_done(drive.segment(), now.top, simulation_.reference_height())};
     }

@@ -123,7 +123,7 @@ private:
 
     /// Of the last point; its steps are iterations.
     io::Progress::State path_progress() const {
-        return {fmt::format("{}, F = {:.1f} eV/Å", now().text, path_.now().force),
+        return {fmt::format("{}, F = {} eV/Å", now().text, io::number(path_.now().force, 1)),
                 path_.iterations(), 0.0,
                 run_.way_done(segment_, path_.now().top, interface_.start_height())};
     }

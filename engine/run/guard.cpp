@@ -5,6 +5,7 @@
 #include "decomposition/global_largest.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
+#include "io/terminal.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,8 @@ std::optional<std::string> violation(const StepRecord& now, double lowest_height
         return fmt::format("the motion diverged at {}: the force is {}", place, now.force);
     const double residual = now.observed ? now.residual : 0.0;
     if (!(std::abs(residual) <= largest_energy_error))
-        return fmt::format("the energy balance is off by {:.1f} % at {}", 100.0 * residual, place);
+        return fmt::format("the energy balance is off by {} % at {}",
+                           io::number(100.0 * residual, 1), place);
     if (now.mean_height < lowest_height)
         return fmt::format("the block has passed through the substrate at {}: its lowest layer is "
                            "at {:.4g} Å",

@@ -102,6 +102,7 @@ int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
     progress.finish();
     ranks.on_root([&] {
         const io::Result result = write_result(nullptr, add_to);
+        storage_.require_in_place();
         print_unless_closed([&] {
             print_summary(stdout, case_, result, results, storage_.path());
             if (stopped_ != Stopped::no)
@@ -253,6 +254,8 @@ io::Result RunSession::write_result(const Failure* failure, const AddToResult& a
     result.set("run.processor_seconds", processor_seconds());
     add_phases(phases, result);
     if (stopped_ != Stopped::no) result.set("run.stopped", std::string(name(stopped_)));
+    if (const auto digest = io::sealed_digest(storage_.directory(), "run.h5"))
+        result.set("run.file_digest", fmt::format("crc32:{:08x}", *digest));
     if (failure) {
         result.set("failure.exit_code", failure->code);
         result.set("failure.reason", failure->reason);

@@ -37,6 +37,7 @@ public:
     const std::string& path() const { return directory().path(); }
     io::FilePlace file(const std::string& name) const { return {directory(), name}; }
     const io::Directory& directory() const { return owner_->directory(); }
+    void require_in_place() const { owner_->require_in_place(); }
     /// What the user should know, once.
     std::vector<std::string> take_notes();
 

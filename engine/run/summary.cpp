@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -34,8 +35,9 @@ std::string surface_text(const Scene& scene, const Surface& surface) {
     const std::string atoms = surface.atoms.size() > 0
                                   ? fmt::format("{} atoms, topmost ones: ", surface.atoms.size())
                                   : std::string();
-    return atoms + fmt::format("rms {:.3f} Å, rms slope {:.3f}, heights {:.2f} to {:.2f} Å", s.rms,
-                               s.rms_slope, s.lowest, s.highest);
+    return atoms + fmt::format("rms {} Å, rms slope {}, heights {} to {} Å", io::number(s.rms, 3),
+                               io::number(s.rms_slope, 3), io::number(s.lowest, 2),
+                               io::number(s.highest, 2));
 }
 
 using Number = std::optional<double>;
@@ -46,9 +48,7 @@ struct Numbers {
     Number operator()(io::Key key) const { return result.number(key); }
 };
 
-std::string number(Number value, int digits) {
-    return value ? fmt::format("{:.{}f}", *value, digits) : "-";
-}
+std::string number(Number value, int digits) { return value ? io::number(*value, digits) : "-"; }
 
 /// With the unit behind it, as people print it.
 std::string named(const std::string& name, io::Key key) {
@@ -68,23 +68,26 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
     }
     if (c.guided()) {
         if (const Number lost = of("lost.cycle"))
-            fmt::print(to,
-                       "  From the approach to the end of the pull-off {:.2f} meV/Å² are lost.\n",
-                       *lost);
+            fmt::print(to, "  From the approach to the end of the pull-off {} meV/Å² are lost.\n",
+                       io::number(*lost, 2));
         return;
     }
     const double lost =
         of("lost.cycle").value_or(*of("work_of_drive.pull_off") - *of("work_of_drive.approach"));
-    if (std::abs(lost) < std::max(0.01 * flat, 0.005))
+    const double scale = flat > 0.0 ? flat
+                                    : std::max(std::abs(*of("work_of_drive.pull_off")),
+                                               std::abs(*of("work_of_drive.approach")));
+    const bool hardly = std::abs(lost) <= 0.01 * scale;
+    if (hardly)
         fmt::print(to,
-                   "  The drive gives on the way out what it took up on the way in, to {:.2f} "
+                   "  The drive gives on the way out what it took up on the way in, to {} "
                    "meV/Å²: hardly anything is lost.\n",
-                   std::abs(lost));
+                   io::number(std::abs(lost), 2));
     else
         fmt::print(to,
-                   "  The drive gives {:.2f} meV/Å² more on the way out than it takes up on the "
+                   "  The drive gives {} meV/Å² more on the way out than it takes up on the "
                    "way in: energy that is lost\n  where the surfaces snap together and apart.\n",
-                   lost);
+                   io::number(lost, 2));
     if (of("lost.approach") && scene.drive.load == 0.0)
         fmt::print(to, "  Work of the drive on the approach + energy lost there = binding energy = "
                        "work of the drive on the\n  pull-off - energy lost there.\n");
@@ -93,7 +96,7 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
                    "  The work of the interface is that of its force on the mean height of the "
                    "surface: a block that snaps\n  as a whole changes nothing of it, patches that "
                    "snap on their own do.\n");
-    if (std::abs(lost) >= std::max(0.01 * flat, 0.005) && scene.drive.hold == Hold::top)
+    if (!hardly && scene.drive.hold == Hold::top)
         fmt::print(to, "  A thick block is a soft spring and snaps as a whole; a thinner one "
                        "(block.thickness) less so.\n");
 }
@@ -129,19 +132,20 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     const Scene& scene = c.scene;
     const BlockOptions& block = c.simulation.block;
     const InterfaceOptions& interface = c.simulation.interface;
-    fmt::print(to, "{}: {} x {} sites, {:.1f} Å wide\n", scene.name, block.sites, block.sites,
-               scene.edge());
+    fmt::print(to, "{}: {} x {} sites, {} Å wide\n", scene.name, block.sites, block.sites,
+               io::number(scene.edge(), 1));
     fmt::print(to, "  substrate   {}{}\n", surface_text(scene, surface),
                scene.surface.radius
                    ? fmt::format(", on a sphere of R = {:.6g} Å", *scene.surface.radius)
                    : "");
-    fmt::print(to, "  block       {} layers ({:.1f} Å): {}\n", block.thickness,
-               block.thickness * block.spacing, levels_text(c));
+    fmt::print(to, "  block       {} layers ({} Å): {}\n", block.thickness,
+               io::number(block.thickness * block.spacing, 1), levels_text(c));
     fmt::print(to,
-               "  interface   {}flat on flat {:.2f} meV/Å² at {:.2f} Å with a reach of {:.2f} Å, "
+               "  interface   {}flat on flat {} meV/Å² at {} Å with a reach of {} Å, "
                "in {} precision\n",
-               interface.wall ? "a wall, " : "", c.flat.work_of_adhesion, c.flat.separation,
-               reach_of(interface), interface.mixed && !interface.wall ? "single" : "double");
+               interface.wall ? "a wall, " : "", io::number(c.flat.work_of_adhesion, 2),
+               io::number(c.flat.separation, 2), io::number(reach_of(interface), 2),
+               interface.mixed && !interface.wall ? "single" : "double");
     fmt::print(to, "  machine     {}, {} thread{} each, {:.0f} MB a rank\n", grid.describe(),
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6);
     if (c.simulation.device.kind != DeviceChoice::Kind::none)
@@ -178,9 +182,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     const auto ratio = [&](Number v) { return v && flat != 0.0 ? Number(*v / flat) : Number(); };
     const bool anywhere = scene.surface.kind == SurfaceKind::atoms;
     const auto over_flat = [&](Number in, Number out, Number of_state) {
-        table.row(
-            {fmt::format("  over {} ({:.2f})", anywhere ? "one flat layer" : "flat on flat", flat),
-             number(ratio(in), 4), number(ratio(out), 4), number(ratio(of_state), 4)});
+        table.row({fmt::format("  over {} ({})", anywhere ? "one flat layer" : "flat on flat",
+                               io::number(flat, 2)),
+                   number(ratio(in), 4), number(ratio(out), 4), number(ratio(of_state), 4)});
     };
     row("binding energy", "binding_energy", 2, {}, {}, state);
     over_flat({}, {}, state);
@@ -216,17 +220,19 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     fmt::print(to, "\nHow to read it\n");
     if (state)
         fmt::print(to,
-                   "  The state {} has a binding energy of {:.2f} meV/Å²{}:\n"
-                   "  {:.2f} of the pairs across the interface, less {:.2f} of elastic energy in "
+                   "  The state {} has a binding energy of {} meV/Å²{}:\n"
+                   "  {} of the pairs across the interface, less {} of elastic energy in "
                    "the block.\n"
-                   "  {:.1f} % of the block's surface atoms are in contact.\n",
-                   at, *state,
-                   flat > 0.0 ? fmt::format(", {:.1f} % of that of {}", 100.0 * *state / flat,
-                                            anywhere ? "one flat layer of the block's lattice"
-                                                     : "two flat surfaces")
-                              : std::string(),
-                   *of("work_of_adhesion.pairwise"), *of("zero_load.elastic_energy"),
-                   100.0 * *of("contact_fraction"));
+                   "  {} % of the block's surface atoms are in contact.\n",
+                   at, io::number(*state, 2),
+                   flat > 0.0
+                       ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
+                                     anywhere ? "one flat layer of the block's lattice"
+                                              : "two flat surfaces")
+                       : std::string(),
+                   io::number(*of("work_of_adhesion.pairwise"), 2),
+                   io::number(*of("zero_load.elastic_energy"), 2),
+                   io::number(100.0 * *of("contact_fraction"), 1));
     if (scene.block.strain == Strain::finite)
         fmt::print(to,
                    "  At finite strain no state at zero load is given: states are sums of waves, "

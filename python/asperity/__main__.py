@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 from . import program
-from .errors import NEEDED, Error, SceneError, to_install
+from .errors import NEEDED, Error, InputOutputError, SceneError, to_install
 from .terminal import launched
 
 EXIT = "Exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard, 4 files, 75 stopped early."
@@ -132,7 +132,11 @@ def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "report":
         from .report_sweep import write_page
 
-        print(write_page(Path(given.directory)).said)
+        page = write_page(Path(given.directory))
+        print(page.said)
+        if page.unread:
+            raise InputOutputError(given.directory, "the page shows only a part of the result", "\n".join(page.unread),
+                                   "run the scene again, or take a copy of the file that is whole")
         return 0
     if given.command == "export":
         from .export import export

@@ -23,7 +23,7 @@ import numpy
 from . import files, program
 from .errors import Error, InputOutputError, SceneError
 from .scene import Overrides, SceneLike, assignments, scene_file
-from .terminal import Progress
+from .terminal import Progress, number
 
 NAME = "asperity._engine"
 
@@ -138,7 +138,7 @@ def _bar(steps: int) -> Iterator[Callable[[Simulation, int], None]]:
         bar = tqdm(total=steps, unit="step")
 
     def tell(simulation: Simulation, made: int) -> None:
-        said = f"{simulation.time:.1f} ps, {simulation.force:.4g} eV/Å"
+        said = f"{number(simulation.time, 1)} ps, {simulation.force:.4g} eV/Å"
         if bar is not None:
             bar.set_postfix_str(said, refresh=False)
             bar.update(made - bar.n)

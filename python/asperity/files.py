@@ -207,6 +207,14 @@ def json_is_whole(content: bytes) -> bool | None:
     return int(found[1], 16) == zlib.crc32(content[:found.start()]) if found else None
 
 
+def hdf5_digest(path: Path) -> int | None:
+    """The digest at the end of an HDF5 file, as it is stated there; None: it does not end in one. Raises OSError."""
+    with open(path, "rb") as file:
+        file.seek(max(0, file.seek(0, os.SEEK_END) - 32))
+        end = file.read(32)
+        return int.from_bytes(end[24:], "little") if end.startswith(_HDF5_END) else None
+
+
 def _digest(file, length: int) -> bytes:
     """Of its first bytes: how many they are, and their CRC-32."""
     file.seek(0)

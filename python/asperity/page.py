@@ -57,6 +57,8 @@ class Page:
     files: int = 0
     said: str = ""
     """what write() wrote, in words"""
+    unread: list[str] = field(default_factory=list)
+    """what of the result could not be read; the page says it as well"""
 
     @property
     def path(self) -> Path:
@@ -81,6 +83,7 @@ class Page:
             note = (f"{heading}: no figure", str(error))
             if note not in self.notices:
                 self.notices.append(note)
+                self.unread.append(str(error).splitlines()[0])
             return False
         if fig is None:
             return False

@@ -23,7 +23,7 @@ import time
 import uuid
 from collections import Counter
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -308,10 +308,13 @@ class Pool:
                 files.set_aside(job.directory / RESULT)
             return executor.submit(run_task, words, os.getcwd(), directory, str(threads or ""), options.threads > 0,
                                    str(self.going))
-        except (Error, RuntimeError) as error:  # RuntimeError: all workers were lost
+        except (Error, BrokenExecutor) as error:  # of the latter all workers were lost
             future: Future = Future()
             future.set_exception(error)
             return future
+        except Exception as error:  # every executor has its own
+            raise SceneError("executor", "takes no points", f"{type(error).__name__}: {error}",
+                             "give one that is not shut down") from None
 
     def _conclude(self, i: int, future: Future) -> None:
         job = self.jobs[i]

@@ -95,16 +95,17 @@ def schema() -> dict[str, dict[str, Any]]:
 
 @functools.lru_cache(maxsize=None)
 def quantities() -> dict[str, dict[str, str]]:
-    """Every value of result.json: unit and meaning. "*" in a name stands for any, "[]" for each of a list."""
+    """Every value of result.json: unit, per and meaning. "*" in a name stands for any, "[]" for each of a list."""
     return json.loads(call(["defaults", "--results", "--json"]))
 
 
 def quantity(path: str) -> dict[str, str]:
-    """Of a value its unit ("" of a pure number) and meaning; empty for what the program does not know."""
+    """Of a value its unit ("" of a pure number), what it is over (per) and meaning; empty for what the program does not
+    know."""
     found = quantities().get(path)
     if found is None:
         found = next((q for name, q in quantities().items() if "*" in name and
-                      re.fullmatch(re.escape(name).replace(r"\*", "[^.]+"), path)), {"unit": "", "meaning": ""})
+                      re.fullmatch(re.escape(name).replace(r"\*", "[^.]+"), path)), {"unit": "", "per": "", "meaning": ""})
     return {**found, "unit": "" if found["unit"] == "1" else found["unit"]}
 
 

@@ -10,17 +10,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 
-from . import program, scene, sentences
+from . import program, scene, sentences, terminal
 from .page import Page, file_name, minus
 from .plots import run as plots
 from .plots.style import KINDS
 from .result import Result, State, Values
+from .tables import AREA
 from .units import shown
 
 MOST_STATES = 6
-OF_AREA = ("binding_energy", "work_of_adhesion", "work_of_drive", "lost", "zero_load")
-"""Energies over the nominal area, which says nothing of a sphere."""
-
 FIGURES = {
     "path": ("Force and contact", (
         ("separation", "Force and separation", "{path}"),
@@ -86,6 +84,7 @@ def _top(page: Page, run: Result) -> None:
         page.notices.append(("This run was stopped early", f"Reason: {run.stopped}. The path is not complete; what is "
                              "shown is what had been reached."))
     page.notices += [("Some of the files cannot be read", note) for note in run.notes]
+    page.unread += run.notes
     page.add("numbers", sentences.key_numbers(run))
     for sentence in sentences.results(run):
         page.add("paragraph", sentence)
@@ -142,10 +141,10 @@ def _numbers(page: Page, run: Result) -> None:
             continue
         known = program.quantity(key)
         unit, meaning, flat = shown(run.unit(key) or known["unit"]), known["meaning"], sentences.reference(run, key)
-        nominal = key.split(".")[0] in OF_AREA
+        nominal = known["per"] == AREA and not key.startswith("theory.")
         over = unit == "meV/Å²" and flat > 0 and not (run.curved and nominal)
         rows.append([f"{key}: {meaning}" if meaning else key, minus(f"{value:.6g}"), "" if unit == "1" else unit,
-                     minus(f"{value / flat:.4f}") if over else ""])
+                     minus(terminal.number(value / flat, 4)) if over else ""])
     page.section("numbers", "All numbers")
     page.table(["", "value", "unit", "over Δγ"], rows)
 

@@ -26,6 +26,7 @@ from .result import Result, Values, expect
 from .scene import toml_of
 from .sweeps import Sweep, load_sweeps
 from .tables import Table, text_of
+from .terminal import number
 from .sentences import KeyNumber
 
 MOST_POINTS = 24
@@ -57,6 +58,7 @@ class _Points:
         self.thumbs: list[dict[str, str]] = []
         self.runs: list[tuple[str, Result]] = []
         self.origin = ""
+        self.unread: list[str] = []
         for number, (_, places) in enumerate(sweep.table.groups):
             self.links.append("")
             done = [p for i in places if (p := sweep.points[i]).get("status") == DONE and p.get("directory")]
@@ -68,8 +70,10 @@ class _Points:
             return  # the table was sent alone
         try:
             run = Result(place / name)
-        except Error:
-            return  # damaged: its row stays without a page
+        except Error as error:
+            self.unread.append(str(error).splitlines()[0])
+            return  # its row stays without a page
+        self.unread += [f"{name}: {note}" for note in run.notes]
         page = run.directory / "report.html"
         if not page.exists() or page.stat().st_mtime < (run.directory / "result.json").stat().st_mtime:
             write_run_page(run, kinds=("png",))
@@ -136,11 +140,11 @@ def key_numbers(sweep: Sweep) -> list[KeyNumber]:
         expected = {words: x for words, column in lines.items()
                     if (x := _half_way(curves, "theory." + column)) is not None}
         if measured is not None:
-            note = ", ".join(f"{words}: {x:.2f} Å" for words, x in expected.items())
-            found.append(KeyNumber(f"{measured:.2f}", "Å", name, note))
+            note = ", ".join(f"{words}: {number(x, 2)} Å" for words, x in expected.items())
+            found.append(KeyNumber(number(measured, 2), "Å", name, note))
         elif expected:
             words, x = next(iter(expected.items()))
-            found.append(KeyNumber(f"{x:.2f}", "Å", name, words))
+            found.append(KeyNumber(number(x, 2), "Å", name, words))
     return found
 
 
@@ -184,6 +188,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
     page = Page(directory, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps),
                 kinds=kinds)
     points = [_Points(sweep, directory) for sweep in sweeps]
+    page.unread = [line for some in points for line in some.unread]
     for sweep in sweeps:
         _notices(page, sweep)
         page.add("numbers", key_numbers(sweep))

@@ -359,10 +359,20 @@ class Result(Values):
         super().__init__(read_json(self.directory / "result.json"))
         self.notes: list[str] = []
         try:
+            if self._of_another_run():
+                raise InputOutputError("", "", "result.json was written with another one")
             self._open("run.h5")
         except InputOutputError as error:
             self.notes.append(f"run.h5 cannot be read to its end ({str(error).split('why: ')[-1].splitlines()[0]}).")
             self._open("no run.h5", self.notes[-1])
+
+    def _of_another_run(self) -> bool:
+        """Whether run.h5 ends in another digest than the one that result.json knows."""
+        known, path = self.text("run.file_digest"), self.directory / "run.h5"
+        with contextlib.suppress(OSError):
+            there = files.hdf5_digest(path)
+            return bool(known) and there is not None and known != f"crc32:{there:08x}"
+        return False
 
     def _open(self, name: str, unread: str = "") -> None:
         file = self.file = RunFile(self.directory / name, unread)

@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
+from numbers import Integral
 from pathlib import Path
 
 from . import files, program
@@ -49,8 +50,8 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
     InputOutputError or Stopped with the program's message.
     """
     program.refuse_ranks()
-    if ranks < 1:
-        raise SceneError(f"ranks = {ranks}", "is no number of ranks", "a run has at least one", "leave it out for one")
+    if isinstance(ranks, bool) or not isinstance(ranks, Integral) or ranks < 1:
+        raise SceneError(f"ranks = {ranks!r}", "is no number of ranks", "a run has one or more", "leave it out for one")
     with scene_file(scene) as file:
         first = Path("results") / Path(file).stem
         place = files.numbered(first, Path.exists) if out is None else files.chosen(str(out), "")

@@ -10,7 +10,7 @@ from typing import Any
 
 from .page import minus
 from .result import Result, Values, finite
-from .terminal import duration
+from .terminal import duration, number
 from .units import GIGAPASCAL, NANONEWTON
 
 
@@ -24,11 +24,11 @@ class KeyNumber:
 
 def percent(fraction: float) -> str:
     digits = 2 if abs(fraction) < 0.1 else 1
-    return minus(f"{100 * fraction:.{digits}f}\u00a0%")
+    return minus(f"{number(100 * fraction, digits)}\u00a0%")
 
 
 def energy(gamma: float) -> str:
-    return minus(f"{gamma:.2f} meV/Å²")
+    return minus(f"{number(gamma, 2)} meV/Å²")
 
 
 def general(value: Any, digits: int = 4) -> str:
@@ -61,7 +61,7 @@ def lead(run: Result) -> str:
         surface += f" (rms height {rms:.3g} Å" + (f", rms slope {slope:.2g}" if slope is not None else "") + ")"
     if run.radius:
         surface += f" on a sphere of R = {0.1 * run.radius:.4g} nm"
-    return (f"An elastic block on {surface}: {sites:.0f} × {sites:.0f} atoms, {0.1 * run.edge:.1f} nm wide, "
+    return (f"An elastic block on {surface}: {sites:.0f} × {sites:.0f} atoms, {number(0.1 * run.edge, 1)} nm wide, "
             f"{general(run.key('block.thickness'))} layers thick.")
 
 
@@ -89,7 +89,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         if value is not None and flat > 0:
             parent, _, leaf = key.rpartition(".")
             error = run.number(key + "_uncertainty") or run.number(f"{parent}.uncertainty.{leaf}")
-            add(f"{value / flat:.3f}", symbol, name, energy(value) + (f" ± {error:.2g}" if error else ""))
+            add(number(value / flat, 3), symbol, name, energy(value) + (f" ± {error:.2g}" if error else ""))
 
     force = run.number("pull_off_force")
     if run.curved:  # energies over the nominal area mean nothing
@@ -101,7 +101,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             smooth = f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN"
             add(f"{force / NANONEWTON:.4g}", "nN", "pull-off force", smooth * (jkr > 0 and maugis > 0))
         if (radius := run.number("contact_radius.zero_load")) is not None:
-            add(f"{radius:.1f}", "Å", f"contact radius {at}", "√(area of the sites in contact / π)")
+            add(number(radius, 1), "Å", f"contact radius {at}", "√(area of the sites in contact / π)")
     else:
         gamma("binding_energy", f"binding energy {at}")
         contact, theory = run.number("contact_fraction"), run.number("theory.contact_fraction")

@@ -18,6 +18,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
@@ -242,6 +243,7 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
              say: Callable[[str], None]) -> tuple[Sweep, list[Job]]:
     """A scene's points, read and checked, and the runs that they need. prefix: of their names."""
     axes, fixed, base = _axes(file, sets, found["sweep"], theory_only, say)
+    before = [] if theory_only else _points_before(place, base["scene"], [axis.key for axis in axes])
     overrides = [fixed + point for point in points_of(axes)]
     answers = program.theory_points(file, overrides, runnable=not theory_only)
     program.complaints(answers, {axis.key: axis.where for axis in axes if axis.where})
@@ -257,8 +259,48 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
             raise SceneError("asperity sweep", f"two points are the same: {name}",
                              "every point has a directory of its own", "give every value once")
         jobs[name] = Job(prefix + name, place / name, file, given, answer)
+    before = [point for point in before if point["directory"] not in jobs]
+    if before:
+        say(f"note: {len(before)} more points of an earlier call are in {place}: they stay in its tables")
+    sweep.points[:0] = before
     sweep.theory = _theory_curves(file, axes, fixed, sweep.points, base["theory_needs_surface"])
     return sweep, list(jobs.values())
+
+
+def _points_before(place: Path, scene: dict[str, Any], axes: list[str]) -> list[dict[str, Any]]:
+    """The points that are done in a directory that holds a sweep of this scene already. Raises SceneError where it is
+    of another scene or over other keys: before anything is computed."""
+    if not (place / "sweep.json").exists():
+        return []
+    try:
+        there = load_sweep(place)
+    except InputOutputError:
+        return []  # damaged: the directories of the points are asked
+    remedy = "name another directory (--out), or remove this one"
+    if not there.simulated:
+        raise SceneError(str(place), "holds a sweep of the theory alone", "results are not written over", remedy)
+    if set(there.axes) != set(axes):
+        raise SceneError(str(place), f"holds a sweep over {', '.join(there.axes)}",
+                         f"this one is over {', '.join(axes)}, and the points of a table have the same keys", remedy)
+
+    def fixed(keys: dict[str, Any]) -> dict[str, Any]:
+        """The keys that are no axes."""
+        sections = {name: dict(section) if isinstance(section, dict) else section for name, section in keys.items()}
+        for section, _, key in (axis.partition(".") for axis in axes):
+            if isinstance(sections.get(section), dict):
+                sections[section].pop(key, None)
+        return sections
+
+    old, new = fixed(there.scene), fixed(scene)
+    for section in dict.fromkeys([*new, *old]):
+        a, b = (keys.get(section) for keys in (old, new))
+        if a != b:
+            known, wanted = (part if isinstance(part, dict) else {} for part in (a, b))
+            key = next((k for k in dict.fromkeys([*wanted, *known]) if known.get(k) != wanted.get(k)), "")
+            raise SceneError(str(place), "holds a sweep of another scene",
+                             f"{section}.{key} is {shown(known.get(key))} there and {shown(wanted.get(key))} here"
+                             if key else f"they differ in {section}", remedy)
+    return [point for point in there.points if point.get("status") == DONE and point.get("directory")]
 
 
 # Carrying them out.
@@ -295,6 +337,7 @@ class Carried:
             prepared = [_prepare(file, found[file], sets, self.place / name if several else self.place,
                                  f"{name}/" * several, theory_only, say) for file, name in zip(scenes, names)]
             self.sweeps = [sweep for sweep, _ in prepared]
+            self.counts = [len(jobs) for _, jobs in prepared]  # the last points of each sweep
             self.jobs = [job for _, jobs in prepared for job in jobs]
             self.outcomes = look_at_all(self.jobs, say)
             self.complete = True
@@ -313,9 +356,9 @@ class Carried:
         """The tables with what there is."""
         self.written = time.monotonic()
         outcomes = iter(self.outcomes)
-        for sweep in self.sweeps:
+        for sweep, count in zip(self.sweeps, self.counts):
             programs: Counter[str] = Counter()
-            for point, outcome in zip(sweep.points, outcomes) if sweep.simulated else ():
+            for point, outcome in zip(sweep.points[len(sweep.points) - count:], outcomes):
                 point["status"] = outcome.status
                 point.pop("failure", None)
                 if outcome.exit_code:
@@ -350,8 +393,15 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
                OMP_NUM_THREADS says more: mpi4py.futures.MPIPoolExecutor(), Dask's client.get_executor(). They need
                this package, the program and the same file system.
     """
+    if isinstance(jobs, bool) or not isinstance(jobs, Integral) or not 1 <= jobs <= 1024:
+        raise SceneError(f"jobs = {jobs!r}", "is no number of points side by side", "it is a whole number from 1 to 1024",
+                         "leave it out for one after the other")
     if executor is None:
         program.refuse_ranks()
+    elif not isinstance(executor, Executor):
+        raise SceneError(f"executor = {executor!r:.80}", "is no executor", f"it is {type(executor).__name__}, and not of "
+                         "concurrent.futures.Executor", "for example mpi4py.futures.MPIPoolExecutor(), or "
+                         "client.get_executor() of Dask")
     given = [f"{key}={_values(value)}" for key, value in (values or {}).items()]
     with scene_file(scene, "" if executor is None else ".") as file:  # workers elsewhere have no /tmp of ours
         return Carried([file], given, None if out is None else str(out), theory_only,

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 from collections import UserDict
 from collections.abc import Mapping
@@ -15,29 +16,28 @@ from . import program
 from .grid import is_seed, shown
 from .pool import DONE
 from .result import Values, finite
+from .terminal import number
 
 RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
 """Columns of a result whose path in result.json is that of a key of the scene."""
 RENAMED_BACK = {column: path for path, column in RENAMED.items()}
-OVER_FLAT = ("binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off", "work_of_drive.approach",
-             "work_of_drive.pull_off", "lost.cycle", "work_of_adhesion.pairwise",
-             "jkr.in", "jkr.out", "jkr.in_averaged", "jkr.out_averaged", "jkr.zero_load", "sphere.maugis_images",
-             "sphere.renormalised")
-"""Energies of a result that also have a column of their ratio to the flat reference."""
-FIRST = ("delta_gamma", "binding_energy", "work_of_adhesion.approach", "work_of_adhesion.pull_off",
-         "work_of_drive.approach", "work_of_drive.pull_off", "lost.approach", "lost.pull_off", "lost.cycle",
-         "work_of_adhesion.pairwise", "contact_fraction", "repulsive_fraction", "pull_off_force", "jkr.in", "jkr.out",
-         "jkr.in_averaged", "jkr.out_averaged", "jkr.zero_load", "sphere.maugis_images", "sphere.renormalised",
-         "contact_radius.zero_load", "contact_radius.pull_off", "realised_rms",
-         "realised_rms_slope", "energy.balance_error", "run.wall_seconds")
-"""Columns of results that come first; whatever else result.json holds follows."""
-THEORY_FIRST = ("delta_gamma", "gamma_eff", "gamma_eff_ratio", "contact_fraction", "gamma_full_contact",
-                "gamma_full_contact_ratio", "theta", "gamma_eff_ratio_error", "contact_fraction_error")
-OF_AREA = ("binding_energy_ratio", "work_of_adhesion.approach_ratio", "work_of_adhesion.pull_off_ratio",
-           "work_of_drive.approach_ratio", "work_of_drive.pull_off_ratio", "lost.cycle_ratio",
-           "work_of_adhesion.pairwise_ratio", "contact_fraction",
-           "zero_load.mean_height")
-"""Columns over the nominal area, which means nothing for a sphere."""
+AREA, CONTACT, SITES = "nominal area", "area in contact of a sphere", "all sites of the lowest layer"
+"""What numbers of a result are over, as program.quantity() says it."""
+
+
+@functools.lru_cache(maxsize=None)
+def over_flat(path: str) -> bool:
+    """Whether a number of a result is an energy that also has a column of its ratio to the flat reference."""
+    known = program.quantity(path)
+    return known["unit"] == "meV/Å^2" and known["per"] in (AREA, CONTACT) and path != "delta_gamma" and \
+        "uncertainty" not in path
+
+
+@functools.lru_cache(maxsize=None)
+def of_area(column: str) -> bool:
+    """Whether a column is over the nominal area, which means nothing for a sphere, or the mean of all sites."""
+    path = column.removesuffix("_ratio")
+    return program.quantity(path)["per"] in (AREA, SITES) or path == "zero_load.mean_height"
 
 
 def unit_of(column: str) -> str:
@@ -57,7 +57,7 @@ def columns_of(result: Values) -> dict[str, float]:
         if path.split(".")[0] in ("scene", "units", "failure", "theory", "run") and path != "run.wall_seconds":
             continue
         found[RENAMED.get(path, path)] = value
-        if path in OVER_FLAT and flat:
+        if flat and over_flat(path):
             found[path + "_ratio"] = value / flat
     return found
 
@@ -118,10 +118,8 @@ class Table(Columns):
         self._before = "theory." if simulated else ""
         results = [p.get("result", {}) for p in points] if simulated else []
         theory = [_theory_numbers(point) for point in points]
-        for rows, first, before in ((results, FIRST, ""), (theory, THEORY_FIRST, self._before)):
-            there = dict.fromkeys(name for row in rows for name in row)
-            order = [n for f in first for n in (f, f + "_ratio") if n in there]
-            for name in dict.fromkeys([*order, *there]):
+        for rows, before in ((results, ""), (theory, self._before)):  # in the order of result.json
+            for name in dict.fromkeys(name for row in sorted(rows, key=len, reverse=True) for name in row):
                 columns[before + name] = np.array([finite(row.get(name), np.nan) for row in rows])
         super().__init__(columns)
 
@@ -141,7 +139,7 @@ class Table(Columns):
             name = self._before + name.removeprefix("theory.")
         found = self.counted(name) if name in self else np.full(len(self.status), np.nan)
         sphere = self.get("contact_radius.zero_load")
-        return found if sphere is None or name not in OF_AREA else np.where(np.isfinite(sphere), np.nan, found)
+        return found if sphere is None or not of_area(name) else np.where(np.isfinite(sphere), np.nan, found)
 
     def at(self, key: str) -> np.ndarray:
         """The value of a key for each group; NaN where it is no number."""
@@ -201,8 +199,8 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
     for group, (values, places) in enumerate(table.groups):
         row = [shown(values[key]) for key in axes]
         for _, (mean, deviation, count), digits in cells:
-            row.append((f"{round(float(mean[group]), digits) + 0.0:.{digits}f}" if count[group] else "-") +
-                       (f" ± {deviation[group]:.{digits}f}" if deviation[group] > 0.5 * 10.0**-digits else ""))
+            row.append((number(float(mean[group]), digits) if count[group] else "-") +
+                       (f" ± {number(float(deviation[group]), digits)}" if deviation[group] > min(0.5 * 10.0**-digits, 5e-4 * abs(mean[group])) else ""))
         rows.append([*row, _status([table.status[i] for i in places])])
     meaning = "binding energies and works over Δγ" if table.simulated else ""
     if meaning and len(axes) < len(table.axes):

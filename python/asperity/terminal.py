@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shutil
@@ -26,6 +27,21 @@ def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,))
                                 for i, (c, w) in enumerate(zip(cells, width))).rstrip()
 
     return "\n".join([line(heads), rule, *(line(row) if row else rule for row in rows)])
+
+
+def number(value: float, decimals: int) -> str:
+    """For people: with so many decimals, or with more where these would show less than three significant digits, and
+    by powers of ten where it is tiny or huge. The rule of io/terminal.cpp."""
+    size = abs(value)
+    if not math.isfinite(value):
+        return "-"
+    if size >= 1e7:
+        return f"{value:.3e}"
+    if value == 0 or size * 10.0**decimals >= 99.5:  # rounded, it has three digits
+        return f"{value if value else 0.0:.{decimals}f}"
+    if size < 0.9995e-3:
+        return f"{value:.2e}"
+    return f"{value:.{2 - math.floor(math.log10(size))}f}"
 
 
 def duration(seconds: float) -> str:

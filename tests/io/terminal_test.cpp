@@ -5,6 +5,7 @@
 
 #include "support/scratch.hpp"
 
+#include <cmath>
 #include <cstdlib>
 
 namespace asperity::io {
@@ -40,6 +41,24 @@ TEST(Table, Cells) {
     EXPECT_EQ(cell(1e-9), "1.000e-09");
     EXPECT_EQ(cell(123456.0), "123456");
     EXPECT_EQ(cell(1.0 / 0.0), "-");
+    // As many decimals as asked for, and three significant digits in any case.
+    for (const auto& [value, text] :
+         std::initializer_list<std::pair<double, const char*>>{{69.912, "69.91"},
+                                                               {55.6251, "55.63"},
+                                                               {-1.0, "-1.00"},
+                                                               {0.0, "0.00"},
+                                                               {-0.0, "0.00"},
+                                                               {0.99951, "1.00"},
+                                                               {0.5, "0.500"},
+                                                               {0.00412, "0.00412"},
+                                                               {4.127e-7, "4.13e-07"},
+                                                               {-3e-4, "-3.00e-04"},
+                                                               {12345.678, "12345.68"},
+                                                               {5.4321e12, "5.432e+12"},
+                                                               {std::nan(""), "-"}})
+        EXPECT_EQ(number(value, 2), text) << value;
+    EXPECT_EQ(number(0.04, 1), "0.0400");
+    EXPECT_EQ(number(123.0, 0), "123");
 }
 
 TEST(Durations, ReadAndWritten) {

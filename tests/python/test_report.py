@@ -190,6 +190,12 @@ def test_what_is_missing_or_damaged_is_left_out_and_told(path_run, tmp_path):
     found = page(shaped)
     assert "Height of the substrate: no figure" in found.text and "Gap: no figure" in found.text
     assert "Force and separation" in found.text
+    # The command says it as well, with the exit code of files; so it does of another run's run.h5.
+    command("report", damaged, expect=4, says=["shows only a part of the result", "it is not an HDF5 file"])
+    shutil.copy(asperity.run(SMALL, {"surface.seed": 2, "drive.max_steps": 20}, out=tmp_path / "other").file.path, damaged)
+    command("report", damaged, expect=4, says="result.json was written with another one")
+    assert "written with another one" in PageText(damaged / "report.html").text
+    assert not asperity.load(damaged).series and asperity.load(path_run.directory).series
 
 
 HOSTILE = [

@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
@@ -17,7 +18,7 @@ import pytest
 
 import asperity
 import asperity.runs
-from asperity import files, grid, pool
+from asperity import files, grid, pool, program, sentences, terminal
 from asperity.plots import sweep as plots
 from asperity.plots.style import csv, drawn
 from asperity.sweeps import load_sweep, load_sweeps
@@ -517,7 +518,7 @@ def test_a_sweep_is_not_one_of_several_ranks(place, env, words):
             asperity.run("path.toml", out="none")
 
 
-def test_the_table_is_the_same_for_any_number_of_jobs_and_from_python(place):
+def test_the_table_is_the_same_for_any_number_of_jobs_and_from_python(place, monkeypatch):
     said = command("sweep", "state.toml", "--out", "one", "--progress", "off")
     assert "4 of 4 points are done" in said and "±" in said
     command("sweep", "state.toml", "--out", "two", "--progress", "off", "--jobs", "2")
@@ -535,8 +536,21 @@ def test_the_table_is_the_same_for_any_number_of_jobs_and_from_python(place):
     said = command("sweep", "state.toml", "--set", "surface.rms=0.2,0.4,0.6", "--out", "one", "--progress", "off")
     assert "3 are there already" in said and "6 of 6 points are done" in said
     assert (place / "one/rms=0.2,seed=1/result.json").stat().st_mtime_ns == before
-    assert "holds the result of another scene" in command("sweep", "state.toml", "--set", "block.thickness=12", "--out",
-                                                          "one", expect=2)
+    table = load_sweep("one").table
+    command("sweep", "state.toml", "--set", "surface.rms=0.8", "surface.seed=1:2:1", "--out", "one", "--progress", "off",
+            expect=2, says=["holds a sweep over surface.rms, surface.seed", "this one is over surface.seed"])
+    # Before anything is computed: the program is not asked for a theory.
+    with monkeypatch.context() as patch:
+        patch.setattr(program, "theory_points", lambda *_, **__: pytest.fail("a theory was computed"))
+        with pytest.raises(asperity.SceneError, match="another scene\n.*block.thickness is 24 there and 12 here"):
+            asperity.sweep("state.toml", {"block.thickness": 12}, out="one")
+    # Other values: what is done stays in the tables.
+    said = command("sweep", "state.toml", "--set", "surface.rms=0.5,0.6", "--out", "one", "--progress", "off")
+    assert "4 more points of an earlier call" in said and "2 are there already" in said
+    now = load_sweep("one").table
+    assert list(now["surface.rms"]) == [0.2, 0.2, 0.4, 0.4, 0.5, 0.5, 0.6, 0.6] and set(now.status) == {"done"}
+    assert list(now["binding_energy"][:4]) == list(table["binding_energy"][:4])
+    command("sweep", "state.toml", "--set", "surface.rms=0.2,0.4,0.6", "--out", "one", "--progress", "off")
     # A point of another program is told.
     point = place / "one/rms=0.2,seed=1/result.json"
     result = json.loads(point.read_text())
@@ -545,6 +559,40 @@ def test_the_table_is_the_same_for_any_number_of_jobs_and_from_python(place):
     point.write_text(files.sealed_json(result))
     words = ["sweep", "state.toml", "--set", "surface.rms=0.2,0.4,0.6", "--out", "one", "--progress", "off"]
     assert "another (1)" in command(*words) and f"{ours} (5)" in command(*words)
+
+
+def test_numbers_keep_three_digits():
+    """In a table of soft matter as in one of metals; the rule of io/terminal.cpp."""
+    for value, text in ((69.912, "69.91"), (55.6251, "55.63"), (-1.0, "-1.00"), (0.0, "0.00"), (-0.0, "0.00"),
+                        (0.99951, "1.00"), (0.5, "0.500"), (0.00412, "0.00412"), (4.127e-7, "4.13e-07"),
+                        (-3e-4, "-3.00e-04"), (12345.678, "12345.68"), (5.4321e12, "5.432e+12"), (math.nan, "-")):
+        assert terminal.number(value, 2) == text
+    sweep = nine_points()
+    for point in sweep.points:
+        for name in point["result"]:
+            point["result"][name] *= 1e-5
+    cells = [cell for row in text_of(sweep.table)[1] for cell in row]
+    assert "2.76e-06 ± 7.89e-07" in cells, cells
+    assert sentences.energy(3.21e-5) == "3.21e-05 meV/Å²" and sentences.energy(55.6251) == "55.63 meV/Å²"
+    assert sentences.percent(1.234e-5) == "0.00123\u00a0%" and sentences.percent(0.4567) == "45.7\u00a0%"
+
+
+def test_jobs_and_executors_that_are_none_are_refused(place):
+    values = {"surface.rms": [0.2, 0.4]}
+    for jobs in (0, -1, 1.5, True, "2", None, 10**9):
+        with pytest.raises(asperity.SceneError, match="is no number of points side by side"):
+            asperity.sweep("state.toml", values, out="none", jobs=jobs)
+    for executor in ("mpi", 3, object()):
+        with pytest.raises(asperity.SceneError, match="is no executor"):
+            asperity.sweep("state.toml", values, out="none", executor=executor)
+    gone = ThreadPoolExecutor(1)
+    gone.shutdown()
+    with pytest.raises(asperity.SceneError, match="executor: takes no points\n.*shutdown"):
+        asperity.sweep("state.toml", values, out="none", executor=gone)
+    for ranks in (0, 1.5, True, "2"):
+        with pytest.raises(asperity.SceneError, match="is no number of ranks"):
+            asperity.run("state.toml", out="none", ranks=ranks)
+    assert not Path("none/sweep.json").exists()
 
 
 def test_points_share_the_processors_unless_somebody_has_chosen(place):
