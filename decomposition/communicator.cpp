@@ -3,9 +3,6 @@
 #include "decomposition/communicator.hpp"
 
 #include <mpi.h>
-#if __has_include(<mpi-ext.h>)
-#include <mpi-ext.h> // Open MPI's own
-#endif
 
 #include <algorithm>
 #include <cerrno>
@@ -83,14 +80,6 @@ Communicator Communicator::of_fortran(int number) {
     MPI_Comm own;
     MPI_Comm_dup(MPI_Comm_f2c(number), &own);
     return Communicator(std::make_shared<const Mpi>(own));
-}
-
-bool Communicator::takes_device_memory() const {
-#if defined(MPIX_CUDA_AWARE_SUPPORT)
-    return mpi_ && MPIX_Query_cuda_support() == 1;
-#else
-    return false;
-#endif
 }
 
 void Communicator::sum(std::span<double> v) const {

@@ -47,8 +47,6 @@ public:
     /// Number of this rank among those of its machine.
     int local_rank() const { return local_rank_; }
     bool root() const { return rank() == 0; }
-    /// Whether messages may lie in the memory of a CUDA device.
-    bool takes_device_memory() const;
 
     /// Element-wise sum over the ranks, in place. The values must be such that their sum is exact
     /// in any order (ExactSum bins, counts).

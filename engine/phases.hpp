@@ -16,7 +16,8 @@ enum class Phase {
     advance,     ///< elastic forces, kick and drift, level by level
     thermostat,  ///< noise of a scene with a temperature
     exchange,    ///< halos
-    sums,        ///< global sums of a step,; work and dissipation integrated
+    device,      ///< a whole step on a device
+    sums,        ///< global sums of a step; work and dissipation integrated
     observe,     ///< mean height; energies and contact of observed steps
     relax,       ///< relaxation of the zero-load state
     checkpoint,
@@ -25,7 +26,7 @@ enum class Phase {
 };
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names =
-    {"interpolate", "interface", "advance", "thermostat", "exchange",
+    {"interpolate", "interface", "advance", "thermostat", "exchange", "device",
      "sums",        "observe",   "relax",   "checkpoint", "output"};
 
 struct PhaseClock {
@@ -56,12 +57,6 @@ public:
         Clock::time_point start_;
     };
     Timer time(Phase phase) { return Timer(*this, phase); }
-    /// A call that took so long, by another clock.
-    void add(Phase phase, double seconds) {
-        PhaseClock& clock = clocks_[static_cast<std::size_t>(phase)];
-        clock.seconds += seconds;
-        ++clock.calls;
-    }
     /// Does the work on the phase's clock.
     template <class Work>
     void during(Phase phase, const Work& work) {

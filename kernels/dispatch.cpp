@@ -13,10 +13,10 @@
     namespace variant {                                                                            \
     extern const ElasticKernels small_strain_kernels, finite_strain_kernels;                       \
     extern const TransferKernels transfer_kernels;                                                 \
-    extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;                        \
+    extern const InterfaceKernels::LatticeSweeps lattice_sweeps;                                   \
     extern const InterfaceKernels::Sweeps<RowSubstrate> row_sweeps;                                \
     extern const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps;                   \
-    extern const InterfaceKernels::WallKernels wall_kernels;                                       \
+    extern const WallKernels wall_kernels;                                                         \
     extern const RowKernels row_kernels;                                                           \
     }
 

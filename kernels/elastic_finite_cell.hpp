@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The cell of elastic_finite.hpp: forces of its springs and its volume on its corners, and its
-// energy. One text over a value type: packs of cells on the processor, one cell a thread on a
-// device (lane.hpp).
+// energy, for packs of cells.
 #pragma once
 
 #include "kernels/cell_geometry.hpp"

@@ -14,27 +14,6 @@ namespace asperity::ASPERITY_VARIANT {
 using Real = Pack<double>;
 using BlockOfSites = SiteBlock<Real, interface_block>;
 
-/// Writes a pack as doubles.
-ASPERITY_INLINE void store_wide(Pack<double> a, double* to) { a.store(to); }
-ASPERITY_INLINE void store_wide(Pack<float> a, double* to) {
-    widen_low(a).store(to);
-    widen_high(a).store(to + Real::width);
-}
-
-template <>
-struct WideSum<Pack<float>> {
-    Real low{0.0}, high{0.0};
-    ASPERITY_INLINE void add(Pack<float> term) {
-        low = low + widen_low(term);
-        high = high + widen_high(term);
-    }
-    ASPERITY_INLINE void merge(const WideSum& other) {
-        low = low + other.low;
-        high = high + other.high;
-    }
-    ASPERITY_INLINE double over_lanes() const { return total(low + high); }
-};
-
 /// The finished sums of a block of sites: forces, eV/Å, energies, eV, nearest r^2, Å^2.
 struct SiteTerms {
     alignas(64) double x[interface_block], y[interface_block], z[interface_block];
@@ -136,10 +115,10 @@ void sum_beyond(const InterfaceSites& sites, const Exact& exact, const Potential
 /// sideways displacement its tables allow for, what the reference loop takes, its reach, and
 /// whether its atoms may be of several types. Then sum() says which sites are in contact; else the
 /// nearest atom does.
-template <class Heights>
-struct Ground {
+template <class Substrate>
+struct SubstrateAccess {
     static constexpr bool of_types = false;
-    const Heights& from;
+    const Substrate& from;
     double datum() const { return from.heights.datum; }
     double margin() const { return from.reach.offset_margin; }
     const SubstrateMap& exact() const { return from.map; }
@@ -151,20 +130,20 @@ struct Ground {
 
 /// The sweep over rows [row_begin, row_end), a block of sites at a time; sum(site, reach, x, y,
 /// count, terms) is what differs between substrates.
-template <class T, bool observe, class Substrate, class Potential, class Pair, class SumOfPairs>
+template <bool observe, class Substrate, class Potential, class Pair, class SumOfPairs>
 ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& substrate,
                                   const Potential& potential, const Pair& pair, int row_begin,
-                                  int row_end, InterfaceSums& sums, SumOfPairs sum) {
-    const Ground<Substrate> ground{substrate};
-    const double datum = ground.datum();
+                                  int row_end, HeightRange range, InterfaceSums& sums,
+                                  SumOfPairs sum) {
+    const SubstrateAccess<Substrate> access{substrate};
+    const double datum = access.datum();
     const int nx = sites.displacement.x.nx;
     Totals totals;
     for (int y = row_begin; y < row_end; ++y)
         for (int x = 0; x < nx; x += interface_block) {
             const int count = nx - x < interface_block ? nx - x : interface_block;
-            const BlockOfSites site(sites, x, y, count, datum, deepest<T>(pair.cutoff), ceiling<T>,
-                                    ground.margin());
-            const auto reach = ground.reach(x, y, site, pair);
+            const BlockOfSites site(sites, x, y, count, datum, range, access.margin());
+            const auto reach = access.reach(x, y, site, pair);
             if (reach.from_rest < 0.0 && !site.beyond) {
                 totals.pass<observe>(sites, x, y, count);
                 continue;
@@ -172,7 +151,7 @@ ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& 
             SiteTerms terms;
             if (reach.from_rest > 0.0) {
                 sum(site, reach, x, y, count, terms);
-                if constexpr (observe && !Ground<Substrate>::of_types) {
+                if constexpr (observe && !SubstrateAccess<Substrate>::of_types) {
                     terms.in_contact = 0;
                     for (int i = 0; i < count; ++i)
                         terms.in_contact |= unsigned{terms.nearest[i] < pair.contact_r2} << i;
@@ -182,7 +161,7 @@ ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& 
                 terms.clear();
             }
             if (site.beyond)
-                sum_beyond(sites, ground.exact(), potential, site.beyond, x, y, count, terms);
+                sum_beyond(sites, access.exact(), potential, site.beyond, x, y, count, terms);
             totals.take<observe>(sites, terms, x, y, count);
         }
     totals.give(sums);

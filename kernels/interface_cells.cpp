@@ -15,13 +15,12 @@
 // its own. The lanes are added at the end, by halving.
 #include "kernels/interface_block.hpp"
 
-#include <bit>
 #include <cstring>
 
 namespace asperity::ASPERITY_VARIANT {
 
 template <>
-struct Ground<CellSubstrate> {
+struct SubstrateAccess<CellSubstrate> {
     static constexpr bool of_types = true;
     const CellSubstrate& from;
     double datum() const { return from.datum; }
@@ -42,8 +41,8 @@ struct Ground<CellSubstrate> {
 
 namespace {
 
-/// Fixed-point and single-precision distances differ from those of the bounds by less, up to some
-/// thousand Å from the base.
+/// Single-precision distances differ from those of the bounds by less, up to some thousand Å from
+/// the base.
 constexpr double cell_slack = 2e-3;
 
 /// x, y, z and nothing, Å.
@@ -54,10 +53,8 @@ ASPERITY_INLINE Place place_at(const double* from) {
 }
 
 /// Cells near a block of sites.
-template <class T>
 struct NearCells {
     static constexpr int most = 64;
-    static constexpr double per_length = 1.0 / length_unit<T>;
     Place base; ///< bounds are counted from here: the lowest corner, its middle sideways, Å
     Place low_corner, high_corner; ///< of a box around the sites, from the base, Å
     double slack;                  ///< of comparisons with the bounds, Å
@@ -93,8 +90,7 @@ struct NearCells {
             Place gap = left > right ? left : right;
             gap = gap > none ? gap : none;
             gap *= gap;
-            const Place start = mixed ? centre * per_length : shift;
-            std::memcpy(origin[count], &start, sizeof start);
+            std::memcpy(origin[count], &shift, sizeof shift);
             for (int k = 0; k < 3; ++k) {
                 low[k][count] = static_cast<float>(below[k]);
                 high[k][count] = static_cast<float>(above[k]);
@@ -126,89 +122,62 @@ struct NearCells {
         }
         return bits;
     }
-
-private:
-    static constexpr bool mixed = std::is_same_v<T, float>;
 };
 
 /// The cells that a site reaches, and where it stands as their atoms have their places. Found
 /// before the first pair, so that no pair waits for them.
-template <class T>
 struct CellsInReach {
     int count = 0;
-    std::int64_t first[NearCells<T>::most]; ///< of the cell's numbers
-    alignas(32) double site[NearCells<T>::most][4];
+    std::int64_t first[NearCells::most]; ///< of the cell's numbers
+    alignas(32) double site[NearCells::most][4];
 
-    ASPERITY_INLINE CellsInReach(const NearCells<T>& near, const double (&at)[3], double reach) {
-        const Place here = Place{at[0], at[1], at[2], 0.0} * NearCells<T>::per_length;
+    ASPERITY_INLINE CellsInReach(const NearCells& near, const double (&at)[3], double reach) {
+        const Place here = {at[0], at[1], at[2], 0.0};
         for (std::uint64_t bits = near.within(at, reach); bits; bits &= bits - 1) {
             const int c = __builtin_ctzll(bits);
-            Place from = here - place_at(near.origin[c]);
-            // A multiple of the quantum: the integer is in the last 32 bits.
-            if constexpr (std::is_same_v<T, float>) from += 0x1.8p52;
+            const Place from = here - place_at(near.origin[c]);
             std::memcpy(site[count], &from, sizeof from);
             first[count++] = near.cell[c] * (3 * cell_atoms);
         }
     }
 };
 
-/// The atoms of a cell as a site sees them, in units of length.
-template <class T>
-struct CellView;
-template <>
-struct CellView<double> {
+/// Distances of a site from the atoms of a cell, Å.
+struct CellView {
     const double* atoms;
     Real at[3];
-    ASPERITY_INLINE CellView(const CellSubstrate& of, const CellsInReach<double>& cells, int k)
+    ASPERITY_INLINE CellView(const CellSubstrate& of, const CellsInReach& cells, int k)
         : atoms(of.places + cells.first[k]), at{cells.site[k][0], cells.site[k][1],
                                                 cells.site[k][2]} {}
     ASPERITY_INLINE Real d(int axis, int lane) const {
         return at[axis] - Real::load(atoms + axis * cell_atoms + lane);
     }
 };
-template <>
-struct CellView<float> {
-    const std::int32_t* atoms;
-    Simd::Int32 at[3];
-    ASPERITY_INLINE CellView(const CellSubstrate& of, const CellsInReach<float>& cells, int k)
-        : atoms(of.fixed + cells.first[k]), at{part(cells.site[k][0]), part(cells.site[k][1]),
-                                               part(cells.site[k][2])} {}
-    ASPERITY_INLINE Pack<float> d(int axis, int lane) const {
-        return to_float(at[axis] - Simd::Int32::load(atoms + axis * cell_atoms + lane));
-    }
-
-private:
-    ASPERITY_INLINE static Simd::Int32 part(double biased) {
-        return Simd::Int32::same(static_cast<std::int32_t>(std::bit_cast<std::int64_t>(biased)));
-    }
-};
 
 /// The sums of a block's sites, lane by lane, between one load of cells and the next.
-template <class T>
 struct BlockSums {
-    alignas(64) T x[interface_block][Pack<T>::width], y[interface_block][Pack<T>::width],
-        z[interface_block][Pack<T>::width];
-    alignas(64) T energy[interface_block][Pack<T>::width], nearest[interface_block][Pack<T>::width];
+    alignas(64) double x[interface_block][Real::width], y[interface_block][Real::width],
+        z[interface_block][Real::width];
+    alignas(64) double energy[interface_block][Real::width], nearest[interface_block][Real::width];
 };
 
 /// The sums of a site, lane by lane.
-template <class T, bool observe>
+template <bool observe>
 struct CellSums {
-    using V = Pack<T>;
+    using V = Real;
     V x, y, z, energy, nearest;
 
     template <class P>
-    ASPERITY_INLINE explicit CellSums(const PairTerms<Simd, T, P>& pair)
-        : x(T(0)), y(T(0)), z(T(0)), energy(T(0)), nearest(pair.r2_cut) {}
-    ASPERITY_INLINE CellSums(const BlockSums<T>& of, int i)
-        : x(V::load(of.x[i])), y(V::load(of.y[i])), z(V::load(of.z[i])), energy(T(0)),
-          nearest(T(0)) {
+    ASPERITY_INLINE explicit CellSums(const PairTerms<Simd, double, P>& pair)
+        : x(0.0), y(0.0), z(0.0), energy(0.0), nearest(pair.r2_cut) {}
+    ASPERITY_INLINE CellSums(const BlockSums& of, int i)
+        : x(V::load(of.x[i])), y(V::load(of.y[i])), z(V::load(of.z[i])), energy(0.0), nearest(0.0) {
         if constexpr (observe) {
             energy = V::load(of.energy[i]);
             nearest = V::load(of.nearest[i]);
         }
     }
-    ASPERITY_INLINE void store(BlockSums<T>& to, int i) const {
+    ASPERITY_INLINE void store(BlockSums& to, int i) const {
         x.store(to.x[i]);
         y.store(to.y[i]);
         z.store(to.z[i]);
@@ -218,7 +187,7 @@ struct CellSums {
         }
     }
     template <class P>
-    ASPERITY_INLINE void add(const PairTerms<Simd, T, P>& pair, V dx, V dy, V dz, V r2, V t) {
+    ASPERITY_INLINE void add(const PairTerms<Simd, double, P>& pair, V dx, V dy, V dz, V r2, V t) {
         const V f = pair.force(t, r2, std::true_type{});
         x = fma(f, dx, x);
         y = fma(f, dy, y);
@@ -229,44 +198,33 @@ struct CellSums {
         }
     }
     template <bool close, class P>
-    ASPERITY_INLINE void add_cell(const PairTerms<Simd, T, P>& pair, const CellView<T>& cell) {
+    ASPERITY_INLINE void add_cell(const PairTerms<Simd, double, P>& pair, const CellView& cell) {
         const auto square = [](V dx, V dy, V dz) { return fma(dx, dx, fma(dy, dy, dz * dz)); };
-        if constexpr (V::width == cell_atoms) {
-            const V dx = cell.d(0, 0), dy = cell.d(1, 0), dz = cell.d(2, 0),
-                    r2 = square(dx, dy, dz);
-            add(pair, dx, dy, dz, r2, pair.template begin<close>(r2));
-        } else {
-            for (int k = 0; k < cell_atoms; k += 2 * V::width) {
-                const int l = k + V::width;
-                const V dx = cell.d(0, k), dy = cell.d(1, k), dz = cell.d(2, k);
-                const V ex = cell.d(0, l), ey = cell.d(1, l), ez = cell.d(2, l);
-                const V r2 = square(dx, dy, dz), s2 = square(ex, ey, ez);
-                V t, s;
-                pair.template begin<close>(r2, s2, t, s);
-                add(pair, dx, dy, dz, r2, t);
-                add(pair, ex, ey, ez, s2, s);
-            }
+        for (int k = 0; k < cell_atoms; k += 2 * V::width) {
+            const int l = k + V::width;
+            const V dx = cell.d(0, k), dy = cell.d(1, k), dz = cell.d(2, k);
+            const V ex = cell.d(0, l), ey = cell.d(1, l), ez = cell.d(2, l);
+            const V r2 = square(dx, dy, dz), s2 = square(ex, ey, ez);
+            V t, s;
+            pair.template begin<close>(r2, s2, t, s);
+            add(pair, dx, dy, dz, r2, t);
+            add(pair, ex, ey, ez, s2, s);
         }
     }
     /// Adds them to those of the types before, if there are any.
     template <class P>
-    ASPERITY_INLINE void finish(const PairTerms<Simd, T, P>& pair, bool first, int to,
+    ASPERITY_INLINE void finish(const PairTerms<Simd, double, P>& pair, bool first, int to,
                                 SiteTerms& terms) const {
-        const auto over_lanes = [](V lanes) {
-            WideSum<Pack<T>> sum;
-            sum.add(lanes);
-            return sum.over_lanes();
-        };
-        const double scale = pair.force_scale * length_unit<T>;
+        const double scale = pair.force_scale;
         const auto give = [&](double* sum, double mine) {
             sum[to] = first ? mine : sum[to] + mine;
         };
-        give(terms.x, scale * over_lanes(x));
-        give(terms.y, scale * over_lanes(y));
-        give(terms.z, scale * over_lanes(z));
+        give(terms.x, scale * total(x));
+        give(terms.y, scale * total(y));
+        give(terms.z, scale * total(z));
         if constexpr (observe) {
-            give(terms.energy, pair.energy_scale * over_lanes(energy));
-            T least = nearest[0];
+            give(terms.energy, pair.energy_scale * total(energy));
+            double least = nearest[0];
             for (int i = 1; i < V::width; ++i)
                 least = nearest[i] < least ? nearest[i] : least;
             const double r2 = pair.nearest(least);
@@ -277,9 +235,9 @@ struct CellSums {
 };
 
 /// The cells of one type, images [next, end), over a block of sites.
-template <bool observe, bool close, class T, class P>
+template <bool observe, bool close, class P>
 ASPERITY_INLINE void sum_type(const InterfaceSites& sites, const CellSubstrate& atoms,
-                              const PairTerms<Simd, T, P>& pair, std::int64_t next,
+                              const PairTerms<Simd, double, P>& pair, std::int64_t next,
                               std::int64_t end, bool first, const BlockOfSites& site, int x, int y,
                               int count, SiteTerms& terms) {
     const double a = sites.spacing, reach = pair.cutoff;
@@ -287,17 +245,16 @@ ASPERITY_INLINE void sum_type(const InterfaceSites& sites, const CellSubstrate& 
     const Place least = {at_x - site.sideways, at_y - site.sideways, site.lowest_z, 0.0};
     const Place greatest = {at_x + (count - 1) * a + site.sideways, at_y + site.sideways,
                             site.highest_z, 0.0};
-    NearCells<T> near(least, greatest);
-    BlockSums<T> sums;
+    NearCells near(least, greatest);
+    BlockSums sums;
     bool begun = false;
     do {
         next = near.gather(atoms, next, end, reach);
         for (int i = 0; i < count; ++i) {
             const double at[3] = {(sites.x0 + x + i + 0.5) * a + site.ux[i], at_y + site.uy[i],
                                   site.z[i]};
-            const CellsInReach<T> cells(near, at, reach);
-            CellSums<T, observe> sum =
-                begun ? CellSums<T, observe>(sums, i) : CellSums<T, observe>(pair);
+            const CellsInReach cells(near, at, reach);
+            CellSums<observe> sum = begun ? CellSums<observe>(sums, i) : CellSums<observe>(pair);
             for (int k = 0; k < cells.count; ++k)
                 sum.template add_cell<close>(pair, {atoms, cells, k});
             if (next < end)
@@ -309,11 +266,11 @@ ASPERITY_INLINE void sum_type(const InterfaceSites& sites, const CellSubstrate& 
     } while (next < end);
 }
 
-template <class T, bool observe>
+template <bool observe>
 void cell_sweep(const InterfaceSites& sites, const CellSubstrate& atoms, const PairTable& pairs,
                 int row_begin, int row_end, InterfaceSums& sums) {
-    sweep_blocks<T, observe>(
-        sites, atoms, pairs, pairs, row_begin, row_end, sums,
+    sweep_blocks<observe>(
+        sites, atoms, pairs, pairs, row_begin, row_end, {}, sums,
         [&](const BlockOfSites& site, const auto& reach, int x, int y, int count, SiteTerms& terms)
             __attribute__((always_inline)) {
                 const std::ptrdiff_t block =
@@ -322,7 +279,7 @@ void cell_sweep(const InterfaceSites& sites, const CellSubstrate& atoms, const P
                     const std::int64_t* list = atoms.first + block * pairs.types + type;
                     std::visit(
                         [&]<class P>(const P& p) {
-                            const PairTerms<Simd, T, P> pair(p);
+                            const PairTerms<Simd, double, P> pair(p);
                             if (reach.close)
                                 sum_type<observe, true>(sites, atoms, pair, list[0], list[1],
                                                         type == 0, site, x, y, count, terms);
@@ -339,7 +296,6 @@ void cell_sweep(const InterfaceSites& sites, const CellSubstrate& atoms, const P
 
 extern const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps;
 const InterfaceKernels::Sweeps<CellSubstrate, PairTable> cell_sweeps = {
-    {{cell_sweep<double, false>, cell_sweep<double, true>},
-     {cell_sweep<float, false>, cell_sweep<float, true>}}};
+    {cell_sweep<false>, cell_sweep<true>}};
 
 } // namespace asperity::ASPERITY_VARIANT

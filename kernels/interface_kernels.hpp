@@ -14,10 +14,10 @@
 //   cells      atoms anywhere, sixteen to a cell: site by site, SIMD over the atoms of the cells
 //              near it.
 //
-// The last three exist twice: in double, and mixed: a site's pairs, and in the lattice sweep their
-// sums, in single precision. Mixed heights are 32-bit integers, multiples of 2^-22 Å: the
-// difference of two is exact, wherever in the box and however high it is formed, and only then
-// becomes a float.
+// The lattice sweep exists twice: in double, and mixed: a site's pairs and their sums in single
+// precision, of potentials that allow for it. Mixed heights are 32-bit integers, multiples of 2^-22
+// Å: the difference of two is exact, wherever in the box and however high it is formed, and only
+// then becomes a float.
 //
 // Sites out of reach are skipped. For each block of sixteen sites along x the owner tabulates
 // how high the substrate gets in rings of lateral distance around it. From the lowest site of the
@@ -36,15 +36,9 @@
 #pragma once
 
 #include "kernels/pair_sum.hpp"
-#include "kernels/wall_law.hpp"
+#include "kernels/wall_kernels.hpp"
 
 namespace asperity {
-
-/// What a sweep is asked for.
-struct SweepOptions {
-    bool observe = false; ///< energies, contacts and nearest distances too
-    bool mixed = false;   ///< pairs in single precision
-};
 
 /// The reference sweep: pair_sum for each site of rows [row_begin, row_end).
 void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
@@ -60,51 +54,22 @@ void tail_sweep(const InterfaceSites& sites, const PairPotential& potential, dou
                 PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
                 InterfaceSums& sums);
 
-/// A row of sites over a wall, each of which comes to rest under its own force while the elastic
-/// ones stay as they are (engine/equilibrium/wall_minimiser.hpp).
-template <class T>
-struct WallRow {
-    const double* below; ///< the wall's height, Å
-    const double* u;     ///< where the sites are, Å
-    const float* step;   ///< how far they went last, Å
-    const T* elastic;    ///< S z, eV/Å, times 1 / norm
-    double* next;        ///< out: where they come to rest, Å
-};
-struct WallRule {
-    double reference_height; ///< Å
-    double spring;           ///< eV/Å^2: of each site to z - (elastic force) / spring
-    double momentum;         ///< z = u + momentum step
-    double norm;
-    double load; ///< on each site, pressing down, eV/Å
-};
-struct WallSums {
-    double furthest = 0.0; ///< |next - z| and the force left on a site over the spring, Å
-    double turn = 0.0;     ///< sum of (z - next) (next - u), Å^2
-    double height = 0.0;   ///< sum of next, Å
-};
-
 /// The sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile
 /// and overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
 struct InterfaceKernels {
-    template <class Substrate, class Potential>
+    template <class Substrate, class Potential = PairPotential>
     using Sweep = void (*)(const InterfaceSites&, const Substrate&, const Potential&, int row_begin,
                            int row_end, InterfaceSums&);
     template <class Substrate, class Potential = PairPotential>
     struct Sweeps {
-        Sweep<Substrate, Potential> of[2][2]; ///< [mixed][observe]
-        auto operator()(SweepOptions how) const { return of[how.mixed][how.observe]; }
+        Sweep<Substrate, Potential> of[2]; ///< [observe]
     };
-    Sweeps<LatticeSubstrate> lattice;
+    struct LatticeSweeps {
+        Sweep<LatticeSubstrate> in_double[2], mixed[2]; ///< [observe]
+    };
+    LatticeSweeps lattice;
     Sweeps<RowSubstrate> rows;
     Sweeps<CellSubstrate, PairTable> cells;
-
-    /// Over a wall, in double; [observe]. nearest_r2: the square of the gap, 0 where it is
-    /// negative.
-    struct WallKernels {
-        Sweep<PlaneView<const double>, WallLaw> sweep[2];
-        WallSums (*rest_double)(const WallLaw&, const WallRow<double>&, const WallRule&, int);
-        WallSums (*rest_single)(const WallLaw&, const WallRow<float>&, const WallRule&, int);
-    };
     WallKernels wall;
 };
 

@@ -1,13 +1,51 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The lattice sweep (interface_site.hpp) on SIMD registers; compiled once for each x86-64 level
-// (variant.hpp).
+// The lattice sweep (interface_site.hpp) on SIMD registers, in double and in mixed precision;
+// compiled once for each x86-64 level (variant.hpp).
 #include "kernels/interface_block.hpp"
 
 namespace asperity::ASPERITY_VARIANT {
 
+/// In single precision: the difference of two heights in fixed_quantum is exact.
+template <>
+struct SiteHeight<Simd, float> {
+    using Atom = std::int32_t;
+    using V = Pack<float>;
+    PackInt32 z;
+    ASPERITY_INLINE explicit SiteHeight(const double* from) {
+        alignas(64) std::int32_t fixed[V::width];
+        for (int i = 0; i < V::width; ++i)
+            fixed[i] = to_fixed(from[i]);
+        z = PackInt32::load(fixed);
+    }
+    ASPERITY_INLINE V above(const std::int32_t* atoms) const {
+        return to_float(z - PackInt32::load(atoms));
+    }
+
+private:
+    ASPERITY_INLINE static std::int32_t to_fixed(double z) {
+        constexpr double round_to_integer = 0x1.8p52;
+        return static_cast<std::int32_t>((z * (1.0 / fixed_quantum) + round_to_integer) -
+                                         round_to_integer);
+    }
+};
+
 namespace {
+
+ASPERITY_INLINE PlaneView<const double> heights_in(double, const LatticeSubstrate& s) {
+    return s.heights.height;
+}
+ASPERITY_INLINE PlaneView<const std::int32_t> heights_in(float, const LatticeSubstrate& s) {
+    return s.fixed;
+}
+
+/// Writes a pack as doubles.
+ASPERITY_INLINE void store_wide(Pack<double> a, double* to) { a.store(to); }
+ASPERITY_INLINE void store_wide(Pack<float> a, double* to) {
+    widen_low(a).store(to);
+    widen_high(a).store(to + Real::width);
+}
 
 /// One register of sites, `lane` sites into the block.
 template <class T, bool observe, bool close, class P>
@@ -45,11 +83,15 @@ void sweep_with(const PairTerms<Simd, T, P>& pair, const InterfaceSites& sites,
                 const LatticeSubstrate& atoms, const PairPotential& potential, int row_begin,
                 int row_end, InterfaceSums& sums) {
     const Offsets<T> offset(sites.spacing, atoms.half_offsets);
-    const auto heights = SiteHeight<Simd, T>::of(atoms.heights);
+    const auto heights = heights_in(T(), atoms);
     // No atom of a lattice is laterally nearer to a hollow site than this.
     const double hollow = std::sqrt(0.5) * sites.spacing;
-    sweep_blocks<T, observe>(
-        sites, atoms, potential, pair, row_begin, row_end, sums,
+    // Atoms deeper than the fixed depth are not where the fixed heights have them.
+    const HeightRange range = std::is_same_v<T, float>
+                                  ? HeightRange{pair.cutoff - fixed_depth, fixed_depth}
+                                  : HeightRange{};
+    sweep_blocks<observe>(
+        sites, atoms, potential, pair, row_begin, row_end, range, sums,
         [&](const BlockOfSites& site, const Reach& reach, int x, int y, int count,
             SiteTerms& terms) __attribute__((always_inline)) {
             // What is in reach is rounded up to the table's steps, what is inside down.
@@ -68,12 +110,14 @@ void sweep_with(const PairTerms<Simd, T, P>& pair, const InterfaceSites& sites,
         });
 }
 
-template <class T, bool observe>
+/// mixed: pairs in single precision; those of a table are in double all the same.
+template <bool mixed, bool observe>
 void lattice_sweep(const InterfaceSites& sites, const LatticeSubstrate& atoms,
                    const PairPotential& potential, int row_begin, int row_end,
                    InterfaceSums& sums) {
     std::visit(
         [&]<class P>(const P& p) {
+            using T = std::conditional_t<mixed && !std::is_same_v<P, Tabulated>, float, double>;
             sweep_with<T, observe>(PairTerms<Simd, T, P>(p), sites, atoms, potential, row_begin,
                                    row_end, sums);
         },
@@ -82,9 +126,9 @@ void lattice_sweep(const InterfaceSites& sites, const LatticeSubstrate& atoms,
 
 } // namespace
 
-extern const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps;
-const InterfaceKernels::Sweeps<LatticeSubstrate> lattice_sweeps = {
-    {{lattice_sweep<double, false>, lattice_sweep<double, true>},
-     {lattice_sweep<float, false>, lattice_sweep<float, true>}}};
+extern const InterfaceKernels::LatticeSweeps lattice_sweeps;
+const InterfaceKernels::LatticeSweeps lattice_sweeps = {
+    {lattice_sweep<false, false>, lattice_sweep<false, true>},
+    {lattice_sweep<true, false>, lattice_sweep<true, true>}};
 
 } // namespace asperity::ASPERITY_VARIANT

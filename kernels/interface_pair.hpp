@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Pairs, as the three sweeps over atoms take them (interface_lattice.cpp, interface_rows.cpp,
-// interface_cells.cpp): one text for packs and for the threads of a device. F is the family of
-// values (Simd, Scalar), T the precision of the pairs, double or float.
+// interface_cells.cpp), for packs and for the threads of a device. F is the family of values (Simd,
+// Scalar), T the precision of the pairs: double, or float in the lattice sweep on packs.
 //
 // Without the energy a Lennard-Jones pair takes one fused multiplication for r^2, one and a half
 // for t, four for the force, one for its z component: seven and a half, and what the lateral
@@ -41,7 +41,7 @@ struct PairTerms {
     /// be left out (false_type) where all of r2 are known to be within it.
     template <bool masked>
     ASPERITY_INLINE V force(V begun, V r2, std::bool_constant<masked>) const {
-        // The maximum is for those that ask for r^2: of Lennard-Jones nothing is left of it.
+        // Some potentials use r^2 here; Lennard-Jones does not, and the compiler drops the maximum.
         return potential.force(
             begun, max(r2, r2_floor), [&](V a, V b, V c) __attribute__((always_inline)) {
                 if constexpr (masked)
@@ -95,39 +95,8 @@ struct SiteHeight {
     using Atom = double;
     using V = typename F::template Of<double>;
     V z;
-    ASPERITY_INLINE static PlaneView<const double> of(const SubstrateHeights& h) {
-        return h.height;
-    }
     ASPERITY_INLINE explicit SiteHeight(const double* from) : z(V::load(from)) {}
     ASPERITY_INLINE explicit SiteHeight(double same) : z(same) {}
     ASPERITY_INLINE V above(const double* atoms) const { return z - V::load(atoms); }
 };
-template <class F>
-struct SiteHeight<F, float> {
-    using Atom = std::int32_t;
-    using V = typename F::template Of<float>;
-    using Int = typename F::Int32;
-    Int z;
-    ASPERITY_INLINE static PlaneView<const std::int32_t> of(const SubstrateHeights& h) {
-        return h.fixed;
-    }
-    ASPERITY_INLINE explicit SiteHeight(const double* from) {
-        alignas(64) std::int32_t fixed[V::width];
-        for (int i = 0; i < V::width; ++i)
-            fixed[i] = to_fixed(from[i]);
-        z = Int::load(fixed);
-    }
-    ASPERITY_INLINE explicit SiteHeight(double same) : z(Int::same(to_fixed(same))) {}
-    ASPERITY_INLINE V above(const std::int32_t* atoms) const {
-        return to_float(z - Int::load(atoms));
-    }
-
-private:
-    ASPERITY_INLINE static std::int32_t to_fixed(double z) {
-        constexpr double round_to_integer = 0x1.8p52;
-        return static_cast<std::int32_t>((z * (1.0 / fixed_quantum) + round_to_integer) -
-                                         round_to_integer);
-    }
-};
-
 } // namespace asperity::ASPERITY_VARIANT

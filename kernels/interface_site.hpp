@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A site of the interface over a substrate of the block's own lattice: one text for packs of sites
-// and for the threads of a device, a site each. Displacements made safe, the reach that follows
+// A site of the interface over a substrate of the block's own lattice, for packs of sites and for
+// the threads of a device, a site each. Displacements made safe, the reach that follows
 // from the gap, and the sums over the pairs within it.
 //
 // Offsets come in fours, (±cx, ±cy): two rows of atoms, one south and one north of the site, two
@@ -19,15 +19,11 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// Sites lower than this over the datum are left to the reference loop, Å: atoms deeper than the
-/// fixed depth are not where they seem, and nothing may reach down to them.
-template <class T>
-ASPERITY_INLINE double deepest(double cutoff) {
-    return std::is_same_v<T, float> ? cutoff - fixed_depth : -1e300;
-}
-/// Nothing is in reach of sites as high as this over the datum, Å.
-template <class T>
-inline constexpr double ceiling = std::is_same_v<T, float> ? fixed_depth : 1e6;
+/// Heights over the datum of the sites that the tables cover, Å.
+struct HeightRange {
+    double deepest = -1e300; ///< lower sites are left to the reference loop
+    double ceiling = 1e6;    ///< nothing is in reach of sites as high as this
+};
 
 /// Displacements of one block of sites, or of one site, made safe for the tables.
 template <class Real, int size>
@@ -39,10 +35,9 @@ struct SiteBlock {
     unsigned beyond; ///< bits of sites that the tables do not cover: left to the reference loop
 
     /// Sites x to x + count of row y; behind a row's end its last site is repeated. Heights are
-    /// counted from the datum; sites lower than `deepest` over it are beyond, and nothing is in
-    /// reach of sites as high as the ceiling.
+    /// counted from the datum.
     ASPERITY_INLINE SiteBlock(const InterfaceSites& sites, int x, int y, int count, double datum,
-                              double deepest, double ceiling, double margin) {
+                              HeightRange range, double margin) {
         const auto load = [&](const double* row, int lane) {
             // A whole register behind the row's end has the last site, too.
             const int first = lane < count ? lane : count - 1;
@@ -59,17 +54,17 @@ struct SiteBlock {
             // Not-a-number or infinity in any component makes this not-a-number: a lane beyond.
             const Real u2 = fma(x_lanes, x_lanes, y_lanes * y_lanes) + uz * Real(0.0);
             const Real kept =
-                select(z_lanes > Real(deepest), select(u2 < Real(margin * margin), u2, Real(-1.0)),
-                       Real(-1.0));
+                select(z_lanes > Real(range.deepest),
+                       select(u2 < Real(margin * margin), u2, Real(-1.0)), Real(-1.0));
             const unsigned left = bits_where_less(kept, Real(0.0));
             if (left) {
                 beyond |= left << lane;
                 const auto near = kept > Real(-0.5);
                 x_lanes = select(near, x_lanes, Real(0.0));
                 y_lanes = select(near, y_lanes, Real(0.0));
-                z_lanes = select(near, z_lanes, Real(ceiling));
+                z_lanes = select(near, z_lanes, Real(range.ceiling));
             }
-            z_lanes = min(z_lanes, Real(ceiling));
+            z_lanes = min(z_lanes, Real(range.ceiling));
             x_lanes.store(ux + lane);
             y_lanes.store(uy + lane);
             z_lanes.store(z + lane);
@@ -202,17 +197,20 @@ struct Laterals {
     ASPERITY_INLINE V east2(int m) const { return east2_[m]; }
 };
 
-/// A sum in double, lane by lane, of terms of type V.
-template <class V>
-struct WideSum {
-    V low{0.0};
-    ASPERITY_INLINE void add(V term) { low = low + term; }
-    ASPERITY_INLINE void merge(const WideSum& other) { low = low + other.low; }
-    ASPERITY_INLINE double over_lanes() const { return total(low); }
-};
 template <>
-struct WideSum<Lane<float>> : WideSum<Lane<double>> {
-    ASPERITY_INLINE void add(Lane<float> term) { low = low + Lane<double>(term.r); }
+struct Laterals<Scalar, double> {
+    Lane<double> ux;
+    const Offsets<double>& offset;
+    ASPERITY_INLINE Laterals(Lane<double> u, const Offsets<double>& offsets, int)
+        : ux(u), offset(offsets) {}
+    ASPERITY_INLINE Lane<double> west2(int m) const {
+        const Lane<double> west = ux + Lane<double>(offset.at[m]);
+        return west * west;
+    }
+    ASPERITY_INLINE Lane<double> east2(int m) const {
+        const Lane<double> east = ux - Lane<double>(offset.at[m]);
+        return east * east;
+    }
 };
 
 /// Four pairs on their way from distance to force; t: what begin() returned.
@@ -226,21 +224,6 @@ template <class V>
 struct PairSums {
     V f, f_cx, f_cy, f_z, energy; ///< of f, f cx, f cy, f z, V
     V nearest;                    ///< least r^2
-};
-
-template <class T>
-struct Laterals<Scalar, T> {
-    Lane<T> ux;
-    const Offsets<T>& offset;
-    ASPERITY_INLINE Laterals(Lane<T> u, const Offsets<T>& offsets, int) : ux(u), offset(offsets) {}
-    ASPERITY_INLINE Lane<T> west2(int m) const {
-        const Lane<T> west = ux + Lane<T>(offset.at[m]);
-        return west * west;
-    }
-    ASPERITY_INLINE Lane<T> east2(int m) const {
-        const Lane<T> east = ux - Lane<T>(offset.at[m]);
-        return east * east;
-    }
 };
 
 /// Sums over the quads in reach of sites displaced by ux, uy that stand at z; `here`: the atom of
@@ -333,7 +316,7 @@ sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F
 struct SiteForce {
     double x, y, z;
 };
-/// What one site feels, with its energy, eV, and the nearest r^2, Å^2.
+/// The force on one site, with its energy, eV, and the nearest r^2, Å^2.
 struct SiteTotal {
     SiteForce force;
     double energy, nearest;

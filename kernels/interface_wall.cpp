@@ -64,7 +64,7 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
     const typename Law::template In<Real> law(wall);
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
     const Real compliance(1.0 / rule.spring), load(rule.load), norm(rule.norm);
-    Real furthest(0.0), turn(0.0), height(0.0);
+    Real furthest(0.0), reversal(0.0), height(0.0);
     for (int x = 0; x < sites; x += interface_block) {
         const int count = sites - x < interface_block ? sites - x : interface_block;
         alignas(64) double elastic[interface_block], step[interface_block];
@@ -84,11 +84,11 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
             next.store_first(row.next + x + lane, here);
             const Real left = target - gap + compliance * law.force(gap);
             furthest = max(furthest, first_lanes(max(way, -way) + max(left, -left), here));
-            turn = turn - first_lanes(way * (next - u), here);
+            reversal = reversal - first_lanes(way * (next - u), here);
             height = height + first_lanes(next, here);
         }
     }
-    return {-lowest(Real(0.0) - furthest), total(turn), total(height)};
+    return {-lowest(Real(0.0) - furthest), total(reversal), total(height)};
 }
 
 template <class T>
@@ -98,8 +98,8 @@ WallSums rest_row(const WallLaw& wall, const WallRow<T>& row, const WallRule& ru
 
 } // namespace
 
-extern const InterfaceKernels::WallKernels wall_kernels;
-const InterfaceKernels::WallKernels wall_kernels = {
+extern const WallKernels wall_kernels;
+const WallKernels wall_kernels = {
     {wall_sweep<false>, wall_sweep<true>}, rest_row<double>, rest_row<float>};
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -110,22 +110,11 @@ ASPERITY_INLINE void gather_four(const T* table, Lane<T> n, Lane<T> (&row)[4]) {
     for (int k = 0; k < 4; ++k)
         row[k] = table[4 * static_cast<std::ptrdiff_t>(n.r) + k];
 }
-ASPERITY_INLINE Lane<double> inverse_sqrt(Lane<double> a) { return 1.0 / std::sqrt(a.r); }
 
 ASPERITY_INLINE Lane<double> first_lanes(Lane<double> a, int) { return a; }
 ASPERITY_INLINE void collect(const BasicExactSum<Lane<double>>& lane, ExactSum& into) {
     into.merge({{lane.bin[0].r, lane.bin[1].r}});
 }
-
-/// Fixed-point numbers, whose differences are exact.
-struct LaneInt32 {
-    std::int32_t r;
-
-    static ASPERITY_INLINE LaneInt32 load(const std::int32_t* from) { return {*from}; }
-    static ASPERITY_INLINE LaneInt32 same(std::int32_t value) { return {value}; }
-    friend ASPERITY_INLINE LaneInt32 operator-(LaneInt32 a, LaneInt32 b) { return {a.r - b.r}; }
-};
-ASPERITY_INLINE Lane<float> to_float(LaneInt32 a) { return static_cast<float>(a.r); }
 
 /// The least of all lanes.
 ASPERITY_INLINE double lowest(Lane<double> a) { return a.r; }
@@ -136,7 +125,6 @@ ASPERITY_INLINE double total(Lane<double> a) { return a.r; }
 struct Scalar {
     template <class T>
     using Of = Lane<T>;
-    using Int32 = LaneInt32;
 };
 
 } // namespace asperity::ASPERITY_VARIANT

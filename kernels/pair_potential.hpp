@@ -16,7 +16,7 @@
 //                         to an atom than the inflection is in contact with it
 //   depth(), closest()    eV, Å
 //   shift()               V0(r_c), in units of Terms::energy_scale
-//   has_tail              whether Terms have a moment()
+//   has_tail              whether Terms have a moment(): for the tail and for a smeared wall
 //   Terms<V>              the formulas, for values of type V (number.hpp): begin() does what is
 //                         slow, for one r^2 or two; force() is -V0'/r in units of force_scale, and
 //                         leaves its last operation, a b - c, to the caller, who may mask it;
@@ -86,8 +86,8 @@ private:
 
 /// The pairs beyond the cutoff as a continuum (scene: interface.tail).
 ///
-/// A site at height g over the substrate's local mean plane feels, beyond the cutoff, a plane of n
-/// atoms per area; and the shift of the potential inside it is undone. With c = max(r_c, |g|):
+/// On a site at height g over the substrate's local mean plane acts, beyond the cutoff, a plane of
+/// n atoms per area; and the shift of the potential inside it is undone. With c = max(r_c, |g|):
 ///
 ///     U(g) = 2 pi n int_c^infinity V0(r) r dr  +  pi n (r_c^2 - g^2)_+ V0(r_c)
 ///

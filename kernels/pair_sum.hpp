@@ -30,7 +30,7 @@ struct PairTable {
     PairTable(const PairPotential& of_all) : PairTable(&of_all, 1) {}
 };
 
-/// What one site feels: the sums of the reference loop.
+/// Force and energy of one site: the sums of the reference loop.
 struct PairSum {
     double force[3] = {0.0, 0.0, 0.0}; ///< eV/Å
     double energy = 0.0;               ///< eV

@@ -336,7 +336,7 @@ ASPERITY_INLINE Pack<T> fms_where_less(Pack<T> x, Pack<T> y, Pack<T> a, Pack<T> 
 }
 /// 1 / sqrt(a) to about one unit of the last place. AVX-512 has a first guess of 14 bits, which one
 /// step of fourth order takes to the end: a third of the time of a pass that asks for nine of them
-/// a node. Its bits are therefore not those of the other levels and of a device (lane.hpp).
+/// a node. Its bits are therefore not those of the other levels.
 ASPERITY_INLINE Pack<double> inverse_sqrt(Pack<double> a) {
     using P = Pack<double>;
 #if defined(__AVX512F__)
@@ -388,7 +388,6 @@ ASPERITY_INLINE double total(Pack<double> v) {
 struct Simd {
     template <class T>
     using Of = Pack<T>;
-    using Int32 = PackInt32;
 };
 
 /// Fused multiplication and addition of one lane, for scalar forms of a kernel: same bits as the

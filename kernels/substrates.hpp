@@ -12,7 +12,7 @@
 
 namespace asperity {
 
-/// Sites along x whose reach is bounded together: the widest register in single precision.
+/// Sites along x whose reach is bounded together: a multiple of every register's width.
 inline constexpr int interface_block = 16;
 /// Rings of lateral distance for which each block knows the substrate's greatest height.
 inline constexpr int interface_rings = 8;
@@ -38,11 +38,10 @@ struct ReachBounds {
     double offset_margin = 0.0; ///< largest sideways displacement the tables allow for, Å
 };
 
-/// The substrate's heights as the sweeps read them; a view that no sweep reads is empty.
+/// The substrate's heights as the sweeps read them.
 struct SubstrateHeights {
-    PlaneView<const double> height;      ///< over the datum, Å
-    PlaneView<const std::int32_t> fixed; ///< over the datum, in units of fixed_quantum
-    double datum = 0.0;                  ///< height of the highest atom, Å
+    PlaneView<const double> height; ///< over the datum, Å
+    double datum = 0.0;             ///< height of the highest atom, Å
 };
 
 /// Å, a power of two: it rounds positions by half of it at most, as a float does at 3 Å.
@@ -55,7 +54,8 @@ inline constexpr double fixed_depth = 250.0;
 ///
 /// Offsets from a hollow site to atoms are (±(m - 1/2) a, ±(n - 1/2) a), m, n = 1, 2, ...
 struct LatticeSubstrate {
-    SubstrateHeights heights; ///< with a halo that holds every offset and a whole vector
+    SubstrateHeights heights;            ///< with a halo that holds every offset and a whole vector
+    PlaneView<const std::int32_t> fixed; ///< the same heights for the mixed sweep, in fixed_quantum
     /// [k * half_offsets + n - 1]: how many m lie within the lateral distance k / cuts_per_length.
     const std::int32_t* columns = nullptr;
     int half_offsets = 0; ///< greatest m and n
@@ -85,7 +85,7 @@ struct SubstrateAtoms {
     double edge = 0.0; ///< of the box, Å
 };
 
-/// Atoms in a cell: the widest register in single precision.
+/// Atoms in a cell: a multiple of every register's width.
 inline constexpr int cell_atoms = 16;
 /// The atoms that fill a cell stand so deep that larger cutoffs might reach them, Å.
 inline constexpr double largest_cell_cutoff = 100.0;
@@ -100,8 +100,7 @@ struct CellImage {
 /// are of one type. Heights are over the datum. A cell that is not full is filled with atoms so low
 /// that no site reaches them.
 struct CellSubstrate {
-    const double* places = nullptr;      ///< Å; or, mixed,
-    const std::int32_t* fixed = nullptr; ///< from the cell's centre, in fixed_quantum
+    const double* places = nullptr; ///< Å
     /// [cell * 8 + n], Å: the middle of its atoms' bounds (x, y, z, 0), and half their edges.
     const double* bounds = nullptr;
     /// The cells of a type within its cutoff and the margin of a block of sites, sideways:

@@ -8,14 +8,11 @@
 
 #include "kernels/number.hpp"
 
-#include <type_traits>
-
 namespace asperity {
 
 struct Tabulated {
     /// [4 n + k], eV: V0 = c0 + x (c1 + x (c2 + x c3)) in interval n, x from 0 to 1 along it.
     const double* cubics = nullptr;
-    const float* in_single = nullptr; ///< the same
     int intervals = 0;
     double first = 0.0;  ///< where the table begins, Å
     double step = 1.0;   ///< length of an interval, Å
@@ -40,18 +37,14 @@ struct Tabulated {
 
     template <class V>
     struct Terms {
-        const Value<V>* table;
+        const double* table;
         V begin_at, per_length, last;
         double force_scale, energy_scale = 1.0;
 
         Terms(const Tabulated& p, double unit)
-            : begin_at(same<V>(p.first / unit)), per_length(same<V>(unit / p.step)),
-              last(same<V>(p.intervals - 1.0)), force_scale(1.0 / (p.step * unit)) {
-            if constexpr (std::is_same_v<Value<V>, float>)
-                table = p.in_single;
-            else
-                table = p.cubics;
-        }
+            : table(p.cubics), begin_at(same<V>(p.first / unit)),
+              per_length(same<V>(unit / p.step)), last(same<V>(p.intervals - 1.0)),
+              force_scale(1.0 / (p.step * unit)) {}
 
         /// 1/r
         ASPERITY_INLINE V begin(V r2) const { return same<V>(1.0) / sqrt(r2); }

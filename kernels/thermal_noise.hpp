@@ -43,11 +43,11 @@ ASPERITY_INLINE double logarithm(double x) {
     return exponent * 0.6931471805599453 + 2.0 * (s + s * sum);
 }
 
-struct Turn {
+struct CosineSine {
     double cosine, sine;
 };
 /// Of the angle 2 pi (bits + 1/2) / 2^32. Within 2e-16.
-ASPERITY_INLINE Turn turn(std::uint32_t bits) {
+ASPERITY_INLINE CosineSine cosine_and_sine(std::uint32_t bits) {
     // The nearest quarter of a turn, and the rest x, |x| <= pi/4.
     const std::uint32_t quarter = (bits + 0x20000000u) >> 30;
     const auto rest = static_cast<std::int32_t>(bits - (quarter << 30));
@@ -62,7 +62,7 @@ ASPERITY_INLINE Turn turn(std::uint32_t bits) {
     s *= x;
     const bool odd = quarter & 1u;
     const double along = odd ? -s : c, across = odd ? c : s;
-    return quarter & 2u ? Turn{-along, -across} : Turn{along, across};
+    return quarter & 2u ? CosineSine{-along, -across} : CosineSine{along, across};
 }
 
 /// Three independent normal numbers (mean 0, variance 1) of a node in a step. level, x, y, z: which
@@ -81,7 +81,7 @@ ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int
         return std::sqrt(-2.0 * logarithm((b + 0.5) * 0x1p-32));
     };
     const double r1 = radius(bits.v[0]), r2 = radius(bits.v[2]);
-    const Turn first = turn(bits.v[1]), second = turn(bits.v[3]);
+    const CosineSine first = cosine_and_sine(bits.v[1]), second = cosine_and_sine(bits.v[3]);
     return {r1 * first.cosine, r1 * first.sine, r2 * second.cosine};
 }
 

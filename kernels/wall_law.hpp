@@ -29,15 +29,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace asperity {
-
-/// Of a site that comes to rest under its own law and a spring.
-struct SiteMinimiser {
-    /// Newton's steps, from where the site was an iteration before.
-    static constexpr int steps = 3;
-};
 
 template <class P>
 class SmearedWall {
@@ -87,13 +84,14 @@ public:
         }
         /// Where a spring to the gap `target` lets a site come to rest: spring (target - g) +
         /// force(g) = 0, the attraction's decay beyond its steepest place taken as it is at `gap`.
-        /// By Newton's method, of which a few steps are taken.
+        /// By Newton's method from where the site was an iteration before.
         ASPERITY_INLINE V rest(V gap, V target, V spring) const {
+            constexpr int newton_steps = 3;
             const V from = max(steepest, gap);
             const V outside = target + force(from) / spring; // if the site ends in the decay
             const V pull = force(from) - force_there;
             V g = max(floor, min(steepest, gap));
-            for (int i = 0; i < SiteMinimiser::steps; ++i) {
+            for (int i = 0; i < newton_steps; ++i) {
                 const V way = (spring * (target - g) + force(g) + pull) / (spring + slope(g));
                 g = max(floor, min(steepest, g + way));
             }
@@ -191,7 +189,7 @@ public:
         V adhesion, rate, stiffness, tension;
 
     private:
-        /// exp(-g/rho), 1 for g < 0, 0 where nothing is left.
+        /// exp(-g/rho); 1 for g < 0, 0 beyond `ranges` ranges.
         ASPERITY_INLINE V decay(V gap) const {
             const V x = rate * max(same<V>(0.0), gap);
             return select(x > same<V>(ranges), same<V>(0.0), exponential(-x));
@@ -214,6 +212,15 @@ private:
     double range_ = 1.0, stiffness_ = 0.0, tension_ = 0.0;
 };
 
-using WallLaw = std::variant<ExponentialWall, SmearedWall<LennardJones>, SmearedWall<Morse>>;
+/// The smeared walls of those potentials that have a moment().
+template <class P>
+using SmearedWallsOf = std::conditional_t<P::has_tail, std::tuple<SmearedWall<P>>, std::tuple<>>;
+template <class... Law>
+std::variant<Law...> variant_of(const std::tuple<Law...>&);
+template <class... P>
+auto walls_of(const std::variant<P...>&)
+    -> decltype(variant_of(std::tuple_cat(std::declval<std::tuple<ExponentialWall>>(),
+                                          std::declval<SmearedWallsOf<P>>()...)));
+using WallLaw = decltype(walls_of(std::declval<PairPotential>()));
 
 } // namespace asperity

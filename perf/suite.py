@@ -94,7 +94,7 @@ def kernels(folder, quick):
 
     rows = []
     for sweep in ("lattice", "rows", "cells"):
-        for mixed in (0, 1):
+        for mixed in (0, 1) if sweep == "lattice" else (0,):
             for observed in (0, 1):
                 name = f"{sweep}/mixed:{mixed}/observed:{observed}"
                 label = f"{sweep}, {'mixed' if mixed else 'double'}, {'with energies' if observed else 'forces'}"

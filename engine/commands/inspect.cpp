@@ -299,8 +299,7 @@ int info_command(const Communicator& world) {
     table.row({"devices", cuda_device()
                               ? fmt::format("CUDA ({} found), emulated", cuda_device_count())
                               : std::string("emulated; built without CUDA")});
-    table.row({"processor", fmt::format("kernels for {}, interface in double or mixed precision",
-                                        name(processor_level()))});
+    table.row({"processor", fmt::format("kernels for {}", name(processor_level()))});
     fmt::print("asperity {}\n", build.version);
     table.print(stdout);
     return io::exit_code::done;

@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstring>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -16,161 +15,166 @@ namespace asperity {
 
 namespace {
 
-/// Regions of the device's memory begin at multiples of this.
-constexpr std::size_t granule = 256;
-std::size_t rounded(std::size_t bytes) { return (bytes + granule - 1) / granule * granule; }
-
 const DeviceFunctions& functions_of(const DeviceChoice& choice) {
     if (choice.kind == DeviceChoice::Kind::emulated) return emulated_device();
     if (const DeviceFunctions* cuda = cuda_device()) return *cuda;
-    throw io::FileError("numerics.device", "asks for a CUDA device",
-                        "this program was built without CUDA",
-                        "build it where nvcc is found, or take numerics.device = \"emulated\" or "
-                        "\"none\"");
+    throw std::invalid_argument("a CUDA device, and this program was built without CUDA");
 }
 
-/// The device of this rank: those of a machine take devices in turn, from the one asked for.
+/// The device of this rank: ranks of a machine take its devices in turn, from the one asked for.
 DeviceChoice own_device(DeviceChoice choice, const Communicator& ranks) {
     const int devices = choice.kind == DeviceChoice::Kind::cuda ? cuda_device_count() : 0;
     if (choice.index < devices) choice.index = (choice.index + ranks.local_rank()) % devices;
     return choice;
 }
 
-template <class T>
-std::size_t vector_bytes(const Tile& tile, int planes) {
-    return 3 * rounded(Field<T>::bytes_for(tile, planes));
-}
-
-/// Where the storage of a field of this shape begins on the device.
-template <class T>
-T* begin_of(const VolumeView<T>& device, const Field<T>& host) {
-    return device.origin - (host.view().origin - host.storage().data());
-}
-
-/// Doubles that one side's message of an axis carries.
-NodeRanges strip_of(const Block& block, bool along_x) {
+/// Doubles that one side's message of an axis carries, level by level.
+NodeRanges halo_strip(const ProcessGrid& grid, const std::vector<LevelShape>& shapes,
+                      bool along_x) {
     NodeRanges strip;
-    const ProcessGrid& grid = block.grid();
-    const bool traded = along_x ? grid.px() > 1 : grid.py() > 1;
-    for (const Block::Level& level : block.levels()) {
-        const long long across = along_x ? level.tile.ny : level.tile.nx + 2 * halo_width;
-        const long long here =
-            level.tiled && traded ? 3ll * halo_width * across * level.shape.cells : 0;
-        strip.first[strip.levels + 1] = strip.first[strip.levels] + here;
-        ++strip.levels;
+    const bool exchanged = along_x ? grid.px() > 1 : grid.py() > 1;
+    for (const LevelShape& shape : shapes) {
+        const Tile tile = grid.tile(shape.level);
+        const long long across = along_x ? tile.ny : tile.nx + 2 * halo_width;
+        const bool here = exchanged && grid.tiled(shape.level);
+        strip.add_level(here ? 3ll * halo_width * across * shape.cells : 0);
     }
     return strip;
 }
-std::size_t longest_strip(const ProcessGrid& grid, const std::vector<LevelShape>& shapes) {
-    long long x = 0, y = 0;
-    for (const LevelShape& shape : shapes) {
-        const Tile tile = grid.tile(shape.level);
-        if (!grid.tiled(shape.level)) continue;
-        if (grid.px() > 1) x += 3ll * halo_width * tile.ny * shape.cells;
-        if (grid.py() > 1) y += 3ll * halo_width * (tile.nx + 2 * halo_width) * shape.cells;
-    }
-    return static_cast<std::size_t>(std::max(x, y));
+
+template <class VectorField>
+auto components(VectorField& field) {
+    return std::array{&field.x, &field.y, &field.z};
 }
 
 } // namespace
 
 std::string describe_device(const DeviceChoice& choice) {
-    if (choice.kind == DeviceChoice::Kind::none) return "none";
+    if (!choice) return "none";
     if (choice.kind == DeviceChoice::Kind::emulated) return "emulated";
-    std::string name = "CUDA";
-    std::size_t free_bytes = 0;
-    if (const DeviceFunctions* cuda = cuda_device()) cuda->describe(choice.index, name, free_bytes);
-    return fmt::format("{} (device {})", name, choice.index);
+    return fmt::format("{} (device {})", cuda_device_name(choice.index), choice.index);
+}
+
+DeviceLayout::DeviceLayout(const BlockOptions& block, const ProcessGrid& grid,
+                           const InterfaceOptions& interface) {
+    constexpr std::size_t granule = 256; // regions begin at multiples of this
+    const auto place = [&](std::size_t size) {
+        const Region region{bytes, size};
+        bytes += (size + granule - 1) / granule * granule;
+        return region;
+    };
+    const auto place_vector = [&](const Tile& tile, int planes) {
+        const std::size_t size = Field<double>::bytes_for(tile, planes);
+        return Vector{place(size), place(size), place(size)};
+    };
+    const std::vector<LevelShape> shapes = level_shapes(block);
+    for (const LevelShape& shape : shapes) {
+        const Tile tile = grid.tile(shape.level);
+        Level level;
+        for (Vector& u : level.u)
+            u = place_vector(tile, shape.cells + 1);
+        level.v = place_vector(tile, shape.cells);
+        level.transferred = place_vector(tile, 1);
+        level.upper_force = place_vector(tile, 1);
+        levels.push_back(level);
+    }
+    level_table = place(shapes.size() * sizeof(DeviceLevel));
+    kicks = place(shapes.size() * sizeof(LevelKicks));
+    sums = place(2 * sizeof(PassSums));
+
+    const Tile tile = grid.tile(0);
+    const double cutoff = cutoff_of(interface.potential);
+    const auto sites = static_cast<std::size_t>(block.sites);
+    heights = place(Field<double>::bytes_for(tile, 1, OverLattice::halo(cutoff, block.spacing)));
+    highest = place(ReachTable::size(tile) * sizeof(double));
+    lowest = place(ReachTable::size(tile) * sizeof(double));
+    columns = place(OverLattice::Offsets(cutoff, block.spacing).table() * sizeof(std::int32_t));
+    map = place(sites * sites * sizeof(double));
+    if (interface.tail) mean_height = place(Field<double>::bytes_for(tile, 1));
+    if (const auto* table = std::get_if<Tabulated>(&interface.potential))
+        cubics = place(4 * static_cast<std::size_t>(table->intervals) * sizeof(double));
+
+    const auto end = [&](bool along_x) {
+        const NodeRanges strip = halo_strip(grid, shapes, along_x);
+        return static_cast<std::size_t>(strip.first[strip.levels]);
+    };
+    for (Region* messages : {&sent, &received})
+        *messages = place(2 * std::max(end(true), end(false)) * sizeof(double));
 }
 
 void DeviceBlock::check(const char* error, const char* doing) const {
     if (!error) return;
     throw io::FileError(
         "numerics.device", fmt::format("= {}: {} failed", describe_device(choice_), doing), error,
-        fmt::format("the step needs {:.0f} MB of device memory (asperity plan); resume from the "
+        fmt::format("the step needs {:.3g} MB of device memory (asperity plan); resume from the "
                     "last checkpoint, on the processor with numerics.device = \"none\" if the "
                     "device stays out of order",
-                    static_cast<double>(bytes_) / 1e6));
+                    static_cast<double>(layout_.bytes) / 1e6));
+}
+void DeviceBlock::copy(void* to, const void* from, std::size_t bytes) const {
+    check(device_.copy(to, from, bytes), "a copy");
 }
 
 template <class T>
-T* DeviceBlock::place(std::size_t count) {
-    auto* at = reinterpret_cast<T*>(memory_.get() + used_);
-    used_ += rounded(count * sizeof(T));
-    if (used_ > bytes_)
-        throw std::logic_error("DeviceBlock: more memory is used than bytes_for() counts");
-    return at;
+T* DeviceBlock::at(const DeviceLayout::Region& region) const {
+    return reinterpret_cast<T*>(memory_.get() + region.begin);
 }
-/// A region for a field of this shape, and the view of it.
 template <class T>
-VolumeView<T> DeviceBlock::place(const Field<T>& shape) {
-    const auto host = shape.view();
-    const std::ptrdiff_t offset = host.origin - shape.storage().data();
+T* DeviceBlock::copied(const DeviceLayout::Region& region, std::span<const T> values) const {
+    static_assert(std::is_trivially_copyable_v<T> && std::is_standard_layout_v<T>);
+    if (values.size_bytes() != region.bytes)
+        throw std::logic_error("DeviceBlock: an array has another size than its place");
+    copy(at<T>(region), values.data(), region.bytes);
+    return at<T>(region);
+}
+void DeviceBlock::fetch(const DeviceLayout::Region& region, Field<double>& to) const {
+    copy(to.storage().data(), at<double>(region), region.bytes);
+}
+/// A region for a field of the host's shape.
+VolumeView<double> DeviceBlock::view(const DeviceLayout::Region& region,
+                                     const Field<double>& host) const {
+    if (host.bytes() != region.bytes)
+        throw std::logic_error("DeviceBlock: a field has another size than its place");
+    const VolumeView<const double> v = host.view();
     return {
-        place<T>(shape.storage().size()) + offset, host.row, host.plane, host.nx, host.ny, host.nz};
+        at<double>(region) + (v.origin - host.storage().data()), v.row, v.plane, v.nx, v.ny, v.nz};
 }
-template <class T>
-VectorVolume<T> DeviceBlock::place(const VectorField<T>& shape) {
-    return {place(shape.x), place(shape.y), place(shape.z)};
-}
-
-std::size_t DeviceBlock::bytes_for(const BlockOptions& block, const ProcessGrid& grid,
-                                   const InterfaceOptions& interface, int substrate_sites) {
-    const auto shapes = level_shapes(block);
-    std::size_t bytes = 0;
-    for (const LevelShape& shape : shapes) {
-        const Tile tile = grid.tile(shape.level);
-        bytes += 2 * vector_bytes<double>(tile, shape.cells + 1) +
-                 vector_bytes<double>(tile, shape.cells) + 2 * vector_bytes<double>(tile, 1);
-    }
-    bytes += rounded(shapes.size() * sizeof(DeviceLevel)) +
-             rounded(shapes.size() * sizeof(LevelKicks)) + rounded(4 * sizeof(PassSums));
-    bytes += 4 * rounded(longest_strip(grid, shapes) * sizeof(double));
-    const Interface::TableSizes sizes =
-        Interface::tables_for(interface, grid.tile(0), block.spacing, substrate_sites);
-    for (std::size_t size :
-         {interface.mixed ? sizes.fixed : sizes.heights, sizes.mean_height, sizes.reach,
-          sizes.reach, sizes.columns, sizes.map, sizes.cubics, sizes.cubics_in_single})
-        bytes += rounded(size);
-    return bytes;
-}
-
-template <class T>
-T* DeviceBlock::copy_of(std::span<const T> values) {
-    T* to = place<T>(values.size());
-    check(device_.upload(to, values.data(), values.size_bytes()), "a copy to it");
-    return to;
-}
-template <class T>
-VolumeView<T> DeviceBlock::copy_of(const Field<T>& field) {
-    const VolumeView<T> view = place(field);
-    check(device_.upload(begin_of(view, field), field.storage().data(), field.bytes()),
-          "a copy to it");
-    return view;
+VectorVolume<double> DeviceBlock::view(const DeviceLayout::Vector& regions,
+                                       const VectorField<double>& host) const {
+    return {view(regions[0], host.x), view(regions[1], host.y), view(regions[2], host.z)};
 }
 
 DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const Interface& interface)
     : choice_(own_device(choice, block.communicator())), device_(functions_of(choice)),
-      bytes_(bytes_for(block.options(), block.grid(), interface.options(),
-                       interface.substrate_sites())) {
+      layout_(block.options(), block.grid(), interface.options()) {
+    if (block.options().finite_strain)
+        throw std::invalid_argument("a device has no elastic forces of finite strain");
     std::byte* allocated = nullptr;
-    check(device_.allocate(choice_.index, bytes_, &allocated), "the allocation of its memory");
+    check(device_.allocate(choice_.index, layout_.bytes, &allocated),
+          "the allocation of its memory");
     memory_.reset(allocated);
+    make_levels(block);
+    copy_tables(interface);
+    step_.kicks = at<LevelKicks>(layout_.kicks);
+    step_.sums = at<PassSums>(layout_.sums);
+    step_.sites.force = levels_[0].transferred;
+    step_.sites.spacing = block.options().spacing;
+    step_.sites.x0 = interface.tile().x0;
+    step_.sites.y0 = interface.tile().y0;
+    for (const bool along_x : {true, false}) {
+        Strip& strip = strips_[along_x ? 0 : 1];
+        const NodeRanges ranges = halo_strip(block.grid(), level_shapes(block.options()), along_x);
+        strip.halo = {along_x, ranges, nullptr, 0};
+        for (auto* messages : {&strip.sent, &strip.received})
+            messages->resize(2 * static_cast<std::size_t>(ranges.first[ranges.levels]));
+    }
+}
 
-    std::vector<DeviceLevel> levels;
+void DeviceBlock::make_levels(const Block& block) {
     const auto& host = block.levels();
-    step_.finite = block.options().finite_strain;
-    const auto count = [](NodeRanges& ranges, long long nodes) {
-        ranges.first[ranges.levels + 1] = ranges.first[ranges.levels] + nodes;
-        ++ranges.levels;
-    };
     for (std::size_t l = 0; l < host.size(); ++l) {
         const Block::Level& from = host[l];
-        LevelMemory memory = {{place(from.u), place(from.u)},
-                              place(from.v),
-                              place(from.transferred)[0],
-                              place(from.upper_force)[0]};
-        const bool coarser = l + 1 < host.size();
+        const DeviceLayout::Level& place = layout_.levels[l];
         DeviceLevel level;
         level.nx = from.tile.nx;
         level.ny = from.tile.ny;
@@ -178,16 +182,16 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
         level.number = from.shape.level;
         level.x0 = from.tile.x0;
         level.y0 = from.tile.y0;
-        level.u[0] = memory.u[0];
-        level.u[1] = memory.u[1];
-        level.v = memory.v;
-        level.transferred = memory.transferred;
-        level.upper_force = memory.upper_force;
+        level.u[0] = view(place.u[0], from.u);
+        level.u[1] = view(place.u[1], from.u);
+        level.v = view(place.v, from.v);
+        level.transferred = view(place.transferred, from.transferred)[0];
+        level.upper_force = view(place.upper_force, from.upper_force)[0];
         level.lower = from.lower;
         level.inner = from.inner;
         level.upper = from.upper;
         level.cell = from.cell(block.options().spacing);
-        if (coarser) {
+        if (l + 1 < host.size()) {
             const Tile& f = from.tile;
             const Tile& c = host[l + 1].tile;
             level.seam = {f.x0, f.y0, c.x0, c.y0};
@@ -196,179 +200,108 @@ DeviceBlock::DeviceBlock(const DeviceChoice& choice, const Block& block, const I
         if (shared) {
             shared_level_ = static_cast<int>(l);
             shared_ = VectorField<double>(from.tile, 1);
-            shared_bytes_ = shared_.x.bytes();
         }
         level.in_line = l > 0 && !shared;
         level.counted = block.counts(from);
         level.wraps_x = !from.tiled || block.grid().px() == 1;
         level.wraps_y = !from.tiled || block.grid().py() == 1;
-        levels.push_back(level);
-        levels_.push_back(memory);
+        levels_.push_back(level);
         const auto frame = [&](int h) {
             return static_cast<long long>(level.nx + 2 * h) * (level.ny + 2 * h);
         };
-        count(step_.moving, from.nodes());
-        count(step_.faces, frame(1));
-        count(step_.constrained, frame(halo_width));
+        step_.moving.add_level(from.nodes());
+        step_.faces.add_level(frame(1));
+        step_.constrained.add_level(frame(halo_width));
     }
-    step_.levels = copy_of(std::span<const DeviceLevel>(levels));
-    step_.kicks = kicks_ = place<LevelKicks>(levels.size());
-    step_.sums = all_sums_ = place<PassSums>(4);
-    take_tables(interface);
-    step_.sites.force = levels_[0].transferred;
-    step_.sites.spacing = block.options().spacing;
-    step_.sites.x0 = interface.tile().x0;
-    step_.sites.y0 = interface.tile().y0;
-
-    halo_x_ = {true, strip_of(block, true), nullptr, nullptr, 0};
-    halo_y_ = {false, strip_of(block, false), nullptr, nullptr, 0};
-    const std::size_t strip = longest_strip(block.grid(), level_shapes(block.options()));
-    for (double** message : {&to_before_, &to_after_, &from_before_, &from_after_})
-        *message = place<double>(strip);
-    direct_ = device_.takes_mpi(block.communicator().takes_device_memory());
-
-    // Pinned memory, in the same way.
-    const std::size_t size = rounded(2 * sizeof(PassSums)) +
-                             rounded(levels.size() * sizeof(LevelKicks)) +
-                             4 * rounded(strip * sizeof(double)) + 3 * rounded(shared_bytes_);
-    check(device_.allocate_pinned(size, &allocated), "the allocation of the host's part");
-    pinned_memory_.reset(allocated);
-    std::byte* next = allocated;
-    const auto take = [&](auto*& region, std::size_t bytes) {
-        region = reinterpret_cast<std::remove_reference_t<decltype(region)>>(next);
-        next += rounded(bytes);
-    };
-    take(pinned_.sums, 2 * sizeof(PassSums));
-    take(pinned_.kicks, levels.size() * sizeof(LevelKicks));
-    for (double** message :
-         {&pinned_.to_before, &pinned_.to_after, &pinned_.from_before, &pinned_.from_after})
-        take(*message, strip * sizeof(double));
-    for (double*& component : pinned_.shared)
-        take(component, shared_bytes_);
+    step_.levels = copied(layout_.level_table, std::span<const DeviceLevel>(levels_));
 }
 
-void DeviceBlock::take_tables(const Interface& interface) {
+void DeviceBlock::copy_tables(const Interface& interface) {
     const Interface::Tables tables = interface.tables();
-    step_.over_rows = tables.rows != nullptr;
-    step_.mixed = interface.options().mixed;
-    SubstrateHeights heights;
-    if (step_.mixed)
-        heights.fixed = copy_of(tables.heights->in_mixed())[0];
-    else
-        heights.height = copy_of(tables.heights->in_double())[0];
-    const double* highest = copy_of(tables.highest);
-    const double* lowest = copy_of(tables.lowest);
-    const double* map = copy_of(tables.map);
-    const auto fill = [&](auto& ground, const auto& host) {
-        ground = host;
-        heights.datum = host.heights.datum;
-        ground.heights = heights;
-        ground.reach.highest = highest;
-        ground.reach.lowest = lowest;
-        ground.map.height = map;
+    if (!tables.lattice)
+        throw std::invalid_argument("a device sums over a substrate of the block's lattice only");
+    const auto field = [&](const DeviceLayout::Region& region, const Field<double>& host) {
+        copied(region, host.storage());
+        return view(region, host)[0];
     };
-    if (step_.over_rows) {
-        fill(step_.rows, *tables.rows);
-    } else {
-        fill(step_.lattice, *tables.lattice);
-        step_.lattice.columns = copy_of(tables.columns);
-    }
+    LatticeSubstrate& atoms = step_.lattice;
+    atoms = tables.lattice->view();
+    atoms.fixed = {};
+    atoms.heights.height = field(layout_.heights, tables.lattice->heights().field());
+    atoms.columns =
+        copied(layout_.columns, std::span<const std::int32_t>(tables.lattice->columns()));
+    const ReachTable& reach = tables.lattice->reach();
+    atoms.reach.highest = copied(layout_.highest, std::span<const double>(reach.highest()));
+    atoms.reach.lowest = copied(layout_.lowest, std::span<const double>(reach.lowest()));
+    atoms.map.height = copied(layout_.map, tables.map);
     potential_ = interface.options().potential;
-    if (auto* table = std::get_if<Tabulated>(&potential_)) {
-        const auto numbers = 4 * static_cast<std::size_t>(table->intervals);
-        table->cubics = copy_of(std::span(table->cubics, numbers));
-        table->in_single = copy_of(std::span(table->in_single, numbers));
-    }
-    if (tables.mean_height) {
-        step_.mean_height = copy_of(*tables.mean_height)[0];
-        step_.tail_density = tables.density;
-        step_.with_tail = true;
-    }
+    if (auto* table = std::get_if<Tabulated>(&potential_))
+        table->cubics =
+            copied(layout_.cubics,
+                   std::span(table->cubics, 4 * static_cast<std::size_t>(table->intervals)));
+    step_.with_tail = tables.mean_height != nullptr;
+    if (!step_.with_tail) return;
+    step_.mean_height = field(layout_.mean_height, *tables.mean_height);
+    step_.tail_density = tables.density;
 }
-
-namespace {
-
-/// Calls visit(device's view, host's field) for displacements and velocities of a level.
-template <class Memory, class Fields, class Visit>
-void each_component(const Memory& memory, const VectorVolume<double>& u, const Fields& host,
-                    const Visit& visit) {
-    visit(u.x, host.u.x), visit(u.y, host.u.y), visit(u.z, host.u.z);
-    visit(memory.v.x, host.v.x), visit(memory.v.y, host.v.y), visit(memory.v.z, host.v.z);
-}
-
-} // namespace
 
 void DeviceBlock::upload(const Block& block) {
-    launched_.reset();
-    for (int buffer : {0, 1}) // the prescribed planes of both
-        for (std::size_t l = 0; l < levels_.size(); ++l)
-            each_component(
-                levels_[l], levels_[l].u[buffer], block.levels()[l],
-                [&](const VolumeView<double>& to, const Field<double>& from) {
-                    check(device_.upload(begin_of(to, from), from.storage().data(), from.bytes()),
-                          "a copy to it");
-                });
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        const Block::Level& host = block.levels()[l];
+        const DeviceLayout::Level& place = layout_.levels[l];
+        for (std::size_t c = 0; c < 3; ++c) {
+            for (const DeviceLayout::Vector& u : place.u) // the prescribed planes of both
+                copied(u[c], components(host.u)[c]->storage());
+            copied(place.v[c], components(host.v)[c]->storage());
+        }
+    }
 }
 
 void DeviceBlock::download(Block& block) const {
-    for (std::size_t l = 0; l < levels_.size(); ++l)
-        each_component(
-            levels_[l], levels_[l].u[step_.now], block.fields(block.levels()[l]),
-            [&](const VolumeView<double>& from, Field<double>& to) {
-                check(device_.download(to.storage().data(), begin_of(from, to), to.bytes()),
-                      "a copy from it");
-            });
-}
-
-void DeviceBlock::forces(const At& at) {
-    if (launched_ == at) return;
-    step_.observe = at.observe;
-    step_.top = at.top;
-    step_.sums = all_sums_ + 2 * (steps_ % 2);
-    step_.sites.displacement = VectorVolume<const double>(levels_[0].u[step_.now])[0];
-    step_.sites.reference_height = at.reference_height;
-    mark(begun);
-    check(device_.follow(step_), "the launch of constrained planes");
-    mark(followed);
-    check(device_.forces(step_, potential_), "the launch of forces");
-    mark(pushed);
-    launched_ = at;
-}
-
-void DeviceBlock::advance(const Block& block, const StepParameters& step,
-                          const std::optional<ThermalNoise>& noise) {
-    if (shared_level_ >= 0) share_restricted_forces(block);
-    if (!kicks_known_ || !(step == kicked_with_)) {
-        // Those before have arrived: the host has seen the sums of the step before.
-        LevelKicks* kicks = pinned_.kicks;
-        step_.damped = false;
-        for (const Block::Level& level : block.levels()) {
-            *kicks = block.kicks(level, step);
-            step_.damped |= kicks->damped_from < level.shape.cells;
-            ++kicks;
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        const Block::Fields host = block.fields(block.levels()[l]);
+        const DeviceLayout::Level& place = layout_.levels[l];
+        for (std::size_t c = 0; c < 3; ++c) {
+            fetch(place.u[static_cast<std::size_t>(step_.now)][c], *components(host.u)[c]);
+            fetch(place.v[c], *components(host.v)[c]);
         }
-        check(device_.send(kicks_, pinned_.kicks, levels_.size() * sizeof *kicks), "a copy to it");
-        kicked_with_ = step;
-        kicks_known_ = true;
     }
+}
+
+void DeviceBlock::set_kicks(const Block& block, const StepParameters& step) {
+    if (kicked_with_ == step) return;
+    std::vector<LevelKicks> kicks;
+    step_.damped = false;
+    for (const Block::Level& level : block.levels()) {
+        kicks.push_back(block.kicks(level, step));
+        step_.damped |= kicks.back().damped_from < level.shape.cells;
+    }
+    copied(layout_.kicks, std::span<const LevelKicks>(kicks));
+    kicked_with_ = step;
+}
+
+DeviceSums DeviceBlock::step(const Block& block, double reference_height,
+                             const StepParameters& step, const std::optional<ThermalNoise>& noise) {
+    set_kicks(block, step);
+    step_.observe = step.observe;
     step_.dt = step.dt;
+    step_.top = block.top();
     step_.noisy = noise.has_value();
     if (noise) step_.noise = *noise;
-    mark(resumed);
-    check(device_.advance(step_), "the launch of the step");
-    mark(advanced);
-    check(device_.fetch_beside(pinned_.sums, step_.sums, 2 * sizeof(PassSums), sums_are_here),
-          "a copy from it");
-    step_.now = 1 - step_.now;
-    exchange(block);
-    mark(exchanged);
-    ++steps_;
-    launched_.reset();
-}
+    step_.sites.displacement = VectorVolume<const double>(levels_[0].u[step_.now])[0];
+    step_.sites.reference_height = reference_height;
 
-DeviceSums DeviceBlock::sums() {
-    check(device_.wait(sums_are_here), "a step");
-    const PassSums &forces = pinned_.sums[0], &moved = pinned_.sums[1];
+    check(device_.follow(step_), "the launch of constrained planes");
+    check(device_.forces(step_, potential_), "the launch of forces");
+    if (shared_level_ >= 0) share_restricted_forces(block);
+    check(device_.advance(step_), "the launch of the step");
+    step_.now = 1 - step_.now;
+    for (Strip& strip : strips_) // along x, then along y, whose rows hold the halo just received
+        exchange(block, strip);
+
+    std::array<PassSums, 2> sums;
+    copy(sums.data(), step_.sums, sizeof sums);
+    const PassSums &forces = sums[0], &moved = sums[1];
     DeviceSums result;
     result.interface.force_z = forces.sum[ForceSum::interface_z];
     result.interface.energy = forces.sum[ForceSum::interface_energy];
@@ -385,34 +318,6 @@ DeviceSums DeviceBlock::sums() {
     return result;
 }
 
-/// A mark of the step under way. Three steps have marks: the one launched ahead, the one whose sums
-/// are waited for, and the one before, which is recorded.
-int DeviceBlock::number_of(StepMark mark, long long step) {
-    return static_cast<int>(step % 3) * marks_of_step + mark;
-}
-void DeviceBlock::mark(StepMark mark) {
-    check(device_.mark(number_of(mark, steps_)), "a mark in its queue");
-}
-
-void DeviceBlock::record_times(Phases& phases, bool all) {
-    if (all && recorded_ < steps_) check(device_.wait(number_of(exchanged, steps_ - 1)), "a step");
-    // The sums of the last step say that the one before it has ended.
-    for (; recorded_ < steps_ - (all ? 0 : 1); ++recorded_) {
-        const auto add = [&](Phase phase, StepMark first, StepMark second) {
-            double seconds = 0.0;
-            check(device_.seconds_between(number_of(first, recorded_), number_of(second, recorded_),
-                                          seconds),
-                  "its clock");
-            phases.add(phase, seconds);
-        };
-        add(Phase::interpolate, begun, followed);
-        add(Phase::interface, followed, pushed);
-        add(Phase::sums, pushed, resumed);
-        add(Phase::advance, resumed, advanced);
-        add(Phase::exchange, advanced, exchanged);
-    }
-}
-
 /// Into the level that every rank holds, from all tiles of the level below.
 void DeviceBlock::share_restricted_forces(const Block& block) {
     const Block::Level& coarse = block.levels()[static_cast<std::size_t>(shared_level_)];
@@ -421,73 +326,35 @@ void DeviceBlock::share_restricted_forces(const Block& block) {
     check(device_.restrict_to_shared(
               step_, shared_level_, {nodes.x0, nodes.x0 + nodes.nx, nodes.y0, nodes.y0 + nodes.ny}),
           "the launch of a restriction");
-    const VectorPlane<double>& transferred =
-        levels_[static_cast<std::size_t>(shared_level_)].transferred;
-    Field<double>* const host[] = {&shared_.x, &shared_.y, &shared_.z};
-    double* device[3];
-    for (int c = 0; c < 3; ++c) {
-        const PlaneView<double>& plane = c == 0   ? transferred.x
-                                         : c == 1 ? transferred.y
-                                                  : transferred.z;
-        device[c] = plane.origin - (host[c]->view().origin - host[c]->storage().data());
-        check(device_.fetch(pinned_.shared[c], device[c], shared_bytes_), "a copy from it");
-    }
-    wait_for_messages();
-    for (int c = 0; c < 3; ++c)
-        std::memcpy(host[c]->storage().data(), pinned_.shared[c], shared_bytes_);
-    const auto in = shared_.plane(0);
-    const std::array planes = {in.x, in.y, in.z};
-    gather_footprints(block.communicator(), grid, coarse.shape.level, planes);
-    for (int c = 0; c < 3; ++c) {
-        std::memcpy(pinned_.shared[c], host[c]->storage().data(), shared_bytes_);
-        check(device_.send(device[c], pinned_.shared[c], shared_bytes_), "a copy to it");
-    }
+    const DeviceLayout::Vector& place =
+        layout_.levels[static_cast<std::size_t>(shared_level_)].transferred;
+    const auto host = components(shared_);
+    for (std::size_t c = 0; c < 3; ++c)
+        fetch(place[c], *host[c]);
+    const VectorPlane<double> shared = shared_.plane(0);
+    gather_footprints(block.communicator(), grid, coarse.shape.level,
+                      std::array{shared.x, shared.y, shared.z});
+    for (std::size_t c = 0; c < 3; ++c)
+        copied(place[c], std::as_const(*host[c]).storage());
 }
 
-void DeviceBlock::wait_for_messages() {
-    check(device_.mark(messages_are_here), "a mark in its queue");
-    check(device_.wait(messages_are_here), "a copy from it");
-}
-
-/// Along x, then along y, whose rows hold the halo just received.
-void DeviceBlock::exchange(const Block& block) {
-    trade(block, true);
-    trade(block, false);
-}
-
-void DeviceBlock::trade(const Block& block, bool along_x) {
-    DeviceHalo& halo = along_x ? halo_x_ : halo_y_;
-    const auto size = static_cast<std::size_t>(halo.strip.first[halo.strip.levels]);
+void DeviceBlock::exchange(const Block& block, Strip& strip) {
+    const std::size_t size = strip.sent.size() / 2, bytes = strip.sent.size() * sizeof(double);
     if (size == 0) return;
-    const std::size_t bytes = size * sizeof(double);
+    DeviceHalo& halo = strip.halo;
     halo.buffer = step_.now;
-    halo.before = to_before_;
-    halo.after = to_after_;
+    halo.messages = at<double>(layout_.sent);
     check(device_.pack(step_, halo), "the launch that packs halos");
-    const auto strip = [&](double* device, double* pinned) {
-        return std::span(direct_ ? device : pinned, size);
-    };
+    copy(strip.sent.data(), halo.messages, bytes);
     const ProcessGrid& grid = block.grid();
-    const int before = along_x ? grid.neighbour(-1, 0) : grid.neighbour(0, -1);
-    const int after = along_x ? grid.neighbour(1, 0) : grid.neighbour(0, 1);
-    const Message messages[] = {{before, after, 0, strip(to_before_, pinned_.to_before),
-                                 strip(from_after_, pinned_.from_after)},
-                                {after, before, 1, strip(to_after_, pinned_.to_after),
-                                 strip(from_before_, pinned_.from_before)}};
-    if (!direct_) {
-        check(device_.fetch(pinned_.to_before, to_before_, bytes), "a copy from it");
-        check(device_.fetch(pinned_.to_after, to_after_, bytes), "a copy from it");
-    }
-    wait_for_messages();
-    if (direct_) check(device_.open_to_mpi(true), "opening its memory to MPI");
+    const int before = halo.along_x ? grid.neighbour(-1, 0) : grid.neighbour(0, -1);
+    const int after = halo.along_x ? grid.neighbour(1, 0) : grid.neighbour(0, 1);
+    const std::span sent(strip.sent), received(strip.received);
+    const Message messages[] = {{before, after, 0, sent.first(size), received.last(size)},
+                                {after, before, 1, sent.last(size), received.first(size)}};
     block.communicator().exchange(messages);
-    if (direct_) check(device_.open_to_mpi(false), "closing its memory to MPI");
-    if (!direct_) {
-        check(device_.send(from_before_, pinned_.from_before, bytes), "a copy to it");
-        check(device_.send(from_after_, pinned_.from_after, bytes), "a copy to it");
-    }
-    halo.before = from_before_;
-    halo.after = from_after_;
+    halo.messages = at<double>(layout_.received);
+    copy(halo.messages, strip.received.data(), bytes);
     check(device_.unpack(step_, halo), "the launch that unpacks halos");
 }
 

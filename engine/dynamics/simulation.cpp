@@ -3,6 +3,7 @@
 #include "engine/dynamics/simulation.hpp"
 
 #include "decomposition/global_sum.hpp"
+#include "engine/device/device_block.hpp"
 #include "kernels/elastic_level.hpp"
 
 #include <algorithm>
@@ -19,9 +20,11 @@ Simulation::Simulation(const SimulationOptions& options, const Surface& substrat
       drive_(options.drive) {
     if (options.temperature > 0.0)
         thermostat_.emplace(options.temperature, options.damping, options.seed);
-    if (options.device.kind != DeviceChoice::Kind::none)
-        device_ = std::make_unique<DeviceBlock>(options.device, block_, interface_);
+    if (options.device) device_ = std::make_unique<DeviceBlock>(options.device, block_, interface_);
 }
+
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
 
 void Simulation::start(double height) {
     reference_height_ = height;
@@ -43,7 +46,7 @@ void Simulation::start(double height) {
 // The top plane's displacement at n is set at the end of the step before.
 const StepRecord& Simulation::step(bool observe) {
     if (device_) {
-        step_on_device(observe);
+        phases_.during(Phase::device, [&] { step_on_device(observe); });
         update_energy_balance();
     } else {
         step_on_processor(observe);
@@ -63,21 +66,17 @@ void Simulation::step_on_processor(bool observe) {
     phases_.during(Phase::exchange, [&] { block_.exchange(); });
 }
 
-/// The same step; its launches are kernels/device/device.hpp. While the host looks at its sums the
-/// device is at the forces of the next one.
+/// The same step; its launches are listed in kernels/device/device.hpp.
 void Simulation::step_on_device(bool observe) {
-    if (host_is_newer_) phases_.during(Phase::exchange, [&] { device_->upload(block_); });
+    if (host_is_newer_) device_->upload(block_);
     host_is_newer_ = false;
     device_is_newer_ = true;
     const double velocity = velocity_of_top();
-    device_->forces({block_.top(), reference_height_, observe});
-    device_->advance(
-        block_, {options_.dt, options_.damping, options_.damping_from, velocity, observe},
+    const DeviceSums sums = device_->step(
+        block_, reference_height_,
+        {options_.dt, options_.damping, options_.damping_from, velocity, observe},
         thermostat_ ? std::optional(thermostat_->noise(options_.dt, step_)) : std::nullopt);
     block_.note_top(block_.top() + options_.dt * velocity);
-    device_->forces({block_.top(), reference_height_, next_is_observed(observe)});
-    const DeviceSums sums = device_->sums();
-    device_->record_times(phases_, false);
     interface_sums_ = sums.interface;
     kick_sums_ = sums.kick;
     top_force_ = sums.top_force;
@@ -85,15 +84,6 @@ void Simulation::step_on_device(bool observe) {
     elastic_ = sums.elastic;
     heat_ = sums.heat;
     begin_record(observe);
-}
-
-/// A guess: observed steps are as far apart as the last two. A wrong one costs a launch.
-bool Simulation::next_is_observed(bool observe) {
-    if (observe) {
-        between_observed_ = step_ - observed_;
-        observed_ = step_;
-    }
-    return step_ + 1 == observed_ + between_observed_;
 }
 
 /// Everything that the host's block has: displacements, velocities, halos, prescribed planes.

@@ -7,22 +7,24 @@
 // the start of step n the state is u(n), v(n-1/2), halos of u current.
 //
 // With a device the fields are there; block() and block_to_write() are the gates. Both bring them
-// to the host where the device's are newer; what was asked for by block_to_write() goes back to the
+// to the host where the device's are newer; what was asked for by block_to_write() is copied to the
 // device before the next step. A reference that is kept over a step is out of date.
 #pragma once
 
 #include "engine/block/block.hpp"
-#include "engine/device/device_block.hpp"
 #include "engine/dynamics/drive.hpp"
 #include "engine/dynamics/thermostat.hpp"
 #include "engine/interface/interface.hpp"
 #include "engine/phases.hpp"
+#include "engine/scene/device_choice.hpp"
 
 #include <array>
 #include <memory>
 #include <optional>
 
 namespace asperity {
+
+class DeviceBlock;
 
 struct SimulationOptions {
     BlockOptions block;
@@ -75,6 +77,8 @@ class Simulation {
 public:
     Simulation(const SimulationOptions& options, const Surface& substrate,
                const Communicator& communicator, const ProcessGrid& grid);
+    Simulation(Simulation&&) noexcept;
+    ~Simulation();
 
     /// The undeformed block at this height of its lowest layer, moving with the drive.
     void start(double height);
@@ -95,7 +99,7 @@ public:
         if (device_is_newer_) download();
         return block_;
     }
-    /// With a device: goes up to it before the next step, which computes its forces anew.
+    /// With a device: copied to it before the next step.
     Block& block_to_write() {
         if (device_is_newer_) download();
         host_is_newer_ = true;
@@ -108,16 +112,9 @@ public:
     /// After fields were written to from outside, which is no work: the energy balance starts anew
     /// with the next observed step.
     void restart_balance() { energy_at_start_.reset(); }
-    /// Bytes of device memory.
-    std::size_t device_bytes() const { return device_ ? device_->bytes() : 0; }
     Interface& interface() { return interface_; }
     const Interface& interface() const { return interface_; }
-    /// With a device: by its clock, but for what is copied from and to the host's fields; `sums`
-    /// is its wait for the host.
-    const Phases& phases() const {
-        if (device_) device_->record_times(phases_, true);
-        return phases_;
-    }
+    const Phases& phases() const { return phases_; }
     const Communicator& communicator() const { return block_.communicator(); }
 
     /// Everything but the fields, for checkpoints.
@@ -138,7 +135,6 @@ private:
     bool slides() const { return options_.interface.slides; }
     void slide();
     void update_slide();
-    bool next_is_observed(bool observe);
     void begin_record(bool observe);
     void sweep_interface(bool observe);
     void add_external();
@@ -157,9 +153,7 @@ private:
     std::unique_ptr<DeviceBlock> device_;  ///< only if the scene asks for one
     mutable bool device_is_newer_ = false;
     bool host_is_newer_ = true;
-    long long observed_ = -1,
-              between_observed_ = 0; ///< the last such step, and since the one before
-    mutable Phases phases_;          ///< of a device, up to the last step but one
+    Phases phases_;
 
     double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
     std::array<double, 2> slide_{}; ///< of the block over the substrate, Å

@@ -59,7 +59,7 @@ public:
           newton_(block, preconditioner_), g_(block.new_waves<double>()),
           d_(block.new_waves<float>()), work_(block.new_waves<float>()),
           at_sites_(block.new_field<float>()) {
-        feel();
+        find_forces();
         tune();
         spreading_ = !(rms_ < (options.start == Start::anywhere ? Constants::close_by
                                                                 : Constants::close_enough));
@@ -67,7 +67,7 @@ public:
     }
 
     /// Forces where the sites are now, and what they leave.
-    void feel() {
+    void find_forces() {
         sweep(false);
         if (!spreading_) measure();
     }
@@ -93,7 +93,7 @@ public:
             if (options_.start == Start::predicted) return false;
             move_sites();
         }
-        feel();
+        find_forces();
         return true;
     }
 
@@ -102,7 +102,7 @@ private:
         const auto t = phases_.time(Phase::interface);
         const bool rough = spreading_ || rough_;
         sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_,
-                                 {.observe = observe, .mixed = rough && !observe});
+                                 {.observe = observe, .rough = rough && !observe});
     }
     void measure() {
         const auto t = phases_.time(Phase::sums);

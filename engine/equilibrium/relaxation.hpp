@@ -22,9 +22,9 @@
 // help: a surface that has become unstable is then followed from its last equilibrium, not from a
 // guess.
 //
-// Sweeps of the first stage are in mixed precision (where the interface is made for it), and so are
+// Sweeps of the first stage are rough (SweepOptions: in mixed precision over a lattice), and so are
 // Newton's until the forces are near their error; the last ones, and the state that is reported,
-// are in the interface's own.
+// are not.
 //
 // Over a wall each site's own law is solved exactly instead (wall_minimiser.hpp).
 //
@@ -93,7 +93,7 @@ struct RelaxationConstants {
     static constexpr double forcing = 0.1;      ///< what conjugate gradients leave of the residual
     static constexpr int most_products = 100;   ///< of conjugate gradients
     static constexpr double shortest = 0.1;     ///< fraction of a step near an equilibrium
-    /// Sweeps are in mixed precision down to a mean residual ten times their error, eV/Å.
+    /// Sweeps are rough down to a mean residual ten times their error, eV/Å.
     static constexpr double rough_enough = 1e-5;
 
     // Over a wall (wall_minimiser.hpp): what may be left of the mean force, in tolerances (steps of

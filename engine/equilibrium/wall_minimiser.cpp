@@ -45,16 +45,16 @@ bool WallMinimiser::step() {
     if (options_.start == Start::predicted) return false;
     const auto t = phases_.time(Phase::advance);
     single_ = single_ && estimate_ > Constants::rounding * spring_;
-    double turn = 0.0;
+    double reversal = 0.0;
     if (single_) { // as long as that is good enough
         elastic_forces(single_waves_, single_field_);
-        turn = relax_sites(single_field_);
+        reversal = relax_sites(single_field_);
     } else {
         elastic_forces(waves_, field_);
-        turn = relax_sites(field_);
+        reversal = relax_sites(field_);
     }
     accept();
-    if (turn > 0.0) sequence_ = 1.0;
+    if (reversal > 0.0) sequence_ = 1.0;
     const double following = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * sequence_ * sequence_));
     momentum_ = (sequence_ - 1.0) / following;
     sequence_ = following;
@@ -112,7 +112,7 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
                   .momentum = momentum_,
                   .norm = 1.0 / sites,
                   .load = 0.0};
-    double turn = 0.0, mean = 0.0;
+    double reversal = 0.0, mean = 0.0;
     const auto relax = [&](double force) {
         rule.load = force;
         RowSums sums(block_.slab(), 2);
@@ -124,12 +124,12 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
                                  next_.plane(0).line(y)};
             const WallSums s = interface_.wall()->rest_row(row, rule, u.nx);
             furthest = std::max(furthest, s.furthest);
-            sums.row(y)[0] = s.turn;
+            sums.row(y)[0] = s.reversal;
             sums.row(y)[1] = s.height;
         }
         estimate_ = spring_ * block_.communicator().max(furthest);
         const std::vector<double> total = sums.total();
-        turn = total[0];
+        reversal = total[0];
         mean = total[1] / (sites * sites); // RowSums multiplies by the sites
     };
     // What the block's spring and the load ask for, less the force, and less what L adds to the
@@ -144,7 +144,7 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
     balance(excess, constraint.is_mean_height() ? 1e-13 * spring_
                                                 : Constants::closure * options_.tolerance);
     next_mean_ = mean;
-    return turn + sites * sites * (mean - mean_) * (mean - mean_); // without the uniform wave
+    return reversal + sites * sites * (mean - mean_) * (mean - mean_); // without the uniform wave
 }
 
 /// Finds the uniform force at which excess(force), eV/Å, is no more than enough, by the secant from

@@ -22,7 +22,7 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
     constexpr double stride = 0.1;
     for (double height = best_height;; height -= stride) {
         const InterfaceSums sums =
-            interface.sweep(block.lowest_layer(), block.interface_force(), height, {.mixed = true});
+            interface.sweep(block.lowest_layer(), block.interface_force(), height, {.rough = true});
         const double force = global_sum(block.communicator(), sums.force_z);
         if (force < strongest) strongest = force, best_height = height;
         if (force > 0.0 || height < lowest_atom) return best_height;
@@ -82,7 +82,7 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     };
     SpectralBlock block(c.simulation.block, ranks);
     InterfaceOptions options = c.simulation.interface;
-    options.single_too = !options.mixed;
+    options.rough_too = true;
     Interface interface(surface, block.tile(), c.simulation.block.spacing, options);
     interface.slide_to(place[0], place[1]);
     for (std::size_t k = 0; k < 3; ++k)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <type_traits>
 
 namespace asperity {
 
@@ -104,31 +103,13 @@ ReachBounds ReachTable::view() const {
     return bounds;
 }
 
-TileHeights::TileHeights(const HeightMap& map, const Tile& atoms, int halo, bool in_double,
-                         bool in_mixed)
-    : datum_(map.highest()) {
-    const auto fill = [&](auto& field, auto as) {
-        field = std::remove_reference_t<decltype(field)>(atoms, 1, halo);
-        auto height = field.plane(0);
+TileHeights::TileHeights(const HeightMap& map, const Tile& atoms, int halo)
+    : field_(atoms, 1, halo), datum_(map.highest()) {
+    const PlaneView<double> height = field_.plane(0);
 #pragma omp parallel for schedule(static)
-        for (int y = -halo; y < atoms.ny + halo; ++y)
-            for (int x = -halo; x < atoms.nx + halo; ++x)
-                height(x, y) = as(map.at(atoms.x0 + x, atoms.y0 + y) - datum_);
-    };
-    if (in_mixed)
-        fill(in_mixed_, [](double h) {
-            return static_cast<std::int32_t>(
-                std::nearbyint(std::max(h, -fixed_depth) / fixed_quantum));
-        });
-    if (in_double) fill(in_double_, [](double h) { return h; });
-}
-
-SubstrateHeights TileHeights::view() const {
-    SubstrateHeights heights;
-    heights.datum = datum_;
-    if (!in_mixed_.empty()) heights.fixed = in_mixed_.plane(0);
-    if (!in_double_.empty()) heights.height = in_double_.plane(0);
-    return heights;
+    for (int y = -halo; y < atoms.ny + halo; ++y)
+        for (int x = -halo; x < atoms.nx + halo; ++x)
+            height(x, y) = map.at(atoms.x0 + x, atoms.y0 + y) - datum_;
 }
 
 } // namespace asperity

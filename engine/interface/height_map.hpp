@@ -76,6 +76,7 @@ public:
     ReachBounds view() const;
     const std::vector<double>& highest() const { return highest_; }
     const std::vector<double>& lowest() const { return lowest_; }
+    std::size_t bytes() const { return (highest_.size() + lowest_.size()) * sizeof(double); }
     static std::size_t size(const Tile& tile) { ///< of each of the two
         return static_cast<std::size_t>(blocks_in_row(tile)) * static_cast<std::size_t>(tile.ny) *
                interface_rings;
@@ -89,19 +90,14 @@ private:
 /// The heights of a tile of atoms and a halo, over the highest atom, as the sweeps read them.
 class TileHeights {
 public:
-    TileHeights(const HeightMap& map, const Tile& atoms, int halo, bool in_double, bool in_mixed);
+    TileHeights(const HeightMap& map, const Tile& atoms, int halo);
 
-    SubstrateHeights view() const;
-    const Field<double>& in_double() const { return in_double_; }
-    const Field<std::int32_t>& in_mixed() const { return in_mixed_; }
-    std::size_t bytes() const {
-        return (in_double_.empty() ? 0 : in_double_.bytes()) +
-               (in_mixed_.empty() ? 0 : in_mixed_.bytes());
-    }
+    SubstrateHeights view() const { return {field_.plane(0), datum_}; }
+    const Field<double>& field() const { return field_; }
+    std::size_t bytes() const { return field_.bytes(); }
 
 private:
-    Field<double> in_double_;
-    Field<std::int32_t> in_mixed_;
+    Field<double> field_;
     double datum_;
 };
 

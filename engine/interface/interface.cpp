@@ -153,14 +153,12 @@ void Interface::find_mean_heights() {
 InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
                                const VectorPlane<double>& force, double reference_height,
                                SweepOptions how) const {
-    how.mixed = options_.mixed || (how.mixed && options_.single_too);
     return sweep_sites(
         {over_substrate(displacement), force, spacing_, reference_height, tile_.x0, tile_.y0, {}},
         how);
 }
 
 InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, SweepOptions how) const {
-    const double density = 1.0 / (map_.spacing() * map_.spacing());
     const auto row = [&](int y, InterfaceSums& sums) {
         std::visit(
             [&](const auto& substrate) {
@@ -176,7 +174,7 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, SweepOptions h
             },
             substrate_);
         if (!mean_height_.empty())
-            tail_sweep(sites, options_.potential, density, mean_height_.plane(0), y, y + 1,
+            tail_sweep(sites, options_.potential, density(), mean_height_.plane(0), y, y + 1,
                        how.observe, sums);
     };
     InterfaceSums total;
@@ -211,7 +209,7 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
                                tile_.y0,
                                nearest.plane(0),
                                {maps.contact.data(), tile_.nx, tile_.nx, tile_.ny}};
-    sweep_sites(sites, {.observe = true, .mixed = options_.mixed});
+    sweep_sites(sites, {.observe = true});
     maps.distance.reserve(count);
     maps.gap.reserve(count);
     maps.pressure.reserve(count);
@@ -247,44 +245,8 @@ double Interface::attraction_grows_down_to() const {
 }
 
 Interface::Tables Interface::tables() const {
-    Tables tables;
-    const auto fill = [&](const auto& substrate) {
-        tables.heights = &substrate.heights();
-        tables.highest = substrate.reach().highest();
-        tables.lowest = substrate.reach().lowest();
-    };
-    if (const auto* over = std::get_if<OverLattice>(&substrate_)) {
-        tables.lattice = &over->view();
-        tables.columns = over->columns();
-        fill(*over);
-    } else if (const auto* over_rows = std::get_if<OverRows>(&substrate_)) {
-        tables.rows = &over_rows->view();
-        fill(*over_rows);
-    }
-    tables.map = map_.heights();
-    if (!mean_height_.empty()) tables.mean_height = &mean_height_;
-    tables.density = 1.0 / (map_.spacing() * map_.spacing());
-    return tables;
-}
-
-Interface::TableSizes Interface::tables_for(const InterfaceOptions& options, const Tile& tile,
-                                            double spacing, int substrate_sites) {
-    const double cutoff = cutoff_of(options.potential);
-    const OverLattice::Offsets offsets(cutoff, spacing);
-    const auto atoms = static_cast<std::size_t>(substrate_sites);
-    const bool same = substrate_sites == tile.sites;
-    const Tile under = same ? tile : OverRows::atoms_under(tile, spacing, substrate_sites, cutoff);
-    const int halo = same ? offsets.half + 1 : OverRows::halo;
-    const auto* table = std::get_if<Tabulated>(&options.potential);
-    const std::size_t cubics = table ? 4 * static_cast<std::size_t>(table->intervals) : 0;
-    return {options.reads_in_double() ? Field<double>::bytes_for(under, 1, halo) : 0,
-            options.reads_in_mixed() ? Field<std::int32_t>::bytes_for(under, 1, halo) : 0,
-            options.tail ? Field<double>::bytes_for(tile, 1) : 0,
-            ReachTable::size(tile) * sizeof(double),
-            same ? offsets.table() * sizeof(std::int32_t) : 0,
-            atoms * atoms * sizeof(double),
-            cubics * sizeof(double),
-            cubics * sizeof(float)};
+    return {std::get_if<OverLattice>(&substrate_), map_.heights(),
+            mean_height_.empty() ? nullptr : &mean_height_, density()};
 }
 
 std::size_t Interface::bytes() const {
@@ -292,15 +254,8 @@ std::size_t Interface::bytes() const {
                       3 * atoms_.size() * sizeof(double) + (slid_.empty() ? 0 : slid_.bytes());
     std::visit(
         [&](const auto& substrate) {
-            using Kind = std::decay_t<decltype(substrate)>;
-            if constexpr (std::is_same_v<Kind, OverAtoms> || std::is_same_v<Kind, OverWall>) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(substrate)>, std::monostate>)
                 all += substrate.bytes();
-            } else if constexpr (!std::is_same_v<Kind, std::monostate>) {
-                all += substrate.heights().bytes() +
-                       2 * substrate.reach().highest().size() * sizeof(double);
-                if constexpr (std::is_same_v<Kind, OverLattice>)
-                    all += substrate.columns().size() * sizeof(std::int32_t);
-            }
         },
         substrate_);
     return all;

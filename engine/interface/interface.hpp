@@ -60,7 +60,7 @@ public:
               const InterfaceOptions& options);
 
     /// Forces of the substrate on the tile's sites (overwritten) and their sums over the tile.
-    /// how.mixed: where the options have it (forces good to some 1e-6 eV/Å).
+    /// how.rough: only where the options have rough_too.
     InterfaceSums sweep(const VectorPlane<const double>& displacement,
                         const VectorPlane<double>& force, double reference_height,
                         SweepOptions how = {}) const;
@@ -85,27 +85,14 @@ public:
     /// height, where no better bound is known.
     double attraction_grows_down_to() const;
 
-    /// What the sweep over a lattice or rows reads, for a device that keeps a copy. Views are of
-    /// this object; one of lattice and rows is null.
+    /// What a device copies. Views are of this object.
     struct Tables {
-        const LatticeSubstrate* lattice = nullptr;
-        const RowSubstrate* rows = nullptr;
-        const TileHeights* heights = nullptr;
-        std::span<const std::int32_t> columns;
-        std::span<const double> highest, lowest, map;
-        const Field<double>* mean_height = nullptr; ///< with the tail
-        double density = 0.0;                       ///< of the substrate's atoms, 1/Å^2
+        const OverLattice* lattice; ///< null where the substrate is another
+        std::span<const double> map;
+        const Field<double>* mean_height; ///< with the tail; else null
+        double density;                   ///< of the substrate's atoms, 1/Å^2
     };
     Tables tables() const;
-    /// Their sizes in bytes over a substrate of N x N atoms, without making them.
-    struct TableSizes {
-        std::size_t heights, fixed, mean_height;
-        std::size_t reach; ///< of highest, and of lowest
-        std::size_t columns, map;
-        std::size_t cubics, cubics_in_single; ///< of a tabulated potential
-    };
-    static TableSizes tables_for(const InterfaceOptions& options, const Tile& tile, double spacing,
-                                 int substrate_sites);
 
     const Tile& tile() const { return tile_; }
     InterfaceMethod method() const { return method_; }
@@ -122,6 +109,7 @@ private:
     InterfaceSums sweep_sites(const InterfaceSites& sites, SweepOptions how) const;
     VectorPlane<const double> over_substrate(const VectorPlane<const double>& displacement) const;
     void find_mean_heights();
+    double density() const { return 1.0 / (map_.spacing() * map_.spacing()); }
 
     InterfaceOptions options_;
     Tile tile_;

@@ -23,10 +23,10 @@ struct InterfaceOptions {
     std::vector<PairPotential> by_type = {};
     /// That these potentials read.
     std::vector<std::shared_ptr<const PotentialTable>> tables = {};
-    bool tail = false;       ///< continuum correction beyond the cutoff
-    bool mixed = false;      ///< pairs in single precision, sums in double; not the reference
-    bool single_too = false; ///< a double sweep may now and then be asked for in mixed precision
-    bool slides = false;     ///< the block is moved over the substrate (Interface::slide_to())
+    bool tail = false;      ///< continuum correction beyond the cutoff
+    bool mixed = false;     ///< pairs in single precision, in the sweep over a lattice
+    bool rough_too = false; ///< sweeps may be asked for with SweepOptions::rough
+    bool slides = false;    ///< the block is moved over the substrate (Interface::slide_to())
     InterfaceMethod method = InterfaceMethod::automatic;
     bool skip = true; ///< false: visit all offsets or atoms everywhere (same bits; for tests)
 
@@ -34,8 +34,12 @@ struct InterfaceOptions {
         if (by_type.empty()) return potential;
         return {by_type.data(), static_cast<int>(by_type.size())};
     }
-    bool reads_in_double() const { return !mixed; }
-    bool reads_in_mixed() const { return mixed || single_too; }
+};
+
+/// What a sweep is asked for.
+struct SweepOptions {
+    bool observe = false; ///< energies, contacts and nearest distances too
+    bool rough = false;   ///< forces good to some 1e-6 eV/Å are enough
 };
 
 /// Distance from which on the substrate does not act on a site, Å: beyond the cutoff; with the

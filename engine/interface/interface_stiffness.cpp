@@ -23,7 +23,7 @@ constexpr double step = 1e-3; // Å
 double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<const double>& u,
                                 const VectorPlane<const double>& force, double reference_height,
                                 const Communicator& ranks) {
-    interface.sweep(u, force_.plane(0), reference_height + step, {.mixed = true});
+    interface.sweep(u, force_.plane(0), reference_height + step, {.rough = true});
     const PlaneView<const double> here = force.z, there = std::as_const(force_).plane(0).z;
     ExactSum sum;
     for (int y = 0; y < here.ny; ++y) {
@@ -42,7 +42,7 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
         return static_cast<float>((here(x, y) - there(x, y)) / step);
     };
     // Along z all sites go with the block.
-    interface.sweep(u, force_.plane(0), reference_height + step, {.mixed = true});
+    interface.sweep(u, force_.plane(0), reference_height + step, {.rough = true});
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < u.x.ny; ++y)
         for (int x = 0; x < u.x.nx; ++x) {
@@ -65,7 +65,7 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
                 d.z(x, y) = u.z(x, y);
             }
         interface.sweep(std::as_const(displaced_).plane(0), force_.plane(0), reference_height,
-                        {.mixed = true});
+                        {.rough = true});
 #pragma omp parallel for schedule(static)
         for (int y = 0; y < u.x.ny; ++y)
             for (int x = 0; x < u.x.nx; ++x) {

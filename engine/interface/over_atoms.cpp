@@ -23,12 +23,7 @@ CellOptions cell_options(const InterfaceOptions& options, double spacing) {
     std::vector<double> cutoffs;
     for (int type = 0; type < pairs.types; ++type)
         cutoffs.push_back(cutoff_of(pairs.of[type]));
-    return {spacing,
-            std::move(cutoffs),
-            sideways_margin(spacing),
-            options.reads_in_double(),
-            options.reads_in_mixed(),
-            options.skip};
+    return {spacing, std::move(cutoffs), sideways_margin(spacing), options.skip};
 }
 
 } // namespace
@@ -40,7 +35,7 @@ OverAtoms::OverAtoms(const AtomPositions& atoms, const Tile& tile, double spacin
 
 void OverAtoms::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,
                           InterfaceSums& sums) const {
-    interface_kernels().cells(how)(sites, cells_.view(), pairs(), y, y + 1, sums);
+    interface_kernels().cells.of[how.observe](sites, cells_.view(), pairs(), y, y + 1, sums);
 }
 
 void OverAtoms::reference_row(const InterfaceSites& sites, int y, InterfaceSums& sums) const {

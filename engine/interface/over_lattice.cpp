@@ -4,7 +4,9 @@
 
 #include "engine/interface/sweep_limits.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace asperity {
 
@@ -20,8 +22,10 @@ OverLattice::OverLattice(const HeightMap& map, const Tile& tile, double spacing,
     : potential_(options.potential),
       reach_(map, tile, spacing, cutoff_of(potential_) + sideways_margin(spacing),
              sideways_margin(spacing), options.skip),
-      heights_(map, tile, Offsets(cutoff_of(potential_), spacing).half + 1,
-               options.reads_in_double(), options.reads_in_mixed()) {
+      heights_(map, tile, halo(cutoff_of(potential_), spacing)) {
+    const bool formula = !std::holds_alternative<Tabulated>(potential_);
+    mixed_ = options.mixed && formula;
+    if (mixed_ || (options.rough_too && formula)) make_fixed(tile);
     const Offsets offsets(cutoff_of(potential_), spacing);
     for (int k = 0; k < offsets.cuts; ++k) {
         const double lateral = k / offsets.cuts_per_length + 1e-9;
@@ -36,6 +40,7 @@ OverLattice::OverLattice(const HeightMap& map, const Tile& tile, double spacing,
         }
     }
     view_.heights = heights_.view();
+    if (!fixed_.empty()) view_.fixed = std::as_const(fixed_).plane(0);
     view_.columns = columns_.data();
     view_.half_offsets = offsets.half;
     view_.cut_count = offsets.cuts;
@@ -44,9 +49,30 @@ OverLattice::OverLattice(const HeightMap& map, const Tile& tile, double spacing,
     view_.map = map.view();
 }
 
+std::size_t OverLattice::bytes() const {
+    return heights_.bytes() + (fixed_.empty() ? 0 : fixed_.bytes()) + reach_.bytes() +
+           columns_.size() * sizeof(std::int32_t);
+}
+
+/// Heights in units of fixed_quantum, for the mixed sweep.
+void OverLattice::make_fixed(const Tile& tile) {
+    const int halo = heights_.field().halo();
+    fixed_ = Field<std::int32_t>(tile, 1, halo);
+    const PlaneView<const double> from = heights_.field().plane(0);
+    const PlaneView<std::int32_t> to = fixed_.plane(0);
+#pragma omp parallel for schedule(static)
+    for (int y = -halo; y < tile.ny + halo; ++y)
+        for (int x = -halo; x < tile.nx + halo; ++x)
+            to(x, y) = static_cast<std::int32_t>(
+                std::nearbyint(std::max(from(x, y), -fixed_depth) / fixed_quantum));
+}
+
 void OverLattice::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,
                             InterfaceSums& sums) const {
-    interface_kernels().lattice(how)(sites, view_, potential_, y, y + 1, sums);
+    const InterfaceKernels::LatticeSweeps& kernels = interface_kernels().lattice;
+    const bool mixed = mixed_ || (how.rough && !fixed_.empty());
+    (mixed ? kernels.mixed : kernels.in_double)[how.observe](sites, view_, potential_, y, y + 1,
+                                                             sums);
 }
 
 } // namespace asperity

@@ -24,6 +24,7 @@ public:
     const TileHeights& heights() const { return heights_; }
     const ReachTable& reach() const { return reach_; }
     const std::vector<std::int32_t>& columns() const { return columns_; }
+    std::size_t bytes() const;
 
     /// Offsets along half an axis, and lateral distances in the table of columns.
     struct Offsets {
@@ -34,11 +35,17 @@ public:
             return static_cast<std::size_t>(half) * static_cast<std::size_t>(cuts);
         }
     };
+    /// Of the heights: room for every offset and a whole register.
+    static int halo(double cutoff, double spacing) { return Offsets(cutoff, spacing).half + 1; }
 
 private:
+    void make_fixed(const Tile& tile);
+
     PairPotential potential_;
     ReachTable reach_;
     TileHeights heights_;
+    Field<std::int32_t> fixed_; ///< the same in fixed_quantum, where a sweep may be mixed
+    bool mixed_ = false;        ///< all sweeps are
     std::vector<std::int32_t> columns_;
     LatticeSubstrate view_;
 };

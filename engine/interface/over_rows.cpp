@@ -26,8 +26,7 @@ OverRows::OverRows(const HeightMap& map, const Tile& tile, double spacing,
     : potential_(options.potential),
       reach_(map, tile, spacing, cutoff_of(potential_) + sideways_margin(spacing),
              sideways_margin(spacing), options.skip),
-      heights_(map, atoms_under(tile, spacing, map.sites(), cutoff_of(potential_)), halo,
-               options.reads_in_double(), options.reads_in_mixed()) {
+      heights_(map, atoms_under(tile, spacing, map.sites(), cutoff_of(potential_)), halo) {
     const Tile atoms = atoms_under(tile, spacing, map.sites(), cutoff_of(potential_));
     view_.heights = heights_.view();
     view_.i0 = atoms.x0;
@@ -38,7 +37,7 @@ OverRows::OverRows(const HeightMap& map, const Tile& tile, double spacing,
 
 void OverRows::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,
                          InterfaceSums& sums) const {
-    interface_kernels().rows(how)(sites, view_, potential_, y, y + 1, sums);
+    interface_kernels().rows.of[how.observe](sites, view_, potential_, y, y + 1, sums);
 }
 
 } // namespace asperity

@@ -18,8 +18,7 @@ public:
 
     /// Of this object's arrays.
     const RowSubstrate& view() const { return view_; }
-    const TileHeights& heights() const { return heights_; }
-    const ReachTable& reach() const { return reach_; }
+    std::size_t bytes() const { return heights_.bytes() + reach_.bytes(); }
 
     /// The atoms, so many across the box, that lie within the cutoff and the margin of a tile's
     /// sites, and their halo: room for a register, and a row farther.

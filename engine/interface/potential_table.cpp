@@ -127,9 +127,7 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
         cubics_.insert(cubics_.end(), cubic.c, cubic.c + 4);
         here = there;
     }
-    in_single_.assign(cubics_.begin(), cubics_.end());
     whole_.cubics = cubics_.data();
-    whole_.in_single = in_single_.data();
     whole_.cutoff = last_;
 
     const Pair<Tabulated> pair(whole_);

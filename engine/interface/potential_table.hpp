@@ -33,7 +33,6 @@ public:
 
 private:
     std::vector<double> cubics_;
-    std::vector<float> in_single_;
     double last_ = 0.0;
     Tabulated whole_; ///< without a cutoff
 };

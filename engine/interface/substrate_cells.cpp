@@ -17,13 +17,11 @@ namespace asperity {
 
 namespace {
 
-/// Longest edge of a cell, Å: positions from its centre fit into 32 bits.
+/// Longest edge of a cell, Å.
 constexpr double longest_edge = 64.0;
 /// Atoms that fill a cell stand this far below it, Å: a site that sums over the cell is within the
 /// cutoff of its bounds, and so beyond the cutoff of these.
 constexpr double filler_depth = 2.0 * largest_cell_cutoff + longest_edge;
-static_assert((filler_depth + longest_edge + largest_cell_cutoff + 1.0) / fixed_quantum < 0x1p31,
-              "differences fit into 32 bits");
 /// Rounding in a bound must leave no atom out, Å.
 constexpr double slack = 1e-3;
 
@@ -139,15 +137,14 @@ SubstrateCells::SubstrateCells(AtomPositions atoms, const Tile& tile, const Cell
             fmt::format("cells of substrate atoms: {} atoms have {} types, and {} have a cutoff",
                         atoms_.size(), atoms_.type.size(), types));
     const Tree tree(atoms_, datum_, options.cutoffs.size());
-    fill(tree, options);
+    fill(tree);
     list(tree, tile, options);
 }
 
-void SubstrateCells::fill(const Tree& tree, const CellOptions& options) {
+void SubstrateCells::fill(const Tree& tree) {
     const std::size_t cells = tree.cells(), slots = cells * cell_atoms;
     bounds_.resize(8 * cells);
-    if (options.in_double) places_.resize(3 * slots);
-    if (options.in_mixed) fixed_.resize(3 * slots);
+    places_.resize(3 * slots);
     for (const Tree::Node& node : tree.nodes) {
         if (node.cell < 0) continue;
         const auto cell = static_cast<std::size_t>(node.cell);
@@ -164,10 +161,7 @@ void SubstrateCells::fill(const Tree& tree, const CellOptions& options) {
                               : node.low[k] - (k == 2 ? filler_depth : 0.0);
                 const std::size_t slot =
                     (3 * cell + axis) * cell_atoms + static_cast<std::size_t>(i);
-                if (options.in_double) places_[slot] = value;
-                if (options.in_mixed)
-                    fixed_[slot] =
-                        static_cast<std::int32_t>(std::nearbyint((value - centre) / fixed_quantum));
+                places_[slot] = value;
             }
         }
     }
@@ -224,7 +218,6 @@ void SubstrateCells::list(const Tree& tree, const Tile& tile, const CellOptions&
 CellSubstrate SubstrateCells::view() const {
     CellSubstrate view;
     view.places = places_.data();
-    view.fixed = fixed_.data();
     view.bounds = bounds_.data();
     view.images = images_.data();
     view.first = block_first_.data();
@@ -249,7 +242,7 @@ std::size_t SubstrateCells::bytes() const {
     const auto size = [](const auto&... vectors) {
         return ((vectors.size() * sizeof(vectors[0])) + ...);
     };
-    return size(atoms_.x, atoms_.y, atoms_.z, atoms_.type, places_, fixed_, bounds_, block_highest_,
+    return size(atoms_.x, atoms_.y, atoms_.z, atoms_.type, places_, bounds_, block_highest_,
                 images_, block_first_);
 }
 

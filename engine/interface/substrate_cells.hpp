@@ -23,10 +23,9 @@ namespace asperity {
 
 /// What the cells are made for.
 struct CellOptions {
-    double spacing = 2.6;                    ///< of the sites, Å
-    std::vector<double> cutoffs = {13.12};   ///< [type], Å, largest_cell_cutoff at most
-    double margin = 5.2;                     ///< sideways displacement that the lists allow for, Å
-    bool in_double = true, in_mixed = false; ///< sweeps that will read them
+    double spacing = 2.6;                  ///< of the sites, Å
+    std::vector<double> cutoffs = {13.12}; ///< [type], Å, largest_cell_cutoff at most
+    double margin = 5.2;                   ///< sideways displacement that the lists allow for, Å
     bool skip = true; ///< false: no block of sites is passed over (same bits; for tests)
 };
 
@@ -44,13 +43,12 @@ public:
 
 private:
     struct Tree;
-    void fill(const Tree& tree, const CellOptions& options);
+    void fill(const Tree& tree);
     void list(const Tree& tree, const Tile& tile, const CellOptions& options);
 
     AtomPositions atoms_; ///< as given
     double edge_, datum_, margin_;
     std::vector<double> places_;
-    std::vector<std::int32_t> fixed_;
     std::vector<double> bounds_, block_highest_;
     std::vector<CellImage> images_;
     std::vector<std::int64_t> block_first_;

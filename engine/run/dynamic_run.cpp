@@ -3,6 +3,7 @@
 //
 // The parts of the path one after the other in time: steps until the drive has come to its end;
 // when the approach has ended, a copy of the block's lowest layer is relaxed under zero load.
+#include "engine/device/device_block.hpp"
 #include "engine/equilibrium/zero_load.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "engine/run/driven_path.hpp"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/plan.hpp"
 
+#include "engine/device/device_block.hpp"
 #include "engine/units.hpp"
 #include "io/machine.hpp"
 #include "io/terminal.hpp"
@@ -231,11 +232,11 @@ void print_plan(std::FILE* to, const Case& c, const Plan& plan) {
         fmt::print(to, "            The run does not fit into this machine: `asperity run` will "
                        "refuse it here. Fewer sites, coarser or\n            fewer layers, or more "
                        "machines\n");
-    if (const DeviceChoice& device = c.simulation.device; device.kind != DeviceChoice::Kind::none)
+    if (const DeviceChoice& device = c.simulation.device)
         fmt::print(to, "device      {}, {} of its memory on each rank; times are the processor's\n",
                    describe_device(device),
-                   memory_text(static_cast<double>(DeviceBlock::bytes_for(
-                       c.simulation.block, c.grid(0), c.simulation.interface, c.substrate()))));
+                   memory_text(static_cast<double>(
+                       DeviceLayout(c.simulation.block, c.grid(0), c.simulation.interface).bytes)));
     fmt::print(to, "wall time   without messages between machines; {}\n", plan.rates);
     fmt::print(to, "Nothing was run or written.\n");
 }

@@ -249,7 +249,7 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
     const ProcessGrid grid = piece.grid(0);
     const BlockOptions& options = piece.simulation.block;
     InterfaceOptions relaxing = piece.simulation.interface;
-    relaxing.single_too = !relaxing.mixed;
+    relaxing.rough_too = true;
     std::optional<Interface> interface;
     part(Part::interface, [&] {
         interface.emplace(surface, grid.tile(0), options.spacing,

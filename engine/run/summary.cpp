@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/summary.hpp"
 
+#include "engine/device/device_block.hpp"
 #include "engine/run/rehearsal.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/units.hpp"
@@ -145,14 +146,14 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
                "in {} precision\n",
                interface.wall ? "a wall, " : "", io::number(c.flat.work_of_adhesion, 2),
                io::number(c.flat.separation, 2), io::number(reach_of(interface), 2),
-               interface.mixed && !interface.wall ? "single" : "double");
+               interface.mixed ? "single" : "double");
     fmt::print(to, "  machine     {}, {} thread{} each, {:.0f} MB a rank\n", grid.describe(),
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6);
-    if (c.simulation.device.kind != DeviceChoice::Kind::none)
+    if (c.simulation.device)
         fmt::print(to, "  device      {}, {:.0f} MB of its memory a rank\n",
                    describe_device(c.simulation.device),
-                   static_cast<double>(DeviceBlock::bytes_for(
-                       c.simulation.block, grid, c.simulation.interface, c.substrate())) /
+                   static_cast<double>(
+                       DeviceLayout(c.simulation.block, grid, c.simulation.interface).bytes) /
                        1e6);
     fmt::print(to, "  results     {}\n", directory);
     for (const std::string& note : c.notes)

@@ -262,21 +262,24 @@ io::Schema bind(Scene& scene) {
     schema.choice<Precision>(
         "precision", numerics.precision,
         {{"double", Precision::double_precision}, {"mixed", Precision::mixed}},
-        "of the pairs across the interface: \"mixed\" works them out in single precision");
+        "of the pairs across the interface: \"mixed\" works them out in single precision, over a "
+        "substrate of the block's lattice");
     schema.removed(
         {"numerics.accuracy", "",
          "it knew the errors of one material; they are measured on the scene itself now",
          "leave it out; `asperity cost SCENE --target 1%` prints the cheapest --set that "
          "keeps an error"});
-    std::vector<std::pair<std::string, int>> devices = {
-        {"none", no_device}, {"emulated", emulated_device_asked}, {"auto", any_device}};
+    using Device = DeviceChoice::Kind;
+    std::vector<std::pair<std::string, DeviceChoice>> devices = {
+        {"none", {}}, {"emulated", {Device::emulated}}, {"auto", {Device::automatic}}};
     for (int n = 0; n < 8; ++n)
-        devices.emplace_back(std::to_string(n), n);
+        devices.push_back({std::to_string(n), {Device::cuda, n}});
     schema
-        .choice<int>("device", numerics.device, devices,
-                     "that takes the steps in time: a CUDA device by its number (further ranks of "
-                     "a machine take the next ones in turn); \"auto\": one if there is one; "
-                     "\"emulated\": on the processor, for tests")
+        .choice<DeviceChoice>(
+            "device", numerics.device, devices,
+            "that takes the steps in time: a CUDA device by its number (further ranks of "
+            "a machine take the next ones in turn); \"auto\": one if there is one; "
+            "\"emulated\": on the processor, for tests")
         .numerals = true;
 
     auto& output = scene.output;

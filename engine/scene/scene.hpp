@@ -10,6 +10,7 @@
 // what is wrong with it, is found by resolve() (engine/setup/case.hpp).
 #pragma once
 
+#include "engine/scene/device_choice.hpp"
 #include "engine/scene/surface.hpp"
 #include "io/scene_reader.hpp"
 #include "kernels/pair_potential.hpp"
@@ -42,8 +43,6 @@ enum class Precision { double_precision, mixed };
 template <class... P>
 std::tuple<P...> one_of_each(const std::variant<P...>&);
 using EachPotential = decltype(one_of_each(PairPotential()));
-/// numerics.device where it is no number.
-inline constexpr int no_device = -3, emulated_device_asked = -2, any_device = -1;
 
 /// Of output.fields: "after-zero-load:140", 140 ps after the approach has ended.
 inline constexpr std::string_view after_zero_load = "after-zero-load:";
@@ -129,7 +128,7 @@ struct Scene {
 
     struct Numerics {
         Precision precision = Precision::double_precision;
-        int device = no_device; ///< or one of those below, or the number of a CUDA device
+        DeviceChoice device;
     } numerics;
 
     struct Output {

@@ -240,7 +240,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                      fmt::format("= {:.6g} K with drive.damping = 0", drive.temperature),
                      "the Langevin thermostat gives and takes heat through the damping",
                      "give a damping, for example 0.05 1/ps");
-    if (scene.numerics.device != no_device && scene.numerics.device != any_device)
+    if (scene.numerics.device && scene.numerics.device.kind != DeviceChoice::Kind::automatic)
         for (const io::Problem& p : device_problems(c))
             problems.add(p.where, p.what, p.why, p.fix);
     if (!c.maps.after_zero_load.empty() && (!c.in_time || !c.has(Segment::pull_off)))
@@ -275,6 +275,14 @@ std::vector<io::Problem> device_problems(const Case& c) {
         refuse("surface.kind = \"atoms\"",
                "the device sums over a map of heights, and has no lists of cells of atoms anywhere",
                "take numerics.device = \"none\"");
+    else if (c.scene.surface.lattice_ratio != 1.0)
+        refuse(fmt::format("surface.lattice_ratio = {:.6g}", c.scene.surface.lattice_ratio),
+               "the device sums over a substrate of the block's own lattice only",
+               "take numerics.device = \"none\", or surface.lattice_ratio = 1");
+    if (c.scene.block.strain == Strain::finite)
+        refuse("block.strain = \"finite\"",
+               "the device has the elastic forces of small strain only",
+               "take numerics.device = \"none\", or block.strain = \"linear\"");
     if (c.has(Segment::slide))
         refuse("a slide in drive.path",
                "a device keeps its copy of the substrate where it is, and a slide moves it",
@@ -379,7 +387,6 @@ std::vector<std::string> notes_on_keys(const Case& c) {
             idle(key, "the wall has the exponential law");
         else if (potential != scene.interface.potential_name() && scene.interface.pairs.empty())
             idle(key, "interface.potential is not \"" + potential + "\"");
-    if (wall) idle("numerics.precision", "a wall is worked out in double precision");
     if (!surface.reads_file())
         idle("surface.file", "surface.kind is neither \"file\" nor \"atoms\"");
     if (surface.kind != SurfaceKind::file)

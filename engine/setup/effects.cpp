@@ -149,18 +149,18 @@ constexpr std::array<Rule, effect_count> rules = {{
      }},
     {Effect::device, "device",
      [](const Case& c) {
-         const int asked = c.scene.numerics.device;
-         if (asked == no_device) return Switch{false, "numerics.device = \"none\""};
-         if (asked == any_device) {
+         const DeviceChoice& asked = c.scene.numerics.device;
+         if (!asked) return Switch{false, "numerics.device = \"none\""};
+         if (asked.kind == DeviceChoice::Kind::automatic) {
              const std::string any = "numerics.device = \"auto\"";
              if (cuda_device_count() == 0) return Switch{false, any + ": no CUDA device is here"};
              const auto problems = device_problems(c);
              if (!problems.empty()) return Switch{false, any + ": it " + problems.front().what};
              return Switch{true, any};
          }
-         return Switch{true, asked == emulated_device_asked
+         return Switch{true, asked.kind == DeviceChoice::Kind::emulated
                                  ? "numerics.device = \"emulated\""
-                                 : fmt::format("numerics.device = {}", asked)};
+                                 : fmt::format("numerics.device = {}", asked.index)};
      }},
 }};
 

@@ -105,6 +105,17 @@ BlockOptions block_of(const Scene& scene, bool in_time) {
     return block;
 }
 
+/// Why numerics.precision = "mixed" does not apply; empty where it does.
+std::string why_in_double(const Case& c) {
+    const Scene& scene = c.scene;
+    if (scene.interface.kind == InterfaceKind::wall) return "over a wall";
+    if (scene.surface.kind == SurfaceKind::atoms) return "over a substrate of atoms anywhere";
+    if (scene.surface.lattice_ratio != 1.0) return "over a substrate of another spacing";
+    if (scene.interface.potential_name() == Tabulated::name) return "with a tabulated potential";
+    if (c.on(Effect::device)) return "on a device";
+    return {};
+}
+
 /// What is not its potentials.
 void fill_interface(Case& c) {
     const Scene& scene = c.scene;
@@ -112,8 +123,12 @@ void fill_interface(Case& c) {
     const double a = scene.surface.spacing, site = a * a;
     InterfaceOptions& options = c.simulation.interface;
     options.tail = i.tail;
-    options.mixed = scene.numerics.precision == Precision::mixed;
-    options.single_too = !c.in_time && !options.mixed;
+    const std::string in_double = why_in_double(c);
+    options.mixed = scene.numerics.precision == Precision::mixed && in_double.empty();
+    if (scene.numerics.precision == Precision::mixed && !options.mixed)
+        c.notes.push_back("numerics.precision has no effect: pairs are in double precision " +
+                          in_double);
+    options.rough_too = !c.in_time;
     if (i.kind == InterfaceKind::atoms) return;
     if (i.law == WallLawKind::smeared) {
         std::visit(
@@ -221,18 +236,18 @@ void limit_steps(Case& c, io::Problems& refused) {
 
 /// Of a scene whose steps a device takes.
 DeviceChoice device_of(const Scene& scene, io::Problems& refused) {
-    const int asked = scene.numerics.device, there = cuda_device_count();
-    if (asked == emulated_device_asked) return {DeviceChoice::Kind::emulated, 0};
-    const int index = asked == any_device ? 0 : asked;
-    if (index >= there)
+    const DeviceChoice& asked = scene.numerics.device;
+    if (asked.kind == DeviceChoice::Kind::emulated) return asked;
+    const int there = cuda_device_count();
+    if (asked.index >= there)
         refused.add("numerics.device",
-                    fmt::format("= {} asks for a CUDA device that is not there", index),
+                    fmt::format("= {} asks for a CUDA device that is not there", asked.index),
                     !cuda_device() ? std::string("this program was built without CUDA")
                     : there == 0   ? std::string("no CUDA device was found on this machine")
                                    : fmt::format("this machine has {}, counted from 0", there),
                     "take \"auto\" (a device if there is one), \"none\" or \"emulated\", or a "
                     "machine that has the device");
-    return {DeviceChoice::Kind::cuda, index};
+    return {DeviceChoice::Kind::cuda, asked.index};
 }
 
 /// How the block is driven, and its steps.

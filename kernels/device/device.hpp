@@ -3,19 +3,18 @@
 //
 // What a device is asked for: memory, copies, and the launches of a step. Two tables of functions
 // of this shape exist: that of CUDA (cuda.cu, where its compiler was found) and that of the
-// emulated device (emulated.cpp, always). Both are made of one text (passes.hpp).
+// emulated device (emulated.cpp, always). Both compile the same kernels (passes.hpp).
 //
 // A step from u(n), v(n - 1/2) to u(n + 1), v(n + 1/2) over all levels takes three launches:
-//   follow   constrained planes follow the coarse planes; the top plane is where the drive has it
+//   follow   constrained planes are interpolated from the coarse planes; the top plane is set
 //   forces   sites of the interface, and the upper faces of all levels
 //   advance  restriction, elastic forces, kick, and drift into the other displacement array, with
 //            the periodic images of every node
 // Between ranks come three more: restrict_to_shared (forces that go to a level that every rank
 // holds), pack and unpack (halos).
 //
-// Launches, send() and fetch() are queued: each begins when those before it are done, and the call
-// returns at once. The host memory they name must be pinned, and may be read or written again when
-// a mark() behind them has been waited for.
+// Launches are carried out in order, on one stream. copy() returns when all launches before it and
+// the copy itself are done.
 //
 // Every function returns nullptr, or a text that says what went wrong.
 #pragma once
@@ -37,7 +36,7 @@ inline constexpr int most_levels = 24;
 struct DeviceLevel {
     int nx = 0, ny = 0, cells = 0;
     int number = 0, x0 = 0, y0 = 0; ///< which level; the tile's first node
-    VectorVolume<double> u[2];      ///< displacement at the present step and at the next, in turn
+    VectorVolume<double> u[2];      ///< displacement at the present step and the next, alternating
     VectorVolume<double> v;
     VectorPlane<double> transferred, upper_force;
     Stencil lower{}, inner{}, upper{};
@@ -52,6 +51,10 @@ struct DeviceLevel {
 struct NodeRanges {
     int levels = 0;
     long long first[most_levels + 1] = {}; ///< of each level; behind the last: the end
+    void add_level(long long nodes) {
+        first[levels + 1] = first[levels] + nodes;
+        ++levels;
+    }
 };
 
 /// Sums of one launch over its nodes.
@@ -82,15 +85,11 @@ struct DeviceStep {
     bool damped = false; ///< some nodes are
     double dt = 0.0;     ///< fs
     double top = 0.0;    ///< of the top plane, Å
-    bool finite = false; ///< strain
-    bool noisy = false;  ///< damped nodes feel thermal noise
+    bool noisy = false;  ///< thermal noise acts on damped nodes
     ThermalNoise noise;
 
     InterfaceSites sites;
     LatticeSubstrate lattice;
-    RowSubstrate rows; ///< in place of the lattice
-    bool over_rows = false;
-    bool mixed = false;
     bool with_tail = false;
     double tail_density = 0.0; ///< atoms per Å^2
     PlaneView<const double> mean_height;
@@ -101,77 +100,42 @@ struct DeviceStep {
 /// A strip of halo traded with the two neighbours along an axis.
 struct DeviceHalo {
     bool along_x = true;
-    NodeRanges strip;                           ///< doubles of one side's message, level by level
-    double *before = nullptr, *after = nullptr; ///< messages, in device memory
-    int buffer = 0;                             ///< which displacement array
+    NodeRanges strip; ///< doubles of one side's message, level by level
+    /// In device memory: to or from the neighbour before; behind it, the neighbour after.
+    double* messages = nullptr;
+    int buffer = 0; ///< which displacement array
 };
 
-/// Marks in the queue, by number.
-inline constexpr int device_marks = 32;
-
 struct DeviceFunctions {
-    const char* (*describe)(int index, std::string& name, std::size_t& free_bytes);
-    /// Device memory; from then on this device is the one that all calls mean.
+    /// Device memory; this device is the one that all calls from then on refer to.
     const char* (*allocate)(int index, std::size_t bytes, std::byte** memory);
     void (*release)(std::byte* memory);
-    /// Memory of the host that send() and fetch() may name.
-    const char* (*allocate_pinned)(std::size_t bytes, std::byte** memory);
-    void (*release_pinned)(std::byte* memory);
-
-    // Copies of any memory, which wait for all that is queued.
-    const char* (*upload)(void* to, const void* from, std::size_t bytes);
-    const char* (*download)(void* to, const void* from, std::size_t bytes);
-
-    // Queued.
-    const char* (*send)(void* to, const void* from, std::size_t bytes);
-    const char* (*fetch)(void* to, const void* from, std::size_t bytes);
-    const char* (*mark)(int number);
-    /// Begins when the queue has come here, and goes on beside what is queued behind it; then its
-    /// mark is reached.
-    const char* (*fetch_beside)(void* to, const void* from, std::size_t bytes, int number);
-
-    const char* (*wait)(int number);
-    /// Between two marks that were reached.
-    const char* (*seconds_between)(int first, int second, double& seconds);
-    /// Whether an MPI that knows of CUDA can read and write this device's memory. It is opened
-    /// before a message and closed behind it.
-    bool (*takes_mpi)(bool mpi_knows_cuda);
-    const char* (*open_to_mpi)(bool open);
+    /// Between host and device, in either direction.
+    const char* (*copy)(void* to, const void* from, std::size_t bytes);
 
     const char* (*follow)(const DeviceStep& step);
-    /// A table's numbers lie in device memory.
+    /// The numbers of a tabulated potential are in device memory.
     const char* (*forces)(const DeviceStep& step, const PairPotential& potential);
     const char* (*restrict_to_shared)(const DeviceStep& step, int coarse, Patch nodes);
     const char* (*advance)(const DeviceStep& step);
     const char* (*pack)(const DeviceStep& step, const DeviceHalo& halo);
     const char* (*unpack)(const DeviceStep& step, const DeviceHalo& halo);
-
-    // What the device can do at best, for perf/device_bench.cpp (limits.hpp).
-    /// a = b + s c; a, b, c of n numbers.
-    const char* (*triad)(double* a, const double* b, const double* c, long long n);
-    /// So many threads, each rounds x fused_chains fused multiplications; out: one number each.
-    const char* (*fused_double)(double* out, long long threads, int rounds);
-    const char* (*fused_single)(float* out, long long threads, int rounds);
 };
-inline constexpr int fused_chains = 8;
 
 const DeviceFunctions& emulated_device();
 /// Null where the program was built without CUDA.
 const DeviceFunctions* cuda_device();
-/// Devices that CUDA finds here.
+/// Devices that CUDA finds here, and what they are called.
 int cuda_device_count();
+std::string cuda_device_name(int index);
 
 /// How the emulated device behaves; for tests.
 struct EmulatedSettings {
-    /// Nodes of a launch run one after the other: in their order (0), or in one of many others. A
-    /// result that depends on the order has two threads at one number.
+    /// Nodes of a launch run one after the other: in their order (0), or in one of many others. If
+    /// a result depends on the order, two threads access the same number.
     unsigned order = 0;
-    /// What is queued is done at once, or as late as waits allow, with launches far ahead of copies
-    /// beside them. A result that differs has read, or written, too early.
-    bool at_once = false;
     std::size_t memory = 0;    ///< bytes that it has; 0: the machine's
-    long long lost_after = -1; ///< so many more launches it is lost; negative: never
-    bool open_to_mpi = false;  ///< as a device whose memory MPI takes
+    long long lost_after = -1; ///< number of launches after which calls fail; negative: none
 };
 EmulatedSettings& emulated_settings();
 

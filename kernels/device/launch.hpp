@@ -4,15 +4,21 @@
 // launch(): body(i, sums) for every i in [0, count), a thread each; with sums, theirs are added
 // into *total, which is exact in any order (exact_sum.hpp).
 //
-// The emulated device runs the bodies one after the other, in the host's process, when somebody
-// waits for them. Its memory is pages of its own that can be read and written during a launch or a
-// copy only: a host that reads device memory stops at once, as it would with a device of its own
-// memory.
+// The emulated device runs the bodies one after the other, in the host's process. Its memory is
+// pages of its own that can be read and written during a launch or a copy only: a host that reads
+// device memory stops with a segmentation fault, as with CUDA.
 #pragma once
 
 #include "kernels/device/device.hpp"
 
+#include <type_traits>
+
 namespace asperity {
+
+/// What can be copied byte by byte and has the same members for the compilers of host and device.
+template <class T>
+inline constexpr bool goes_to_a_device =
+    std::is_trivially_copyable_v<T>&& std::is_standard_layout_v<T>;
 
 /// Adds the sums of some nodes to those of others.
 ASPERITY_HOST_DEVICE inline void merge(PassSums& into, const PassSums& other) {
@@ -32,7 +38,6 @@ ASPERITY_HOST_DEVICE inline void merge(PassSums& into, const PassSums& other) {
 namespace asperity::cuda {
 
 inline constexpr int threads_per_block = 128;
-inline cudaStream_t queue = nullptr; ///< of the launches
 
 /// All threads of a block; adds up within warps, then over the block, then once to the total
 /// (behind a carry, as exact_sum.hpp asks for: merge() ends with one).
@@ -82,9 +87,10 @@ inline const char* text_of(cudaError_t error) {
 
 template <bool with_sums, class Body>
 const char* launch(const Body& body, long long count, PassSums* total) {
+    static_assert(goes_to_a_device<Body>);
     if (count == 0) return nullptr;
     const auto blocks = static_cast<unsigned>((count + threads_per_block - 1) / threads_per_block);
-    run<with_sums><<<blocks, threads_per_block, 0, queue>>>(body, count, total);
+    run<with_sums><<<blocks, threads_per_block>>>(body, count, total);
     return text_of(cudaGetLastError());
 }
 
@@ -93,38 +99,31 @@ const char* launch(const Body& body, long long count, PassSums* total) {
 #else
 
 #include <algorithm>
-#include <functional>
 
 namespace asperity::emulated {
 
-/// Opens the device's memory for as long as it lives.
-class OpenMemory {
-public:
-    OpenMemory();
-    ~OpenMemory();
-    OpenMemory(const OpenMemory&) = delete;
-    OpenMemory& operator=(const OpenMemory&) = delete;
-};
-
+/// Lets the host read and write the device's memory, or not.
+void open_memory(bool open);
+/// Null, or that the device is lost (EmulatedSettings::lost_after).
+const char* count_launch();
 /// Node number k of a launch over count of them, in the order asked for.
 long long node_in_order(long long k, long long count);
 
 inline constexpr long long nodes_per_block = 4096;
 
-/// Does the work now or later, as a device might.
-const char* enqueue(std::function<void()> work);
-
 template <bool with_sums, class Body>
 const char* launch(const Body& body, long long count, PassSums* total) {
-    return enqueue([=] {
-        const OpenMemory open;
-        for (long long k = 0; k < count;) { // a block of nodes at a time, as CUDA's
-            PassSums sums;
-            for (const long long end = std::min(count, k + nodes_per_block); k < end; ++k)
-                body(node_in_order(k, count), sums);
-            if constexpr (with_sums) merge(*total, sums);
-        }
-    });
+    static_assert(goes_to_a_device<Body>);
+    if (const char* error = count_launch()) return error;
+    open_memory(true);
+    for (long long k = 0; k < count;) { // a block of nodes at a time, as CUDA's
+        PassSums sums;
+        for (const long long end = std::min(count, k + nodes_per_block); k < end; ++k)
+            body(node_in_order(k, count), sums);
+        if constexpr (with_sums) merge(*total, sums);
+    }
+    open_memory(false);
+    return nullptr;
 }
 
 } // namespace asperity::emulated

@@ -8,5 +8,6 @@ namespace asperity {
 
 const DeviceFunctions* cuda_device() { return nullptr; }
 int cuda_device_count() { return 0; }
+std::string cuda_device_name(int) { return "CUDA"; }
 
 } // namespace asperity

@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The launches of device.hpp as functions of a node: one text for CUDA and the emulated device,
-// which bring launch() with them (launch.hpp). The arithmetic is that of the processor's kernels,
-// on lanes.
+// The launches of device.hpp as functions of a node, compiled for CUDA and for the emulated device,
+// each with its own launch() (launch.hpp). The arithmetic is that of the processor's kernels, on
+// lanes.
 #pragma once
 
 #include "kernels/lane.hpp"
 
 #include "kernels/device/launch.hpp"
 #include "kernels/elastic_column.hpp"
-#include "kernels/elastic_finite_cell.hpp"
-#include "kernels/interface_row.hpp"
 #include "kernels/interface_site.hpp"
 #include "kernels/kick.hpp"
 #include "kernels/pair_sum.hpp"
@@ -34,7 +32,7 @@ ASPERITY_INLINE int locate(const NodeRanges& ranges, long long& i) {
 struct Follow {
     DeviceStep s;
     ASPERITY_HOST_DEVICE void operator()(long long i, PassSums&) const {
-        if (i == 0) s.sums[0] = s.sums[1] = PassSums{}; // for the launches behind this one
+        if (i == 0) s.sums[0] = s.sums[1] = PassSums{}; // the next launches add to them
         const int l = locate(s.constrained, i);
         const DeviceLevel& level = s.levels[l];
         constexpr int h = halo_width;
@@ -71,55 +69,7 @@ ASPERITY_INLINE Triple<Number> small_force(const VectorVolume<const double>& u, 
             (east.z.west + west.z.east) + here.z.here};
 }
 
-/// What a row of cells gives, at finite strain, to a node that is its corner `row` (Corners): that
-/// of the cell to the east, then that of the cell to the west. at: the node.
-template <int row, bool cells = true>
-ASPERITY_INLINE Triple<Number> finite_part(const VectorVolume<const double>& u, std::ptrdiff_t at,
-                                           const finite::Cell<Number>& cell,
-                                           const finite::Stiffness<Number>& in_plane,
-                                           bool pressed) {
-    constexpr int rows = cells ? 4 : 2;
-    const std::ptrdiff_t east = at - (row & 1) * u.x.row - (row >> 1) * u.x.plane;
-    const auto of = [&](std::ptrdiff_t cell_at) {
-        finite::Corners<Number> corner, f;
-        finite::load<rows>(u, cell_at, corner);
-        if (pressed)
-            finite::forces<cells, true>(corner, cell, in_plane, f);
-        else
-            finite::forces<cells, false>(corner, cell, in_plane, f);
-        return f;
-    };
-    return of(east).west[row] + of(east - 1).east[row];
-}
-
-/// Force on the node at element `at` of plane z, finite strain, in the order of elastic_finite.cpp:
-/// cells below, then above; in each of these, cells at smaller y, then larger y. Plane 0 starts
-/// with the transferred force.
-ASPERITY_INLINE Triple<Number> finite_force(const DeviceLevel& level,
-                                            const VectorVolume<const double>& u, std::ptrdiff_t at,
-                                            int z, const Triple<Number>& transferred) {
-    const finite::Cell<Number> cell(level.cell);
-    const bool pressed = level.cell.elasticity.kappa != 0.0;
-    const auto in_plane = [&](int plane) { // springs in a surface belong to half as many cells
-        const double fraction = plane == 0 || plane == level.cells ? 0.5 : 1.0;
-        return finite::Stiffness<Number>(fraction * level.cell.elasticity.k, level.cell.edge);
-    };
-    const auto here = in_plane(z);
-    Triple<Number> f = transferred;
-    if (z > 0) {
-        const auto below = in_plane(z - 1);
-        f = finite_part<3>(u, at, cell, below, pressed) +
-            finite_part<2>(u, at, cell, below, pressed);
-    }
-    if (z < level.cells)
-        return f + finite_part<1>(u, at, cell, here, pressed) +
-               finite_part<0>(u, at, cell, here, pressed);
-    return f + finite_part<1, false>(u, at, cell, here, pressed) +
-           finite_part<0, false>(u, at, cell, here, pressed);
-}
-
 /// The force on node i of the upper faces.
-template <bool finite_strain>
 ASPERITY_INLINE void upper_face(const DeviceStep& s, long long i, PassSums& sums) {
     const int l = locate(s.faces, i);
     const DeviceLevel& level = s.levels[l];
@@ -127,11 +77,7 @@ ASPERITY_INLINE void upper_face(const DeviceStep& s, long long i, PassSums& sums
     const int x = static_cast<int>(i % width) - 1, y = static_cast<int>(i / width) - 1;
     const VectorVolume<const double> u = level.u[s.now];
     const std::ptrdiff_t at = level.cells * u.x.plane + y * u.x.row + x;
-    Triple<Number> f;
-    if constexpr (finite_strain)
-        f = finite_force(level, u, at, level.cells, {});
-    else
-        f = small_force<Face::upper>(u, at, level.upper);
+    const Triple<Number> f = small_force<Face::upper>(u, at, level.upper);
     level.upper_force.x(x, y) = f.x.r;
     level.upper_force.y(x, y) = f.y.r;
     level.upper_force.z(x, y) = f.z.r;
@@ -139,87 +85,18 @@ ASPERITY_INLINE void upper_face(const DeviceStep& s, long long i, PassSums& sums
     if (l + 1 == s.faces.levels && level.counted && inside) sums.sum[ForceSum::top_z].add(f.z.r);
 }
 
-/// Upper faces at finite strain, whose text alone fills the registers of a thread.
-struct FiniteFaces {
-    DeviceStep s;
-    ASPERITY_HOST_DEVICE void operator()(long long i, PassSums& sums) const {
-        upper_face<true>(s, i, sums);
-    }
-};
-
-/// The pairs of a site, in precision T: over a substrate of the block's lattice, over rows.
-template <class T, class P>
-struct PairsOverLattice {
-    using Precision = T;
-    LatticeSubstrate ground;
-    PairTerms<Scalar, T, P> pair;
-    Offsets<T> offsets;
-
-    PairsOverLattice(const DeviceStep& s, const P& potential)
-        : ground(s.lattice), pair(potential), offsets(s.sites.spacing, s.lattice.half_offsets) {}
-
-    template <bool observe>
-    ASPERITY_INLINE SiteTotal sum(const InterfaceSites&, int x, int y,
-                                  const SiteBlock<Number, 1>& site, const Reach& reach) const {
-        const Columns all(ground, static_cast<int>(reach.from_rest * ground.cuts_per_length) + 1);
-        const Columns within(ground, static_cast<int>(reach.inside * ground.cuts_per_length));
-        const auto heights = SiteHeight<Scalar, T>::of(ground.heights);
-        const auto pairs = sum_lattice<Scalar, T, observe, true>(
-            SiteHeight<Scalar, T>(site.z), lengths<Scalar, T>(site.ux), lengths<Scalar, T>(site.uy),
-            all, within, heights.line(y) + x, heights.row, ground.half_offsets, offsets, pair);
-        SiteTotal total{site_force(pair, site.ux[0], site.uy[0], static_cast<double>(pairs.f.r),
-                                   static_cast<double>(pairs.f_cx.r),
-                                   static_cast<double>(pairs.f_cy.r),
-                                   static_cast<double>(pairs.f_z.r)),
-                        0.0, no_pair};
-        if constexpr (observe) {
-            total.energy = pair.energy_scale * static_cast<double>(pairs.energy.r);
-            total.nearest = pair.nearest(pairs.nearest.r);
-        }
-        return total;
-    }
-};
-
-template <class T, class P>
-struct PairsOverRows {
-    using Precision = T;
-    RowSubstrate ground;
-    AtomRows<Scalar, T, P> rows;
-    PairTerms<Scalar, T, P> pair;
-
-    PairsOverRows(const DeviceStep& s, const P& potential)
-        : ground(s.rows), rows(s.rows, potential), pair(rows.pair) {}
-
-    template <bool observe>
-    ASPERITY_INLINE SiteTotal sum(const InterfaceSites& sites, int x, int y,
-                                  const SiteBlock<Number, 1>& site, const Reach& reach) const {
-        return rows.template sum<observe, true, AsideOfOne<T, P>>(
-            (sites.x0 + x + 0.5) * sites.spacing + site.ux[0],
-            (sites.y0 + y + 0.5) * sites.spacing + site.uy[0], site.z[0],
-            ChordsOfOne<T, P>(rows, reach.from_site));
-    }
-};
-
-/// The tail that a potential brings, or none.
-template <class P>
-struct NoTail {
-    NoTail(const P&, double) {}
-    ASPERITY_INLINE double energy(double) const { return 0.0; }
-    ASPERITY_INLINE double force(double) const { return 0.0; }
-};
-template <class P>
-using TailOf = std::conditional_t<P::has_tail, Tail<P>, NoTail<P>>;
-
-/// Sites of the interface and, at small strain, upper faces.
-template <class Pairs, class P, bool observe>
+/// Sites of the interface, then upper faces.
+template <class P, bool observe>
 struct Forces {
     DeviceStep s;
-    Pairs pairs;
-    Pair<P> one;
-    TailOf<P> tail;
+    PairTerms<Scalar, double, P> pair;
+    Offsets<double> offsets;
+    Pair<P> reference; ///< for sites that the tables do not cover
+    Tail<P> tail;
 
     Forces(const DeviceStep& step, const P& potential)
-        : s(step), pairs(step, potential), one(potential), tail(potential, step.tail_density) {}
+        : s(step), pair(potential), offsets(step.sites.spacing, step.lattice.half_offsets),
+          reference(potential), tail(potential, step.tail_density) {}
 
     ASPERITY_HOST_DEVICE void operator()(long long i, PassSums& sums) const {
         const int nx = s.sites.displacement.x.nx;
@@ -227,47 +104,66 @@ struct Forces {
         if (i < sites)
             site(static_cast<int>(i % nx), static_cast<int>(i / nx), sums);
         else
-            upper_face<false>(s, i - sites, sums);
+            upper_face(s, i - sites, sums);
     }
 
 private:
     ASPERITY_HOST_DEVICE void site(int x, int y, PassSums& sums) const {
-        using T = typename Pairs::Precision;
-        const auto& ground = pairs.ground;
-        const double datum = ground.heights.datum;
-        const SiteBlock<Number, 1> site(s.sites, x, y, 1, datum, deepest<T>(one.cutoff), ceiling<T>,
-                                        ground.reach.offset_margin);
-        const Reach reach(ground.reach, x, y, datum, site, pairs.pair.cutoff, pairs.pair.closest);
+        const LatticeSubstrate& atoms = s.lattice;
+        const double datum = atoms.heights.datum;
+        const SiteBlock<Number, 1> site(s.sites, x, y, 1, datum, {}, atoms.reach.offset_margin);
+        const Reach reach(atoms.reach, x, y, datum, site, pair.cutoff, pair.closest);
         const auto& u = s.sites.displacement;
         SiteTotal total{{0.0, 0.0, 0.0}, 0.0, no_pair};
         if (site.beyond) {
-            const PairSum p =
-                sum_of_pairs(ground.map, one, (s.sites.x0 + x + 0.5) * s.sites.spacing + u.x(x, y),
-                             (s.sites.y0 + y + 0.5) * s.sites.spacing + u.y(x, y),
-                             s.sites.reference_height + u.z(x, y));
+            const PairSum p = sum_of_pairs(atoms.map, reference,
+                                           (s.sites.x0 + x + 0.5) * s.sites.spacing + u.x(x, y),
+                                           (s.sites.y0 + y + 0.5) * s.sites.spacing + u.y(x, y),
+                                           s.sites.reference_height + u.z(x, y));
             total = {{p.force[0], p.force[1], p.force[2]}, p.energy, p.nearest_r2};
         } else if (reach.from_rest > 0.0) {
-            total = pairs.template sum<observe>(s.sites, x, y, site, reach);
+            total = sum_pairs(x, y, site, reach);
         }
         SiteForce& force = total.force;
         sums.sum[ForceSum::interface_z].add(force.z);
         if constexpr (observe) sums.sum[ForceSum::interface_energy].add(total.energy);
-        if (s.with_tail) {
-            const double gap = s.sites.reference_height + u.z(x, y) - s.mean_height(x, y);
-            const double beyond = tail.force(gap);
-            if constexpr (observe) sums.sum[ForceSum::interface_energy].add(tail.energy(gap));
-            force.z += beyond;
-            sums.sum[ForceSum::interface_z].add(beyond);
-        }
+        if constexpr (P::has_tail)
+            if (s.with_tail) {
+                const double gap = s.sites.reference_height + u.z(x, y) - s.mean_height(x, y);
+                const double beyond = tail.force(gap);
+                if constexpr (observe) sums.sum[ForceSum::interface_energy].add(tail.energy(gap));
+                force.z += beyond;
+                sums.sum[ForceSum::interface_z].add(beyond);
+            }
         s.sites.force.x(x, y) = force.x;
         s.sites.force.y(x, y) = force.y;
         s.sites.force.z(x, y) = force.z;
         sums.sum[ForceSum::lowest_z].add(u.z(x, y));
         if constexpr (observe) {
-            sums.count[ForceSum::in_contact] += total.nearest < pairs.pair.contact_r2 ? 1.0 : 0.0;
+            sums.count[ForceSum::in_contact] += total.nearest < pair.contact_r2 ? 1.0 : 0.0;
             sums.count[ForceSum::repulsive] += force.z > 0.0 ? 1.0 : 0.0;
             sums.least = total.nearest < sums.least ? total.nearest : sums.least;
         }
+    }
+
+    ASPERITY_INLINE SiteTotal sum_pairs(int x, int y, const SiteBlock<Number, 1>& site,
+                                        const Reach& reach) const {
+        const LatticeSubstrate& atoms = s.lattice;
+        const Columns all(atoms, static_cast<int>(reach.from_rest * atoms.cuts_per_length) + 1);
+        const Columns within(atoms, static_cast<int>(reach.inside * atoms.cuts_per_length));
+        const PlaneView<const double>& heights = atoms.heights.height;
+        const auto pairs = sum_lattice<Scalar, double, observe, true>(
+            SiteHeight<Scalar, double>(site.z), lengths<Scalar, double>(site.ux),
+            lengths<Scalar, double>(site.uy), all, within, heights.line(y) + x, heights.row,
+            atoms.half_offsets, offsets, pair);
+        SiteTotal total{site_force(pair, site.ux[0], site.uy[0], pairs.f.r, pairs.f_cx.r,
+                                   pairs.f_cy.r, pairs.f_z.r),
+                        0.0, no_pair};
+        if constexpr (observe) {
+            total.energy = pair.energy_scale * pairs.energy.r;
+            total.nearest = pair.nearest(pairs.nearest.r);
+        }
+        return total;
     }
 };
 
@@ -299,30 +195,28 @@ struct RestrictToShared {
     }
 };
 
-/// The first of the places y, y + n, ... that lies in the halo or the tile; y itself where another
-/// tile holds the images.
-ASPERITY_INLINE int first_image(int y, int n, bool wraps) {
-    if (!wraps) return y;
-    while (y - n >= -halo_width)
-        y -= n;
-    return y;
-}
-ASPERITY_INLINE int end_of_images(int y, int n, bool wraps) {
-    return wraps ? n + halo_width : y + 1;
-}
+/// The places x + k n of a coordinate in the halo or the tile: from first on, below end; x itself
+/// where another tile holds the images.
+struct Images {
+    int first, end;
+    ASPERITY_INLINE Images(int x, int n, bool wraps)
+        : first(x), end(wraps ? n + halo_width : x + 1) {
+        while (wraps && first - n >= -halo_width)
+            first -= n;
+    }
+};
 
 /// A node of a plane and its periodic images. x, y: owned along every axis that wraps.
 ASPERITY_INLINE void write_images(const PlaneView<double>& u, const DeviceLevel& level, int x,
                                   int y, bool wraps_x, double value) {
-    const int x_end = end_of_images(x, level.nx, wraps_x);
-    const int y_end = end_of_images(y, level.ny, level.wraps_y);
-    for (int j = first_image(y, level.ny, level.wraps_y); j < y_end; j += level.ny)
-        for (int i = first_image(x, level.nx, wraps_x); i < x_end; i += level.nx)
+    const Images along_x(x, level.nx, wraps_x), along_y(y, level.ny, level.wraps_y);
+    for (int j = along_y.first; j < along_y.end; j += level.ny)
+        for (int i = along_x.first; i < along_x.end; i += level.nx)
             u(i, j) = value;
 }
 
 /// Elastic forces, kick, drift and noise.
-template <bool observe, bool noisy, bool finite_strain>
+template <bool observe, bool noisy>
 struct Advance {
     DeviceStep s;
 
@@ -340,13 +234,8 @@ struct Advance {
                      ? restricted_force(s.levels[l - 1], x, y)
                      : Triple<Number>{level.transferred.x(x, y), level.transferred.y(x, y),
                                       level.transferred.z(x, y)};
-        Triple<Number> f;
-        if constexpr (finite_strain)
-            f = finite_force(level, u, at, z, in);
-        else if (z == 0)
-            f = small_force<Face::lower>(u, at, level.lower) + in;
-        else
-            f = small_force<Face::inner>(u, at, level.inner);
+        const Triple<Number> f = z == 0 ? small_force<Face::lower>(u, at, level.lower) + in
+                                        : small_force<Face::inner>(u, at, level.inner);
         PassSums sums;
         const Kick& kick = s.kicks[l](z);
         const Triple<Number> v = kick.damped ? kicked<true>(kick, level, z, y, x, f, sums)
@@ -370,10 +259,7 @@ struct Advance {
         write_images(next.x, level, x, y, level.wraps_x, moved.x);
         write_images(next.y, level, x, y, level.wraps_x, moved.y);
         write_images(next.z, level, x, y, level.wraps_x, moved.z);
-        if constexpr (observe && finite_strain)
-            sums.sum[AdvanceSum::elastic].add(
-                finite::energy<Number>(u, at, finite::Cell<Number>(level.cell), level.cell).r);
-        else if constexpr (observe)
+        if constexpr (observe)
             sums.sum[AdvanceSum::elastic].add(cell_energy<Number>(u, at, level.cell.elasticity).r);
         if (level.counted) merge(all, sums);
     }
@@ -403,9 +289,9 @@ struct Halo {
 
     ASPERITY_HOST_DEVICE void operator()(long long i, PassSums&) const {
         constexpr int h = halo_width;
+        double& message = halo.messages[i];
         const bool high = i >= halo.strip.first[halo.strip.levels];
         if (high) i -= halo.strip.first[halo.strip.levels];
-        double& message = (high ? halo.after : halo.before)[i];
         const int l = locate(halo.strip, i);
         const DeviceLevel& level = s.levels[l];
         const int width = halo.along_x ? h : level.nx + 2 * h;
@@ -433,25 +319,14 @@ inline const char* follow(const DeviceStep& s) {
     return launch<false>(Follow{s}, s.constrained.first[s.constrained.levels], nullptr);
 }
 
-template <class Pairs, class P>
-const char* forces_of(const DeviceStep& s, const P& potential) {
-    const long long faces = s.faces.first[s.faces.levels];
-    if (s.finite)
-        if (const char* error = launch<true>(FiniteFaces{s}, faces, s.sums)) return error;
+inline const char* forces(const DeviceStep& s, const PairPotential& potential) {
     const long long nodes =
         static_cast<long long>(s.sites.displacement.x.nx) * s.sites.displacement.x.ny +
-        (s.finite ? 0 : faces);
-    return s.observe ? launch<true>(Forces<Pairs, P, true>(s, potential), nodes, s.sums)
-                     : launch<true>(Forces<Pairs, P, false>(s, potential), nodes, s.sums);
-}
-inline const char* forces(const DeviceStep& s, const PairPotential& potential) {
+        s.faces.first[s.faces.levels];
     return std::visit(
         [&]<class P>(const P& p) {
-            if (s.over_rows)
-                return s.mixed ? forces_of<PairsOverRows<float, P>>(s, p)
-                               : forces_of<PairsOverRows<double, P>>(s, p);
-            return s.mixed ? forces_of<PairsOverLattice<float, P>>(s, p)
-                           : forces_of<PairsOverLattice<double, P>>(s, p);
+            return s.observe ? launch<true>(Forces<P, true>(s, p), nodes, s.sums)
+                             : launch<true>(Forces<P, false>(s, p), nodes, s.sums);
         },
         potential);
 }
@@ -462,24 +337,25 @@ inline const char* restrict_to_shared(const DeviceStep& s, int coarse, Patch nod
                          nullptr);
 }
 
-template <bool finite_strain>
-const char* advance_in(const DeviceStep& s) {
+inline const char* advance(const DeviceStep& s) {
     const long long nodes = s.moving.first[s.moving.levels];
     PassSums* sums = s.sums + 1;
     if (s.noisy)
-        return s.observe ? launch<true>(Advance<true, true, finite_strain>{s}, nodes, sums)
-                         : launch<true>(Advance<false, true, finite_strain>{s}, nodes, sums);
-    if (s.observe) return launch<true>(Advance<true, false, finite_strain>{s}, nodes, sums);
-    return s.damped ? launch<true>(Advance<false, false, finite_strain>{s}, nodes, sums)
-                    : launch<false>(Advance<false, false, finite_strain>{s}, nodes, nullptr);
-}
-inline const char* advance(const DeviceStep& s) {
-    return s.finite ? advance_in<true>(s) : advance_in<false>(s);
+        return s.observe ? launch<true>(Advance<true, true>{s}, nodes, sums)
+                         : launch<true>(Advance<false, true>{s}, nodes, sums);
+    if (s.observe) return launch<true>(Advance<true, false>{s}, nodes, sums);
+    return s.damped ? launch<true>(Advance<false, false>{s}, nodes, sums)
+                    : launch<false>(Advance<false, false>{s}, nodes, nullptr);
 }
 
 template <bool packs>
 const char* halo(const DeviceStep& s, const DeviceHalo& h) {
     return launch<false>(Halo<packs>{s, h}, 2 * h.strip.first[h.strip.levels], nullptr);
+}
+
+DeviceFunctions functions_with(auto allocate, auto release, auto copy) {
+    return {allocate,           release, copy,       follow,     forces,
+            restrict_to_shared, advance, halo<true>, halo<false>};
 }
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -7,6 +7,7 @@
 #include "engine/run/memory_meter.hpp"
 #include "engine/setup/case.hpp"
 #include "io/hdf5_file.hpp"
+#include "kernels/device/device.hpp"
 #include "kernels/variant.hpp"
 #include "support/cases.hpp"
 #include "support/message.hpp"
@@ -86,7 +87,7 @@ TEST(Effects, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
         EXPECT_TRUE(test::has(refused, part)) << part << " not in: " << refused;
     for (const char* path : {"drive.path=zero-load", "drive.path=[\"approach\"]"}) {
         const Case c = case_with({"numerics.device=auto", path});
-        EXPECT_EQ(c.on(Effect::device), c.simulation.device.kind != DeviceChoice::Kind::none)
+        EXPECT_EQ(c.on(Effect::device), bool(c.simulation.device))
             << path << ": " << c.effects.why(Effect::device);
         if (cuda_device_count() == 0) {
             EXPECT_FALSE(c.on(Effect::device)) << path;

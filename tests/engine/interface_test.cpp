@@ -95,7 +95,7 @@ TEST(InterfaceSweep, AgreesWithTheReference) {
 TEST(InterfaceSweep, ForceOnlyGivesTheBitsOfTheObservedSweep) {
     const int n = 19;
     const State state(n, 0.8, 1.0, 3);
-    for (auto [m, mixed] : {std::pair{19, false}, {31, false}, {19, true}, {31, true}}) {
+    for (auto [m, mixed] : {std::pair{19, false}, {31, false}, {19, true}}) {
         const Surface s = scattered(m, n * a, 1.0, 4);
         InterfaceOptions o = with(InterfaceMethod::automatic);
         o.mixed = mixed;
@@ -384,9 +384,7 @@ double expect_mixed_close(const Surface& substrate, const State& state, double z
                 EXPECT_EQ(mixed.force[k][i], 0.0);
         energies += std::isfinite(r) ? depth : 0.0;
     }
-    // Cubics of a table round twice as much.
-    EXPECT_LT(worst,
-              std::holds_alternative<Tabulated>(potential) ? 2.0 * force_bound : force_bound);
+    EXPECT_LT(worst, force_bound);
     const double energy = reference.sums.energy.value();
     EXPECT_NEAR(mixed.sums.energy.value(), energy,
                 energy_bound * std::max(energies, std::abs(energy)));
@@ -399,35 +397,46 @@ TEST(MixedPrecision, ForcesAndEnergiesOfRoughStates) {
     unsigned seed = 1;
     double force = 0.0;
     for (int n : {16, 33})
-        for (int m : {n, substrate_sites(n, 1.618)})
-            for (double sideways : {0.1, 1.5})
-                // Flat, rough, and a box as high as a mountain: only differences matter.
-                for (auto [amplitude, level, gap] : {std::tuple{0.05, 0.0, 3.1},
-                                                     {1.0, 0.0, 4.0},
-                                                     {2.0, -4321.0, 5.0},
-                                                     {8.0, 9876.5, 10.0}})
-                    for (const PairPotential& potential : test::potentials()) {
-                        SCOPED_TRACE(std::to_string(n) + " " + std::to_string(m) + " " +
-                                     std::to_string(amplitude) + " " +
-                                     std::to_string(potential.index()));
-                        const Surface s = scattered(m, n * a, amplitude, ++seed, level);
-                        const State state(n, sideways, 0.5, seed);
-                        force =
-                            std::max(force, expect_mixed_close(s, state, level + gap, potential));
-                    }
+        for (double sideways : {0.1, 1.5})
+            // Flat, rough, and a box as high as a mountain: only differences matter.
+            for (auto [amplitude, level, gap] : {std::tuple{0.05, 0.0, 3.1},
+                                                 {1.0, 0.0, 4.0},
+                                                 {2.0, -4321.0, 5.0},
+                                                 {8.0, 9876.5, 10.0}})
+                for (const PairPotential& potential : test::potentials()) {
+                    if (std::holds_alternative<Tabulated>(potential)) continue;
+                    SCOPED_TRACE(std::to_string(n) + " " + std::to_string(amplitude) + " " +
+                                 std::to_string(potential.index()));
+                    const Surface s = scattered(n, n * a, amplitude, ++seed, level);
+                    const State state(n, sideways, 0.5, seed);
+                    force = std::max(force, expect_mixed_close(s, state, level + gap, potential));
+                }
     EXPECT_GT(force, 1e-9) << "is it mixed at all?";
+}
+
+TEST(MixedPrecision, ActsInTheSweepOverALatticeAlone) {
+    const int n = 16;
+    const State state(n, 0.3, 0.5, 3);
+    for (int m : {n, substrate_sites(n, 1.618)})
+        for (const PairPotential& potential : test::potentials()) {
+            const Surface s = scattered(m, n * a, 1.0, 7);
+            InterfaceOptions o = with(InterfaceMethod::automatic, potential);
+            const Outcome exact = sweep(s, state, o, 4.0, true);
+            o.mixed = true;
+            EXPECT_EQ(same_bits(exact, sweep(s, state, o, 4.0, true)),
+                      m != n || std::holds_alternative<Tabulated>(potential))
+                << m << ' ' << potential.index();
+        }
 }
 
 TEST(MixedPrecision, LeavesDepthsBeyondTheFixedRangeToTheReference) {
     // A pit 400 Å deep, and sites at its bottom: atoms there are beyond the 250 Å of fixed depth.
-    for (int m : {16, 26}) {
-        Surface pit = scattered(m, 16 * a, 0.3, 5);
-        for (std::size_t i = 0; i < pit.height.size() / 2; ++i)
-            pit.height[i] -= 400.0;
-        for (double z : {3.0, -100.0, -238.0, -247.0, -300.0, -396.8}) {
-            SCOPED_TRACE(z);
-            expect_mixed_close(pit, State(16, 0.2, 0.2, 6), z);
-        }
+    Surface pit = scattered(16, 16 * a, 0.3, 5);
+    for (std::size_t i = 0; i < pit.height.size() / 2; ++i)
+        pit.height[i] -= 400.0;
+    for (double z : {3.0, -100.0, -238.0, -247.0, -300.0, -396.8}) {
+        SCOPED_TRACE(z);
+        expect_mixed_close(pit, State(16, 0.2, 0.2, 6), z);
     }
 }
 

@@ -87,14 +87,14 @@ TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
     const Surface surface = test::self_affine(32, 1.0);
     SpectralBlock block(options, Communicator());
     InterfaceOptions both = test::paper_interface();
-    both.single_too = true;
+    both.rough_too = true;
     const Interface interface(surface, block.tile(), options.spacing, both);
     const double height =
         height_of_strongest_attraction(block, interface, surface.statistics.lowest);
-    const auto energy = [&](bool in_single) {
+    const auto energy = [&](bool rough) {
         return interface
             .sweep(block.lowest_layer(), block.interface_force(), height,
-                   {.observe = true, .mixed = in_single})
+                   {.observe = true, .rough = rough})
             .energy.value();
     };
     Phases phases;

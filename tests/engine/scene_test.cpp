@@ -138,7 +138,12 @@ TEST(Scene, Paths) {
         only(fmt::format("{}drive.path = [{}]", quasistatic, path));
     only(quasistatic + "drive.path = [\"approach\", \"hold 3 ps\"]");
     only(quasistatic + "interface.kind = \"wall\"\ndrive.path = [\"approach\", \"slide x 2 Å\"]");
-    only("numerics.device = \"emulated\"\ndrive.path = [\"approach\", \"slide x 2 Å\"]");
+    for (const char* with : {"drive.path = [\"approach\", \"slide x 2 Å\"]",
+                             "block.strain = \"finite\"", "surface.lattice_ratio = 1.618"})
+        EXPECT_NE(only(fmt::format("numerics.device = \"emulated\"\n{}", with))
+                      .what.find("numerics.device is not available with"),
+                  std::string::npos)
+            << with;
     const Case guided =
         read_case_text("drive.path = [\"approach\", \"load 1 GPa\", \"height 1.2 nm\", "
                        "\"slide y -5\", \"hold 20 ps\", \" pull-off \"]",
@@ -226,6 +231,13 @@ TEST(Scene, Notes) {
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.rms = 1", "surface.rms has no effect"));
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.seed = 2", "surface.seed has no effect"));
     EXPECT_TRUE(said("drive.step = 0.1", "drive.step has no effect"));
+    const std::string mixed = "numerics.precision = \"mixed\"\n";
+    EXPECT_FALSE(said(mixed, "numerics.precision"));
+    for (const char* with : {"surface.lattice_ratio = 1.618",
+                             "interface.kind = \"wall\"\ndrive.mode = \"quasistatic\"",
+                             "numerics.device = \"emulated\""})
+        EXPECT_TRUE(said(mixed + with, "numerics.precision has no effect: pairs are in double"))
+            << with;
     const std::string still = "drive.mode = \"quasistatic\"\n";
     EXPECT_TRUE(said(still + "drive.velocity = 2", "drive.velocity has no effect"));
     EXPECT_TRUE(said(still + "drive.temperature = 300", "drive.temperature has no effect"));

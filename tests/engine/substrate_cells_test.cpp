@@ -39,9 +39,8 @@ Surface solid(bool typed) {
 }
 
 /// Of several types: weaker and narrower, of no atom, stronger and wider and of another form.
-InterfaceOptions options_of(bool typed, bool mixed = false) {
+InterfaceOptions options_of(bool typed) {
     InterfaceOptions o;
-    o.mixed = mixed;
     if (typed)
         o.by_type = {LennardJones{}, LennardJones{0.03, 2.6, 9.0}, LennardJones{5.0, 3.0, 13.0},
                      Morse{0.2, 1.2, 4.2, 12.5}};
@@ -70,32 +69,32 @@ TEST(SubstrateCells, AgreeWithTheReference) {
         // In contact, about to leave, partly out of reach, and almost; one with sites beyond the
         // margin.
         for (const auto& [height, size] :
-             {std::pair{2.5, 0.3}, {8.0, 1.0}, {12.0, 0.3}, {13.6, 1.0}, {3.0, 6.0}})
-            for (const bool mixed : {false, true}) {
-                SCOPED_TRACE(height);
-                const State state(sites, size, size, 3);
-                const Outcome reference = sweep(surface, state, pairs, height, true),
-                              mine = sweep(surface, state, options_of(typed, mixed), height, true);
-                expect_close(mine, reference, mixed ? 1e-5 : 1e-12);
-                EXPECT_EQ(mine.sums.in_contact, reference.sums.in_contact);
-                EXPECT_EQ(mine.sums.repulsive, reference.sums.repulsive);
-            }
+             {std::pair{2.5, 0.3}, {8.0, 1.0}, {12.0, 0.3}, {13.6, 1.0}, {3.0, 6.0}}) {
+            SCOPED_TRACE(height);
+            const State state(sites, size, size, 3);
+            const Outcome reference = sweep(surface, state, pairs, height, true),
+                          mine = sweep(surface, state, options_of(typed), height, true);
+            expect_close(mine, reference, 1e-12);
+            EXPECT_EQ(mine.sums.in_contact, reference.sums.in_contact);
+            EXPECT_EQ(mine.sums.repulsive, reference.sums.repulsive);
+        }
     }
 }
 
 TEST(SubstrateCells, SameBitsOnAnyTile) {
     for (const bool typed : {false, true})
-        for (const bool mixed : {false, true})
-            for (double height : {2.5, 11.0, 13.6}) { // the last one: a few sites are in reach
-                const Surface surface = solid(typed);
-                const State state(sites, 1.0, 1.0, 4);
-                InterfaceOptions o = options_of(typed, mixed);
-                const Outcome whole = sweep(surface, state, o, height, true);
-                for (const auto& [nx, ny] : {std::pair{7, sites}, {17, 11}, {5, 13}})
-                    EXPECT_TRUE(same_bits(whole, sweep(surface, state, o, height, true, nx, ny)));
-                o.skip = false;
-                EXPECT_TRUE(same_bits(whole, sweep(surface, state, o, height, true)));
-            }
+        for (double height : {2.5, 11.0, 13.6}) { // the last one: a few sites are in reach
+            const Surface surface = solid(typed);
+            const State state(sites, 1.0, 1.0, 4);
+            InterfaceOptions o = options_of(typed);
+            const Outcome whole = sweep(surface, state, o, height, true);
+            for (const auto& [nx, ny] : {std::pair{7, sites}, {17, 11}, {5, 13}})
+                EXPECT_TRUE(same_bits(whole, sweep(surface, state, o, height, true, nx, ny)));
+            o.skip = false;
+            EXPECT_TRUE(same_bits(whole, sweep(surface, state, o, height, true)));
+            o.mixed = o.rough_too = true; // over a lattice alone
+            EXPECT_TRUE(same_bits(whole, sweep(surface, state, o, height, true)));
+        }
 }
 
 TEST(SubstrateCells, OfSeveralTypesAddUpToThoseOfEach) {

@@ -40,7 +40,7 @@ TEST(ThermalNoise, LogarithmIsThatOfTheCLibrary) {
 TEST(ThermalNoise, CosineAndSineAreThoseOfTheCLibrary) {
     each_number([](std::uint32_t b) {
         const long double angle = 2.0L * std::numbers::pi_v<long double> * (b + 0.5L) * 0x1p-32L;
-        const auto [c, s] = turn(b);
+        const auto [c, s] = cosine_and_sine(b);
         ASSERT_NEAR(c, static_cast<double>(std::cos(angle)), 4e-16) << b;
         ASSERT_NEAR(s, static_cast<double>(std::sin(angle)), 4e-16) << b;
     });

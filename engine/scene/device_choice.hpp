@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace asperity {
+
+/// What makes the steps of a path in time (numerics.device).
+struct DeviceChoice {
+    enum class Kind {
+        none,      ///< the processor
+        emulated,  ///< the emulated device
+        automatic, ///< a CUDA device if there is one that can run the scene; not in a case
+        cuda       ///< the CUDA device `index`
+    };
+    Kind kind = Kind::none;
+    int index = 0; ///< of CUDA
+
+    explicit operator bool() const { return kind != Kind::none; }
+    bool operator==(const DeviceChoice&) const = default;
+};
+
+} // namespace asperity
