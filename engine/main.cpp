@@ -82,27 +82,22 @@ std::vector<Command> all_commands() {
          [](const Arguments& given, const Communicator& world) {
              return surface_command(surface_case_of(given, world.size()), given.out, world);
          }},
-        {"theory",
-         "the analytic theory of a scene, without simulating it",
+        {"theory", "the theories of a scene, without simulating it", {}},
+        {"theory-points",
+         "for programs: Persson's theory of many variations of a scene, as JSON",
          {takes::scene,
           takes::set,
-          takes::out("results/<scene>-theory"),
-          takes::json,
           {"--points", "FILE",
-           "many variations in one call: a JSON array of overrides a line (-: standard input), a "
-           "line "
-           "of JSON for each",
+           "the variations: a JSON array of overrides a line (-: standard input); a line of JSON "
+           "for each",
            &Arguments::points},
-          {"--runnable", "", "with --points: also check what a run would refuse",
-           &Arguments::runnable}},
+          {"--runnable", "", "also check what a run would refuse", &Arguments::runnable},
+          {"--profile", "", "also everything over magnification, and where adhesion ends",
+           &Arguments::profile}},
          [](const Arguments& given, const Communicator& world) {
-             if (!given.points.empty()) {
-                 TheoryPoints points{{}, {}, given.points, given.runnable};
-                 points.scene = scene_file(given, points.overrides);
-                 return on_root(world, [&] { return theory_points_command(points); });
-             }
-             const Case c = case_of(given, 1);
-             return on_root(world, [&] { return theory_command(c, given.out, given.json); });
+             TheoryPoints points{{}, {}, given.points, given.runnable, given.profile};
+             points.scene = scene_file(given, points.overrides);
+             return on_root(world, [&] { return theory_points_command(points); });
          }},
         {"sweep", "a scene over several values of its keys: runs, theory, one table", {}},
         {"cost",

@@ -14,7 +14,6 @@ import asperity
 sites = int(sys.argv[1]) if len(sys.argv) > 1 else 32
 with tempfile.TemporaryDirectory() as directory:
     run = asperity.run({"surface": {"sites": sites, "rms": 1.0}, "block": {"thickness": sites},
-                        "theory": {"renormalised": False},
                         "drive": {"mode": "quasistatic",
                                   "path": ["approach", "load 300 MPa", "slide x 13 Å"]}},
                        out=directory + "/slide")

@@ -150,7 +150,7 @@ def main() -> None:
                 place = pathlib.Path(scratch) / "asperity"
                 keys = {"drive.path": "zero-load", "block.thickness": sites, "interface.kind": "wall",
                         "interface.adhesion": a.adhesion, "interface.range": a.range, "surface.sites": sites, "surface.rms": 1.5,
-                        "surface.cutoff": sites / 8, "theory.renormalised": "false", "output.checkpoint": 0, "drive.load": load,
+                        "surface.cutoff": sites / 8, "output.checkpoint": 0, "drive.load": load,
                         "drive.tolerance": TOLERANCE}
                 scene = [a.program, "run", str(ROOT / "scenes/first-contact.toml"), "--progress", "off", "--set"]
                 options = lambda keys, place: scene + [f"{k}={v}" for k, v in keys.items()] + ["--out", str(place)]

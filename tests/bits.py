@@ -112,7 +112,7 @@ def main():
                 out = os.path.join(folder, str(i))
                 done = subprocess.run([*(launch if i else []), os.path.abspath(program), "run",
                                        os.path.join(root, "scenes/first-contact.toml"), "--set", *SCENES[name],
-                                       "theory.renormalised=false", "--out", out, "--progress", "off"],
+                                       "--out", out, "--progress", "off"],
                                       env=environment, capture_output=True, text=True)
                 if done.returncode:
                     sys.exit(f"{name}: {program} ended with {done.returncode}:\n{done.stderr}")

@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The area factor S: how much larger the contact area A* that follows the roughness is than its
-// projection A,
-//     A*(ζ) = A(ζ) S(q),   s = <|∇h|²> of all roughness up to q.
-// Eq. (3) of the paper uses A* without saying how it is computed; the readings are named here.
+// The area factor S of A*(ζ) = A(ζ) S(q): how much larger the area that follows the roughness is
+// than its projection; s = <|∇h|²> of all roughness up to q. Eq. (3) does not say how A* is
+// computed.
 #pragma once
-
-#include <string_view>
 
 namespace asperity::theory {
 
@@ -18,17 +15,7 @@ enum class AreaFactor {
     lattice, ///< 1/(1 + c s): what a tilted interface of two lattices binds (flat_interface.hpp)
 };
 
-/// A reading, with what `lattice` needs to know.
-struct AreaReading {
-    AreaReading(AreaFactor reading, double cost = 0) : factor(reading), tilt_cost(cost) {}
-    AreaFactor factor;
-    double tilt_cost; ///< c
-};
-
-/// S(s), 1 at s = 0.
-[[nodiscard]] double area_factor(AreaReading reading, double slope_variance);
-
-/// "gaussian", "small-slope", "none" or "lattice".
-[[nodiscard]] std::string_view name(AreaFactor reading);
+/// S(s), 1 at s = 0; c: of `lattice`.
+[[nodiscard]] double area_factor(AreaFactor reading, double slope_variance, double c = 0);
 
 } // namespace asperity::theory

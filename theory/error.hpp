@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Errors of the theory module. Every message says what is wrong (with the values), why that cannot
-// be worked with, and what to do. Nothing in this folder prints or exits.
+// Errors of the theory module: what is wrong (with the values), why, and what to do.
 #pragma once
 
 #include <sstream>

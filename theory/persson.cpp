@@ -1,327 +1,319 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Eqs. (1) to (5): from a contact to a state. The recipe:
-//     smooth, non-adhesive and full contact have closed forms and are answered first;
-//     else the coarsest grid finds g0 from nothing,
-//     each finer grid follows it, and the last three are extrapolated to spacing zero.
+// Eqs. (1) to (5): from a contact to a state, on grids each twice as fine as the one before.
+//
+// On each, g0 = γ_eff(1) is the root of γ_eff(ζ_1) = Δγ (stress_distribution.hpp), by Boost's TOMS
+// 748. It lies between two known ends. From below, at p <= 0, g0 > p²/(E* q_L), or the boundary
+// would start behind the load; at p > 0, g0 >= -U_full, because U_el never exceeds its value at
+// full contact. From above, g0 <= Δγ S(q1). At p <= 0 the unknown is ln(g0 - p²/E* q_L): near the
+// end of the branch γ_eff falls as the fourth power of A. At p = 0 no contact is always a solution;
+// the one wanted is the largest, so the search comes down from above.
 #include "theory/persson.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
-#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include "theory/error.hpp"
-#include "theory/shooting.hpp"
+#include "theory/stress_distribution.hpp"
 
 namespace asperity::theory {
 
-constinit const Integration Integration::first_passage{
-    [](const IntegrationGrid& grid, const IntegrationInput& input, double) {
-        return asperity::theory::first_passage(grid, input);
-    },
-    1.5};
-
 namespace {
 
-ContactState come_apart(std::string reason) {
-    ContactState s;
-    s.reason = std::move(reason);
-    return s;
+constexpr double tolerance = 1e-3;   ///< on γ_eff/Δγ and A/A0
+constexpr double least_error = 5e-5; ///< where two grids agree by chance
+constexpr int finest = 3;            ///< level of the finest grid that is tried
+constexpr double spacing_of(int level) { return 0.32 / (1 << level); }
+constexpr int cells_of(int level) { return 160 << level; }
+
+/// The root between a and b, at which f has opposite signs.
+template <class F>
+double root_between(F&& f, double a, double b, double fa, double fb, double close_enough) {
+    if (fa == 0 || fb == 0) return fa == 0 ? a : b;
+    if (a > b) return root_between(f, b, a, fb, fa, close_enough);
+    std::uintmax_t iterations = 100;
+    const auto close = [=](double u, double v) { return std::abs(u - v) <= close_enough; };
+    const auto bracket = boost::math::tools::toms748_solve(f, a, b, fa, fb, close, iterations);
+    return (bracket.first + bracket.second) / 2;
 }
 
-/// Values at the end of an integration that are worth extrapolating.
-struct Ends {
-    double gamma, area, energy, contact_stress;
+/// The root of a rising function next to x, looked for up to `reach` from
+/// it in steps that grow from `step`.
+template <class F>
+std::optional<double> root_near(F&& f, double x, double step, double reach, double close_enough) {
+    double fx = f(x);
+    for (const double start = x, sign = fx > 0 ? -1 : 1; std::abs(x - start) < reach; step *= 2) {
+        const double next = x + sign * step, f_next = f(next);
+        if (f_next * fx <= 0) return root_between(f, x, next, fx, f_next, close_enough);
+        x = next;
+        fx = f_next;
+    }
+    return std::nullopt;
+}
+
+/// The contact on the grid of one level, and its unknown g0 as a coordinate x to search in.
+class OnGrid {
+public:
+    OnGrid(const AdhesiveContact& contact, int level)
+        : at(magnifications(contact, spacing_of(level))), contact_(contact),
+          cells_(cells_of(level)), close_(level == 0 ? 1e-5 : 1e-8),
+          pressing_(contact.pressure > 0) {
+        const FullContactState full = full_contact(contact);
+        highest_ = contact.work_of_adhesion * full.real_area;
+        lowest_ = pressing_ ? -full.elastic_energy
+                            : contact.pressure * contact.pressure /
+                                  (contact.contact_modulus * contact.spectrum.q_L());
+    }
+
+    const Magnifications at;
+
+    [[nodiscard]] StressPath path(double g0) const { return stress_path(contact_, at, g0, cells_); }
+    [[nodiscard]] double g0(double x) const {
+        return pressing_ ? lowest_ + x * (highest_ - lowest_)
+                         : lowest_ + contact_.work_of_adhesion * std::exp(x);
+    }
+    /// γ_eff(ζ_1)/Δγ - 1; in units of the energies that are exchanged.
+    [[nodiscard]] double excess(double x, double* area = nullptr) const {
+        const StressPath found = path(g0(x));
+        if (area != nullptr) *area = found.area.back();
+        if (!pressing_) return found.gamma.back() / contact_.work_of_adhesion - 1;
+        return (found.gamma.back() - contact_.work_of_adhesion) * found.area.back();
+    }
+
+    /// x of the largest g0, from nothing. `missed`: the least excess if there is none.
+    [[nodiscard]] std::optional<double> search(double& missed) const {
+        missed = std::numeric_limits<double>::infinity();
+        if (!(highest_ > lowest_)) return std::nullopt;
+        const auto f = [&](double x) { return excess(x); };
+        double high = pressing_ ? 1 : std::log((highest_ - lowest_) / contact_.work_of_adhesion);
+        double f_high = f(high);
+        if (f_high <= 0) return high; // exactly zero in the continuum, at full contact
+        const double bottom = pressing_     ? 0
+                              : lowest_ > 0 ? std::log(1e-6 * lowest_ / contact_.work_of_adhesion)
+                                            : -60;
+        for (double step = pressing_ ? 1 : 0.3; high > bottom; step = std::min(2.0, 1.5 * step)) {
+            double area = 1;
+            const double low = std::max(bottom, high - step), f_low = excess(low, &area);
+            missed = std::min(missed, f_low);
+            if (f_low <= 0) return root_between(f, low, high, f_low, f_high, close_);
+            if (lowest_ == 0 && area < 1e-4) break; // the branch has ended
+            high = low;
+            f_high = f_low;
+        }
+        return pressing_ ? std::optional(0.0) : std::nullopt;
+    }
+    /// From the root on a coarser grid.
+    [[nodiscard]] std::optional<double> follow(double x, double& missed) const {
+        const double step = pressing_ ? 1e-3 : 1e-2;
+        const auto near =
+            root_near([&](double y) { return excess(y); }, x, step, 20 * step, close_);
+        return near ? near : search(missed);
+    }
+
+    /// The excess where the adhesive branch ends: g0 at its lower end, or zero under a load.
+    [[nodiscard]] double excess_at_end() const {
+        if (!(highest_ > lowest_)) return 1.0; // pulled harder than even full contact bears
+        if (pressing_) return excess(-lowest_ / (highest_ - lowest_));
+        if (lowest_ > 0) return excess(std::log(1e-6 * lowest_ / contact_.work_of_adhesion));
+        // Zero load: g0 -> 0 with A -> 0; what is left of A² is the error of stopping short. W must
+        // be in its linear part, a² << β.
+        const double small = std::clamp(0.01 * std::sqrt(contact_.beta), 1e-4, 1e-2);
+        double area = 1, value = 0;
+        for (double x = -12; area > small && x > -100; x *= 1.5)
+            value = excess(x, &area);
+        return value;
+    }
+
+private:
+    const AdhesiveContact& contact_;
+    int cells_;
+    double close_; ///< of a root; that of the coarse grid is followed up
+    bool pressing_;
+    double lowest_ = 0, highest_ = 0; // of g0
 };
 
-Ends ends_of(const IntegrationPath& path, double pressure, double g0) {
-    Ends e{g0, path.area.back(), path.energy.back(), pressure};
-    // Each path absorbed takes -σ_a away with it, so what stays in contact gains it.
-    for (std::size_t i = 1; i < path.area.size(); ++i)
-        e.contact_stress += (path.area[i - 1] - path.area[i]) *
-                            (path.detachment_stress[i - 1] + path.detachment_stress[i]) / 2;
-    return e;
-}
-
-void fill_profile(ContactState& s, const AdhesiveContact& c, const IntegrationGrid& grid,
-                  const IntegrationPath& path, double g0) {
-    const double q_L = c.spectrum.q_L(), total = path.energy.back();
-    s.profile.clear();
-    s.profile.reserve(grid.q.size() + 1);
-    if (grid.q.front() > q_L || grid.T.front() > 0) {
-        ProfilePoint first;
-        first.q = q_L;
-        first.gamma_eff = g0;
-        first.detachment_stress = std::sqrt(std::max(g0, 0.0) * c.contact_modulus * q_L);
-        first.elastic_energy = total;
-        s.profile.push_back(first);
-    }
-    for (std::size_t i = 0; i < grid.q.size(); ++i) {
-        ProfilePoint p;
-        p.q = grid.q[i];
-        p.zeta = p.q / q_L;
-        p.area = path.area[i];
-        p.real_area = path.area[i] * grid.stretch[i];
-        p.gamma_eff = path.gamma[i];
-        p.detachment_stress = path.detachment_stress[i];
-        p.elastic_energy = total - path.energy[i];
-        p.stress_variance = grid.T[i];
-        s.profile.push_back(p);
-    }
-    s.nodes = static_cast<int>(grid.q.size());
-}
-
-void describe(ContactState& s, const AdhesiveContact& c) {
-    if (s.gamma_eff > 0) {
-        s.status = Status::adhesive;
-        s.reason = message("bound: gamma_eff = ", s.gamma_eff,
-                           " > 0 at h_rms = ", c.spectrum.rms_height());
-    } else {
-        s.status = Status::pressed;
-        s.reason = message("in contact only because of the load p = ", c.pressure,
-                           ": the elastic energy ", s.elastic_energy,
-                           " exceeds the adhesion energy ", c.work_of_adhesion * s.real_area);
-    }
-}
-
-/// No roughness is ever felt by the boundary: a = 1.
-ContactState conforming(const AdhesiveContact& c, const FullContactState& full) {
+/// From a path, whose first point is ζ = 1.
+ContactState state_of(const AdhesiveContact& c, const Magnifications& at, const StressPath& path) {
     ContactState s;
-    s.gamma_eff = full.gamma;
-    s.gamma_ratio = full.gamma_ratio;
-    s.area = 1;
-    s.real_area = full.real_area;
-    s.elastic_energy = full.elastic_energy;
-    s.contact_stress = c.pressure;
-    const IntegrationInput in{c.contact_modulus, c.pressure, c.beta, full.gamma};
-    IntegrationGrid grid; // for the profile only
-    constexpr int points = 128;
-    const double ratio = std::log(c.spectrum.q1() / c.spectrum.q_L());
-    for (int k = 0; k <= points; ++k) {
-        const double q =
-            k == points ? c.spectrum.q1() : c.spectrum.q_L() * std::exp(ratio * k / points);
-        const Magnification m = c.spectrum.at(q);
-        grid.q.push_back(q);
-        grid.T.push_back(stress_variance(c, q));
-        grid.energy.push_back(std::numbers::pi / 2 * c.contact_modulus * m.energy);
-        grid.stretch.push_back(area_factor(c.area_reading(), 2 * std::numbers::pi * m.slope));
-    }
-    grid.ever_detaches = false;
-    fill_profile(s, c, grid, first_passage(grid, in), full.gamma);
-    describe(s, c);
-    return s;
-}
-
-/// Δγ = 0: the boundary stays at zero stress and everything is closed form or one quadrature.
-ContactState without_adhesion(const AdhesiveContact& c, const SolverOptions& options) {
-    if (!(c.pressure > 0))
-        return come_apart(message("no contact: without adhesion (work_of_adhesion = 0) a load p = ",
-                                  c.pressure, " <= 0 holds nothing together"));
-    const IntegrationInput in{c.contact_modulus, c.pressure, c.beta, 0};
-    // g0 far below zero keeps the boundary at zero while the grid is laid out.
-    IntegrationInput never = in;
-    never.g0 = -full_contact(c).elastic_energy;
-    const IntegrationGrid grid =
-        make_grid(c.spectrum, c.area_reading(), never, options.spacing / 4, 0);
-    IntegrationPath path;
-    path.energy.push_back(grid.energy.front());
-    for (std::size_t i = 0; i < grid.q.size(); ++i) {
-        path.area.push_back(nonadhesive_area(c.pressure, grid.T[i]));
-        path.detachment_stress.push_back(0);
-        if (i == 0) continue;
-        const auto rate = [&](double log_q) { // Eq. (5)
-            const double q = std::exp(log_q);
-            const double a = nonadhesive_area(c.pressure, stress_variance(c, q));
-            return std::numbers::pi / 2 * c.contact_modulus * q * q * q * c.spectrum(q) *
-                   energy_fraction(a, c.beta);
-        };
-        using Rule = boost::math::quadrature::gauss<double, 7>;
-        const double step =
-            grid.T[i] > grid.T[i - 1] && grid.q[i] > grid.q[i - 1]
-                ? Rule::integrate(rate, std::log(grid.q[i - 1]), std::log(grid.q[i]))
-                : 0;
-        path.energy.push_back(path.energy.back() + step);
-    }
-    ContactState s;
-    s.area = path.area.back();
-    s.real_area = s.area * grid.stretch.back();
+    s.gamma_eff = path.gamma.front();
+    s.gamma_ratio = c.work_of_adhesion > 0 ? s.gamma_eff / c.work_of_adhesion : 0;
+    s.area = std::clamp(path.area.back(), 0.0, 1.0);
     s.elastic_energy = path.energy.back();
-    s.gamma_eff = -s.elastic_energy;
-    s.contact_stress = c.pressure;
-    for (std::size_t i = 0; i < grid.q.size(); ++i)
-        path.gamma.push_back((path.energy[i] - s.elastic_energy) /
-                             (path.area[i] * grid.stretch[i]));
-    fill_profile(s, c, grid, path, s.gamma_eff);
-    describe(s, c);
+    for (std::size_t i = 0; i < at.q.size(); ++i) {
+        const double zeta = i == 0 ? 1 : at.q[i] / c.spectrum.q_L();
+        // Next to ζ = 1 nothing happens as long as contact is full.
+        if (i > 0 && i < path.start && zeta < 1.01) continue;
+        s.profile.push_back({zeta * c.spectrum.q_L(), zeta, path.area[i],
+                             path.area[i] * at.stretch[i], path.gamma[i], path.detachment_stress[i],
+                             s.elastic_energy - path.energy[i], at.T[i]});
+    }
+    s.status = s.gamma_eff > 0 ? Status::adhesive : Status::pressed;
     return s;
+}
+
+/// Contact is full for all magnifications, if the roughness never comes into reach of the boundary.
+std::optional<ContactState> conforming(const AdhesiveContact& c) {
+    if (c.spectrum.smooth()) {
+        const double g = c.work_of_adhesion, q_L = c.spectrum.q_L();
+        const double limit = std::sqrt(g * c.contact_modulus * q_L);
+        if (c.pressure + limit <= 0) return ContactState(); // pulled off, or nothing holds
+        return state_of(c, {{q_L, c.spectrum.q1()}, {0, 0}, {0, 0}, {1, 1}},
+                        {{1, 1}, {0, 0}, {g, g}, {limit, limit}, 1});
+    }
+    const OnGrid grid(c, 0);
+    const StressPath path = grid.path(full_contact(c).gamma);
+    if (path.area.back() < 1 || path.detachment_stress.front() + c.pressure <= 0) return {};
+    return state_of(c, grid.at, path);
+}
+
+/// On one grid; x: of the root, from that on a coarser one.
+std::optional<ContactState> solve_on(const OnGrid& grid, const AdhesiveContact& c,
+                                     std::optional<double>& x, double& missed) {
+    if (c.work_of_adhesion > 0) {
+        x = x ? grid.follow(*x, missed) : grid.search(missed);
+        if (!x) return std::nullopt;
+        return state_of(c, grid.at, grid.path(grid.g0(*x)));
+    }
+    if (!(c.pressure > 0)) return std::nullopt;
+    // The boundary stays at zero stress: any g0 that is low enough gives the elastic energy.
+    const double energy = grid.path(grid.g0(0)).energy.back();
+    return state_of(c, grid.at, grid.path(-energy));
 }
 
 } // namespace
 
-ContactState solve(const AdhesiveContact& c, const SolverOptions& options) {
+ContactState solve(const AdhesiveContact& c) {
     check(c);
-    check(options);
-    if (c.work_of_adhesion == 0 && !c.spectrum.smooth()) return without_adhesion(c, options);
-
-    const FullContactState full = full_contact(c);
-    const double least_g0 =
-        c.pressure < 0 ? c.pressure * c.pressure / (c.contact_modulus * c.spectrum.q_L()) : 0;
-    if (c.spectrum.smooth()) {
-        if (c.pressure < 0 && full.gamma <= least_g0)
-            return come_apart(
-                message("no contact: the pull p = ", c.pressure,
-                        " exceeds the detachment stress of the smooth surface, ",
-                        -std::sqrt(full.gamma * c.contact_modulus * c.spectrum.q_L())));
-        if (c.work_of_adhesion == 0 && !(c.pressure > 0))
-            return come_apart("no contact: neither adhesion nor load");
-        return conforming(c, full);
-    }
-    if (full.gamma > least_g0 || c.pressure > 0) {
-        const IntegrationInput in{c.contact_modulus, c.pressure, c.beta, full.gamma};
-        if (!make_grid(c.spectrum, c.area_reading(), in, options.spacing, 0).ever_detaches)
-            return conforming(c, full);
-    }
-
-    const Shooting shooting(c, options);
-    Shooting::Outcome at = shooting.search(0);
-    constexpr int base = 2; // three grids for a first extrapolation
-    // A coarse grid may miss the very end of the branch.
-    if (!at.found && at.least_excess < 0.03) at = shooting.search(base);
-    if (!at.found)
-        return come_apart(message(
-            "no contact: h_rms = ", c.spectrum.rms_height(), " at p = ", c.pressure,
-            " has no adhesive solution; the elastic energy of conforming exceeds what adhesion (",
-            c.work_of_adhesion, ") pays"));
-
+    if (auto full = conforming(c)) return *full;
     ContactState s;
-    std::vector<Ends> ends;
-    IntegrationGrid grid;
-    IntegrationPath path;
-    for (int refinement = 0;; ++refinement) {
-        const Shooting::Outcome here = shooting.follow(at, refinement);
-        if (here.found) {
-            // Always the grid laid out for the first g0, or the grids would not be nested.
-            const double g0 = shooting.g0(here.x);
-            grid = shooting.grid_for(at.x, refinement);
-            path = shooting.integration(grid, g0, refinement);
-            ends.push_back(ends_of(path, c.pressure, g0));
-        } else if (refinement >= base && ends.empty()) {
-            return come_apart(message("no contact: h_rms = ", c.spectrum.rms_height(), " at p = ",
-                                      c.pressure, " has no adhesive solution on the finest grid"));
-        } else {
-            ends.clear(); // gone on this grid: what coarser ones said does not count
-        }
-        if (ends.size() < 3) {
-            if (refinement < options.max_refinement) continue;
-            if (ends.empty())
-                return come_apart(
-                    message("no contact: the adhesive branch at h_rms = ", c.spectrum.rms_height(),
-                            " vanishes as the grid is refined"));
-        }
-        const std::size_t n = ends.size();
-        const auto limit = [&](double Ends::*what) {
-            std::vector<double> values;
-            for (const Ends& e : ends)
-                values.push_back(e.*what);
-            if (n < 3) return Shooting::Limit{values.back(), std::abs(values.back())};
-            return shooting.extrapolate(values);
-        };
-        const Shooting::Limit gamma = limit(&Ends::gamma), area = limit(&Ends::area);
-        s.gamma_eff = c.pressure > 0 ? gamma.value : std::max(gamma.value, ends[n - 1].gamma / 2);
-        s.gamma_ratio = s.gamma_eff / c.work_of_adhesion;
-        s.gamma_ratio_error = gamma.error / c.work_of_adhesion;
-        s.area = std::clamp(area.value, 0.0, 1.0);
-        s.area_error = area.error;
-        s.real_area = s.area * full.real_area;
-        s.elastic_energy = limit(&Ends::energy).value;
-        s.contact_stress = limit(&Ends::contact_stress).value;
-        s.converged =
-            s.gamma_ratio_error <= options.tolerance * std::max(1.0, std::abs(s.gamma_ratio)) &&
-            s.area_error <= options.tolerance;
-        if (s.converged || refinement >= options.max_refinement) break;
+    std::optional<double> x;
+    double missed = std::numeric_limits<double>::infinity();
+    for (int level = 0; level <= finest; ++level) {
+        auto now = solve_on(OnGrid(c, level), c, x, missed);
+        if (!now && level == 0 && missed < 0.03) continue; // a coarse grid may miss the very end
+        if (!now) return {};
+        const double size = std::max(1.0, std::abs(now->gamma_ratio));
+        now->gamma_ratio_error =
+            std::max(std::abs(now->gamma_ratio - s.gamma_ratio), least_error * size);
+        now->area_error = std::max(std::abs(now->area - s.area), least_error);
+        s = std::move(*now);
+        s.converged = s.gamma_ratio_error <= tolerance * size && s.area_error <= tolerance;
+        if (level > 0 && s.converged) break;
     }
-    fill_profile(s, c, grid, path, ends.back().gamma);
-    describe(s, c);
     return s;
+}
+
+CriticalRoughness critical_roughness(const AdhesiveContact& c) {
+    check(c);
+    if (c.work_of_adhesion == 0 || (c.beta == 0 && c.pressure == 0))
+        throw NoSolution(message("critical roughness: work of adhesion ", c.work_of_adhesion,
+                                 ", beta ", c.beta,
+                                 ": there is no adhesion, or with beta = 0 a "
+                                 "sparse contact costs a^3 and gains a, so that adhesion fades but "
+                                 "never ends; give both a positive value"));
+    const auto at_roughness = [&](double log_h) {
+        AdhesiveContact scaled = c;
+        scaled.spectrum = c.spectrum.with_rms_height(std::exp(log_h));
+        return scaled;
+    };
+    // Where adhesion would end if the area were fixed and S one: the natural scale of h.
+    double log_h =
+        0.5 * std::log(c.work_of_adhesion / full_contact(at_roughness(0)).elastic_energy);
+    constexpr double reach = 25;
+    const auto full = root_near([&](double x) { return -full_contact(at_roughness(x)).gamma; },
+                                log_h, 0.1, reach, 1e-12);
+    CriticalRoughness result;
+    result.full_contact_h_rms = full ? std::exp(*full) : std::numeric_limits<double>::infinity();
+    for (const int level : {0, 1}) {
+        const auto excess = [&](double x) {
+            const AdhesiveContact scaled = at_roughness(x);
+            return OnGrid(scaled, level).excess_at_end();
+        };
+        const auto root = root_near(excess, log_h, level == 0 ? 0.1 : 1e-3, reach, 1e-6);
+        if (!root)
+            throw NoSolution(message(
+                "critical roughness: at p = ", c.pressure,
+                " adhesion does not end up to h_rms = ", std::exp(log_h + reach), ", beta ", c.beta,
+                ": either the gain in contact area keeps up with the elastic energy, or the pull "
+                "is too strong at any roughness; try area factor none, or another load"));
+        log_h = *root;
+        result.error = std::abs(std::exp(log_h) - result.h_rms);
+        result.h_rms = std::exp(log_h);
+    }
+    return result;
+}
+
+// The gradient of an isotropic Gaussian surface has |∇h|² = s t with t exponentially distributed,
+// so
+//     S = ∫ √(1+st) e^{-t} dt = 1 + ½ √(πs) e^{1/s} erfc(1/√s).
+// Where the exponential overflows, the series S = 1 + (s/2)(1 - s/2 + 3s²/4 - ...) is exact.
+double area_factor(AreaFactor reading, double s, double c) {
+    switch (reading) {
+    case AreaFactor::none:
+        return 1;
+    case AreaFactor::lattice:
+        return 1 / (1 + c * s);
+    case AreaFactor::small_slope:
+        return 1 + s / 2;
+    case AreaFactor::gaussian:
+        break;
+    }
+    if (s < 1.0 / 400) {
+        double sum = 0, term = 1;
+        for (int k = 1; k <= 10; ++k) {
+            sum += term;
+            term *= -(2 * k - 1) * s / 2;
+        }
+        return 1 + s / 2 * sum;
+    }
+    return 1 +
+           0.5 * std::sqrt(std::numbers::pi * s) * std::exp(1 / s) * std::erfc(1 / std::sqrt(s));
 }
 
 FullContactState full_contact(const AdhesiveContact& c) {
     check(c);
     const Magnification end = c.spectrum.last();
     FullContactState s;
-    s.real_area = area_factor(c.area_reading(), 2 * std::numbers::pi * end.slope);
+    s.real_area = area_factor(c.area_factor, 2 * std::numbers::pi * end.slope, c.tilt_cost);
     s.elastic_energy = std::numbers::pi / 2 * c.contact_modulus * end.energy;
     s.gamma = c.work_of_adhesion * s.real_area - s.elastic_energy;
-    s.gamma_ratio = c.work_of_adhesion > 0 ? s.gamma / c.work_of_adhesion : 0;
     return s;
 }
 
-double nonadhesive_area(double pressure, double T) {
-    if (!(pressure > 0)) return 0;
-    return T > 0 ? std::erf(pressure / std::sqrt(2 * T)) : 1;
-}
-
-double stress_variance(const AdhesiveContact& c, double q) {
-    return std::numbers::pi / 2 * c.contact_modulus * c.contact_modulus * c.spectrum.at(q).slope;
-}
-
-double adhesion_parameter(double contact_modulus, double h_rms, double q0,
-                          double work_of_adhesion) {
-    if (!(work_of_adhesion > 0))
-        throw InvalidInput(message("theta: work of adhesion ", work_of_adhesion,
-                                   " is not positive, and theta divides by it; without adhesion "
-                                   "there is no theta"));
-    return contact_modulus * h_rms * h_rms * q0 / work_of_adhesion;
+double contact_modulus(double E, double nu) {
+    if (!(nu > -1 && nu <= 0.5 && E > 0) || !std::isfinite(E))
+        throw InvalidInput(message("Young's modulus ", E, " and Poisson ratio ", nu,
+                                   " are not those of a stable isotropic solid (E > 0, -1 < nu <= "
+                                   "0.5); check them"));
+    return E / (1 - nu * nu);
 }
 
 std::string_view name(Status status) {
-    switch (status) {
-    case Status::adhesive:
-        return "adhesive";
-    case Status::pressed:
-        return "pressed";
-    case Status::no_contact:
-        break;
-    }
-    return "no contact";
+    return status == Status::adhesive  ? "adhesive"
+           : status == Status::pressed ? "pressed"
+                                       : "no contact";
 }
 
 void check(const AdhesiveContact& c) {
-    if (!(c.contact_modulus > 0) || !std::isfinite(c.contact_modulus))
+    if (!(c.contact_modulus > 0 && c.work_of_adhesion >= 0 && c.beta >= 0 && c.beta <= 1 &&
+          std::isfinite(c.contact_modulus + c.work_of_adhesion + c.pressure)))
         throw InvalidInput(message("contact modulus E* = ", c.contact_modulus,
-                                   " is not positive, so nothing is elastic; give E/(1-nu^2)"));
-    if (!(c.work_of_adhesion >= 0) || !std::isfinite(c.work_of_adhesion))
-        throw InvalidInput(message("work of adhesion ", c.work_of_adhesion,
-                                   " is negative or not a number; surfaces that repel are not in "
-                                   "this theory, give 0 for no adhesion"));
-    if (!std::isfinite(c.pressure))
-        throw InvalidInput(
-            message("pressure ", c.pressure, " is not a finite number; give p = load/area"));
-    if (!(c.beta >= 0 && c.beta <= 1))
-        throw InvalidInput(message("beta = ", c.beta,
-                                   " is outside 0..1, where W(1) = 1 and W >= 0; the usual value "
-                                   "is 0.45"));
+                                   ", work of adhesion ", c.work_of_adhesion, ", pressure ",
+                                   c.pressure, ", beta ", c.beta,
+                                   ": the modulus must be positive, the work of adhesion not "
+                                   "negative, beta in 0..1 (usually 0.45), and all finite"));
     if (!(c.spectrum.q_L() > 0))
-        throw InvalidInput("the contact has no spectrum, so there are no wavevectors to integrate "
-                           "over; build one with Spectrum::self_affine or Spectrum::tabulated");
-}
-
-void check(const SolverOptions& o) {
-    if (!(o.spacing > 0 && o.spacing <= 1))
-        throw InvalidInput(message("solver: spacing ", o.spacing,
-                                   " is outside 0..1, beyond which a step has spurious roots; the "
-                                   "default is 0.4"));
-    if (!(o.tolerance > 0))
-        throw InvalidInput(message("solver: tolerance ", o.tolerance,
-                                   " is not positive and can never be met; the default is 1e-5"));
-    if (o.max_refinement < 2 || o.max_refinement > 8)
-        throw InvalidInput(message("solver: max_refinement ", o.max_refinement,
-                                   " is outside 2..8; three grids are needed for an error "
-                                   "estimate, and eight halvings take hours"));
+        throw InvalidInput("the contact has no spectrum; build one with Spectrum::self_affine or "
+                           "Spectrum::rings");
 }
 
 } // namespace asperity::theory

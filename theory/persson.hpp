@@ -4,23 +4,12 @@
 // Persson's theory of adhesive contact between randomly rough elastic solids, Eqs. (1) to (5) of
 // Mulakaluri and Persson, at any load and for any isotropic spectrum.
 //
-//     AdhesiveContact contact;                      // eV and Å here; any consistent units will do
-//     contact.spectrum = Spectrum::self_affine({.q_L = qL, .q0 = 3 * qL, .q1 = 512 * qL,
-//                                               .hurst = 0.8, .h_rms = 5});
-//     contact.contact_modulus = E / (1 - nu * nu);
-//     contact.work_of_adhesion = 0.1;
-//     ContactState s = solve(contact);              // s.gamma_ratio = 0.1516, s.area = 0.6663
-//
 // Equations as read: σ_a² = γ_eff E* q with γ_eff < 0 counted as zero; U_el(ζ) in Eq. (3) is the
-// energy of roughness shorter than L/ζ; A* = A S with S named in area_factor.hpp. How they are
-// solved is in integration.hpp; in short, one scalar root of a causal integration, on three nested
-// grids, extrapolated; the distance between extrapolations is the error reported.
-//
-// Cost: ~30 ms a state at the default tolerance.
+// energy of roughness shorter than L/ζ; A* = A S with S named in area_factor.hpp. Eq. (2) is solved
+// by finite volumes (stress_distribution.hpp), once on a coarse and once on a grid twice as fine in
+// both directions; the difference is the error reported. Less than 0.1 s a state as a rule.
 #pragma once
 
-#include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,10 +17,6 @@
 #include "theory/spectrum.hpp"
 
 namespace asperity::theory {
-
-struct IntegrationGrid;
-struct IntegrationInput;
-struct IntegrationPath;
 
 /// What is pressed (or pulled) against what. Units: any consistent set.
 struct AdhesiveContact {
@@ -41,24 +26,13 @@ struct AdhesiveContact {
     double pressure = 0;         ///< p = F_N/A0 [stress], positive pressing, negative pulling
     double beta = 0.45;          ///< β in W = a [β + (1-β) a²], 0..1
     AreaFactor area_factor = AreaFactor::gaussian;
-    double tilt_cost = 0; ///< of AreaFactor::lattice
-    [[nodiscard]] AreaReading area_reading() const { return {area_factor, tilt_cost}; }
+    double tilt_cost = 0; ///< c of AreaFactor::lattice
 };
 
-/// How Eq. (2) is solved on a grid of the given spacing, and the power of the spacing in its error.
-struct Integration {
-    IntegrationPath (*follow)(const IntegrationGrid& grid, const IntegrationInput& input,
-                              double spacing);
-    double order;
-    static const Integration first_passage; ///< Volterra equation
-};
-
-struct SolverOptions {
-    Integration integration = Integration::first_passage;
-    double spacing = 0.4;    ///< of the coarsest grid, in ln T + ln q
-    double tolerance = 1e-5; ///< on γ_eff/Δγ (relative above 1) and A/A0; grids are added until met
-    int max_refinement = 5; ///< the finest grid has spacing / 2^max_refinement
-};
+/// Fraction of the elastic energy of full contact stored at area fraction a (Yang and Persson).
+[[nodiscard]] inline double energy_fraction(double a, double beta) {
+    return a * (beta + (1 - beta) * a * a);
+}
 
 enum class Status {
     adhesive,   ///< γ_eff(1) > 0: bound without any load
@@ -80,27 +54,22 @@ struct ProfilePoint {
 
 struct ContactState {
     Status status = Status::no_contact;
-    std::string reason;        ///< one sentence on the status, with the values
-    double gamma_eff = 0;      ///< γ_eff(1) [energy/area]; negative if `pressed`
-    double gamma_ratio = 0;    ///< γ_eff(1)/Δγ; 0 if Δγ = 0
-    double area = 0;           ///< A(ζ_1)/A0
-    double real_area = 0;      ///< A*(ζ_1)/A0
-    double elastic_energy = 0; ///< U_el(1)/A0 [energy/area]
-    double contact_stress = 0; ///< ∫ σ P(σ, ζ_1) dσ [stress]: p plus what detachment took away
-    double gamma_ratio_error = 0; ///< estimated from the refinement of the grid
+    double gamma_eff = 0;         ///< γ_eff(1) [energy/area]; negative if `pressed`
+    double gamma_ratio = 0;       ///< γ_eff(1)/Δγ; 0 if Δγ = 0
+    double area = 0;              ///< A(ζ_1)/A0
+    double elastic_energy = 0;    ///< U_el(1)/A0 [energy/area]
+    double gamma_ratio_error = 0; ///< of gamma_ratio, by the difference of the last two grids
     double area_error = 0;
-    bool converged = true;             ///< both errors below the tolerance asked for
-    int nodes = 0;                     ///< of the finest grid
+    bool converged = true; ///< both errors are below 1e-3 (that of a ratio above 1: relative)
     std::vector<ProfilePoint> profile; ///< on the finest grid, from ζ = 1 to ζ_1
 };
 
 /// Solves Eqs. (2) to (5).
-[[nodiscard]] ContactState solve(const AdhesiveContact& contact, const SolverOptions& options = {});
+[[nodiscard]] ContactState solve(const AdhesiveContact& contact);
 
 /// A = A0 throughout: γ_full = Δγ S(q1) - (π/2) E* ∫ q² C dq.
 struct FullContactState {
     double gamma = 0;          ///< [energy/area], any sign
-    double gamma_ratio = 0;    ///< γ_full/Δγ; 0 if Δγ = 0
     double elastic_energy = 0; ///< U_el/A0 [energy/area]
     double real_area = 1;      ///< S(q1)
 };
@@ -108,30 +77,19 @@ struct FullContactState {
 
 /// The roughness at which adhesion ends: at zero load γ_eff and A vanish there together; pressing,
 /// γ_eff(1) goes through zero; pulling, the last roughness that withstands the pull. The spectrum
-/// gives the shape only. NoSolution if adhesion does not end (possible with `small_slope`: both
-/// terms grow as h²).
+/// gives the shape only. NoSolution if adhesion does not end.
 struct CriticalRoughness {
-    double h_rms = 0;              ///< h_c [length]
-    double error = 0;              ///< estimated [length]
+    double h_rms = 0, error = 0;   ///< h_c [length]
     double full_contact_h_rms = 0; ///< where the full-contact approximation vanishes [length]
 };
-[[nodiscard]] CriticalRoughness critical_roughness(const AdhesiveContact& contact,
-                                                   const SolverOptions& options = {});
+[[nodiscard]] CriticalRoughness critical_roughness(const AdhesiveContact& contact);
 
-/// Without adhesion: A(ζ)/A0 = erf(p/√(2T)) (0 when pulling).
-[[nodiscard]] double nonadhesive_area(double pressure, double stress_variance);
-
-/// T(q) = (π/2) E*² ∫_{q_L}^{q} q'³ C dq' [stress²].
-[[nodiscard]] double stress_variance(const AdhesiveContact& contact, double q);
-
-/// θ = E* h² q0/Δγ, on which alone γ_eff/Δγ depends once the area factor is off.
-[[nodiscard]] double adhesion_parameter(double contact_modulus, double h_rms, double q0,
-                                        double work_of_adhesion);
+/// E* = E/(1-ν²), one body rigid.
+[[nodiscard]] double contact_modulus(double youngs_modulus, double poisson_ratio);
 
 [[nodiscard]] std::string_view name(Status status);
 
 /// Throws InvalidInput if the contact makes no sense.
 void check(const AdhesiveContact& contact);
-void check(const SolverOptions& options);
 
 } // namespace asperity::theory

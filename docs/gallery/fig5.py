@@ -22,7 +22,7 @@ K = 4 * E / 3
 
 
 def binding_energy(w, stress):
-    """Work to part a Maugis-Dugdale sphere from zero load. In contact along Maugis' curve (theory/maugis.cpp); before it the
+    """Work to part a Maugis-Dugdale sphere from zero load. In contact along Maugis' curve (python/asperity/sphere.py); before it the
     attraction acts on a disc of the radius c, whose edge is at the opening w/stress (no images)."""
     reach, softening = w / stress, 2 * stress / E * (1 - 2 / math.pi)
     c = np.linspace(0, R * (-softening + math.sqrt(softening**2 + 2 * reach / R)), 4001)
@@ -59,7 +59,7 @@ for rms, these in points.items():
     energy = np.array([float(r["jkr.zero_load_ratio"]) for r in these])
     law = by_jkr(binding_energy(w, float(one["theory.renormalised.tension"]) * GPA)) * 1e3 / flat
     table.append((rms, energy[0], energy.mean(), energy.std(ddof=1), float(one["theory.renormalised.gamma_eff_ratio"]),
-                  float(one["sphere.renormalised_parameter"]), float(one["sphere.renormalised_ratio"]), law))
+                  float(one["theory.sphere.renormalised_parameter"]), float(one["theory.sphere.renormalised_ratio"]), law))
     path = paths.get(rms)
     ways = [f"{float(path[k]):.3f}" if path else "" for k in ("jkr.in_averaged_ratio", "jkr.out_ratio")]
     cells.append([f"{rms:g}", *ways, f"{energy[0]:.3f}", f"{energy.mean():.3f} ± {energy.std(ddof=1):.3f}", f"{table[-1][4]:.3f}",

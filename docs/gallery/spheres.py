@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity
+from asperity import theories
 from asperity.plots.style import BLUE, GREY, PINK, RED, style
 from asperity.units import NANONEWTON
 
@@ -30,7 +31,7 @@ with style():
                           label=name if number == 0 else None)
             felt = abs(force) > 0.01 * -force.min()
             lowest, left, right = min(lowest, force.min()), min(left, height[felt].min()), max(right, height[felt].max())
-            for label, x, y in run.curves:
+            for label, x, y in theories.sphere_curves(run, force.max()):
                 if "renormalised" in label:
                     axis.plot(x, y / NANONEWTON, "--", color=PINK, lw=1.1, zorder=1,
                               label="the same, renormalised law" if number == 0 else None)

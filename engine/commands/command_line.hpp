@@ -38,6 +38,7 @@ struct Arguments {
     bool plain = false;
     bool json = false;
     bool runnable = false;
+    bool profile = false;
     bool results = false;
 };
 

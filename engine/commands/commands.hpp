@@ -32,23 +32,21 @@ int schema_command(bool results, const Communicator& world);
 /// `asperity info`
 int info_command(const Communicator& world);
 
-/// `asperity theory`, on one rank: the analytic theory with its profile over magnification and
-/// where adhesion ends; result.json and theory.h5 in `out` (empty: results/<scene>-theory), and a
-/// table. json: prints what result.json would hold as one line and writes nothing.
-int theory_command(const Case& c, const std::string& out, bool json);
-
-/// `asperity theory SCENE --points FILE`, on one rank: many variations of one scene in one call,
-/// for programs. Sweeps use it to check their points and to compute the theory beside them.
+/// `asperity theory-points SCENE`, on one rank: many variations of one scene in one call, for
+/// programs. The Python package computes its theories with it, and sweeps check their points.
 ///
 /// Each line of the input is a JSON array of overrides, ["surface.rms=1", "surface.seed=2"]. Each
 /// line of the output is a JSON object for the point of the same line, either
-///     {"name", "scene", "delta_gamma", "theory": {...}, "notes": [...]}
-/// with the keys and units of result.json, or {"problems": [{"where", "what", "why", "fix"}]}.
+///     {"name", "scene", "units", "delta_gamma", "theory": {...}, "flat", "notes": [...], "rough"}
+/// with the keys and units of result.json, the separation (Å) and the largest tension (GPa) of flat
+/// on flat, and renormalised_inputs(); or {"problems": [{"where", "what", "why", "fix"}]}.
 struct TheoryPoints {
     std::string scene;                  ///< file
     std::vector<std::string> overrides; ///< of every point
-    std::string points;                 ///< file of the points; "-": standard input
+    std::string points;    ///< file of the points; "-": standard input; empty: the scene alone
     bool runnable = false; ///< also report what a run of the point would refuse (examine())
+    bool profile = false;  ///< theory.critical_rms, and "profile": [{"name", "unit", "meaning",
+                           ///< "values"}], everything at every magnification
 };
 /// Throws io::FileError for the input.
 int theory_points_command(const TheoryPoints& what);

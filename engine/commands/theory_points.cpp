@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/commands.hpp"
 
+#include "engine/run/rough_interface.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/theory_case.hpp"
+#include "engine/units.hpp"
 #include "io/error.hpp"
 #include "io/json.hpp"
+#include "io/quantities.hpp"
 #include "io/result.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +17,7 @@
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <sstream>
 
 namespace asperity {
 
@@ -60,27 +64,64 @@ std::vector<std::string> overrides_of(const std::string& line, const std::string
     return overrides;
 }
 
-Json point_json(const Case& c, SurfaceCache& surfaces) {
-    const TheoryCase what = theory_case(c, theory_needs_surface(c) ? &surfaces.of(c) : nullptr);
+/// The columns of theory.h5, whose units and meanings are in io/quantities.
+Json profile_json(const TheoryCase& what, const TheoryNumbers& n) {
+    using Point = theory::ProfilePoint;
+    Json columns = Json::array();
+    const auto column = [&](const std::string& name, const auto& value) {
+        const io::Quantity* quantity = io::run_quantity("/profile/" + name);
+        Json values = Json::array();
+        for (const Point& p : n.state.profile)
+            values.push_back(value(p));
+        columns.push_back({{"name", name},
+                           {"unit", quantity->unit},
+                           {"meaning", quantity->meaning},
+                           {"values", values}});
+    };
+    const double meV = units::milli_per_unit, gpa = 1.0 / units::gigapascal;
+    column("q", [](const Point& p) { return p.q; });
+    column("zeta", [](const Point& p) { return p.zeta; });
+    column("C", [&](const Point& p) { return what.contact.spectrum(p.q); });
+    column("A", [](const Point& p) { return p.area; });
+    column("A_real", [](const Point& p) { return p.real_area; });
+    column("gamma_eff", [=](const Point& p) { return meV * p.gamma_eff; });
+    column("sigma_a", [=](const Point& p) { return gpa * p.detachment_stress; });
+    column("U_el", [=](const Point& p) { return meV * p.elastic_energy; });
+    column("stress_variance", [=](const Point& p) { return gpa * gpa * p.stress_variance; });
+    return columns;
+}
+
+Json point_json(const Case& c, SurfaceCache& surfaces, bool profile) {
+    const bool realised = theory_needs_surface(c);
+    const TheoryCase what = theory_case(c, realised ? &surfaces.of(c) : nullptr);
     const TheoryNumbers numbers = solve_theory(what);
     io::Result values = scene_result(c.scene);
+    if (!what.origin.empty()) values.set("surface.origin", what.origin);
     values.set("delta_gamma", what.flat);
     record_theory(what, numbers, values);
-    const Json result = values.json();
-    Json point = Json::object();
-    for (const char* key : {"name", "scene", "delta_gamma", "theory"})
-        if (result.contains(key)) point[key] = result[key];
+    Json notes = what.notes;
+    if (profile && !what.contact.spectrum.smooth()) try {
+            const theory::CriticalRoughness end = theory::critical_roughness(what.contact);
+            values.set("theory.critical_rms", end.h_rms);
+            values.set("theory.critical_rms_full_contact", end.full_contact_h_rms);
+        } catch (const std::exception& error) {
+            notes.push_back(error.what());
+        }
+    Json point = values.json();
     point["theory"]["gamma_eff_ratio"] = numbers.state.gamma_ratio;
     point["theory"]["gamma_eff_ratio_error"] = numbers.state.gamma_ratio_error;
-    point["notes"] = what.notes;
+    point["flat"] = {{"separation", c.flat.separation}, {"tension", c.flat.largest_tension}};
+    point["notes"] = notes;
+    point["rough"] = renormalised_inputs(c, what.contact.spectrum, realised);
+    if (profile) point["profile"] = profile_json(what, numbers);
     return point;
 }
 
 /// The theory stands beside a run, which goes on without one.
-Json simulated_point(const Case& c, SurfaceCache& surfaces) {
+Json simulated_point(const Case& c, SurfaceCache& surfaces, bool profile) {
     std::string why = no_theory(c);
     try {
-        if (why.empty()) return point_json(c, surfaces);
+        if (why.empty()) return point_json(c, surfaces, profile);
     } catch (const io::SceneError& error) {
         why = error.what();
     }
@@ -107,14 +148,15 @@ Json problems_json(const std::vector<io::Problem>& problems) {
 
 int theory_points_command(const TheoryPoints& what) {
     std::ifstream file;
-    if (what.points != "-") {
+    std::istringstream alone("[]\n");
+    if (!what.points.empty() && what.points != "-") {
         file.open(what.points);
         if (!file)
             throw io::FileError(what.points, "cannot be read",
                                 "there is no such file, or it may not be read",
                                 "check the path and its permissions");
     }
-    std::istream& input = what.points == "-" ? std::cin : file;
+    std::istream& input = what.points.empty() ? alone : what.points == "-" ? std::cin : file;
     const std::string text = io::read_scene_file(what.scene);
     SurfaceCache surfaces;
     std::string line;
@@ -126,7 +168,8 @@ int theory_points_command(const TheoryPoints& what) {
         try {
             const Case c = read_case_text(text, what.scene, overrides);
             if (what.runnable) examine(c);
-            point = what.runnable ? simulated_point(c, surfaces) : point_json(c, surfaces);
+            point = what.runnable ? simulated_point(c, surfaces, what.profile)
+                                  : point_json(c, surfaces, what.profile);
             if (what.runnable && (c.scene.surface.reads_file() || c.table_digest)) {
                 // What files hold now.
                 const Json now = surface_result(c, surfaces.of(c)).json();

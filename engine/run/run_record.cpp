@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run_record.hpp"
 
-#include "engine/run/smooth_sphere.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
@@ -14,6 +13,7 @@
 #include <omp.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -69,6 +69,24 @@ void add_path(const PathResults& results, std::optional<double> radius, io::Resu
     };
     if (in.drive_work) result.set("jkr.in", as_work(results.attraction_in));
     if (out.drive_work) result.set("jkr.out", as_work(results.attraction_out));
+}
+
+/// Of a curved scene at zero load: the radius of the contact, and the binding energy by JKR.
+void add_sphere(const Case& c, io::Result& result) {
+    const Scene& scene = c.scene;
+    if (!scene.surface.radius) return;
+    if (const auto fraction = result.number("contact_fraction"))
+        result.set("contact_radius.zero_load",
+                   scene.edge() * std::sqrt(*fraction / std::numbers::pi));
+    const bool pressed = c.starts_with(Segment::zero_load) && scene.drive.load != 0.0;
+    const auto binding = result.number("binding_energy");
+    if (!binding || pressed) return;
+    const double energy = *binding / units::milli_per_unit * scene.edge() * scene.edge();
+    const double modulus =
+        theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson);
+    result.set("jkr.zero_load",
+               units::milli_per_unit *
+                   theory::jkr::work_from_binding_energy(energy, *scene.surface.radius, modulus));
 }
 
 void add_segments(const PathResults& results, const Case& c, io::Result& result) {

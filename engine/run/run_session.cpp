@@ -5,7 +5,6 @@
 #include "engine/run/curve.hpp"
 #include "engine/run/plan.hpp"
 #include "engine/run/run_record.hpp"
-#include "engine/run/smooth_sphere.hpp"
 #include "engine/run/summary.hpp"
 #include "io/json.hpp"
 #include "io/run_h5.hpp"
@@ -183,10 +182,8 @@ std::optional<io::FilePlace> RunSession::checkpoint_to_resume() {
 }
 
 void RunSession::open_recorder() {
-    const auto add = [this, rough = ranks.root() ? rough_sphere(case_, surface)
-                                                 : std::nullopt](io::Hdf5File& file) {
+    const auto add = [this](io::Hdf5File& file) {
         io::describe_origin(file, scene_toml(case_.scene, false));
-        write_sphere_curves(file, case_, rough);
     };
     recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
                       case_.in_time ? DriveMode::dynamic : DriveMode::quasistatic, case_.effects,

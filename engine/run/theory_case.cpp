@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/theory_case.hpp"
 
+#include "engine/run/rough_interface.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "theory/error.hpp"
-#include "theory/half_space.hpp"
 #include "theory/jkr.hpp"
 
 #include <fmt/format.h>
@@ -145,12 +145,11 @@ TheoryCase theory_case(const Case& c, const Surface* surface) {
         out.contact.pressure = scene.drive.load * units::megapascal;
         out.contact.beta = scene.theory.beta;
         out.contact.area_factor = scene.theory.area_factor;
-        if (scene.theory.area_factor == AreaFactor::lattice)
-            out.contact.tilt_cost = flat_interface(c).tilt_cost(!scene.interface.frictionless);
+        if (scene.theory.area_factor == AreaFactor::lattice && !c.simulation.interface.wall)
+            out.contact.tilt_cost =
+                flat_interface(c).tilt_cost(c.flat.separation, !scene.interface.frictionless);
         theory::check(out.contact);
     });
-    if (scene.theory.renormalised)
-        out.renormalised = renormalised_case(c, out.contact.spectrum, theory_needs_surface(c));
     return out;
 }
 
@@ -163,15 +162,11 @@ TheoryNumbers solve_theory(const TheoryCase& what) {
         n.state = theory::solve(c);
         n.gamma_eff = units::milli_per_unit * n.state.gamma_eff;
         n.gamma_full_contact = units::milli_per_unit * theory::full_contact(c).gamma;
-        if (what.renormalised) n.renormalised = solve_renormalised(*what.renormalised);
         if (what.q0 && c.work_of_adhesion > 0.0)
-            n.theta = theory::adhesion_parameter(c.contact_modulus, n.h_rms, *what.q0,
-                                                 c.work_of_adhesion);
-        if (what.radius && n.state.gamma_eff > 0.0)
+            n.theta = c.contact_modulus * n.h_rms * n.h_rms * *what.q0 / c.work_of_adhesion;
+        if (what.radius)
             n.jkr_pull_off_force =
-                -theory::jkr::pull_off({*what.radius, c.contact_modulus, n.state.gamma_eff}).force;
-        else if (what.radius)
-            n.jkr_pull_off_force = 0.0;
+                theory::jkr::pull_off_force(std::max(0.0, n.state.gamma_eff), *what.radius);
         return n;
     });
 }
@@ -190,7 +185,6 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::Result& r
     result.set("theory.jkr_pull_off_force", n.jkr_pull_off_force);
     result.set("theory.status", std::string(theory::name(n.state.status)));
     result.set("theory.converged", n.state.converged);
-    if (n.renormalised) record_renormalised(*n.renormalised, result);
 }
 
 void add_theory(const Case& c, const Surface& surface, io::Result& result) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The analytic theory of a scene: from the keys of the scene to a contact that theory/ can solve,
-// and from its answer to `theory` in result.json. Behind `asperity theory`, every point of a sweep
-// and the `theory` of every run.
+// Persson's theory of a scene: from the keys of the scene to a contact that theory/ can solve, and
+// from its answer to `theory` in result.json. Behind `asperity theory`, every point of a sweep and
+// the `theory` of every run.
 //
 // What is chosen here, and where it comes from:
 //   C(q)   target: the scene's power law, clipped at the grid's Nyquist wavevector like the surface
@@ -12,12 +12,10 @@
 //   Δγ     "flat": flat on flat with this scene's potential, cutoff and lattices; or the number.
 //   E*     E/(1-ν²): the substrate is rigid.
 //   p      drive.load, positive pressing.
-// Beside it, unless the scene leaves it out (theory.renormalised): the renormalised theory of the
-// same spectrum (renormalised_case.hpp).
 #pragma once
 
-#include "engine/run/renormalised_case.hpp"
 #include "engine/scene/surface.hpp"
+#include "engine/setup/case.hpp"
 #include "io/result.hpp"
 #include "theory/persson.hpp"
 
@@ -30,9 +28,8 @@ namespace asperity {
 /// The scene in the terms of theory/ (Å, eV).
 struct TheoryCase {
     theory::AdhesiveContact contact;
-    std::optional<RenormalisedCase> renormalised; ///< none: the scene leaves it out
-    double flat = 0.0;                            ///< flat reference of the interface, meV/Å^2
-    double delta_gamma = 0.0;                     ///< the Δγ used, meV/Å^2
+    double flat = 0.0;              ///< flat reference of the interface, meV/Å^2
+    double delta_gamma = 0.0;       ///< the Δγ used, meV/Å^2
     std::optional<double> q0;       ///< roll-off wavevector, 1/Å; a measured map has none
     std::optional<double> radius;   ///< of the spherical cap, Å
     std::vector<std::string> notes; ///< what was clipped or left out, in words
@@ -55,9 +52,8 @@ struct TheoryNumbers {
     double h_rms = 0.0, rms_slope = 0.0; ///< of the spectrum solved for: Å, -
     double gamma_eff = 0.0;
     double gamma_full_contact = 0.0;
-    std::optional<RenormalisedResult> renormalised; ///< none: the scene leaves it out
-    std::optional<double> theta;                    ///< E* h^2 q0 / Δγ
-    std::optional<double> jkr_pull_off_force;       ///< of the curved scene with γ_eff, eV/Å
+    std::optional<double> theta;              ///< E* h^2 q0 / Δγ
+    std::optional<double> jkr_pull_off_force; ///< of the curved scene with γ_eff, eV/Å
 };
 /// Throws io::SceneError where the theory cannot work with the scene.
 TheoryNumbers solve_theory(const TheoryCase& what);

@@ -254,8 +254,8 @@ io::Schema bind(Scene& scene) {
         {{"target", TheorySpectrum::target}, {"realised", TheorySpectrum::realised}},
         "the spectrum asked for, or that of the surface made");
     schema.key("clip", theory.clip, "clip the target spectrum at Nyquist, like the surface");
-    schema.key("renormalised", theory.renormalised,
-               "the renormalised theory too: a tenth of a second");
+    schema.removed({"theory.renormalised", "", "the renormalised theory is no part of a run",
+                    "leave it out; `asperity theory`, sweeps and reports compute it"});
 
     auto& numerics = scene.numerics;
     schema.section("numerics", "Arithmetic.");

@@ -123,7 +123,6 @@ struct Scene {
         AreaFactor area_factor = AreaFactor::gaussian;
         TheorySpectrum spectrum = TheorySpectrum::target;
         bool clip = true;
-        bool renormalised = true;
     } theory;
 
     struct Numerics {

@@ -43,6 +43,7 @@ class Asperity(CMakePackage):
     with when("+python"):
         depends_on("py-pybind11@2.10:", type="build")
         depends_on("py-numpy", type="run")
+        depends_on("py-scipy", type="run")
         depends_on("py-h5py", type="run")
         depends_on("py-matplotlib", type="run")
         depends_on("py-jinja2", type="run")

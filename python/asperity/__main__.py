@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The command line: `python3 -m asperity` is `asperity`.
 
-sweep, cost, states, report, export and convert are carried out here; the program hands them over. Every other
+theory, sweep, cost, states, report, export and convert are carried out here; the program hands them over. Every other
 command is handed to the program.
 """
 
@@ -48,8 +48,13 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--set", action="append", default=[], metavar="key=value", dest="sets",
                              help="override a key of the scene: section.key=value; repeatable")
         command.add_argument("--out", metavar="DIR", help=f"result directory (default: {out})")
-        command.add_argument("--progress", default="auto", metavar="MODE", help="auto, bar, lines or off")
+        if command.prog.split()[-1] != "theory":
+            command.add_argument("--progress", default="auto", metavar="MODE", help="auto, bar, lines or off")
 
+    theory = add("theory", "the theories of a scene, without simulating it")
+    scene(theory, "results/<scene>-theory")
+    theory.add_argument("--points", help=argparse.SUPPRESS)
+    theory.add_argument("--json", action="store_true", help="print the result as one line of JSON and write nothing")
     sweep = add("sweep", "a scene over several values of its keys: runs, theory, one table",
                 "--set key=v1,v2,... or key=start:stop:step sweeps a key, beside those of the scene's [sweep]; with\n"
                 "several, every combination. The same command goes on where a sweep stopped. Several scenes share one\n"
@@ -148,6 +153,13 @@ def _carry_out(given: argparse.Namespace) -> int:
 
         print(convert(given.source, given.target, given.channel))
         return 0
+    if given.command == "theory":
+        from .theory_command import theory_command
+
+        if given.points is not None:
+            raise SceneError("--points", "is no option of theory any more", "it is for programs",
+                             "asperity theory-points SCENE --points FILE")
+        return theory_command(_one_scene(given), given.sets, given.out, given.json)
     if given.command == "states":
         from .state_search import states_command
 

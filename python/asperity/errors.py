@@ -15,7 +15,7 @@ import sys
 import sysconfig
 from pathlib import Path
 
-NEEDED = ("numpy", "h5py", "matplotlib", "jinja2")
+NEEDED = ("numpy", "scipy", "h5py", "matplotlib", "jinja2")
 """Packages of PyPI that this one imports."""
 
 

@@ -114,18 +114,15 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
     return json.loads(call(["check", scene, *sets(overrides), "--json"]))
 
 
-def theory(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """The theory of one scene, with the critical roughness, as result.json would hold it."""
-    return json.loads(call(["theory", scene, *sets(overrides), "--json"]))
-
-
-def theory_points(scene: str, points: list[list[str]], runnable: bool = False) -> list[dict[str, Any]]:
-    """The theory of many variations of a scene; what is wrong with one is in its `problems`."""
+def theory_points(scene: str, points: list[list[str]], runnable: bool = False, profile: bool = False) -> list[dict]:
+    """Persson's theory of many variations of a scene, and what others need to know of it (`rough`, `flat`); what is
+    wrong with one is in its `problems`. runnable: also what a run would refuse. profile: everything over
+    magnification, and theory.critical_rms."""
     text = "".join(json.dumps(point) + "\n" for point in points)
-    words = ["theory", scene, "--points", "-"] + (["--runnable"] if runnable else [])
+    words = ["theory-points", scene, "--points", "-"] + ["--runnable"] * runnable + ["--profile"] * profile
     lines = call(words, text=text).splitlines()
     if len(lines) != len(points):
-        raise InternalError("asperity theory --points", f"answered {len(lines)} of {len(points)} points")
+        raise InternalError("asperity theory-points", f"answered {len(lines)} of {len(points)} points")
     return [json.loads(line) for line in lines]
 
 

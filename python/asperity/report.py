@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 
-from . import program, scene, sentences, terminal
+from . import program, scene, sentences, terminal, theories
 from .page import Page, file_name, minus
 from .plots import run as plots
 from .plots.style import KINDS
@@ -175,6 +175,7 @@ def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> N
 
 def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
     """DIR/report.html of a run; kinds: of files of its figures."""
+    theories.complete(run)
     page = Page(run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
     for part in (_top, partial(_figures, "path"), _segments, _states, partial(_figures, "surface"),
                  partial(_figures, "energies"), _numbers, _times):

@@ -396,16 +396,6 @@ class Result(Values):
         value = self.find("scene." + name)
         return otherwise if value is None else value
 
-    @functools.cached_property
-    def curves(self) -> list[tuple[str, np.ndarray, np.ndarray]]:
-        """Theory beside the path of a curved scene: label, mean height (Å), force (eV/Å)."""
-        found = []
-        for name in self.file.members("/curves"):
-            label = self.file.attribute(f"/curves/{name}", "label")
-            x, y = (self.file.array(f"/curves/{name}/{n}", 1) for n in ("height", "force"))
-            found.append((str(label or name), x, y))
-        return found
-
     @property
     def load_words(self) -> tuple[str, str]:
         return load_words(self.find("scene"))

@@ -72,7 +72,7 @@ def smooth_pull_off(run: Result, gamma: float) -> float:
 
 def reference(run: Result, key: str) -> float:
     """The Δγ that an energy is compared with, meV/Å²; 0: none. Persson's theory may have been given another."""
-    own = key.startswith("theory.") and not key.startswith("theory.renormalised.")
+    own = key.startswith("theory.") and not key.startswith(("theory.renormalised.", "theory.sphere."))
     return (own and run.number("theory.delta_gamma")) or run.number("delta_gamma", 0.0)
 
 
@@ -97,7 +97,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         gamma("jkr.in_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps", "γ_{JKR}/Δγ")
         if force is not None:
             jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON
-                           for k in ("sphere.jkr", "sphere.maugis_images"))
+                           for k in ("delta_gamma", "theory.sphere.maugis_images"))
             smooth = f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN"
             add(f"{force / NANONEWTON:.4g}", "nN", "pull-off force", smooth * (jkr > 0 and maugis > 0))
         if (radius := run.number("contact_radius.zero_load")) is not None:

@@ -25,7 +25,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from . import files, program, terminal
+from . import files, program, terminal, theories
 from .errors import Error, InputOutputError, SceneError
 from .grid import Axis, axes_of, is_seed, points_of, shown
 from .pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all
@@ -175,7 +175,8 @@ def _default_axis(file: str, fixed: list[str]) -> Axis:
     """Without a --set of several values: 100 roughnesses to a good way past the end of adhesion."""
     step = 0.1
     with contextlib.suppress(Error):  # no such end, or a scene without roughness
-        wanted = 1.4 * Values(program.theory(file, fixed)).number("theory.critical_rms") / 100
+        found = program.theory_points(file, [fixed], profile=True)[0]
+        wanted = 1.4 * Values(found).number("theory.critical_rms", math.nan) / 100
         decade = 10.0 ** math.floor(math.log10(wanted))
         step = min((m * decade for m in (1.0, 2.0, 2.5, 5.0, 10.0)), key=lambda s: abs(math.log(s / wanted)))
     return Axis("surface.rms", [f"{i * step:.12g}" for i in range(1, 101)], "surface.rms")
@@ -215,7 +216,7 @@ def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
 
 def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[dict[str, Any]],
                    needs_surface: bool) -> list[dict[str, Any]]:
-    """The theory between the points: the same axes, 61 values along x, and one seed unless the surface matters."""
+    """The theory between the points: the same axes, 31 values along x, and one seed unless the surface matters."""
     x = Table([a.key for a in axes], points, False).along
     if x is None or not any("gamma_eff" in p["theory"] for p in points):  # none applies to these scenes
         return []
@@ -225,9 +226,9 @@ def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[d
         values = axis.values[:1] if one else axis.values
         if axis.key == x and program.schema()[x]["kind"] == "number":
             low, high = (pick(p["set"][x] for p in points) for pick in (min, max))
-            values = [f"{low + (high - low) * i / 60:.12g}" for i in range(61)]
+            values = [f"{low + (high - low) * i / 30:.12g}" for i in range(31)]
         finer.append(Axis(axis.key, values))
-    found = program.theory_points(file, [fixed + point for point in points_of(finer)])
+    found = theories.points(file, [fixed + point for point in points_of(finer)], quick=True)
     return [_point(finer, point) for point in found if "problems" not in point]  # where it has no number
 
 
@@ -245,7 +246,8 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
     axes, fixed, base = _axes(file, sets, found["sweep"], theory_only, say)
     before = [] if theory_only else _points_before(place, base["scene"], [axis.key for axis in axes])
     overrides = [fixed + point for point in points_of(axes)]
-    answers = program.theory_points(file, overrides, runnable=not theory_only)
+    # So many points of a theory are a curve.
+    answers = theories.points(file, overrides, runnable=not theory_only, quick=theory_only and len(overrides) > 40)
     program.complaints(answers, {axis.key: axis.where for axis in axes if axis.where})
     notes = list(dict.fromkeys(note for answer in answers for note in answer["notes"]))
     sweep = Sweep(base["name"], base["scene"], [a.key for a in axes], [_point(axes, a) for a in answers], notes=notes,

@@ -69,6 +69,10 @@ def _theory_numbers(point: Mapping[str, Any]) -> dict[str, float]:
         for name in ("gamma_eff", "gamma_full_contact"):
             if name in numbers:
                 numbers.setdefault(name + "_ratio", numbers[name] / flat)
+    if flat := point.get("delta_gamma"):
+        for name in ("sphere.maugis_images", "sphere.renormalised"):
+            if name in numbers:
+                numbers[name + "_ratio"] = numbers[name] / flat
     return numbers
 
 
@@ -135,11 +139,14 @@ class Table(Columns):
 
     def values(self, name: str) -> np.ndarray:
         """The same, NaN where it means nothing or there is none. "theory.": of the theory, in any kind of sweep."""
-        if name.startswith("theory."):
+        of_theory = name.startswith("theory.")
+        if of_theory:
             name = self._before + name.removeprefix("theory.")
         found = self.counted(name) if name in self else np.full(len(self.status), np.nan)
         sphere = self.get("contact_radius.zero_load")
-        return found if sphere is None or not of_area(name) else np.where(np.isfinite(sphere), np.nan, found)
+        if sphere is None or of_theory or not of_area(name):
+            return found
+        return np.where(np.isfinite(sphere), np.nan, found)
 
     def at(self, key: str) -> np.ndarray:
         """The value of a key for each group; NaN where it is no number."""

@@ -21,6 +21,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scenes/validation")]
 import asperity  # noqa: E402
+from asperity import theories  # noqa: E402
 import rings  # noqa: E402
 
 GPA = 1 / 160.21766208  # eV/Å³
@@ -43,7 +44,7 @@ class Runs:
         result = asperity.run({}, {
             "interface.kind": "wall", "interface.adhesion": 1e3 * law.adhesion, "interface.range": law.reach,
             "interface.stiffness": law.stiffness / GPA, "drive.mode": "quasistatic", "drive.hold": "mean-height",
-            "output.fields": [], "output.checkpoint": 0, "theory.renormalised": False,
+            "output.fields": [], "output.checkpoint": 0,
             "block.thickness": keys["surface.sites"], **keys}, self.out / name)
         self.seconds += time.monotonic() - begun
         with h5py.File(result.directory / "run.h5") as file:
@@ -103,7 +104,7 @@ def sphere(runs: Runs) -> list[dict]:
             largest = -rings.pulled(around, shape, law, deepest - 0.03 * reach, 0.002 * reach, deepest + 0.03 * reach)[1].min()
         out = (r["segment"] == r["segment"].max()) & (r["mean_height"] < height[np.abs(force) > 1e-3 * -force.min()].max())
         off = np.interp(r["mean_height"][out], height, force) - r["force"][out]
-        theory = r["result"]["sphere"]
+        theory = theories.of_run(r["result"])["theory"]["sphere"]
         rows.append({"energy": energy, "range": reach, "sites": sites, "lambda": theory["maugis_parameter"],
                      "program": -r["force"].min() / unit, "rings": largest / unit,
                      "maugis": 0.75 * theory["maugis_images"] / energy, "along": math.sqrt(np.mean(off**2)) / -force.min(),
@@ -161,7 +162,7 @@ def sticky(runs: Runs) -> list[dict]:
 def slope_and_curvature(runs: Runs, surface: dict) -> tuple[float, float]:
     """Root mean squares of the gradient and of the Laplacian of a surface, 1 and 1/Å."""
     r = asperity.run({}, {**surface, "drive.path": "zero-load", "interface.kind": "wall", "interface.adhesion": 0,
-                          "drive.load": 10, "block.thickness": surface["surface.sites"], "theory.renormalised": False,
+                          "drive.load": 10, "block.thickness": surface["surface.sites"],
                           "output.checkpoint": 0}, runs.out / "surface")
     with h5py.File(r.directory / "run.h5") as file:
         height = file["substrate/height"][:]

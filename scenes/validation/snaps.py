@@ -29,7 +29,7 @@ def losses(out: pathlib.Path, velocities=VELOCITIES) -> list[dict]:
             mode = {"drive.velocity": velocity} if velocity else {"drive.mode": "quasistatic"}
             r = asperity.run(ROOT / "scenes/validation/works.toml", {
                 "surface.sites": 16, "block.thickness": 16, "surface.rms": rms, "output.fields": [], "output.checkpoint": 0,
-                "theory.renormalised": False, **mode}, out / f"{rms}-{velocity}")
+                **mode}, out / f"{rms}-{velocity}")
             row[velocity] = r["lost"]["cycle"]
             seconds += r["run"]["wall_seconds"]
         rows.append(row)

@@ -21,6 +21,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import asperity  # noqa: E402
+from asperity import theories  # noqa: E402
 
 GPA = 1 / 160.21766208  # eV/Å³
 E = 77.2 * GPA / (1 - 0.42**2)
@@ -44,19 +45,18 @@ class Runs:
 
     def state(self, name: str, keys: dict) -> asperity.Result:
         """The relaxed state of a scene over a wall. A result that is there is an error: it may be of another map."""
-        settings = {"numerics.precision": "double", "drive.path": "zero-load", "interface.kind": "wall", "theory.renormalised": False,
+        settings = {"numerics.precision": "double", "drive.path": "zero-load", "interface.kind": "wall",
                     "output.checkpoint": 0, "drive.tolerance": 1e-6, **keys}
         settings.setdefault("block.thickness", settings["surface.sites"])
         return asperity.run(ROOT / "scenes/paper/flat-3A.toml", settings, self.out / name)
 
     def path(self, name: str, keys: dict) -> dict:
-        """Force (eV/Å), mean height (Å), contact fraction along a path at a held mean height, and the theories' curves."""
-        self.state(name, {"drive.mode": "quasistatic", "drive.path": ["approach", "pull-off"], "drive.hold": "mean-height",
+        """Force (eV/Å), mean height (Å), contact fraction along a path at a held mean height, and its result."""
+        run = self.state(name, {"drive.mode": "quasistatic", "drive.path": ["approach", "pull-off"], "drive.hold": "mean-height",
                           "output.fields": []} | keys)
         with h5py.File(self.out / name / "run.h5") as file:
             series = {k: file[f"series/{k}"][:] for k in ("force", "mean_height", "contact_fraction", "segment")}
-            curves = {n: {k: c[k][:] for k in c} for n, c in file.get("curves", {}).items()}
-        return series | {"curves": curves}
+        return series | {"run": run}
 
 
 def westergaard(runs: Runs) -> None:
@@ -128,7 +128,7 @@ def load(runs: Runs) -> None:
         print(f"{pressure:7}" + "".join(f"{x:13.4f}" for x in found) + f"{exact:10.4f}{found[-1] - exact:10.4f}")
 
 
-# Sums over a square lattice (theory/periodic_sphere.hpp): the images' displacement near the contact.
+# Sums over a square lattice (python/asperity/sphere.py): the images' displacement near the contact.
 PHI0, PHI2 = -3.9002649, 9.0336217
 
 
@@ -183,20 +183,19 @@ def jkr(runs: Runs) -> None:
         name = f"jkr-{sites}"
         r = runs.path(name, {"surface.kind": "flat", "surface.radius": 300, "surface.sites": sites, "surface.spacing": 332.8 / sites,
                              "interface.adhesion": 30, "interface.range": reach, "drive.tolerance": 1e-3 * (64 / sites) ** 2})
-        sphere, unit = asperity.load(runs.out / name)["sphere"], 1.5 * math.pi * 0.03 * 300
+        sphere, unit = theories.of_run(r["run"])["theory"]["sphere"], 1.5 * math.pi * 0.03 * 300
         attached = (r["segment"] == r["segment"].max()) & (r["contact_fraction"] > 0.004)
         off = {}
-        for theory, curve in r["curves"].items():
+        for label, height, force in theories.sphere_curves(r["run"], r["force"].max()):
             # From the deepest point outwards to where the theory's branch ends at a held height.
-            height, force = curve["height"], curve["force"]
             if height[0] > height[-1]:
                 height, force = height[::-1], force[::-1]
             end = int(np.argmax(height)) + 1
             height, force = height[:end], force[:end]
             inside = attached & (r["mean_height"] < height.max()) & (r["mean_height"] > height.min())
-            off[theory] = np.sqrt(np.mean((np.interp(r["mean_height"][inside], height, force) - r["force"][inside]) ** 2)) / unit
+            off[label.removeprefix("smooth sphere, ")] = np.sqrt(np.mean((np.interp(r["mean_height"][inside], height, force) - r["force"][inside]) ** 2)) / unit
         print(f"{reach:6} {sites:6} {sphere['maugis_parameter']:9.3f} {-r['force'].min() / unit:15.4f} {sphere['jkr_images'] / 30:20.4f} "
-              f"{sphere['maugis_images'] / 30:8.4f} {off['maugis_images']:16.4f} {off['jkr_images']:40.4f}")
+              f"{sphere['maugis_images'] / 30:8.4f} {off['Maugis-Dugdale with images']:16.4f} {off['JKR with images']:40.4f}")
 
 
 def area(runs: Runs) -> None:

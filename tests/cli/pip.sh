@@ -23,7 +23,6 @@ cd "$work" || exit 1
 cat >scene.toml <<'END'
 surface = { sites = 24, rms = 0.8 }
 drive = { path = ["zero-load"] }
-theory = { renormalised = false }
 END
 
 environment() { # environment NAME OPTION...: $work/NAME with the package

@@ -4,13 +4,9 @@
 // What a path over a sphere says, and the curves of a smooth sphere beside it.
 #include "engine/run/curve.hpp"
 
-#include "engine/run/smooth_sphere.hpp"
 #include "engine/setup/case.hpp"
 #include "engine/units.hpp"
-#include "io/hdf5_file.hpp"
 #include "io/json.hpp"
-#include "support/scratch.hpp"
-#include "theory/half_space.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,20 +80,6 @@ TEST(Curve, TheRunningMeanIsOverTwoPicoseconds) {
         EXPECT_NEAR(averaged(190, 10, key), 0.5 * whole, 1e-12 * whole)
             << key.quantity->name << ", the last";
     }
-}
-
-TEST(SphereCurves, AreNoneWithoutAdhesion) { // with it: results_test
-    const Scene scene = read_scene_text("[surface]\nsites = 64\nrms = 0\nradius = 300\n"
-                                        "[interface]\nkind = \"wall\"\nadhesion = 0\n"
-                                        "[block]\nthickness = 16\n"
-                                        "[drive]\nmode = \"quasistatic\"\n",
-                                        "s.toml");
-    const io::Scratch scratch;
-    io::Hdf5File file(scratch / "run.h5", io::Hdf5File::Mode::create);
-    file.make_group("/series");
-    file.write<double>("/series/force", {3}, std::vector<double>{0.0, 40.0, 0.0});
-    write_sphere_curves(file, resolve(scene), std::nullopt);
-    EXPECT_FALSE(file.exists("/curves"));
 }
 
 } // namespace

@@ -12,8 +12,6 @@
 #include "io/units.hpp"
 #include "support/cases.hpp"
 #include "support/run_scene.hpp"
-#include "theory/half_space.hpp"
-#include "theory/periodic_sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -206,44 +204,11 @@ TEST(Results, OfAStateAreEnergiesPerArea) {
     EXPECT_GT(run.number("energy.elastic", "eV"), 0.0);
 }
 
-TEST(Results, OfACurvedSceneHoldTheTheoryOfTheSmoothSphere) {
+TEST(Results, OfACurvedSceneInTimeHaveUnits) {
     const Written run("[surface]\nsites = 32\nrms = 0.2\nradius = 300\n[block]\nthickness = 16\n"
                       "[drive]\nmax_steps = 40\n[output]\nseries = 10\nfields = [\"every:20\"]\n"
                       "trajectory = 20\n");
     expect_units_everywhere(run);
-    ASSERT_EQ(run.file->members("/curves"),
-              (std::vector<std::string>{"jkr", "jkr_images", "maugis_images", "renormalised"}));
-    for (const char* name : {"jkr", "jkr_images", "maugis_images", "renormalised"}) {
-        const std::string group = std::string("/curves/") + name;
-        EXPECT_NE(
-            run.file->text_attribute(group, "label")
-                .value()
-                .find(std::string(name) == "renormalised" ? "renormalised law" : "smooth sphere"),
-            std::string::npos);
-        EXPECT_EQ(run.data(group + "/height", "Å").size(),
-                  run.data(group + "/force", "eV/Å").size());
-    }
-    // The rough sphere's law: the deepest point of its curve is its pull-off, and its
-    // tension is lower than the smooth one's.
-    const auto law = run.data("/curves/renormalised/force", "eV/Å");
-    const double least = -*std::min_element(law.begin(), law.end());
-    EXPECT_NEAR(least, 1.5 * std::numbers::pi * 300.0 * run.number("sphere.renormalised", "eV/Å^2"),
-                1e-3 * least);
-    EXPECT_LT(run.number("sphere.renormalised_parameter", "1"),
-              run.number("sphere.maugis_parameter", "1"));
-    const auto& block = run.scene().block;
-    const theory::PeriodicSphere rough = {
-        {300.0, theory::contact_modulus(block.young * units::gigapascal, block.poisson),
-         run.number("theory.renormalised.gamma_eff", "eV/Å^2")},
-        run.scene().edge(),
-        0.0};
-    const double tension = run.number("theory.renormalised.tension", "GPa") * units::gigapascal;
-    EXPECT_NEAR(least, -theory::maugis_pull_off(rough, tension).contact.force, 1e-3 * least);
-    // JKR's pull-off force in closed form.
-    const auto force = run.data("/curves/jkr/force", "eV/Å");
-    const double strongest = -*std::min_element(force.begin(), force.end());
-    EXPECT_NEAR(strongest, 1.5 * std::numbers::pi * 300.0 * run.number("delta_gamma", "eV/Å^2"),
-                1e-3 * strongest);
 }
 
 TEST(Results, AStateIsTheOneBelowTheStrongestAttraction) {

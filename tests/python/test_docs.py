@@ -14,7 +14,7 @@ import asperity
 PAGES = [ROOT / "ARCHITECTURE.md", ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 LINES = [line for page in PAGES for line in re.findall(r"^    ((?:mpirun .*)?\./asperity .*)", page.read_text(), re.M)
          if not re.search(r"\./asperity (test|bench)", line)]  # which would call this test
-SMALL = " --set surface.sites=32 block.thickness=32 theory.renormalised=false --progress off"
+SMALL = " --set surface.sites=32 block.thickness=32 --progress off"
 SHORT = " --set drive.max_steps=30"
 
 

@@ -34,8 +34,6 @@ timestep = 20
 velocity = 60
 [output]
 checkpoint = 0.2
-[theory]
-renormalised = false
 """
 EIGHT = {"drive.velocity": [50, 60], "surface.seed": [1, 2, 3, 4]}
 SETS = ["--set", "drive.velocity=50,60", "surface.seed=1,2,3,4"]
@@ -129,7 +127,7 @@ def test_dask_stops_with_checkpoints_and_goes_on(place, cluster, table):
 
 def test_dask_from_python(place, cluster):
     scene = {"name": "scene", "surface": {"sites": 32}, "block": {"thickness": 16},
-             "drive": {"timestep": 20, "max_steps": 100}, "theory": {"renormalised": False}}
+             "drive": {"timestep": 20, "max_steps": 100}}
     with distributed.Client(cluster[0]) as client:
         sweep = asperity.sweep(scene, EIGHT, out="py", executor=client.get_executor())
     assert sweep.table.status == ["done"] * 8

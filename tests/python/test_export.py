@@ -188,7 +188,7 @@ def test_damaged_files_are_a_message(path_run, tmp_path, name, shape, kind):
 
 def test_a_slid_block_is_exported_where_it_stands(tmp_path):
     """Over the substrate: the distances of the positions are those of the map, and frames go along."""
-    run = asperity.run({"surface": {"sites": 16, "rms": 0.5}, "block.thickness": 4, "theory.renormalised": False,
+    run = asperity.run({"surface": {"sites": 16, "rms": 0.5}, "block.thickness": 4,
                         "output": {"fields": ["segments"], "trajectory": 20}, "drive": {
                             "path": ["approach", "slide x 3.1 Å"], "velocity": 60, "timestep": 20, "ramp": 1}},
                        out=tmp_path / "slid")

@@ -10,10 +10,10 @@ import asperity
 # From the bottom to the top: text, files and program, data, execution, drawing, pages, the user's forms.
 ORDER = """errors units terminal
     files program scene convert
-    result grid
+    result grid theory sphere theories
     pool runs tables sweeps cost_parameters cost
     plots.__init__ plots.style plots.run plots.sweep
-    page sentences report report_cost report_sweep export commands
+    page sentences report report_cost report_sweep export commands theory_command
     forms engine state_search __init__ __main__""".split()
 PLACE = {name: place for place, name in enumerate(ORDER)}
 

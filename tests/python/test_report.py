@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import sentences
+from asperity import sentences, theories
 from asperity.report_sweep import key_numbers, write_page
 from conftest import ROOT, SMALL, STATE, command, unsealed
 
@@ -157,8 +157,8 @@ def test_a_sphere_has_its_own_numbers_and_curves(sphere_run):
     for name in ("JKR", "JKR with images", "Maugis-Dugdale with images"):
         assert f"theory: smooth sphere, {name}" in labels
     # The curve goes as deep as JKR's pull-off force, 3πγR/2.
-    _, _, force = sphere_run.curves[0]
-    assert force.min() == pytest.approx(-1.5 * np.pi * sphere_run.sphere.jkr * 1e-3 * 100, rel=1e-3)
+    _, _, force = theories.sphere_curves(sphere_run, 1.0)[0]
+    assert force.min() == pytest.approx(-1.5 * np.pi * sphere_run.delta_gamma * 1e-3 * 100, rel=1e-3)
 
 
 def test_runs_that_failed_or_stopped_say_so_at_the_top(tmp_path):

@@ -20,7 +20,7 @@ from conftest import ROOT, SMALL
 import asperity
 
 TINY = {"name": "tiny", "surface": {"sites": 16, "rms": 0.5},
-        "drive": {"velocity": 100.0, "timestep": 20.0}, "theory": {"renormalised": False}}
+        "drive": {"velocity": 100.0, "timestep": 20.0}}
 
 
 def tiny(**overrides):
@@ -368,7 +368,7 @@ def test_bad_use(tmp_path):
 
 
 STATIC = {"name": "static", "surface": {"sites": 16, "rms": 1.0}, "block": {"thickness": 16},
-          "drive": {"mode": "quasistatic", "hold": "mean-height"}, "theory": {"renormalised": False}}
+          "drive": {"mode": "quasistatic", "hold": "mean-height"}}
 
 
 @pytest.mark.parametrize("hold", ["top", "mean-height"])

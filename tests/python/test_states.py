@@ -16,7 +16,6 @@ SCENE = """surface = { sites = 64, rms = 4, seed = 2 }
 block = { thickness = 64 }
 interface = { frictionless = true }
 drive = { path = ["zero-load"] }
-theory = { renormalised = false }
 """
 AREA = (64 * 2.6)**2
 RUN = ["run", "hill.toml", "--progress", "off", "--out"]
@@ -101,8 +100,7 @@ def test_a_search_that_is_stopped_again_and_again(whole, place, monkeypatch):
 def test_lateral_forces_on_a_soft_steep_surface(place):
     """An approach, a run, a press and random displacements end in states of their own, and none is called complete."""
     Path("soft.toml").write_text("surface = { sites = 16, rms = 4, seed = 2, rolloff = 1 }\n"
-                                 "block = { young = 8, thickness = 16 }\ndrive = { path = [\"zero-load\"] }\n"
-                                 "theory = { renormalised = false }\n")
+                                 "block = { young = 8, thickness = 16 }\ndrive = { path = [\"zero-load\"] }\n")
     said = command("states", "soft.toml", says=["meV/Å² relative to that of a run", "random starts led to"])
     found = json.loads(Path("results/soft-states/states.json").read_text())
     by = {name: state for state in found["states"] for name in state["found"]}

@@ -352,7 +352,7 @@ def test_points_over_another_content_of_a_file_are_refused(place):
     """The same path with other bytes; the same content in other bytes is the same."""
     a_map("map.npy", 1)
     keys = {"surface.kind": "file", "surface.file": place / "map.npy", "block.thickness": 12}
-    scene = {**STATE, "name": "mapped", "theory": {"renormalised": False}}
+    scene = {**STATE, "name": "mapped"}
     first = asperity.sweep(scene, {**keys, "drive.load": [0, 20]}, out="mapped")
     assert len(set(first.table["binding_energy"])) == 2
     np.savetxt("map.txt", np.load("map.npy"), fmt="%.17g")
@@ -381,7 +381,7 @@ def test_points_over_another_content_of_a_file_are_refused(place):
 def test_a_map_may_be_given_beside_the_scene(place):
     """A scene that is none without it; as run takes it."""
     (place / "mapped.toml").write_text('[surface]\nkind = "file"\nsites = 24\n[block]\nthickness = 12\n'
-                                       '[drive]\npath = ["zero-load"]\n[theory]\nrenormalised = false\n')
+                                       '[drive]\npath = ["zero-load"]\n')
     a_map("a.npy", 1)
     a_map("b.npy", 2)
     words = ["sweep", "mapped.toml", "--progress", "off", "--out"]
@@ -393,7 +393,7 @@ def test_a_map_may_be_given_beside_the_scene(place):
 
 
 def test_values_are_whatever_can_be_gone_through(place):
-    scene = {**STATE, "theory": {"renormalised": False}}
+    scene = {**STATE}
     for values in ([1, 2, 3], (1, 2, 3), range(1, 4), np.arange(1, 4), np.array([1.0, 2.0, 3.0]),
                    (i for i in (1, 2, 3)), "1:3:1", "1,2,3", [np.int64(1), np.float32(2), 3]):
         given = {"surface.rms": values, "surface.hurst": np.float64(0.7)}
@@ -401,7 +401,7 @@ def test_values_are_whatever_can_be_gone_through(place):
 
 
 def test_a_damaged_point_is_told_and_run_again(place):
-    words = ["sweep", "state.toml", "--set", "theory.renormalised=false", "--progress", "off", "--out", "one"]
+    words = ["sweep", "state.toml", "--progress", "off", "--out", "one"]
     command(*words)
     before = numbers("one")
     path = place / "one/rms=0.4,seed=1/result.json"
@@ -610,11 +610,11 @@ def test_points_share_the_processors_unless_somebody_has_chosen(place):
 def test_the_theory_of_a_realised_spectrum_has_all_seeds(place):
     given = {"surface.rms": [0.2, 0.4], "surface.seed": [1, 2]}
     sweep = asperity.sweep({**STATE, "theory": {"spectrum": "realised"}}, given, out="realised", jobs=2)
-    assert {p["set"]["surface.seed"] for p in sweep.theory} == {1, 2} and len(sweep.theory) == 122
+    assert {p["set"]["surface.seed"] for p in sweep.theory} == {1, 2} and len(sweep.theory) == 62
     points, curve = (t.average(t.values("theory.gamma_eff_ratio")) for t in (sweep.table, sweep.curves))
     assert points.deviation[1] > 1e-5  # the seeds are told apart
     assert curve.mean[[0, -1]] == pytest.approx(points.mean, rel=1e-12)
-    assert len(asperity.sweep(STATE, given, out="target", jobs=2).theory) == 61
+    assert len(asperity.sweep(STATE, given, out="target", jobs=2).theory) == 31
 
 
 def test_several_scenes_share_their_plots(place):
@@ -689,10 +689,10 @@ def test_the_theory_alone(place):
     assert all((place / "theory" / name).stat().st_size > 0 for name in written)
     rows = numbers("theory")
     assert [r["status"] for r in rows] == ["adhesive"] * 6 and all(None not in {*row, *row.values()} for row in rows)
-    assert list(rows[0])[:4] == ["surface.rms", "drive.load", "delta_gamma", "gamma_eff"]
+    assert list(rows[0])[:4] == ["surface.rms", "drive.load", "gamma_eff", "contact_fraction"]
     points = json.loads((place / "theory/sweep.json").read_text())["points"]
     assert [p["set"]["surface.rms"] for p in points] == [0.2, 0.2, 0.4, 0.4, 0.6, 0.6]
-    one = asperity.program.theory("state.toml", ["surface.rms=0.4"])["theory"]
+    one = program.theory_points("state.toml", [["surface.rms=0.4"]])[0]["theory"]
     assert float(rows[2]["gamma_eff"]) == pytest.approx(one["gamma_eff"], rel=1e-9)
     assert "already holds a sweep" in command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=1,2",
                                               "--out", "theory", expect=2)
@@ -702,7 +702,7 @@ def test_the_theory_alone(place):
     # Without values: a hundred roughnesses to a good way past the end of adhesion.
     (place / "plain.toml").write_text("[surface]\nsites = 24\n")
     command("sweep", "plain.toml", "--theory-only", "--out", "plain")
-    end = asperity.program.theory("plain.toml", [])["theory"]["critical_rms"]
+    end = program.theory_points("plain.toml", [[]], profile=True)[0]["theory"]["critical_rms"]
     rms = [float(r["surface.rms"]) for r in numbers("plain")]
     assert len(rms) == 100 and 1.05 * end < rms[-1] < 2.0 * end
     stored = json.loads((place / "plain/sweep.json").read_text())["run"]

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The command theory, and the theory of a run."""
+"""The command theory, and the theory of a run. The numbers: tests/theory, test_renormalised.py."""
 
 import os
 from pathlib import Path
 
+import h5py
 import pytest
 from conftest import ROOT, command
 
@@ -24,18 +25,21 @@ def test_the_numbers_of_the_paper(place):
     command("theory", PAPER, "--set", "surface.rms=5", "--out", "paper",
             says=["critical rms   6.972", "hold together without any load"])
     result = asperity.load("paper")
-    assert result.theory.gamma_eff == pytest.approx(15.159, abs=0.002)
-    assert result.theory.contact_fraction == pytest.approx(0.66628, abs=2e-5)
+    assert result.theory.gamma_eff == pytest.approx(15.159, abs=result.theory.gamma_eff_error + 5e-4)
+    assert result.theory.contact_fraction == pytest.approx(0.66628, abs=result.theory.contact_fraction_error)
+    assert result.units.theory.renormalised.gamma_eff == "meV/Å^2"
     assert result.theory.gamma_full_contact == pytest.approx(11.353, abs=0.002)
-    assert Path("paper/theory.h5").stat().st_size > 0
+    with h5py.File("paper/theory.h5") as file:
+        assert file["profile/A"][-1] == pytest.approx(result.theory.contact_fraction, abs=1e-12)
+        assert file["profile/gamma_eff"].attrs["unit"] == "meV/Å^2" and file["profile/U_el"][-1] == 0
     assert not {"energy", "binding_energy"} & set(result) and "steps" not in result.run  # no simulation
 
 
 @pytest.mark.parametrize("given, says", [
     ("surface.rms=0.5", "ends at Nyquist"), ("theory.spectrum=realised surface.rms=1", "the surface itself"),
     ("drive.load=3000", "the load alone"),
-    # 1.75: the Tabor number of the paper's formula
-    ("surface.rms=0 surface.radius=4410 theory.delta_gamma=100", ["JKR pull-off   2078.", "1.75"])])
+    ("surface.rms=1", ["renormalised   γ_eff 0.7", " ± ", "19 of 20 simulated surfaces"]),
+    ("surface.rms=0 surface.radius=4410 theory.delta_gamma=100", ["JKR pull-off   2078.", "Maugis' λ 3.2"])])
 def test_what_it_says(place, given, says):
     command("theory", "rough.toml", "--set", *given.split(), says=says)
     assert asperity.load("results/rough-theory").theory
@@ -66,8 +70,12 @@ def test_a_run_carries_the_theory_of_its_scene(place):
     run, theory = (asperity.load(name).theory for name in ("run", "theory"))
     for key in ("gamma_full_contact", "gamma_eff"):
         assert run[key] == pytest.approx(theory[key], abs=1e-9)
-    for name in ("theory", "surface"):  # only one rank looks for the directory; both end
-        assert command(name, "small.toml", "--out", "theory", ranks=2, expect=2).count("already holds a result") == 1
+    assert "renormalised" not in run and "sphere" not in run
+    # Only one rank looks for the directory; both end.
+    assert command("surface", "small.toml", "--out", "theory", ranks=2, expect=2).count("already holds a result") == 1
+    assert command("theory", "small.toml", "--out", "theory", ranks=2, expect=2).count("not one of several ranks") == 1
+    Path("old.toml").write_text("[theory]\nrenormalised = false\n")
+    command("check", "old.toml", expect=2, says=["no part of a run", "`asperity theory`, sweeps and reports compute it"])
 
 
 def test_a_wall_without_adhesion(place):

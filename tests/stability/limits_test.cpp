@@ -166,8 +166,7 @@ TEST(Theory, AtTheEndsOfItsKeys) {
                                                 std::string("surface.hurst=") + hurst,
                                                 std::string("interface.epsilon=") + epsilon,
                                                 std::string("surface.rolloff=") + rolloff,
-                                                std::string("theory.area_factor=") + area,
-                                                "theory.renormalised=false"});
+                                                std::string("theory.area_factor=") + area});
                             const TheoryCase c = theory_case(scene);
                             const TheoryNumbers n = solve_theory(c);
                             EXPECT_TRUE(std::isfinite(n.gamma_eff)) << what;

@@ -1,271 +1,207 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The adhesive theory against the numbers of theory.md. A number given to n digits must come out to
-// those n digits: the tolerance is half a unit of the last one.
+// Persson's theory against the numbers of an independent computation (five digits and more),
+// against limits, laws and random walkers, and where it is hard. What is stated is 1e-3 of the work
+// of adhesion; the numbers are closer.
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
-#include <boost/math/tools/toms748_solve.hpp>
 #include <gtest/gtest.h>
 
-#include "support/diffusion.hpp"
 #include "support/paper_contact.hpp"
 #include "theory/error.hpp"
-#include "theory/shooting.hpp"
+#include "theory/stress_distribution.hpp"
 
 namespace asperity::theory {
 namespace {
 
 using paper::gpa;
+using paper::q_L;
 
-constexpr double five_digits = 0.5e-5;
-
-struct Row {
-    double h, gamma, area, full;
-};
-
-void PrintTo(const Row& row, std::ostream* out) { *out << "h_rms " << row.h << " Å"; }
-
-class PaperTable : public testing::TestWithParam<Row> {};
-
-TEST_P(PaperTable, FirstPassage) {
-    const Row row = GetParam();
-    const ContactState s = solve(paper::contact(row.h));
-    EXPECT_EQ(s.status, Status::adhesive);
-    EXPECT_TRUE(s.converged);
-    EXPECT_NEAR(s.gamma_ratio, row.gamma, five_digits);
-    EXPECT_NEAR(s.area, row.area, five_digits);
-    EXPECT_NEAR(full_contact(paper::contact(row.h)).gamma_ratio, row.full, five_digits);
+AdhesiveContact at_load(double h, double p, AreaFactor factor = AreaFactor::gaussian) {
+    AdhesiveContact c = paper::contact(h, factor);
+    c.pressure = p * gpa;
+    return c;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Roughness, PaperTable,
-    testing::Values(Row{1, 0.96460, 1.00000, 0.96460}, Row{2, 0.85835, 0.99999, 0.85836},
-                    Row{3, 0.67469, 0.98985, 0.68120}, Row{4, 0.40000, 0.88896, 0.43298},
-                    Row{5, 0.15159, 0.66628, 0.11353}, Row{6, 0.02877, 0.39290, -0.27733},
-                    Row{6.5, 0.00604, 0.24305, -0.49960}, Row{6.9, 0.00012, 0.08329, -0.69032}));
+AdhesiveContact with_spectrum(Spectrum spectrum) {
+    AdhesiveContact c = paper::contact(5);
+    c.spectrum = std::move(spectrum);
+    return c;
+}
 
-TEST(Persson, AreaFactorOffToEightDigits) {
-    const SolverOptions fine{.tolerance = 1e-7, .max_refinement = 6};
+/// The state is within its stated error of the numbers, and that error is small.
+void expect_state(const AdhesiveContact& c, double gamma, double area, double digit) {
+    const ContactState s = solve(c);
+    EXPECT_EQ(s.status, Status::adhesive);
+    EXPECT_TRUE(s.converged);
+    EXPECT_LE(s.gamma_ratio_error, 1e-3);
+    EXPECT_NEAR(s.gamma_ratio, gamma, s.gamma_ratio_error + digit);
+    EXPECT_NEAR(s.area, area, s.area_error + digit);
+    EXPECT_NEAR(s.gamma_ratio, gamma, 2e-4);
+}
+
+TEST(Persson, TableOfThePaper) {
+    for (const auto& [h, gamma, area, full] :
+         {std::array{1.0, 0.96460, 1.00000, 0.96460}, std::array{2.0, 0.85835, 0.99999, 0.85836},
+          std::array{3.0, 0.67469, 0.98985, 0.68120}, std::array{4.0, 0.40000, 0.88896, 0.43298},
+          std::array{5.0, 0.15159, 0.66628, 0.11353}, std::array{6.0, 0.02877, 0.39290, -0.27733},
+          std::array{6.5, 0.00604, 0.24305, -0.49960},
+          std::array{6.9, 0.00012, 0.08329, -0.69032}}) {
+        SCOPED_TRACE(h);
+        expect_state(paper::contact(h), gamma, area, 0.5e-5);
+        EXPECT_NEAR(full_contact(paper::contact(h)).gamma / paper::work_of_adhesion, full, 0.5e-5);
+    }
+}
+
+TEST(Persson, AreaFactorOff) {
     for (const auto& [h, gamma, area] :
          {std::array{3.0, 0.65999582, 0.98908746}, std::array{5.0, 0.12869208, 0.64160117},
           std::array{6.5, 0.00165569, 0.17100173}}) {
-        const ContactState s = solve(paper::contact(h, AreaFactor::none), fine);
-        EXPECT_NEAR(s.gamma_ratio, gamma, 3e-8) << h;
-        EXPECT_NEAR(s.area, area, 1e-7) << h;
+        SCOPED_TRACE(h);
+        expect_state(paper::contact(h, AreaFactor::none), gamma, area, 0.5e-8);
     }
 }
 
 TEST(Persson, CriticalRoughness) {
-    const CriticalRoughness gaussian = critical_roughness(paper::contact(5));
-    EXPECT_NEAR(gaussian.h_rms, 6.9723, 0.5e-4);
-    EXPECT_NEAR(gaussian.full_contact_h_rms, 5.3100, 0.5e-4);
-    EXPECT_LT(gaussian.error, 1e-4);
-    const double off = critical_roughness(paper::contact(5, AreaFactor::none)).h_rms;
-    EXPECT_NEAR(off, 6.7393, 0.5e-4);
-    EXPECT_NEAR(critical_roughness(paper::contact(5, AreaFactor::small_slope)).h_rms, 6.9899,
-                0.5e-4);
-    EXPECT_NEAR(adhesion_parameter(paper::contact_modulus, off, 3 * paper::q_L, 0.1), 3.7625,
-                0.5e-4);
-    // The roughness of the spectrum handed in must not matter, not even zero.
-    EXPECT_NEAR(critical_roughness(paper::contact(0)).h_rms, gaussian.h_rms, 1e-6);
-    // And the answer really separates contact from none.
-    EXPECT_EQ(solve(paper::contact(0.9995 * gaussian.h_rms)).status, Status::adhesive);
-    EXPECT_EQ(solve(paper::contact(1.0005 * gaussian.h_rms)).status, Status::no_contact);
-    // The other integration, on its own.
-    EXPECT_NEAR(critical_roughness(paper::contact(5), {.integration = by_diffusion}).h_rms, 6.9723,
-                0.5e-4);
-}
-
-TEST(Persson, CriticalRoughnessUnderLoad) {
+    for (const auto& [factor, h] :
+         {std::pair{AreaFactor::gaussian, 6.9723}, std::pair{AreaFactor::none, 6.7393},
+          std::pair{AreaFactor::small_slope, 6.9899}}) {
+        const CriticalRoughness end = critical_roughness(paper::contact(5, factor));
+        EXPECT_NEAR(end.h_rms, h, end.error + 0.5e-4);
+        EXPECT_LT(end.error, 2e-3);
+        // The answer separates contact from none.
+        EXPECT_EQ(solve(paper::contact(0.999 * h, factor)).status, Status::adhesive);
+        EXPECT_EQ(solve(paper::contact(1.001 * h, factor)).status, Status::no_contact);
+    }
+    EXPECT_NEAR(critical_roughness(paper::contact(0)).full_contact_h_rms, 5.3100, 0.5e-4);
     for (double p : {-0.5, 0.5}) {
-        AdhesiveContact c = paper::contact(5);
-        c.pressure = p * gpa;
+        AdhesiveContact c = at_load(5, p);
         const double h_c = critical_roughness(c).h_rms;
-        c.spectrum = c.spectrum.with_rms_height(0.999 * h_c);
+        c.spectrum = c.spectrum.with_rms_height(0.998 * h_c);
         EXPECT_EQ(solve(c).status, Status::adhesive) << p;
-        c.spectrum = c.spectrum.with_rms_height(1.001 * h_c);
+        c.spectrum = c.spectrum.with_rms_height(1.002 * h_c);
         EXPECT_EQ(solve(c).status, p < 0 ? Status::no_contact : Status::pressed) << p;
     }
+    AdhesiveContact never = paper::contact(20);
+    never.beta =
+        0; // a sparse contact costs a³, less than it gains: adhesion fades but does not end
+    EXPECT_EQ(solve(never).status, Status::adhesive);
+    EXPECT_THROW((void)critical_roughness(never), NoSolution);
+    // h_c ∝ √Δγ without the area factor.
+    AdhesiveContact weak = paper::contact(5, AreaFactor::none);
+    weak.work_of_adhesion *= 1e-12;
+    EXPECT_NEAR(critical_roughness(weak).h_rms, 6.7393e-6, 2e-9);
 }
 
 TEST(Persson, WithoutRollOff) {
-    AdhesiveContact c = paper::contact(9);
-    c.spectrum = Spectrum::self_affine({paper::q_L, paper::q_L, 512 * paper::q_L, 0.8, 9});
-    EXPECT_NEAR(critical_roughness(c).h_rms, 9.98, 0.5e-2);
+    const AdhesiveContact c = with_spectrum(Spectrum::self_affine({q_L, q_L, 512 * q_L, 0.8, 9}));
+    const CriticalRoughness end = critical_roughness(c);
+    EXPECT_NEAR(end.h_rms, 9.98, end.error + 0.5e-2);
     EXPECT_NEAR(solve(c).area, 0.31, 0.5e-2);
-    // As printed there is none, and 8.12 Å bounds any law for σ_a: even W/a = β costs Δγ S by then.
-    EXPECT_EQ(solve(paper::contact(9)).status, Status::no_contact);
-    const auto cheapest = [](double h) {
-        const FullContactState f = full_contact(paper::contact(h));
-        return paper::work_of_adhesion * f.real_area - 0.45 * f.elastic_energy;
-    };
-    EXPECT_GT(cheapest(8.115), 0);
-    EXPECT_LT(cheapest(8.125), 0);
-}
-
-TEST(Persson, CurvesCross) {
-    const auto gap = [](double h) {
-        const AdhesiveContact c = paper::contact(h);
-        return solve(c, {.tolerance = 1e-5}).gamma_ratio - full_contact(c).gamma_ratio;
-    };
-    std::uintmax_t iterations = 30;
-    const auto close = [](double a, double b) { return std::abs(a - b) < 1e-6; };
-    const double h = boost::math::tools::toms748_solve(gap, 4.5, 5.0, close, iterations).first;
-    EXPECT_NEAR(h, 4.726, 0.5e-3);
-    EXPECT_NEAR(full_contact(paper::contact(h)).gamma_ratio, 0.208, 0.5e-3);
+    EXPECT_EQ(solve(paper::contact(9)).status, Status::no_contact); // with it, as printed
 }
 
 TEST(Persson, EndOfTheBranch) {
-    // γ_eff ∝ A^(1/α) with α = 0.24781: compare two states close to the end, area factor off.
-    const double h_c = critical_roughness(paper::contact(5, AreaFactor::none)).h_rms;
-    const ContactState a = solve(paper::contact(h_c * (1 - 1e-3), AreaFactor::none));
-    const ContactState b = solve(paper::contact(h_c * (1 - 2.5e-4), AreaFactor::none));
-    const double slope = std::log(a.gamma_ratio / b.gamma_ratio) / std::log(a.area / b.area);
-    EXPECT_NEAR(1 / slope, 0.24781, 2e-3);
-    // A ∝ (θ_c - θ)^(1/2): four times closer is half the area.
-    EXPECT_NEAR(a.area / b.area, 2, 0.02);
+    // γ_eff ∝ A^(1/α), α = 0.24781, and A ∝ (θ_c - θ)^(1/2); θ_c = 3.7625, θ = E* h² q0/Δγ.
+    const double h_c = std::sqrt(3.7625 * 0.1 / (paper::contact_modulus * 3 * q_L));
+    EXPECT_NEAR(critical_roughness(paper::contact(5, AreaFactor::none)).h_rms, h_c, 1e-3);
+    const ContactState a = solve(paper::contact(h_c * (1 - 4e-3), AreaFactor::none));
+    const ContactState b = solve(paper::contact(h_c * (1 - 2e-3), AreaFactor::none));
+    EXPECT_NEAR(std::log(a.area / b.area) / std::log(a.gamma_ratio / b.gamma_ratio), 0.24781, 4e-3);
+    EXPECT_NEAR(a.area / b.area, std::sqrt(2), 0.03);
 }
 
 TEST(Persson, TensionBranchEnds) {
     for (const auto& [h, p, area] :
          {std::array{3.0, -1.974, 0.741}, std::array{5.0, -1.020, 0.323}}) {
-        AdhesiveContact c = paper::contact(h);
-        c.pressure = (p + 0.5e-3) * gpa;
-        const ContactState before = solve(c);
+        const ContactState before = solve(at_load(h, p + 2e-3)),
+                           after = solve(at_load(h, p - 2e-3));
         EXPECT_EQ(before.status, Status::adhesive) << h;
-        EXPECT_GT(before.area, area);
-        EXPECT_LT(before.area, area + 0.02);
-        // -p stays inside σ_a(1), which it reaches at the end.
-        EXPECT_GT(before.profile.front().detachment_stress, -c.pressure);
-        EXPECT_LT(before.profile.front().detachment_stress, -1.02 * c.pressure);
-        c.pressure = (p - 0.5e-3) * gpa;
-        const ContactState after = solve(c);
+        EXPECT_NEAR(before.area, area, 0.03);
+        EXPECT_GT(before.profile.front().detachment_stress, -(p + 2e-3) * gpa); // σ_a(1)
         EXPECT_EQ(after.status, Status::no_contact);
-        EXPECT_EQ(after.area, 0);
-        EXPECT_EQ(after.gamma_eff, 0);
-        EXPECT_NE(after.reason.find("no adhesive solution"), std::string::npos) << after.reason;
+        EXPECT_EQ(after.area + after.gamma_eff + after.elastic_energy, 0);
+        EXPECT_TRUE(after.profile.empty());
     }
 }
 
-TEST(Persson, StressIsNotConserved) {
-    EXPECT_NEAR(solve(paper::contact(5)).contact_stress / gpa, 1.23, 0.5e-2);
-}
-
-TEST(Persson, StressScale) {
-    const AdhesiveContact c = paper::contact(1);
-    EXPECT_NEAR(std::sqrt(stress_variance(c, 512 * paper::q_L)) / gpa, 2.66791, five_digits);
-}
-
-TEST(Persson, NonAdhesiveAgainstPublishedSimulation) {
+TEST(Persson, WithoutAdhesionIsErf) {
     AdhesiveContact c;
     c.spectrum = Spectrum::self_affine({1e4, 1e4, 1e6, 0.8, 6e-6});
     c.contact_modulus = 1;
-    struct {
-        double p, simulation, theory;
-    } const rows[] = {{0.01, 0.0779, 0.0576}, {0.113, 0.657, 0.586}, {0.3, 0.979, 0.970}};
-    for (const auto& row : rows) {
-        c.pressure = row.p;
+    const double T = std::numbers::pi / 2 * c.spectrum.last().slope;
+    // Beside it a published simulation.
+    for (const auto& [p, simulation] :
+         {std::array{0.01, 0.0779}, std::array{0.113, 0.657}, std::array{0.3, 0.979}}) {
+        c.pressure = p;
         const ContactState s = solve(c);
-        EXPECT_NEAR(s.area, row.theory, row.p < 0.1 ? 0.5e-4 : 0.5e-3);
-        EXPECT_NEAR(s.area, std::erf(row.p / std::sqrt(2 * stress_variance(c, 1e6))), 1e-15);
-        EXPECT_NEAR(s.area, row.simulation, 0.08);
+        EXPECT_NEAR(s.area, std::erf(p / std::sqrt(2 * T)), s.area_error);
+        EXPECT_NEAR(s.area, simulation, 0.08);
         EXPECT_EQ(s.status, Status::pressed);
+        c.work_of_adhesion = 1e-12; // nearly none
+        const ContactState little = solve(c);
+        EXPECT_NEAR(little.area, s.area, s.area_error + little.area_error);
+        c.work_of_adhesion = 0;
     }
-    c.pressure = 0;
-    EXPECT_EQ(solve(c).status, Status::no_contact);
-    c.pressure = -0.1;
-    EXPECT_EQ(solve(c).status, Status::no_contact);
-}
-
-TEST(Persson, VanishingAdhesionApproachesErf) {
-    AdhesiveContact c = paper::contact(6);
-    c.pressure = 3 * gpa;
-    const double T = stress_variance(c, c.spectrum.q1());
-    c.work_of_adhesion = 0;
-    const ContactState none = solve(c);
-    EXPECT_DOUBLE_EQ(none.area, std::erf(c.pressure / std::sqrt(2 * T)));
-    EXPECT_EQ(none.contact_stress, c.pressure);
-    for (Integration integration : {Integration::first_passage, by_diffusion}) {
-        c.work_of_adhesion = 1e-9;
-        const ContactState little = solve(c, {.integration = integration, .max_refinement = 3});
-        EXPECT_NEAR(little.area, none.area, 1e-5);
-        EXPECT_NEAR(little.elastic_energy, none.elastic_energy, 1e-5 * none.elastic_energy);
+    for (double p : {0.0, -0.1}) {
+        c.pressure = p;
+        EXPECT_EQ(solve(c).status, Status::no_contact);
     }
 }
 
 TEST(Persson, DependsOnThetaAloneWithoutAreaFactor) {
     const ContactState here = solve(paper::contact(6, AreaFactor::none));
-    const double theta = adhesion_parameter(paper::contact_modulus, 6, 3 * paper::q_L, 0.1);
     // SI units, another modulus, another size; h so that θ is the same.
     AdhesiveContact other;
-    const double q_L = 2e5, E = 3e6, dg = 0.05;
-    const double h = std::sqrt(theta * dg / (E * 3 * q_L));
-    other.spectrum = Spectrum::self_affine({q_L, 3 * q_L, 512 * q_L, 0.8, h});
+    const double E = 3e6, dg = 0.05, qs = 2e5;
+    const double h = 6 * std::sqrt(paper::contact_modulus * q_L / 0.1 * dg / (E * qs));
+    other.spectrum = Spectrum::self_affine({qs, 3 * qs, 512 * qs, 0.8, h});
     other.contact_modulus = E;
     other.work_of_adhesion = dg;
     other.area_factor = AreaFactor::none;
-    const ContactState there = solve(other);
-    EXPECT_NEAR(there.gamma_ratio, here.gamma_ratio, 1e-9);
-    EXPECT_NEAR(there.area, here.area, 1e-9);
-    // With the factor on it is not so.
-    other.area_factor = AreaFactor::gaussian;
-    EXPECT_GT(std::abs(solve(other).gamma_ratio - here.gamma_ratio), 1e-3);
-}
-
-TEST(Persson, IntegrationsAgreeAtAnyLoad) {
-    for (double h : {4.0, 6.5, 9.0})
-        for (double p : {-0.3, 0.02, 3.0}) {
-            AdhesiveContact c = paper::contact(h);
-            c.pressure = p * gpa;
-            const ContactState a = solve(c),
-                               b = solve(c, {.integration = by_diffusion, .max_refinement = 3});
-            EXPECT_EQ(a.status, b.status) << h << " Å " << p << " GPa";
-            EXPECT_NEAR(a.gamma_ratio, b.gamma_ratio, 1e-4) << h << " Å " << p << " GPa";
-            EXPECT_NEAR(a.area, b.area, 1e-4) << h << " Å " << p << " GPa";
-        }
+    EXPECT_NEAR(solve(other).gamma_ratio, here.gamma_ratio, 1e-8);
+    EXPECT_NEAR(solve(other).area, here.area, 1e-8);
 }
 
 TEST(Persson, EquationThreeHoldsAtEveryMagnification) {
-    const auto expect_it = [](const AdhesiveContact& c, const std::string& what) {
-        SCOPED_TRACE(what);
+    // A gap of the spectrum, where stresses spread no further, among them.
+    const AdhesiveContact smooth = paper::contact(3);
+    const double q[] = {q_L, 8 * q_L, 64 * q_L, 512 * q_L};
+    const double C[] = {smooth.spectrum(2 * q_L), 0, smooth.spectrum(100 * q_L)};
+    for (const AdhesiveContact& c : {at_load(5, -0.3), at_load(5, 0), at_load(5, 1),
+                                     paper::contact(0.3), with_spectrum(Spectrum::rings(q, C))}) {
         const ContactState s = solve(c);
         const auto& end = s.profile.back();
         EXPECT_NEAR(end.gamma_eff, c.work_of_adhesion, 1e-7);
         EXPECT_EQ(end.elastic_energy, 0);
-        EXPECT_NEAR(end.area, s.area, 1e-3);
         for (const ProfilePoint& at : s.profile) {
             EXPECT_NEAR(at.gamma_eff * at.real_area,
                         c.work_of_adhesion * end.real_area - at.elastic_energy, 1e-7);
             EXPECT_NEAR(at.detachment_stress,
-                        std::sqrt(std::max(0.0, at.gamma_eff) * c.contact_modulus * at.q), 1e-12);
+                        std::sqrt(std::max(0.0, at.gamma_eff) * c.contact_modulus * at.q), 1e-9);
         }
         for (std::size_t i = 1; i < s.profile.size(); ++i)
             EXPECT_LE(s.profile[i].area, s.profile[i - 1].area);
-    };
-    for (double p : {-0.3, 0.0, 1.0}) {
-        AdhesiveContact c = paper::contact(5);
-        c.pressure = p * gpa;
-        expect_it(c, "5 Å");
     }
-    expect_it(paper::contact(0.3), "full contact");
-    // A gap of the spectrum, where stresses spread no further.
-    AdhesiveContact c = paper::contact(3);
-    const double q[] = {paper::q_L, 8 * paper::q_L, 64 * paper::q_L, 512 * paper::q_L};
-    const double C[] = {c.spectrum(2 * paper::q_L), 0, c.spectrum(100 * paper::q_L)};
-    c.spectrum = Spectrum::rings(q, C);
-    expect_it(c, "gap");
 }
 
-// The third opinion: random walks. The boundary of the solved state is given to walkers that know
-// nothing of Volterra equations; between nodes their chance of having crossed is the Brownian
-// bridge's.
+// The boundary of the solved state is given to walkers that know of no diffusion equation; between
+// magnifications their chance of having crossed is the Brownian bridge's. At zero load the stress
+// inside the contact does not sum to zero: 1.23 GPa at 5 Å.
 TEST(Persson, RandomWalkersSurviveAsOftenUnderAsMuchStress) {
-    const ContactState s = solve(paper::contact(5), {.tolerance = 1e-5});
+    const ContactState s = solve(paper::contact(5));
     const auto& at = s.profile;
+    double absorbed = 0;
+    for (std::size_t i = 1; i < at.size(); ++i)
+        absorbed += (at[i - 1].area - at[i].area) *
+                    (at[i - 1].detachment_stress + at[i].detachment_stress) / 2;
+    EXPECT_NEAR(absorbed / gpa, 1.23, 1e-2);
     std::mt19937_64 generator(20260101);
     std::normal_distribution<double> normal;
     constexpr double walkers = 20000;
@@ -295,48 +231,127 @@ TEST(Persson, RandomWalkersSurviveAsOftenUnderAsMuchStress) {
         }
         load.add(alive * stress);
     }
-    for (std::size_t i = 8; i < at.size(); i += (at.size() - 9) / 4)
+    for (std::size_t i = at.size() / 2; i < at.size(); i += at.size() / 10)
         area[i].expect(at[i].area, 0.004);
     area.back().expect(s.area, 0.004);
-    load.expect(s.contact_stress, 0.08 * gpa);
+    load.expect(absorbed, 0.08 * gpa);
 }
 
-TEST(Persson, OrderOfConvergence) {
-    for (const auto& [integration, order] :
-         {std::pair{Integration::first_passage, 1.5}, std::pair{by_diffusion, 2.0}}) {
-        const AdhesiveContact c = paper::contact(5);
-        const Shooting shooting(c, {.integration = integration});
-        const Shooting::Outcome at = shooting.search(0);
-        ASSERT_TRUE(at.found);
-        std::array<double, 4> gamma{};
-        for (int refinement = 0; refinement < 4; ++refinement)
-            gamma[static_cast<std::size_t>(refinement)] =
-                shooting.g0(shooting.follow(at, refinement).x) / c.work_of_adhesion;
-        const double measured = std::log2((gamma[1] - gamma[2]) / (gamma[2] - gamma[3]));
-        EXPECT_NEAR(measured, order, 0.15);
+/// Solved at fractions of the critical roughness, with γ_eff(ζ_1) = Δγ met on a grid far finer than
+/// the production's to within the stated error, and nothing beyond the end.
+void expect_solved(AdhesiveContact c, const std::string& what) {
+    SCOPED_TRACE(what);
+    const double h_c = critical_roughness(c).h_rms;
+    ASSERT_TRUE(std::isfinite(h_c));
+    for (double fraction : {0.7, 0.95}) {
+        c.spectrum = c.spectrum.with_rms_height(fraction * h_c);
+        const ContactState s = solve(c);
+        EXPECT_EQ(s.status, Status::adhesive) << fraction;
+        EXPECT_TRUE(s.converged) << fraction;
+        // On such a grid the answer is where γ_eff(ζ_1) crosses Δγ.
+        const Magnifications fine = magnifications(c, 0.08);
+        const double step = s.gamma_ratio_error * c.work_of_adhesion;
+        const auto excess = [&](double g0, double* area = nullptr) {
+            const StressPath path = stress_path(c, fine, g0, 640);
+            if (area != nullptr) *area = path.area.back();
+            return path.gamma.back() - c.work_of_adhesion;
+        };
+        double area = 0;
+        EXPECT_GE(excess(s.gamma_eff + step, &area), -1e-9) << fraction;
+        if (s.gamma_eff > step) EXPECT_LE(excess(s.gamma_eff - step), 1e-9) << fraction;
+        EXPECT_NEAR(s.area, area, 0.03) << fraction;
+    }
+    c.spectrum = c.spectrum.with_rms_height(1.003 * h_c);
+    EXPECT_EQ(solve(c).status, Status::no_contact);
+}
+
+TEST(Hard, SpectraOfAnyShape) {
+    for (double H : {0.0, 1.0})
+        expect_solved(with_spectrum(Spectrum::self_affine({q_L, 3 * q_L, 512 * q_L, H, 5})),
+                      "H = " + std::to_string(H));
+    for (double width : {1.0, 1e6})
+        expect_solved(with_spectrum(Spectrum::self_affine({q_L, 3 * q_L, 3 * q_L * width, 0.8, 5})),
+                      "q1/q0 = " + std::to_string(width));
+    const std::vector<double> q{q_L, 3 * q_L, 100 * q_L, 512 * q_L};
+    expect_solved(with_spectrum(Spectrum::rings(q, std::vector{1.0, 0.0, 1e-6})), "gap");
+    expect_solved(with_spectrum(Spectrum::rings(q, std::vector{0.0, 1e-3, 1e-6})), "leading gap");
+    // Nearly a gap is nearly the same.
+    const auto at_gap = [&](double C) {
+        return solve(
+            with_spectrum(Spectrum::rings(q, std::vector{1.0, C, 1e-6}).with_rms_height(3)));
+    };
+    EXPECT_GT(at_gap(0).area, 0.2);
+    EXPECT_NEAR(at_gap(0).gamma_ratio, at_gap(1e-12).gamma_ratio, 2e-4);
+    EXPECT_NEAR(at_gap(0).area, at_gap(1e-12).area, 2e-3);
+    // Ring averages with the scatter of a real surface, one ring empty.
+    std::vector<double> edges, C;
+    for (int k = 1; k <= 257; ++k) {
+        edges.push_back((k - 0.5) * q_L);
+        if (k == 257) break;
+        const double mean = k < 3 ? 1 : std::pow(k / 3.0, -3.6);
+        C.push_back(k == 40 ? 0 : mean * (1 + 0.5 * std::sin(7.0 * k)));
+    }
+    expect_solved(with_spectrum(Spectrum::rings(edges, C)), "rings");
+}
+
+TEST(Hard, AnyBetaAndModulus) {
+    for (double beta : {0.05, 1.0}) {
+        AdhesiveContact c = paper::contact(5);
+        c.beta = beta;
+        expect_solved(c, "beta = " + std::to_string(beta));
+    }
+    for (double E : {1e-3, 1000.0}) {
+        AdhesiveContact c = paper::contact(5);
+        c.contact_modulus = E * gpa;
+        expect_solved(c, "E* = " + std::to_string(E) + " GPa");
     }
 }
 
-TEST(Persson, ErrorEstimateIsHonest) {
-    // Against the same state solved far finer, the error claimed covers the error made.
-    for (double h : {3.0, 5.0, 6.5}) {
-        const ContactState quick = solve(paper::contact(h), {.tolerance = 1e-2});
-        const ContactState slow = solve(paper::contact(h), {.tolerance = 1e-6});
-        EXPECT_GT(slow.nodes, quick.nodes);
-        EXPECT_LT(std::abs(quick.gamma_ratio - slow.gamma_ratio), quick.gamma_ratio_error + 1e-6);
-        EXPECT_LT(std::abs(quick.area - slow.area), quick.area_error + 1e-6);
+TEST(Hard, SmoothAndNearlySmooth) {
+    EXPECT_EQ(solve(paper::contact(0)).gamma_ratio, 1);
+    for (double h : {1e-12, 1e-3, 0.1}) {
+        const ContactState s = solve(paper::contact(h));
+        EXPECT_EQ(s.area, 1);
+        EXPECT_NEAR(s.gamma_eff, full_contact(paper::contact(h)).gamma, 1e-15);
+        EXPECT_EQ(s.gamma_ratio_error, 0);
     }
+    const double limit = -std::sqrt(0.1 * paper::contact_modulus * q_L) / gpa;
+    EXPECT_EQ(solve(at_load(0, 0.99 * limit)).status, Status::adhesive);
+    EXPECT_EQ(solve(at_load(0, 1.01 * limit)).status, Status::no_contact);
 }
 
-TEST(Persson, RoughnessOnlyWeakens) {
-    std::vector<ContactState> curve;
-    for (int i = 1; i <= 100; ++i)
-        curve.push_back(solve(paper::contact(0.1 * i)));
-    for (std::size_t i = 1; i < curve.size(); ++i) {
-        EXPECT_LE(curve[i].gamma_ratio, curve[i - 1].gamma_ratio) << i;
-        EXPECT_LE(curve[i].area, curve[i - 1].area + 1e-9) << i;
+TEST(Hard, LargeRoughnessAndLoads) {
+    for (double h : {7.5, 20.0, 1e6})
+        EXPECT_EQ(solve(paper::contact(h)).status, Status::no_contact) << h;
+    for (double h : {2.0, 20.0, 100.0}) {
+        const ContactState pressed = solve(at_load(h, 5000));
+        EXPECT_NEAR(pressed.area, 1, 1e-12) << h;
+        EXPECT_NEAR(pressed.gamma_eff, full_contact(at_load(h, 5000)).gamma, 1e-9) << h;
+        EXPECT_EQ(pressed.status, h < 5 ? Status::adhesive : Status::pressed);
+        for (double p : {-5.0, -5000.0})
+            EXPECT_EQ(solve(at_load(h, p)).status, Status::no_contact) << h << ' ' << p;
     }
-    EXPECT_EQ(curve.back().area, 0);
+    // Rough and pressed: hardly any adhesion, so close to erf, from above.
+    const AdhesiveContact c = at_load(100, 50);
+    const double T =
+        std::numbers::pi / 2 * std::pow(c.contact_modulus, 2) * c.spectrum.last().slope;
+    const double bare = std::erf(c.pressure / std::sqrt(2 * T));
+    EXPECT_GT(solve(c).area, bare);
+    EXPECT_LT(solve(c).area, 1.1 * bare);
+}
+
+TEST(Persson, IsContinuousAndRoughnessOnlyWeakens) {
+    const ContactState zero = solve(paper::contact(6));
+    for (double p : {-1e-7, 1e-7})
+        EXPECT_NEAR(solve(at_load(6, p)).gamma_ratio, zero.gamma_ratio, 1e-4) << p;
+    ContactState before = solve(paper::contact(0.25));
+    for (double h = 0.5; h < 8; h += 0.25) {
+        const ContactState s = solve(paper::contact(h));
+        EXPECT_LE(s.gamma_ratio, before.gamma_ratio) << h;
+        EXPECT_LE(s.area, before.area + 1e-9) << h;
+        before = s;
+    }
+    EXPECT_EQ(before.area, 0);
 }
 
 } // namespace

@@ -4,16 +4,14 @@
 
 from __future__ import annotations
 
-import tempfile
 from functools import partial
-from pathlib import Path
 from typing import Any, Callable
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import program, scene
-from ..errors import Error, InputOutputError
+from .. import theories
+from ..errors import InputOutputError
 from ..result import Result, State, Values
 from ..units import GIGAPASCAL, NANONEWTON
 from .style import (BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into,
@@ -58,7 +56,8 @@ def separation(run: Result, ax: Axes) -> bool:
         return False
     height, force, _ = columns
     unit, label = force_unit(run)
-    for number, (words, x, y) in enumerate(run.curves):
+    beside = theories.sphere_curves(run, force.max())
+    for number, (words, x, y) in enumerate(beside):
         curve(ax, x, y / unit, words if "theory" in words else "theory: " + words,
               colour=(GREY, YELLOW, YELLOW, PINK)[number % 4], line=DASHES[(4, 2, 3, 1)[number % 4]], behind=True)
     _by_segment(ax, run, height, force / unit)
@@ -68,7 +67,7 @@ def separation(run: Result, ax: Axes) -> bool:
         room = 0.04 * (felt.max() - felt.min())
         ax.set_xlim(felt.min() - room, felt.max() + room)
     if run.curved and least < 0:  # the theory's curves may go much deeper than the run
-        lowest = min([least] + [v for _, _, y in run.curves for v in y if v > 1.5 * least])
+        lowest = min([least] + [v for _, _, y in beside for v in y if v > 1.5 * least])
         room = 0.08 * (greatest - least)
         ax.set_ylim((lowest - room) / unit, (greatest + room) / unit)
     return finish(ax, "mean height above the apex (Å)" if run.curved else "mean separation (Å)", label, zero=True)
@@ -174,31 +173,17 @@ def roughness(run: Result, ax: Axes) -> bool:
 
 
 def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list, object]]:
-    """The program's theory of the run's scene at 32 roughnesses up to 1.8 times its own; [] without one."""
-    if not run.part("scene") or run.key("surface.kind") == "flat":
+    """The theories of the run's scene at 16 roughnesses up to 1.8 times its own; [] without one."""
+    if run.key("surface.kind") == "flat":
         return []
-    values = [1.8 * rms * i / 32 for i in range(1, 33)]
-    overrides = []
-    try:
-        named = {**run.find("scene"), "name": "roughness"}
-        with scene.scene_file(named) as file, tempfile.TemporaryDirectory() as place:
-            if run.key("surface.kind") == "file":
-                # As run.h5 holds it: the map that it was made from may be gone.
-                if not run.substrate or run.curved:
-                    return []
-                map_file = Path(place) / "heights.npy"
-                np.save(map_file, run.substrate.height)
-                overrides = [f"surface.file={map_file}", f"surface.file_size={run.edge!r}", "surface.detrend=none",
-                             "surface.resample=none", "surface.file_unit=Å"]
-            points = program.theory_points(file, [[*overrides, f"surface.rms={v!r}"] for v in values])
-    except Error:  # a scene that this version refuses, or no program beside the package
-        return []
+    values = [1.8 * rms * i / 16 for i in range(1, 17)]
+    points = theories.variations_of(run, [{"surface.rms": value} for value in values], quick=True)
     if not all("theory" in p for p in points):
         return []
     curves = []
     for words, line, key, flat in (("theory", "-", "gamma_eff", "theory.delta_gamma"),
                                    ("renormalised theory", DASHES[3], "renormalised.gamma_eff", "delta_gamma")):
-        found = [(value, gamma / point.number(flat)) for value, point in zip(values, map(Values, points))
+        found = [(value, gamma / point.number(flat)) for value, point in zip(values, points)
                  if (gamma := point.number("theory." + key)) is not None]
         if found:
             curves.append((words, *zip(*found), line))

@@ -62,13 +62,14 @@ class Trace:
 THEORY = Trace("theory{under}", "theory.gamma_eff_ratio", GREY, "-")
 FULL = Trace("theory{under}, assuming full contact", "theory.gamma_full_contact_ratio", GREEN, DASHES[1])
 RENORMALISED = Trace("renormalised theory{under}", "theory.renormalised.gamma_eff_ratio", PINK, DASHES[3])
+SPHERE = Trace("curved, renormalised law", "theory.sphere.renormalised_ratio", GREY, DASHES[4])
 AREA = [Trace("theory{under}", "theory.contact_fraction", GREY, "-"),
         Trace("renormalised theory{under}", "theory.renormalised.contact_fraction", PINK, DASHES[3])]
 GAMMA, CONTACT = "$γ_{\\mathrm{eff}}$ / Δγ", "$A$ / $A_0$"
 Spec = tuple[str, list[Trace], list[Trace]]
 
 SIMULATED: dict[str, Spec] = {
-    "gamma": (GAMMA, [THEORY, RENORMALISED], [
+    "gamma": (GAMMA, [THEORY, RENORMALISED, SPHERE], [
         Trace("interface, approach", "work_of_adhesion.approach_ratio", BLUE, "", "o",
               uncertainty="work_of_adhesion.uncertainty.approach"),
         Trace("interface, pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False,
@@ -81,8 +82,7 @@ SIMULATED: dict[str, Spec] = {
               uncertainty="binding_energy_uncertainty"),
         Trace("curved, in", "jkr.in_ratio", SKY, "", "D"),
         Trace("curved, out", "jkr.out_ratio", YELLOW, "", "v", False),
-        Trace("curved, energy at zero load", "jkr.zero_load_ratio", PINK, "", "^"),
-        Trace("curved, renormalised law", "sphere.renormalised_ratio", GREY, DASHES[4], "")]),
+        Trace("curved, energy at zero load", "jkr.zero_load_ratio", PINK, "", "^")]),
     "readings": (GAMMA, [THEORY, RENORMALISED], [
         Trace("∫F dz, approach", "work_of_adhesion.approach_ratio", BLUE, "", "o"),
         Trace("∫F dz, pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False),
