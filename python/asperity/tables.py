@@ -37,7 +37,8 @@ def over_flat(path: str) -> bool:
 def of_area(column: str) -> bool:
     """Whether a column is over the nominal area, which means nothing for a sphere, or the mean of all sites."""
     path = column.removesuffix("_ratio")
-    return program.quantity(path)["per"] in (AREA, SITES) or path == "zero_load.mean_height"
+    return not path.startswith("theory.") and program.quantity(path)["per"] in (AREA, SITES) or \
+        path == "zero_load.mean_height"
 
 
 def unit_of(column: str) -> str:
