@@ -122,6 +122,9 @@ struct Store {
         const auto* text = as<std::string>();
         if (text) {
             const ParsedQuantity parsed = parse_quantity(*text, key.unit);
+            if (!parsed.why.empty() && !key.was.unit.empty() &&
+                parse_quantity(*text, key.was.unit).why.empty())
+                return {"", "has a unit, and the key has none any more", key.was.why, key.was.fix};
             if (!parsed.why.empty())
                 return {"", "cannot be read as a quantity", parsed.why, parsed.fix};
             number = parsed.value;

@@ -111,6 +111,11 @@ public:
         std::string word{};    ///< the word that stands for an empty field, e.g. "none"
         Words choices{};       ///< of a choice, or of a list's members
         bool numerals = false; ///< a choice may be a whole number without quotes, too
+        /// Of a bare number that was a quantity: the unit it had, and what to say to one in it.
+        struct Was {
+            std::string unit{}, why{}, fix{};
+        };
+        Was was{};
         std::string section{};
         std::function<bool()> omitted{}; ///< set: true when writing the key back would change the
                                          ///< meaning

@@ -143,6 +143,7 @@ def main() -> None:
         print(f"peers: no {python}; make it as {__file__} says in its first lines", file=sys.stderr)
         sys.exit(77)
     w = 1e-3 * a.adhesion
+    attraction = w / a.range * 2.6**2  # of a site, eV/Å: what drive.tolerance is a fraction of
     print("sites load/MPa program   area    energy/w  pressure-difference  residual  iterations  solve/s  process/s  MB")
     for sites in a.sites:
         for load in a.loads:
@@ -151,13 +152,13 @@ def main() -> None:
                 keys = {"drive.path": "zero-load", "block.thickness": sites, "interface.kind": "wall",
                         "interface.adhesion": a.adhesion, "interface.range": a.range, "surface.sites": sites, "surface.rms": 1.5,
                         "surface.cutoff": sites / 8, "output.checkpoint": 0, "drive.load": load,
-                        "drive.tolerance": TOLERANCE}
+                        "drive.tolerance": TOLERANCE / attraction}
                 scene = [a.program, "run", str(ROOT / "scenes/first-contact.toml"), "--progress", "off", "--set"]
                 options = lambda keys, place: scene + [f"{k}={v}" for k, v in keys.items()] + ["--out", str(place)]
                 _, process, memory = measured(options(keys, place))
                 result = json.loads((place / "result.json").read_text())
                 _, gap, heights = maps(place)
-                measured(options(keys | {"drive.tolerance": 1e-7}, f"{place}-tight"))
+                measured(options(keys | {"drive.tolerance": 1e-7 / attraction}, f"{place}-tight"))
                 softer = stiffness(pathlib.Path(f"{place}-tight"), sites)
                 np.save(f"{scratch}/map.npy", heights)
                 np.save(f"{scratch}/softer.npy", softer)

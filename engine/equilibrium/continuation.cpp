@@ -12,8 +12,8 @@ SequenceOptions sequence_options(const Case& c, const Interface& interface,
                                  std::function<bool(long long, double)> report) {
     SequenceOptions o;
     o.step = std::min(c.scene.drive.step, c.longest_step);
-    o.tolerance = c.scene.drive.tolerance;
-    o.site_stiffness = c.site_stiffness;
+    o.tolerance = c.tolerance;
+    o.scales = c.scales;
     o.load = c.simulation.drive.load_force;
     o.reference_height = interface.start_height();
     o.report = std::move(report);
@@ -56,8 +56,9 @@ void Continuation::put_back() {
 }
 
 bool Continuation::predicts(double at) const {
-    constexpr double furthest = 1.0; // Å: of a site in contact, out of which it still comes back
-    return at_ != before_at_ && std::abs((at - at_) / (at_ - before_at_)) * moved_ <= furthest;
+    constexpr double furthest = 0.57; // ranges, out of which a site in contact still comes back
+    return at_ != before_at_ &&
+           std::abs((at - at_) / (at_ - before_at_)) * moved_ <= furthest * options_.scales.length;
 }
 
 RelaxedState Continuation::relax_at(double at, bool predicted, const Report& report,
@@ -69,7 +70,8 @@ RelaxedState Continuation::relax_at(double at, bool predicted, const Report& rep
     options.start = predicted ? Start::predicted : Start::near;
     if (predicted) before_.extrapolate((at - at_) / (at_ - before_at_), arrays);
     options.tolerance = options_.tolerance;
-    options.site_stiffness = options_.site_stiffness;
+    options.scales = options_.scales;
+    options.balance = balance_;
     options.report = report;
     options.force_window = window;
     const RelaxedState state =

@@ -7,13 +7,14 @@
 // linear continuation of the last two.
 //
 // A prediction could carry a site across a barrier, even through the substrate: none is made where
-// it would move a site further than 1 Å.
+// it would move a site further than a part of the range of the interface.
 #pragma once
 
 #include "decomposition/global_largest.hpp"
 #include "engine/equilibrium/zero_load.hpp"
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -21,9 +22,9 @@ namespace asperity {
 
 /// Of what follows such a sequence.
 struct SequenceOptions {
-    double step = 0.25;            ///< of the prescribed coordinate, Å
-    double tolerance = 1e-4;       ///< eV/Å
-    double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
+    double step = 0.25;     ///< of the prescribed coordinate, Å
+    double tolerance = 0.0; ///< eV/Å
+    Scales scales;
     double load = 0.0;             ///< eV/Å
     double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
     /// Called during relaxations with their iteration and residual. True: stop.
@@ -38,8 +39,8 @@ class Continuation {
 public:
     struct Options {
         Constraint::Of along = Constraint::Of::top;
-        double tolerance = 1e-4;       ///< of points, eV/Å
-        double site_stiffness = 2.2;   ///< of the interface, eV/Å^2
+        double tolerance = 0.0; ///< of points, eV/Å
+        Scales scales;
         double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
     };
     Continuation(SpectralBlock& block, Interface& interface, const Options& options)
@@ -49,6 +50,8 @@ public:
     enum class Along { x, y, z };
     /// From now on this coordinate changes. Returns where it stands.
     double lead(Along along);
+    /// What the sum of the residual forces of a point may be from now on, eV/Å (RelaxOptions).
+    void balance_to(double balance) { balance_ = balance; }
 
     /// The block as it is becomes the last point, the only one known.
     void begin(double at);
@@ -91,6 +94,7 @@ public:
         v("normal", normal_);
         v("place", place_);
         v("iterations", iterations_);
+        v("balance", balance_);
     }
     std::vector<StateArray> states();
 
@@ -104,6 +108,7 @@ private:
     StateCopy last_, before_;
     double at_ = 0.0, before_at_ = 0.0;
     Along along_ = Along::z;
+    double balance_ = HUGE_VAL;     ///< eV/Å
     double normal_ = 0.0;           ///< of the last point along z, Å
     std::array<double, 2> place_{}; ///< of the block over the substrate at the last point, Å
     double moved_ = 0.0;            ///< from before_ to last_, the site that moved most, Å

@@ -6,8 +6,10 @@
 
 namespace asperity {
 
-Newton::Newton(const SpectralBlock& block, const Preconditioner& preconditioner)
-    : block_(block), preconditioner_(preconditioner), stiffness_(block.tile(), block.components()),
+Newton::Newton(const SpectralBlock& block, const Preconditioner& preconditioner,
+               const Scales& scales)
+    : block_(block), preconditioner_(preconditioner),
+      stiffness_(block.tile(), block.components(), RelaxationConstants::difference * scales.length),
       at_sites_(block.new_field<float>()), r_(block.new_waves<float>()),
       z_(block.new_waves<float>()), p_(block.new_waves<float>()), q_(block.new_waves<float>()) {}
 

@@ -8,12 +8,13 @@
 
 #include "engine/block/spectral_block.hpp"
 #include "engine/interface/interface_stiffness.hpp"
+#include "engine/interface/scales.hpp"
 
 namespace asperity {
 
 class Newton {
 public:
-    Newton(const SpectralBlock& block, const Preconditioner& preconditioner);
+    Newton(const SpectralBlock& block, const Preconditioner& preconditioner, const Scales& scales);
 
     /// The direction where the block stands, its interface_force() and gradient being up to date,
     /// to a residual of `forcing` times the gradient, both measured by the preconditioner. False,

@@ -3,6 +3,7 @@
 #include "engine/equilibrium/quasistatic.hpp"
 
 #include "decomposition/global_sum.hpp"
+#include "engine/interface/flat_reference.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "kernels/elastic_level.hpp"
@@ -12,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 
 namespace asperity {
@@ -25,12 +28,55 @@ PathOptions path_options(const Case& c, const Interface& interface,
     return o;
 }
 
+namespace {
+
+/// A mean height far inside the substrate: there is no end to the forces, nor to the relaxation.
+/// Even a flat surface would press with more than the modulus of the block, or ten times the
+/// largest attraction. Collective.
+void refuse_deep(double height, const Interface& interface, const SpectralBlock& block,
+                 const Scales& scales) {
+    const BlockOptions& options = block.options();
+    const double n = options.sites, area = options.spacing * options.spacing;
+    double mean = 0.0;
+    if (interface.wall()) {
+        const PlaneView<const double> below = interface.wall()->height();
+        ExactSum sum;
+        elastic_kernels().sum(below, 0, below.ny, sum);
+        mean = global_sum(block.communicator(), sum) / (n * n);
+    } else {
+        const std::span<const double> map = interface.tables().map;
+        if (map.empty()) return; // atoms anywhere
+        mean = std::accumulate(map.begin(), map.end(), 0.0) / static_cast<double>(map.size());
+    }
+    const double gap = height - mean;
+    const bool inside = !interface.wall() && gap <= 0.0;
+    double pressure = inside ? HUGE_VAL : 0.0;
+    // Between the atoms of a flat layer the force falls again: the largest from here outwards.
+    for (int i = 0; i < 10 && !inside; ++i)
+        pressure = std::max(pressure, flat_pair_sum(interface.options(), options.spacing,
+                                                    options.sites, interface.substrate_sites(),
+                                                    gap + 0.1 * i * scales.length)
+                                              .force[2] /
+                                          area);
+    const double most = std::max(options.young, 10.0 * scales.force / area);
+    if (!(pressure > most)) return;
+    throw io::PhysicsError(
+        fmt::format("a mean height of {:.4g} Å lies too far inside the substrate", height),
+        inside ? std::string("it is below the mean plane of the atoms")
+               : fmt::format("flat surfaces at this distance press with {:.3g} GPa, and Young's "
+                             "modulus of the block is {:.3g} GPa",
+                             pressure / units::gigapascal, options.young / units::gigapascal),
+        "take a larger height, or lead the block by a load");
+}
+
+} // namespace
+
 QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options)
     : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
-      points_(block, interface,
-              {options_.along, 0.25 * options_.tolerance, options_.site_stiffness,
-               options_.reference_height}),
+      points_(
+          block, interface,
+          {options_.along, 0.25 * options_.tolerance, options_.scales, options_.reference_height}),
       length_(options_.step) {}
 
 void QuasistaticPath::start() {
@@ -56,8 +102,8 @@ void QuasistaticPath::first_point(double top) {
     const RelaxedState state = points_.relax_at(top, false, {});
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
-                               fmt::format("the largest force left is {:.2e} eV/Å", state.residual),
-                               "a looser drive.tolerance, or a height further from the substrate");
+                               why_not_converged(state, 0.25 * options_.tolerance),
+                               "a larger drive.tolerance, or a height further from the substrate");
     points_.replace();
     record_.step = 0;
     energy_at_start_ = state.interface_energy + state.elastic_energy;
@@ -86,7 +132,7 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
         break;
     case Segment::load: {
         load_ = segment.amount;
-        const double slack = this->slack();
+        const double slack = this->slack(record_.in_contact);
         const bool apart = record_.in_contact == 0 && std::abs(record_.force) <= slack;
         if (apart || record_.force < *load_ - slack)
             direction = -1.0;
@@ -95,6 +141,9 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
         break;
     }
     case Segment::height:
+        if (options_.along == Constraint::Of::mean_height)
+            refuse_deep(segment.amount, interface_, block_, options_.scales);
+        [[fallthrough]];
     case Segment::slide:
         end_ = kind_ == Segment::height ? segment.amount - options_.reference_height
                                         : from + segment.amount;
@@ -107,6 +156,8 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
 }
 
 void QuasistaticPath::begin_to(double at) {
+    if (options_.along == Constraint::Of::mean_height)
+        refuse_deep(options_.reference_height + at, interface_, block_, options_.scales);
     kind_ = Segment::height;
     load_.reset();
     end_ = at;
@@ -123,6 +174,13 @@ void QuasistaticPath::begin(Along along, double direction) {
         bracket_.known = false;
         predicts_ = reversible_;
     }
+    const double load = to_load() ? load_.value_or(options_.load) : 0.0;
+    // Beside a load, or where a pull-off ends, forces within the tolerance would add up to a force
+    // on the top plane that is none of the contact's.
+    double balance = HUGE_VAL;
+    if (load != 0.0) balance = 0.5 * load_accuracy * std::abs(load);
+    if (kind_ == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
+    points_.balance_to(balance);
     attracted_ = bracketed_ = false;
     work_ = 0.0;
     error_ = {};
@@ -135,7 +193,6 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
     if (load_) // it may be beyond that load already
         attracted_ = attracted_ || record_.force < load - slack(record_.in_contact);
     const bool down = direction_ < 0.0;
-    const bool to_load = !end_ && kind_ != Segment::pull_off;
     const double aim = !down || attracted_ ? load : std::max(load, 0.0); // through attraction
     for (;;) {
         const Bracket bracket = bracket_;
@@ -165,11 +222,12 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
                             : options_.along == Constraint::Of::top ? "top plane displaced by"
                                                                     : "mean height displaced by",
                             there),
-                fmt::format("the largest force left is {:.2e} eV/Å after {} iterations, and {:.2e} "
-                            "is asked for (a quarter of drive.tolerance)",
-                            state.residual, state.iterations, 0.25 * options_.tolerance),
-                "a looser drive.tolerance, or a height further from the substrate");
-        if (state.converged && to_load && passes_load(state, aim) && !last_try) {
+                fmt::format("after {} iterations {}", state.iterations,
+                            why_not_converged(state, 0.25 * options_.tolerance)),
+                "a larger drive.tolerance, or a height further from the substrate");
+        // A load is met by shorter steps than instabilities are followed with.
+        const bool shortens = length_ > 1e-6 * smallest_step();
+        if (state.converged && to_load() && passes_load(state, aim) && shortens) {
             const double part = (aim - record_.force) / (state.force - record_.force);
             length_ *= std::clamp(part, 0.02, 0.98);
             bracketed_ = true;
@@ -237,11 +295,13 @@ std::array<double, 2> QuasistaticPath::lateral_force() const {
 /// What the force of a point may be wrong by, eV/Å: a quarter of the tolerance, which points are
 /// relaxed to, for each site that counts. Under a prescribed top plane that is each site; at a
 /// prescribed mean height the others' residuals cannot add up to a force, only those of sites that
-/// the substrate holds move it.
+/// the substrate holds move it. On the way to a load no more than the load may be missed by.
 double QuasistaticPath::slack(std::int64_t in_contact) const {
     const bool all = options_.along == Constraint::Of::top;
     const double count = all ? sites_ : std::max(static_cast<double>(in_contact), 1.0);
-    return 0.25 * options_.tolerance * count;
+    const double slack = 0.25 * options_.tolerance * count;
+    const double load = to_load() ? load_.value_or(options_.load) : 0.0;
+    return load == 0.0 ? slack : std::min(slack, load_accuracy * std::abs(load));
 }
 
 /// With the last point still on the other side of it. Also where the attraction
@@ -332,7 +392,7 @@ void QuasistaticPath::accept(const Trial& to, const StepCheck& step) {
     predicts_ = reversible_ = step.dissipated == 0.0;
     if (bracket_.known && direction_ * (bracket_.at - to.at) <= 0.0) bracket_.known = false;
     ++record_.step;
-    allowed_ += options_.tolerance * sites_ * std::abs(to.at - at());
+    way_ += std::abs(to.at - at());
     set_record(to.state, to.at);
     strongest_ = std::max(strongest_, -record_.force);
     // The error of a smooth step goes with the fourth power of its length, for each Å.
@@ -361,9 +421,11 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     const double change = state.interface_energy + state.elastic_energy - energy_at_start_;
     scale_ = std::max(
         {scale_, std::abs(state.interface_energy), state.elastic_energy, std::abs(record_.work)});
-    // Of energies that are still small the balance says nothing: of those that what the steps may
-    // have missed is 2 % of, or a twentieth of flat surfaces'.
-    const double least = std::min(50.0 * allowed_, 0.05 * options_.depth);
+    // Of energies that are still small the balance says nothing: of those below an eightieth of
+    // what the scale of the forces does on the way so far and a step more, or a twentieth of flat
+    // surfaces'. Neither depends on the tolerance.
+    const double least = std::min(options_.scales.force * sites_ * (way_ + options_.step) / 80.0,
+                                  0.05 * options_.depth);
     const double scale = std::max(scale_, least);
     record_.residual = scale > 0.0 ? (record_.work - change - record_.damped) / scale : 0.0;
 }

@@ -144,6 +144,8 @@ private:
     [[noreturn]] void refuse_pull(double load) const;
     StepCheck check(const Trial& to) const;
     double slack(std::int64_t in_contact) const;
+    /// The segment under way ends at a load.
+    bool to_load() const { return !end_ && kind_ != Segment::pull_off; }
     bool passes_load(const RelaxedState& state, double aim) const;
     bool bisect();
     bool work_is_known(double at, double force) const;
@@ -179,8 +181,8 @@ private:
     double work_ = 0.0;      ///< of the segment, eV
     SegmentError error_;
     double energy_at_start_ = 0.0;
-    double scale_ = 0.0;   ///< largest energy seen, for the residual, eV
-    double allowed_ = 0.0; ///< what the steps so far may have missed, eV
+    double scale_ = 0.0; ///< largest energy seen, for the residual, eV
+    double way_ = 0.0;   ///< so far, in and out, Å
     Dissipation dissipation_;
 };
 
@@ -223,7 +225,7 @@ void QuasistaticPath::visit(Visitor& v) {
     v("squares", error_.squares);
     v("energy_at_start", energy_at_start_);
     v("scale", scale_);
-    v("allowed", allowed_);
+    v("way", way_);
     v("dissipation", dissipation_);
 }
 

@@ -7,10 +7,15 @@
 #include "engine/equilibrium/newton.hpp"
 #include "engine/equilibrium/wall_minimiser.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
 
 namespace asperity {
 
@@ -55,14 +60,15 @@ public:
     Minimiser(SpectralBlock& block, const Interface& interface, double reference_height,
               const RelaxOptions& options, Phases& phases)
         : block_(block), interface_(interface), height_(reference_height), options_(options),
-          phases_(phases), preconditioner_(block, options.site_stiffness), ball_(block),
-          newton_(block, preconditioner_), g_(block.new_waves<double>()),
+          phases_(phases), preconditioner_(block, options.scales.stiffness), ball_(block),
+          newton_(block, preconditioner_, options.scales), g_(block.new_waves<double>()),
           d_(block.new_waves<float>()), work_(block.new_waves<float>()),
           at_sites_(block.new_field<float>()) {
         find_forces();
         tune();
-        spreading_ = !(rms_ < (options.start == Start::anywhere ? Constants::close_by
-                                                                : Constants::close_enough));
+        const double close =
+            options.start == Start::anywhere ? Constants::close_by : Constants::close_enough;
+        spreading_ = !(rms_ < close * options.scales.interface_force());
         distance_ = rms_ / preconditioner_.k();
     }
 
@@ -74,7 +80,7 @@ public:
     /// The mean residual, or, where that is below the tolerance, the largest of a site, eV/Å. In
     /// the first stage only the distances of the sites from their targets are known.
     double residual() {
-        if (spreading_) return options_.site_stiffness * distance_;
+        if (spreading_) return options_.scales.stiffness * distance_;
         return rms_ <= options_.tolerance ? largest_residual() : rms_;
     }
     /// The residual of the state as it is reported; energies in sums().
@@ -100,15 +106,14 @@ public:
 private:
     void sweep(bool observe) {
         const auto t = phases_.time(Phase::interface);
-        const bool rough = spreading_ || rough_;
         sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_,
-                                 {.observe = observe, .rough = rough && !observe});
+                                 {.observe = observe, .rough = rough_ && !observe});
     }
     void measure() {
         const auto t = phases_.time(Phase::sums);
         block_.gradient(g_);
         rms_ = std::sqrt(dot(g_, g_)) / block_.options().sites;
-        rough_ = rough_ && rms_ > Constants::rough_enough;
+        rough_ = rough_ && rms_ > Constants::rough_enough * options_.scales.interface_force();
     }
     double largest_residual() {
         const auto t = phases_.time(Phase::sums);
@@ -118,7 +123,7 @@ private:
     }
     void tune() {
         const auto t = phases_.time(Phase::interface);
-        const double k = std::max(Constants::least_stiffness,
+        const double k = std::max(Constants::least_stiffness * options_.scales.stiffness,
                                   Constants::softer * newton_.mean_stiffness(interface_, height_));
         if (std::abs(k - preconditioner_.k()) > Constants::changed * preconditioner_.k())
             preconditioner_.tune(block_, k);
@@ -130,9 +135,11 @@ private:
         if (++iterations_ % Constants::tuned_every == 0) tune();
         {
             const auto t = phases_.time(Phase::advance);
-            distance_ = ball_.move(preconditioner_, Constants::max_move);
+            distance_ = ball_.move(preconditioner_, max_move_);
         }
-        if (distance_ > Constants::near || iterations_ < Constants::patience) return;
+        if (distance_ > Constants::near * options_.scales.length ||
+            iterations_ < Constants::patience)
+            return;
         spreading_ = false;
         expected_ = std::numeric_limits<double>::infinity();
         ball_.stop();
@@ -150,7 +157,7 @@ private:
         block_.at_sites(work_, at_sites_);
         const double most = largest(block_.communicator(), at_sites_);
         const double shortest = options_.start == Start::anywhere ? 1.0 : Constants::shortest;
-        const double fraction = most > Constants::max_move ? Constants::max_move / most : 1.0;
+        const double fraction = most > max_move_ ? max_move_ / most : 1.0;
         if (!(fraction >= shortest)) return false;
         expected_ = (1.0 - 0.5 * fraction) * rms_;
         block_.displace(fraction, d_, at_sites_);
@@ -176,12 +183,35 @@ private:
     /// Newton's last step should have left less than this, eV/Å.
     double expected_ = std::numeric_limits<double>::infinity();
     bool rough_ = true;
+    double max_move_ = Constants::max_move * options_.scales.length; ///< Å
 };
+
+/// Whether the forces on the sites, which add up to this, are what the constraint asks for. What
+/// rounding leaves of a sum is let pass. Collective.
+bool balanced(SpectralBlock& block, double force, double balance, double rounding) {
+    const Constraint& constraint = block.constraint();
+    if (constraint.is_mean_height()) return true;
+    const double sites = static_cast<double>(block.options().sites) * block.options().sites;
+    const double least = rounding * sites;
+    if (constraint.is_top()) return std::abs(force - block.top_force()) <= std::max(balance, least);
+    ExactSum sum;
+    const PlaneView<const double> f = std::as_const(block).interface_force().z;
+    for (int y = 0; y < f.ny; ++y) {
+        for (int x = 0; x < f.nx; ++x)
+            sum.add(std::abs(f(x, y)));
+        sum.carry();
+    }
+    const double all = global_sum(block.communicator(), sum), load = constraint.load();
+    const double of = load == 0.0 ? all : std::max(std::abs(load), 1e-6 * all);
+    return std::abs(force - load) <= std::max(load_accuracy * of, least);
+}
 
 /// The loop of both minimisers.
 template <class Minimiser>
-RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptions& options) {
+RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptions& options,
+                    double rounding) {
     RelaxedState state;
+    state.rounding = rounding;
     StagnationTest stagnates;
     // The first moves take the force out of its window too, but not for long.
     const ForceWindow& window = options.force_window;
@@ -195,7 +225,10 @@ RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptio
                             options.report(state.iterations, state.residual);
         if (over || state.interrupted || state.residual <= options.tolerance) {
             state.residual = minimiser.conclude();
-            state.converged = state.residual <= options.tolerance;
+            state.balanced =
+                balanced(block, global_sum(block.communicator(), minimiser.sums().force_z),
+                         options.balance, rounding);
+            state.converged = state.residual <= options.tolerance && state.balanced;
             if (over || state.interrupted || state.converged) break;
         }
         if (!minimiser.step()) return state;
@@ -225,17 +258,44 @@ RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptio
 
 } // namespace
 
+double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height) {
+    // Of the block, E* q/2 of the shortest wave.
+    const double wave = 0.5 * std::numbers::pi * block.contact_modulus() * block.spacing;
+    const double positions =
+        4.0 * std::numeric_limits<double>::epsilon() * (scales.stiffness + wave) * height;
+    return positions + 0x1p-51; // that of sums over the sites (kernels/exact_sum.hpp)
+}
+
+std::string why_not_converged(const RelaxedState& state, double tolerance) {
+    if (state.residual <= tolerance)
+        return fmt::format("the forces on the sites, which add up to {:.3g} eV/Å, are not in "
+                           "balance with what is prescribed",
+                           state.force);
+    std::string why = fmt::format("the largest force left is {:.2e} eV/Å, and the tolerance is "
+                                  "{:.2e} eV/Å",
+                                  state.residual, tolerance);
+    if (tolerance < state.rounding)
+        why +=
+            fmt::format("; the rounding of numbers alone leaves about {:.0e} eV/Å", state.rounding);
+    return why;
+}
+
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const Constraint& constraint, const RelaxOptions& options, Phases& phases) {
+    if (!(options.scales.length > 0.0 && options.scales.stiffness > 0.0))
+        throw std::invalid_argument("relax: a relaxation needs the scales of its interface");
     block.apply_constraint(constraint);
+    const double height =
+        std::abs(reference_height) + std::abs(block.mean_height()) + interface.start_height();
+    const double rounding = rounding_of_forces(options.scales, block.options(), height);
     if (interface.options().wall) {
         RelaxOptions whole = options;
         whole.force_window = {}; // its steps do not add up the force
         WallMinimiser minimiser(block, interface, reference_height, whole, phases);
-        return follow(minimiser, block, whole);
+        return follow(minimiser, block, whole, rounding);
     }
     Minimiser minimiser(block, interface, reference_height, options, phases);
-    return follow(minimiser, block, options);
+    return follow(minimiser, block, options, rounding);
 }
 
 } // namespace asperity

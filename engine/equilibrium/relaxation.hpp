@@ -22,24 +22,26 @@
 // help: a surface that has become unstable is then followed from its last equilibrium, not from a
 // guess.
 //
-// Sweeps of the first stage are rough (SweepOptions: in mixed precision over a lattice), and so are
-// Newton's until the forces are near their error; the last ones, and the state that is reported,
-// are not.
+// Sweeps are rough (SweepOptions: in mixed precision over a lattice) until the forces are near
+// their error; the last ones, and the state that is reported, are not.
 //
 // Over a wall each site's own law is solved exactly instead (wall_minimiser.hpp).
 //
 // The minimum that is found is the one downhill: no site moves further than max_move in an
 // iteration, and one that has passed its target stops. A state whose forces cannot be brought below
-// the tolerance is reported as not converged.
+// the tolerance is reported as not converged, and so is one whose sum of forces is not the load:
+// forces below the tolerance that all point one way add up.
 #pragma once
 
 #include "engine/block/constraint.hpp"
 #include "engine/block/spectral_block.hpp"
 #include "engine/interface/interface.hpp"
+#include "engine/interface/scales.hpp"
 #include "engine/phases.hpp"
 
 #include <functional>
 #include <limits>
+#include <string>
 
 namespace asperity {
 
@@ -58,16 +60,25 @@ struct ForceWindow {
 
 struct RelaxOptions {
     Start start = Start::anywhere;
-    double tolerance = 1e-4;     ///< largest residual force on a site, eV/Å
-    double site_stiffness = 2.2; ///< of the interface, for each site, eV/Å^2
+    double tolerance = 0.0; ///< largest residual force on a site, eV/Å
+    Scales scales;
+    /// What the sum of the residual forces may be under a prescribed top plane, eV/Å. (Under a load
+    /// it is load_accuracy of that.)
+    double balance = std::numeric_limits<double>::infinity();
     long long max_iterations = 200000;
     ForceWindow force_window; ///< given up where the force stays outside; atoms only
     /// Called now and then, on all ranks, with the iteration and the residual. True: stop here.
     std::function<bool(long long, double)> report;
 };
 
-/// What the minimisers are tuned with. The states that they end in do not depend on these, as far
-/// as was measured; iterations do.
+/// A load is met to this fraction of itself, and no load to this fraction of the forces on the
+/// sites added up without their signs. (A load below a millionth of these is met to this fraction
+/// of that.)
+inline constexpr double load_accuracy = 1e-3;
+
+/// What the minimisers are tuned with, in the scales of the interface (scales.hpp): distances in
+/// its length, forces in Scales::interface_force(). The states that they end in do not depend on
+/// these, as far as was measured; iterations do.
 struct RelaxationConstants {
     // The loop: over when the residual has not halved in so many iterations.
     static constexpr long long stagnation = 3000;
@@ -77,37 +88,43 @@ struct RelaxationConstants {
     // Heavy balls (heavy_ball.hpp): of the momentum kept; a step size is cut where a site has
     // passed its target, and is raised elsewhere, to this at most.
     static constexpr float keep = 0.7f, cut = 0.7f, raise = 1.06f, largest_step_size = 2.0f;
-    /// Å in an iteration: well below the range of the potential, so that no site passes a barrier.
-    static constexpr double max_move = 0.3;
+    /// In an iteration: well below the range of the potential, so that no site passes a barrier.
+    static constexpr double max_move = 0.17;
     /// k of the preconditioner over the interface's mean stiffness; measured anew every so many
     /// iterations, taken over where it has changed by this fraction.
     static constexpr double softer = 0.35, changed = 0.2;
     static constexpr long long tuned_every = 8;
-    static constexpr double least_stiffness = 2e-4; ///< eV/Å^2: where hardly a site is in contact
+    /// Of the interface's: where hardly a site is in contact.
+    static constexpr double least_stiffness = 1e-4;
 
     // Newton's method (newton.hpp).
-    static constexpr double close_by = 3e-3;    ///< eV/Å: of an equilibrium, to try it at once
-    static constexpr double close_enough = 0.3; ///< eV/Å: the same from near an equilibrium
-    static constexpr double near = 0.002;       ///< Å: the largest distance to a target, to try it
-    static constexpr long long patience = 10;   ///< iterations of heavy balls before that
-    static constexpr double forcing = 0.1;      ///< what conjugate gradients leave of the residual
-    static constexpr int most_products = 100;   ///< of conjugate gradients
-    static constexpr double shortest = 0.1;     ///< fraction of a step near an equilibrium
-    /// Sweeps are rough down to a mean residual ten times their error, eV/Å.
-    static constexpr double rough_enough = 1e-5;
+    static constexpr double close_by = 8e-4;     ///< mean force, to try it at once
+    static constexpr double close_enough = 0.08; ///< the same from near an equilibrium
+    static constexpr double near = 1.2e-3;       ///< the largest distance to a target, to try it
+    static constexpr long long patience = 10;    ///< iterations of heavy balls before that
+    static constexpr double forcing = 0.1;       ///< what conjugate gradients leave of the residual
+    static constexpr int most_products = 100;    ///< of conjugate gradients
+    static constexpr double shortest = 0.1;      ///< fraction of a step near an equilibrium
+    /// Sweeps are in mixed precision down to a mean residual ten times their error.
+    static constexpr double rough_enough = 2.6e-6;
+    /// The displacement by which the interface's stiffness is measured.
+    static constexpr double difference = 6e-4;
 
     // Over a wall (wall_minimiser.hpp): what may be left of the mean force, in tolerances (steps of
     // the secant more than this asks for are few: it converges faster than linearly), and how much
-    // elastic forces of single precision let sites rest off, Å.
-    static constexpr double closure = 1e-3, rounding = 2e-5;
+    // elastic forces of single precision let sites rest off, in the largest displacement of a site
+    // from the mean.
+    static constexpr double closure = 1e-3, rounding = 4e-6;
 };
 
 struct RelaxedState {
     bool converged = false;
     bool interrupted = false; ///< report() asked for it
     bool jumped = false;      ///< given up: the force, set, stayed outside its window
+    bool balanced = true;     ///< the forces add up to what is prescribed
     long long iterations = 0;
     double residual = 0.0;         ///< eV/Å
+    double rounding = 0.0;         ///< what the rounding of numbers leaves of it, about, eV/Å
     double interface_energy = 0.0; ///< U_LJ, eV
     double elastic_energy = 0.0;   ///< U_el, eV
     double force = 0.0;            ///< total normal force on the lowest layer, eV/Å
@@ -119,6 +136,14 @@ struct RelaxedState {
     long long repulsive = 0;  ///< sites
     double closest = 0.0;     ///< smallest pair distance, Å; infinite out of reach
 };
+
+/// Below this no residual force can be brought, about, where sites stand as high as this over the
+/// zero of heights (Å): positions are rounded, and the interface and the block make forces of that,
+/// eV/Å.
+double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height);
+
+/// Why a state is none: for messages.
+std::string why_not_converged(const RelaxedState& state, double tolerance);
 
 /// Relaxes the block in place under the constraint, which it is first brought to. Collective.
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,

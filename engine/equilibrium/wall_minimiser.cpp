@@ -32,8 +32,7 @@ WallMinimiser::WallMinimiser(SpectralBlock& block, const Interface& interface,
       field_(block.new_field<double>()), single_field_(block.new_field<float>()),
       next_(block.tile(), 1, 0), step_(block.tile(), 1, 0) {
     spring_ = stiffest_wave(block);
-    estimate_ = spring_ *
-                std::visit([](const auto& law) { return law.range(); }, *interface.options().wall);
+    estimate_ = spring_ * options.scales.length;
     mean_ = block.mean_height();
     const Constraint& constraint = block.constraint();
     const double n = block.options().sites;
@@ -44,7 +43,7 @@ WallMinimiser::WallMinimiser(SpectralBlock& block, const Interface& interface,
 bool WallMinimiser::step() {
     if (options_.start == Start::predicted) return false;
     const auto t = phases_.time(Phase::advance);
-    single_ = single_ && estimate_ > Constants::rounding * spring_;
+    single_ = single_ && estimate_ > Constants::rounding * spring_ * widest_;
     double reversal = 0.0;
     if (single_) { // as long as that is good enough
         elastic_forces(single_waves_, single_field_);
@@ -90,10 +89,14 @@ void WallMinimiser::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
     const PlaneView<double> u = block_.moving_layer(0);
     const PlaneView<T> z = field[0].plane(0);
     const PlaneView<const float> step = std::as_const(step_).plane(0);
-#pragma omp parallel for schedule(static)
+    double widest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : widest)
     for (int y = 0; y < u.ny; ++y)
-        for (int x = 0; x < u.nx; ++x)
+        for (int x = 0; x < u.nx; ++x) {
             z(x, y) = static_cast<T>(u(x, y) - mean_ + momentum_ * static_cast<double>(step(x, y)));
+            widest = std::max(widest, std::abs(static_cast<double>(z(x, y))));
+        }
+    widest_ = block_.communicator().max(widest);
     block_.to_waves(field, waves);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < waves.rows(); ++y)
@@ -141,8 +144,13 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
         const double top = constraint.is_top() ? spring * (mean - constraint.value) : load;
         return top - spring_ * (mean - mean_) - force;
     };
-    balance(excess, constraint.is_mean_height() ? 1e-13 * spring_
-                                                : Constants::closure * options_.tolerance);
+    // A mean height to its rounding, a load well enough for load_accuracy.
+    double enough = Constants::closure * options_.tolerance;
+    if (constraint.is_mean_height())
+        enough = 1e-14 * spring_ * std::max(std::abs(constraint.value), widest_);
+    else if (load != 0.0)
+        enough = std::min(enough, 0.1 * load_accuracy * std::abs(load));
+    balance(excess, enough);
     next_mean_ = mean;
     return reversal + sites * sites * (mean - mean_) * (mean - mean_); // without the uniform wave
 }

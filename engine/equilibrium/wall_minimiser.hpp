@@ -71,6 +71,7 @@ private:
     double momentum_ = 0.0;      ///< beta
     double mean_ = 0.0;          ///< of u, Å
     double next_mean_ = 0.0;     ///< of next_, Å
+    double widest_ = 0.0;        ///< the largest |z - mean|, Å
     double uniform_force_ = 0.0; ///< by which the uniform wave is in balance, on each site, eV/Å
     double estimate_;
     double doubt_ = 1.0; ///< halved where the estimate was below the tolerance and the residual not

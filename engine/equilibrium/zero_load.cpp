@@ -16,10 +16,10 @@
 namespace asperity {
 
 double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
-                                      double lowest_atom) {
+                                      double lowest_atom, double range) {
     block.set_uniform(0.0);
     double best_height = interface.attraction_grows_down_to(), strongest = 0.0;
-    constexpr double stride = 0.1;
+    const double stride = 0.057 * range;
     for (double height = best_height;; height -= stride) {
         const InterfaceSums sums =
             interface.sweep(block.lowest_layer(), block.interface_force(), height, {.rough = true});
@@ -29,12 +29,21 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
     }
 }
 
+std::string rounding_note(const Case& c, double height) {
+    const double floor = rounding_of_forces(c.scales, c.simulation.block, height);
+    if (c.tolerance >= floor) return {};
+    return fmt::format("drive.tolerance = {:.2g} asks for {:.1e} eV/Å, and the rounding of numbers "
+                       "alone leaves about {:.1e} eV/Å: a relaxation may not come to an end; take "
+                       "{:.1g} or more",
+                       c.scene.drive.tolerance, c.tolerance, floor, floor / c.scales.force);
+}
+
 std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& interface,
                                        double reference_height, double load, const Case& c,
                                        const std::function<bool(long long, double)>& stop) {
     RelaxOptions options;
-    options.tolerance = c.scene.drive.tolerance;
-    options.site_stiffness = c.site_stiffness;
+    options.tolerance = c.tolerance;
+    options.scales = c.scales;
     options.report = stop;
     Phases own; // its lines are not lines of the step
     const RelaxedState s =
@@ -43,11 +52,10 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     if (!s.converged)
         throw io::PhysicsError(
             fmt::format("the zero-load state was not found in {} iterations", s.iterations),
-            fmt::format("the largest force left is {:.2e} eV/Å, and drive.tolerance is {:.2e} eV/Å",
-                        s.residual, c.scene.drive.tolerance),
-            load < 0.0 ? "take a smaller pull (drive.load): under a large one there is no state"
-                       : "look at run.h5 whether the surfaces touch at all; a looser "
-                         "drive.tolerance ends earlier");
+            why_not_converged(s, options.tolerance),
+            load < 0.0   ? "take a smaller pull (drive.load): under a large one there is no state"
+            : s.balanced ? "take a larger drive.tolerance"
+                         : "look at run.h5 whether the surfaces touch at all");
     const double area = c.area();
     const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     ZeroLoad z;

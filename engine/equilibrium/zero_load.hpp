@@ -18,7 +18,11 @@ namespace asperity {
 /// starts there ends where a slow approach does, but for lateral forces on steep, soft surfaces.
 /// Collective.
 double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
-                                      double lowest_atom);
+                                      double lowest_atom, double range);
+
+/// Of a tolerance that the rounding of numbers may keep a relaxation from, where sites stand as
+/// high as this, Å; else empty.
+std::string rounding_note(const Case& c, double height);
 
 /// The relaxed state with the top plane free under this load (eV/Å, pressing down). Empty if
 /// stop(iteration, residual) asked for an end. Collective. Throws io::PhysicsError if it is not

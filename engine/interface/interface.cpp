@@ -54,10 +54,22 @@ InterfaceMethod method_for(const InterfaceOptions& options, const Surface& surfa
 
 } // namespace
 
+namespace {
+
+/// Positions in single precision are multiples of a fixed length, down to a fixed depth: scenes of
+/// other lengths are relaxed in double precision alone.
+InterfaceOptions within_single(InterfaceOptions options) {
+    const double cutoff = options.pairs().cutoff;
+    options.rough_too = options.rough_too && cutoff > 0.5 && cutoff < 0.25 * fixed_depth;
+    return options;
+}
+
+} // namespace
+
 Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                      const InterfaceOptions& options)
-    : options_(options), tile_(tile), spacing_(spacing), map_(substrate, tile.sites, spacing),
-      method_(method_for(options, substrate, tile.sites)),
+    : options_(within_single(options)), tile_(tile), spacing_(spacing),
+      map_(substrate, tile.sites, spacing), method_(method_for(options, substrate, tile.sites)),
       substrate_(substrate_of(substrate.atoms)) {
     if (options.tail && !wall()) find_mean_heights();
     if (options.slides) atoms_ = substrate.atoms;

@@ -9,20 +9,17 @@
 
 namespace asperity {
 
-InterfaceStiffness::InterfaceStiffness(const Tile& tile, int components)
-    : sites_(tile.sites), force_(tile, 1, 0) {
+InterfaceStiffness::InterfaceStiffness(const Tile& tile, int components, double difference)
+    : sites_(tile.sites), difference_(difference), force_(tile, 1, 0) {
     for (int e = 0; e < (components == 1 ? 1 : 6); ++e)
         map_.emplace_back(tile, 1, 0);
     if (components > 1) displaced_ = VectorField<double>(tile, 1, 0);
 }
 
-namespace {
-constexpr double step = 1e-3; // Å
-}
-
 double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<const double>& u,
                                 const VectorPlane<const double>& force, double reference_height,
                                 const Communicator& ranks) {
+    const double step = difference_;
     interface.sweep(u, force_.plane(0), reference_height + step, {.rough = true});
     const PlaneView<const double> here = force.z, there = std::as_const(force_).plane(0).z;
     ExactSum sum;
@@ -37,8 +34,9 @@ double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<co
 void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<const double>& u,
                                  const VectorPlane<const double>& force, double reference_height) {
     const VectorPlane<const double> moved = std::as_const(force_).plane(0);
-    const auto stiffness = [](const PlaneView<const double>& there,
-                              const PlaneView<const double>& here, int x, int y) {
+    const double step = difference_;
+    const auto stiffness = [step](const PlaneView<const double>& there,
+                                  const PlaneView<const double>& here, int x, int y) {
         return static_cast<float>((here(x, y) - there(x, y)) / step);
     };
     // Along z all sites go with the block.

@@ -7,7 +7,7 @@
 // interface's whole Hessian is this map of 3 x 3 matrices. Three sweeps, all sites displaced by a
 // little along x, y and z, give it by differences; the normal component alone takes one. The
 // displacement is a compromise: the force's own curvature requires a small one, its steps at the
-// cutoff (4.5e-5 eV/Å a pair at 4 r0) for a large one.
+// cutoff (1.2e-4 of a site's largest attraction a pair, at 4 r0) a large one.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -18,8 +18,8 @@ namespace asperity {
 
 class InterfaceStiffness {
 public:
-    /// components: three, or one: the normal.
-    InterfaceStiffness(const Tile& tile, int components);
+    /// components: three, or one: the normal. difference: the displacement, Å.
+    InterfaceStiffness(const Tile& tile, int components, double difference);
 
     /// At these displacements, where the force is as given.
     void measure(const Interface& interface, const VectorPlane<const double>& u,
@@ -36,6 +36,7 @@ private:
     PlaneView<const float> entry(Entry e) const { return map_[e].plane(0); }
 
     double sites_;                          ///< across the box
+    double difference_;                     ///< Å
     SiteField<float> map_;                  ///< eV/Å^2, by Entry
     VectorField<double> displaced_, force_; ///< displaced_: of three components
 };

@@ -55,8 +55,8 @@ private:
     /// Straight to the relaxed state under the load. False where it was stopped.
     bool relax_free() {
         if (!resumed_) {
-            const double height =
-                height_of_strongest_attraction(block_, interface_, run_.surface.statistics.lowest);
+            const double height = height_of_strongest_attraction(
+                block_, interface_, run_.surface.statistics.lowest, case_.scales.length);
             block_.set_uniform(height - reference_height());
         }
         resumed_ = false;
@@ -115,10 +115,9 @@ private:
         if (!wrong) return;
         throw io::PhysicsError(
             *wrong,
-            fmt::format("a step may miss drive.tolerance = {:.3g} eV/Å for each site and Å, and "
-                        "these add up",
-                        scene_.drive.tolerance),
-            "take a smaller drive.tolerance, or a smaller drive.step");
+            "steps that are too long or instabilities that were not resolved miss energy, and "
+            "what they miss adds up",
+            "take a smaller drive.step");
     }
 
     /// Of the last point; its steps are iterations.

@@ -3,6 +3,7 @@
 #include "engine/run/plan.hpp"
 
 #include "engine/device/device_block.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 #include "engine/units.hpp"
 #include "io/machine.hpp"
 #include "io/terminal.hpp"
@@ -121,6 +122,16 @@ double start_of(const Case& c, const Surface* of_file) {
     return highest + reach_of(c.simulation.interface);
 }
 
+/// What the tolerance is a fraction of.
+void print_scales(std::FILE* to, const Case& c, double height) {
+    fmt::print(to,
+               "forces      {:.3g} eV/Å on a site decides the state: {};\n"
+               "            drive.tolerance = {:.3g} of it is {:.3g} eV/Å\n",
+               c.scales.force, c.force_scale, c.scene.drive.tolerance, c.tolerance);
+    if (const std::string note = rounding_note(c, height); !note.empty())
+        fmt::print(to, "            {}\n", note);
+}
+
 } // namespace
 
 Plan make_plan(const Case& c, int threads) {
@@ -134,6 +145,7 @@ Plan make_plan(const Case& c, int threads) {
 
     Plan plan;
     plan.threads = threads;
+    plan.start = start;
     const auto bytes = [&](Part part) {
         double sum = 0.0;
         for (int rank = 0; rank < c.ranks; ++rank)
@@ -226,6 +238,7 @@ void print_plan(std::FILE* to, const Case& c, const Plan& plan) {
                      c.ranks == 1 ? "" : "s", plan.threads, plan.threads == 1 ? "" : "s"));
     table.print(to);
     fmt::print(to, "\n");
+    if (c.on(Effect::relaxation)) print_scales(to, c, plan.start);
     const io::AvailableMemory there = io::available_memory();
     fmt::print(to, "memory      {} available here ({})\n", memory_text(there.bytes), there.because);
     if (plan.whole.bytes > there.bytes)

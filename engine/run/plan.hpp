@@ -55,7 +55,8 @@ struct Plan {
     Cost state;     ///< relaxations
     Cost maps, checkpoints;
     Cost whole;
-    std::string rates; ///< where times come from, in words
+    double start = 0.0; ///< height of the lowest layer at the start, Å
+    std::string rates;  ///< where times come from, in words
 };
 
 /// threads: of a rank.

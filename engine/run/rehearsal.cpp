@@ -263,7 +263,8 @@ Rehearsal::Piece Rehearsal::rehearse(const Case& c, int sites, Kind kind, const 
     };
     const auto find_height = [&] {
         height = height_of_strongest_attraction(
-            *waves, *interface, *std::min_element(surface.height.begin(), surface.height.end()));
+            *waves, *interface, *std::min_element(surface.height.begin(), surface.height.end()),
+            piece.scales.length);
     };
     const auto record_maps = [&](const VectorPlane<const double>& layer) {
         if (piece.on(Effect::maps))

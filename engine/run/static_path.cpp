@@ -116,8 +116,8 @@ RestState StaticPath::release(const Look& look) {
     std::optional<ZeroLoad> found;
     try {
         if (!path_ && !placed_) {
-            const double height =
-                height_of_strongest_attraction(block_, interface_, surface_.statistics.lowest);
+            const double height = height_of_strongest_attraction(
+                block_, interface_, surface_.statistics.lowest, case_.scales.length);
             block_.set_uniform(height - interface_.start_height());
         }
         found = find_zero_load(block_, interface_, interface_.start_height(),
@@ -226,7 +226,7 @@ void StaticPath::guard() const {
                   fmt::format("point {}", path_->now().step));
     if (wrong)
         throw io::PhysicsError(*wrong, "it was led there, or steps missed too much of the energy",
-                               "lead it less far, or take a smaller drive.tolerance");
+                               "lead it less far, or take a smaller drive.step");
 }
 
 } // namespace asperity

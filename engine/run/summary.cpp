@@ -3,6 +3,7 @@
 #include "engine/run/summary.hpp"
 
 #include "engine/device/device_block.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 #include "engine/run/rehearsal.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/units.hpp"
@@ -124,6 +125,17 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     }
     fmt::print(to, "\n");
     table.print(to);
+    if (c.in_time) return;
+    for (const SegmentResults& s : results.segments) {
+        const Segment& asked = c.simulation.drive.path[s.number];
+        if (asked.kind != Segment::load || asked.amount == 0.0 ||
+            std::abs(s.force - asked.amount) <= 1.1 * load_accuracy * std::abs(asked.amount))
+            continue;
+        fmt::print(to,
+                   "  \"{}\" ended at {:.4g} MPa: the force jumps across the load there, and no "
+                   "state that this path\n  passes is under it.\n",
+                   c.path[s.number].text, s.force / (c.area() * units::megapascal));
+    }
 }
 
 } // namespace
@@ -159,6 +171,9 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     for (const std::string& note : c.notes)
         fmt::print(to, "  note: {}\n", note);
     for (const std::string& note : surface.notes)
+        fmt::print(to, "  note: {}\n", note);
+    const double height = surface.statistics.highest + reach_of(interface);
+    if (const std::string note = rounding_note(c, height); !c.in_time && !note.empty())
         fmt::print(to, "  note: {}\n", note);
     std::fflush(to);
 }

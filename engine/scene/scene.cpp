@@ -233,9 +233,15 @@ io::Schema bind(Scene& scene) {
     schema.integer("seed", drive.seed, at_least(0), "of the thermal noise");
     schema.integer("max_steps", drive.max_steps, at_least(0),
                    "stop after so many steps (points of a quasi-static path); 0: no limit");
-    schema.number("tolerance", drive.tolerance, "eV/Å", positive(),
-                  "largest residual force of a relaxation; of a quasi-static path, error of the "
-                  "energy for each site and Å");
+    schema
+        .number("tolerance", drive.tolerance, "", positive(),
+                "largest residual force of a relaxation, as a fraction of the smallest force on "
+                "a site that decides the state (`asperity plan` prints it); of a quasi-static "
+                "path, error of the energy for each site and Å")
+        .was = {"eV/Å",
+                "it is a fraction of the smallest force on a site that decides the state, "
+                "which `asperity plan` prints",
+                "leave it out, or give the fraction: 2.5e-4 is the default"};
 
     auto& theory = scene.theory;
     schema.section("theory", "Persson's theory for the same surface.");

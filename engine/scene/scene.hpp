@@ -114,7 +114,7 @@ struct Scene {
         double temperature = 0.0;   ///< K
         long long seed = 1;         ///< of the thermal noise
         long long max_steps = 0;    ///< 0: no limit
-        double tolerance = 1e-4;    ///< eV/Å
+        double tolerance = 2.5e-4;  ///< of the smallest force that decides the state
     } drive;
 
     struct Theory {

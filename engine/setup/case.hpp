@@ -15,6 +15,7 @@
 
 #include "engine/dynamics/simulation.hpp"
 #include "engine/interface/flat_reference.hpp"
+#include "engine/interface/scales.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/segment.hpp"
 #include "engine/scene/surface.hpp"
@@ -52,8 +53,11 @@ struct Case {
     SimulationOptions simulation;
     std::vector<LevelShape> levels;
     FlatReference flat; ///< flat on flat, same cutoff and lattices
-    /// Bounds: of that, and of flat layers of each type of atoms.
-    double site_stiffness = 0.0;    ///< eV/Å^2
+    /// The stiffness is a bound, as below.
+    Scales scales;
+    std::string force_scale; ///< what scales.force is, in words
+    double tolerance = 0.0;  ///< drive.tolerance of it, eV/Å
+    /// Bounds: of flat on flat, and of flat layers of each type of atoms.
     double largest_tension = 0.0;   ///< GPa
     double longest_step = HUGE_VAL; ///< of a path without time, Å: half the potential's width
     double longest_timestep = 0.0;  ///< stability limit 2/omega_max at the bottom of the well, fs

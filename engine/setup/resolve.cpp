@@ -163,20 +163,24 @@ void fill_flat_reference(Case& c, io::Problems& problems) {
     } catch (const std::invalid_argument& e) {
         problems.add("interface.potential", std::string(": ") + e.what());
     }
-    c.site_stiffness = c.flat.stiffness * block.spacing * block.spacing;
+    const double area = block.spacing * block.spacing;
+    c.scales.stiffness = c.flat.stiffness * area;
     c.largest_tension = c.flat.largest_tension;
+    double smallest_tension = c.largest_tension;
+    if (!interface.by_type.empty()) smallest_tension = HUGE_VAL;
     for (const PairPotential& pair : interface.by_type) {
         InterfaceOptions layer = interface;
         layer.potential = pair;
         try {
             const FlatReference flat =
                 flat_reference(layer, block.spacing, block.sites, c.substrate());
-            c.site_stiffness =
-                std::max(c.site_stiffness, flat.stiffness * block.spacing * block.spacing);
+            c.scales.stiffness = std::max(c.scales.stiffness, flat.stiffness * area);
             c.largest_tension = std::max(c.largest_tension, flat.largest_tension);
+            smallest_tension = std::min(smallest_tension, flat.largest_tension);
         } catch (const std::invalid_argument&) { // a flat layer of this type does not bind
         }
     }
+    find_scales(c, std::min(smallest_tension, c.largest_tension));
 }
 
 /// Forces that the tolerance lets pass, in the block's longest wave, beside the work of adhesion.
@@ -184,17 +188,17 @@ void note_coarse_tolerance(Case& c) {
     if (c.in_time) return;
     constexpr double coarse = 0.01;
     const BlockOptions& block = c.simulation.block;
-    const double tolerance = c.scene.drive.tolerance, area = block.spacing * block.spacing;
+    const double force = c.tolerance, area = block.spacing * block.spacing;
     const double energy =
-        units::milli_per_unit * 0.5 * tolerance * tolerance / (block.softest_wave() * area * area);
+        units::milli_per_unit * 0.5 * force * force / (block.softest_wave() * area * area);
     const double fraction = energy / c.flat.work_of_adhesion;
     if (!(fraction > coarse) || !std::isfinite(fraction)) return;
     c.notes.push_back(fmt::format(
-        "drive.tolerance = {:.2g} eV/Å, {:.2g} MPa on a site, is coarse for this block: in its "
-        "longest wave such forces stand for {:.2g} meV/Å², {:.2g} of the work of adhesion; take "
-        "{:.1g} or less",
-        tolerance, tolerance / area / units::megapascal, energy, fraction,
-        tolerance * std::sqrt(coarse / fraction)));
+        "drive.tolerance = {:.2g}, {:.2g} MPa on a site, is coarse for this block: in its longest "
+        "wave such forces stand for {:.2g} meV/Å², {:.2g} of the work of adhesion; take {:.1g} or "
+        "less",
+        c.scene.drive.tolerance, force / area / units::megapascal, energy, fraction,
+        c.scene.drive.tolerance * std::sqrt(coarse / fraction)));
 }
 
 /// No step may jump over the potential, and no pull can be larger than what binds most.
@@ -274,7 +278,7 @@ void fill_motion(Case& c, io::Problems& refused) {
     if (c.on(Effect::temperature)) c.simulation.temperature = scene.drive.temperature;
     c.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
 
-    c.longest_timestep = 2.0 / block.highest_frequency(c.site_stiffness);
+    c.longest_timestep = 2.0 / block.highest_frequency(c.scales.stiffness);
     const double period = std::numbers::pi * c.longest_timestep; // of the fastest vibration
     if (c.on(Effect::inertia) && scene.drive.timestep >= c.longest_timestep)
         refused.add(

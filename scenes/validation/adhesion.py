@@ -69,7 +69,7 @@ def punch(runs: Runs) -> list[dict]:
         kendall = math.sqrt(8 * math.pi * E * w * radius**3 / (1 - 2 * rings.PHI2 * radius**3 / (3 * math.pi * box**3)))
         r = runs.path(f"punch-{sites}", wall(spacing, w, reach), {
             "surface.kind": "file", "surface.file": file, "surface.sites": sites, "surface.spacing": spacing,
-            "drive.step": 0.1, "drive.tolerance": 1e-2 * (64 / sites) ** 2})
+            "drive.step": 0.1, "drive.tolerance": 0.04 * reach})
         row = {"range": reach, "sites": sites, "radius": radius, "program": -r["force"].min() / kendall}
         for finer in (1, 2):
             law = wall(spacing / finer**2, w, reach / finer)
@@ -94,7 +94,7 @@ def sphere(runs: Runs) -> list[dict]:
         law = wall(spacing, w, reach)
         r = runs.path(f"sphere-{energy}-{reach}", law, {
             "surface.kind": "flat", "surface.radius": radius, "surface.sites": sites, "surface.spacing": spacing,
-            "drive.step": 0.02 if energy < 30 else 0.1, "drive.tolerance": min(1, energy / 30) * 1e-3 * (64 / sites) ** 2})
+            "drive.step": 0.02 if energy < 30 else 0.1, "drive.tolerance": 1.2e-3 * reach})
         width = min(0.5, E * reach**2 / w / 8)
         around = rings.Rings(np.arange(0, math.sqrt(30 * radius * reach) + 15, width), E, box)
         shape = radius - np.sqrt(radius**2 - around.r**2)
@@ -147,7 +147,7 @@ def sticky(runs: Runs) -> list[dict]:
             w = slope * E * reach / 2 * (slope * width / (4 * reach)) ** (2 / 3) / (math.pi * (3 / 16) ** (2 / 3)) / s
             r = runs.path(f"sticky-{reach}-{s}", wall(spacing, w, reach), surface | {
                 "drive.path": ["approach"], "drive.load": 0.7 * part * E * slope / GPA * 1e3, "drive.step": 0.1,
-                "drive.tolerance": 1e-3})
+                "drive.tolerance": 2.5e-3})
             first = int(np.argmax(r["contact_fraction"] >= part))
             force = np.interp(part, r["contact_fraction"][first - 1:first + 1], r["force"][first - 1:first + 1])
             rows.append({"range": reach, "w": 1e3 * w, "s": s,

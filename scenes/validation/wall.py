@@ -46,7 +46,7 @@ class Runs:
     def state(self, name: str, keys: dict) -> asperity.Result:
         """The relaxed state of a scene over a wall. A result that is there is an error: it may be of another map."""
         settings = {"numerics.precision": "double", "drive.path": "zero-load", "interface.kind": "wall",
-                    "output.checkpoint": 0, "drive.tolerance": 1e-6, **keys}
+                    "output.checkpoint": 0, "drive.tolerance": 2.5e-6, **keys}
         settings.setdefault("block.thickness", settings["surface.sites"])
         return asperity.run(ROOT / "scenes/paper/flat-3A.toml", settings, self.out / name)
 
@@ -182,7 +182,7 @@ def jkr(runs: Runs) -> None:
     for reach, sites in ((1.4, 64), (0.7, 128), (0.35, 256)):
         name = f"jkr-{sites}"
         r = runs.path(name, {"surface.kind": "flat", "surface.radius": 300, "surface.sites": sites, "surface.spacing": 332.8 / sites,
-                             "interface.adhesion": 30, "interface.range": reach, "drive.tolerance": 1e-3 * (64 / sites) ** 2})
+                             "interface.adhesion": 30, "interface.range": reach, "drive.tolerance": 1.2e-3 * reach})
         sphere, unit = theories.of_run(r["run"])["theory"]["sphere"], 1.5 * math.pi * 0.03 * 300
         attached = (r["segment"] == r["segment"].max()) & (r["contact_fraction"] > 0.004)
         off = {}

@@ -206,7 +206,7 @@ TEST(AtomsScene, HasPairsByType) {
         << surface.notes[0];
     // The strongest of the flat layers bounds the time step: that of zinc, of no atom, too.
     const auto weak = over_two("['Au 0.1 3.28', 'C 0.02 3']");
-    EXPECT_GT(c.site_stiffness, 5.0 * weak.site_stiffness);
+    EXPECT_GT(c.scales.stiffness, 5.0 * weak.scales.stiffness);
     EXPECT_LT(c.longest_timestep, weak.longest_timestep);
     EXPECT_EQ(c.flat.stiffness, weak.flat.stiffness) << "a unit of measure";
     EXPECT_EQ(refusal([&] { examine(c); }), "");

@@ -162,7 +162,7 @@ TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
         };
         const VectorField<double> u = state.on(tile), f = force_at(0.0);
         const VectorField<double> above = force_at(h), below = force_at(-h);
-        InterfaceStiffness all(tile, 3), normal(tile, 1);
+        InterfaceStiffness all(tile, 3, 1e-3), normal(tile, 1, 1e-3);
         all.measure(interface, u.plane(0), f.plane(0), z);
         normal.measure(interface, u.plane(0), f.plane(0), z);
         SiteField<float> v, up;

@@ -17,13 +17,15 @@ using namespace asperity;
 namespace {
 
 struct Contact : test::PathCase {
-    double height = height_of_strongest_attraction(block, interface, surface.statistics.lowest);
+    double height = height_of_strongest_attraction(block, interface, surface.statistics.lowest,
+                                                   test::paper_scales().length);
     Phases phases;
 
     Contact() : PathCase(test::paper_block(8, 6, 0), test::reference_surface("n8_b_rms1.0")) {}
     RelaxedState relax_with(double tolerance, double load = 0.0, long long most = 200000) {
         RelaxOptions o;
         o.tolerance = tolerance;
+        o.scales = test::paper_scales();
         o.max_iterations = most;
         return asperity::relax(block, interface, height, Constraint::load(load), o, phases);
     }
@@ -89,8 +91,8 @@ TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
     InterfaceOptions both = test::paper_interface();
     both.rough_too = true;
     const Interface interface(surface, block.tile(), options.spacing, both);
-    const double height =
-        height_of_strongest_attraction(block, interface, surface.statistics.lowest);
+    const double height = height_of_strongest_attraction(
+        block, interface, surface.statistics.lowest, test::paper_scales().length);
     const auto energy = [&](bool rough) {
         return interface
             .sweep(block.lowest_layer(), block.interface_force(), height,
@@ -101,6 +103,7 @@ TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
     for (const bool stopped : {true, false}) { // while contact spreads, and at the end
         RelaxOptions o;
         o.tolerance = 1e-3;
+        o.scales = test::paper_scales();
         if (stopped) o.report = [](long long, double) { return true; };
         const RelaxedState state = relax(block, interface, height, {}, o, phases);
         ASSERT_EQ(state.converged, !stopped);

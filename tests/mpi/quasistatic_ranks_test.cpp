@@ -67,6 +67,7 @@ struct Contact {
         o.along = along;
         o.step = 0.5;
         o.tolerance = 1e-3;
+        o.scales = test::paper_scales();
         o.reference_height = interface.start_height();
         o.report = [this](long long, double) { return ++looks == stop_at; };
         return o;

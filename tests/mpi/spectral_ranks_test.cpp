@@ -51,6 +51,7 @@ State relax_on(const Communicator& ranks, const BlockOptions& options, const Sur
     const Interface interface(surface, block.tile(), options.spacing, over);
     RelaxOptions relaxation;
     relaxation.tolerance = 1e-7;
+    relaxation.scales = test::paper_scales();
     Phases phases;
     State state;
     state.relaxed =

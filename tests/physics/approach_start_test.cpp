@@ -58,6 +58,7 @@ TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
         SpectralBlock block(c.setup.simulation.block, c.ranks);
         RelaxOptions options;
         options.tolerance = 1e-10;
+        options.scales = c.setup.scales;
         Phases phases;
         const RelaxedState state =
             relax(block, c.interface, start.height, Constraint::top(0.0), options, phases);

@@ -242,6 +242,8 @@ TEST(MeanHeight, FallsThatTakeTheForceTooFarAreGivenUp) {
         relax_at(c, before.top, 1e-6);
         RelaxOptions o;
         o.start = Start::near;
+        o.tolerance = 1e-4;
+        o.scales = test::paper_scales();
         o.force_window = window;
         Phases phases;
         return relax(c.block, c.interface, c.interface.start_height(),

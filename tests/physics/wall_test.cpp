@@ -49,7 +49,8 @@ struct AtWall : test::PathCase {
         : AtWall(s, paper_block_of(s.sites, spacing), law) {}
     AtWall(const Surface& s, const BlockOptions& o, const WallLaw& law)
         : PathCase(o, s, law),
-          height(height_of_strongest_attraction(block, interface, s.statistics.lowest)) {
+          height(height_of_strongest_attraction(block, interface, s.statistics.lowest,
+                                                test::paper_scales().length)) {
         block.set_uniform(height - interface.start_height());
     }
     RelaxedState relax(const Constraint& constraint) {
@@ -319,7 +320,7 @@ TEST(Wall, NarrowAttractionsAndCoarseTolerancesAreNoted) {
                         "less than two spacings"),
                   narrow);
     for (const auto& [young, coarse] : {std::pair{"0.0001", true}, {"77", false}})
-        EXPECT_EQ(noted({std::string("block.young=") + young, "drive.tolerance=1e-4"},
+        EXPECT_EQ(noted({std::string("block.young=") + young, "drive.tolerance=0.02"},
                         "is coarse for this block"),
                   coarse);
 }

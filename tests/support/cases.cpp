@@ -132,14 +132,22 @@ Relaxed numbers_of(const RelaxedState& state, const BlockOptions& options,
     return relaxed;
 }
 
+Scales paper_scales() {
+    const FlatReference flat = flat_reference(paper_interface(), 2.6, 64, 64);
+    const double tension = flat.largest_tension * units::gigapascal;
+    return {flat.work_of_adhesion / units::milli_per_unit / tension, 2.6 * 2.6 * tension,
+            2.6 * 2.6 * flat.stiffness};
+}
+
 Relaxed relax_spectral(const BlockOptions& options, const InterfaceOptions& interface_options,
                        const Surface& surface, double tolerance, bool frictionless) {
     SpectralBlock block(options, Communicator(), frictionless);
     const Interface interface(surface, block.tile(), options.spacing, interface_options);
-    const double height =
-        height_of_strongest_attraction(block, interface, surface.statistics.lowest);
+    const double height = height_of_strongest_attraction(
+        block, interface, surface.statistics.lowest, paper_scales().length);
     RelaxOptions relax_options;
     relax_options.tolerance = tolerance;
+    relax_options.scales = paper_scales();
     Phases phases;
     return numbers_of(relax(block, interface, height, {}, relax_options, phases), options, height);
 }
@@ -150,8 +158,8 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     scene.surface.sites = options.block.sites;
     scene.surface.spacing = options.block.spacing;
     scene.interface.cutoff = std::min(scene.interface.cutoff, 0.5 * scene.edge());
-    scene.drive.tolerance = tolerance;
     Case c = resolve(scene);
+    c.tolerance = tolerance;
     c.simulation = options;
     return asperity::bring_to_rest(moving, surface, reference_height, c, {}, {});
 }

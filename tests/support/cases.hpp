@@ -88,6 +88,9 @@ Surface reference_surface(const std::string& name, double factor = 1.0);
 /// anywhere.
 Surface disordered(Surface surface);
 
+/// Of the paper's interface.
+Scales paper_scales();
+
 ProcessGrid grid_for(const BlockOptions& options, const Communicator& communicator);
 inline ProcessGrid serial_grid(const BlockOptions& options) {
     return grid_for(options, Communicator());

@@ -18,8 +18,8 @@ Relaxed relax_levels(const BlockOptions& options, const InterfaceOptions& interf
     const Interface interface(surface, serial_grid(options).tile(0), options.spacing,
                               interface_options);
     SpectralBlock still(options, Communicator());
-    const double height =
-        height_of_strongest_attraction(still, interface, surface.statistics.lowest);
+    const double height = height_of_strongest_attraction(
+        still, interface, surface.statistics.lowest, paper_scales().length);
     ElasticOperator lattice(options);
     Block& block = lattice.block();
     Vector u(lattice.size());

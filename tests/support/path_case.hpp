@@ -87,6 +87,7 @@ struct PathCase {
         p.along = along;
         p.step = step;
         p.tolerance = tolerance;
+        p.scales = paper_scales();
         p.load = load;
         p.reference_height = interface.start_height();
         return KeptPath(block, interface, p);
@@ -97,6 +98,7 @@ struct PathCase {
     /// From where the block is, to its end.
     RelaxedState relax(const Constraint& constraint, double tolerance, RelaxOptions how = {}) {
         how.tolerance = tolerance;
+        how.scales = paper_scales();
         Phases phases;
         const RelaxedState s =
             asperity::relax(block, interface, interface.start_height(), constraint, how, phases);
