@@ -54,23 +54,30 @@ inline constexpr Quantity result_quantities[] = {
      "that the path takes"},
     {"work_of_adhesion.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"work_of_drive.approach", "meV/Å^2", per::area,
-     "work of the drive: what the top plane (in time with the damping medium, which moves along) "
-     "or the holder of the mean height takes up during the approach, from rest out of reach"},
+     "work that the drive takes up during the approach from rest out of reach: minus its work on "
+     "the solids. The drive is the top plane (in time with the damping medium, which moves along) "
+     "or the holder of the mean height"},
     {"work_of_drive.pull_off", "meV/Å^2", per::area,
-     "what it gives during the pull-off, to rest out of reach"},
+     "work that the drive gives during the pull-off to rest out of reach: its work on the solids"},
     {"work_of_drive.uncertainty.approach", "meV/Å^2", per::area,
      "uncertainty of work_of_drive.approach without time, for the sequence of instabilities that "
      "the path takes"},
     {"work_of_drive.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.approach", "meV/Å^2", per::area,
-     "energy lost on the approach: dissipated at instabilities (without time), or damped and left "
-     "as vibrations above the state at zero load (in time, without a load or a temperature). "
-     "Without a load work_of_drive.approach + lost.approach = binding_energy = "
-     "work_of_drive.pull_off - lost.pull_off. Of several cycles: of the last"},
+     "energy lost on the approach: dissipated at instabilities (without time), or damped (in "
+     "time, at T = 0). From rest, without a load, work_of_drive.approach + lost.approach + "
+     "kinetic.approach = binding_energy = work_of_drive.pull_off - lost.pull_off + "
+     "kinetic.approach - kinetic.pull_off; without time nothing is kinetic. Of several cycles: of "
+     "the last"},
     {"lost.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.cycle", "meV/Å^2", per::area,
-     "from out of reach to out of reach (in time at T = 0): of an approach and a pull-off alone, "
-     "work_of_drive.pull_off - work_of_drive.approach"},
+     "lost from out of reach to out of reach, and kinetic.pull_off, which nothing gives back: of "
+     "an approach and a pull-off alone, work_of_drive.pull_off - work_of_drive.approach"},
+    {"kinetic.approach", "meV/Å^2", per::area,
+     "what still moves at the end of the approach (in time, at T = 0, without a load): kinetic "
+     "energy, and that of vibrations, above the state at zero load"},
+    {"kinetic.pull_off", "meV/Å^2", per::area,
+     "the same at the end of the pull-off, above a block at rest out of reach"},
     {"lost.uncertainty.approach", "meV/Å^2", per::area, "uncertainty of lost.approach"},
     {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "uncertainty of lost.pull_off"},
     {"contact_fraction", "1", per::sites,
@@ -87,6 +94,9 @@ inline constexpr Quantity result_quantities[] = {
      "as jkr.in, from the largest attraction of a running mean over 2 ps, which leaves out the "
      "vibrations after an instability; needs output.series of 0.5 ps or less"},
     {"jkr.out_averaged", "meV/Å^2", per::contact, "the same of the pull-off"},
+    {"jkr.edge_pinning", "1", "",
+     "factor by which rows of sites that hold the edge of the contact make pull_off_force and "
+     "jkr.out too large, within 15 % (a wall's range that the spacing does not resolve)"},
     {"jkr.zero_load", "meV/Å^2", per::contact,
      "work of adhesion by JKR from the binding energy at zero load, which needs no largest force; "
      "not of a state under drive.load"},
@@ -95,19 +105,20 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[]", "", "", "the segments of drive.path that have ended, in order"},
     {"segments[].segment", "1", "", "its number in drive.path, from 0"},
     {"segments[].name", "", "", "as the scene has it"},
-    {"segments[].work_of_drive", "meV/Å^2", per::area,
-     "work that the drive has done on the block: the top plane or the holder of the mean height, "
-     "and what moves the block sideways"},
+    {"segments[].work", "meV/Å^2", per::area,
+     "work that the drive has done on the solids, also sideways; from rest where the path starts, "
+     "and to rest out of reach at a pull-off: minus work_of_drive.approach of an approach, "
+     "work_of_drive.pull_off of a pull-off"},
     {"segments[].work_of_interface", "meV/Å^2", per::area,
      "∫ F dz of the mean height; left out at a held top without time"},
     {"segments[].lost", "meV/Å^2", per::area,
-     "energy damped on the way (in time: vibrations are not in it), or dissipated at "
-     "instabilities"},
+     "energy damped on the way, or dissipated at instabilities; at a temperature the "
+     "net heat, damped less what the thermostat's noise gives: it fluctuates as the energy does"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
-     "of work_of_drive and lost, without time, for the sequence of instabilities taken"},
+     "of work and lost, without time, for the sequence of instabilities taken"},
     {"segments[].largest_attraction", "eV/Å", per::block, "on the way"},
     {"segments[].friction", "eV/Å", per::block,
-     "force against a slide: the drive's work over the distance"},
+     "force against a slide: the work of what moves the block sideways, over the distance"},
     {"segments[].largest_friction", "eV/Å", per::block, "the largest force against the slide"},
     {"segments[].pressure", "MPa", "", "at its end: of the substrate on the lowest layer"},
     {"segments[].mean_height", "Å", "", "at its end"},
@@ -182,15 +193,18 @@ inline constexpr Quantity result_quantities[] = {
      "curved)"},
     {"zero_load.residual_force", "eV/Å", "", "largest force left on a node"},
     {"energy.balance_error", "1", "largest term",
-     "energy balance: work less change of energy less loss, at the last recorded step"},
+     "energy balance: energy.work - kinetic - elastic - interface - damped, at the "
+     "last recorded step, over the largest energy or work so far"},
     {"energy.work", "eV", per::block,
-     "work of the drive on the block since the start, and heat of the thermostat"},
+     "work of the drive on the solids since they were at rest apart: it includes the energy that "
+     "they have where the path starts"},
     {"energy.kinetic", "eV", per::block, "kinetic energy at the last recorded step"},
     {"energy.elastic", "eV", per::block, "elastic energy at the last recorded step"},
     {"energy.interface", "eV", per::block,
      "energy of the interface at the last recorded step: pairs, or the wall's law"},
     {"energy.damped", "eV", per::block,
-     "energy lost since the start: damped in time, dissipated at instabilities without time"},
+     "energy lost since the start: damped in time (less the heat of the thermostat's noise), "
+     "dissipated at instabilities without time"},
     {"surface.rms", "Å", "", "rms height of the substrate, without the cap"},
     {"surface.rms_slope", "1", "", "rms slope √⟨(∇h)²⟩, without the cap"},
     {"surface.min", "Å", "", "lowest height of the substrate"},
@@ -252,14 +266,14 @@ inline constexpr Quantity run_quantities[] = {
     {"series/elastic_energy", "eV", per::block, "elastic energy"},
     {"series/kinetic_energy", "eV", per::block, "kinetic energy"},
     {"series/work", "eV", per::block,
-     "work of the drive on the block since the start, and heat of the thermostat"},
+     "work of the drive on the solids since they were at rest apart, as energy.work"},
     {"series/interface_work", "eV", per::block,
-     "work of the interface's force on the mean height since the start, ∫ F dz; at a held mean "
-     "height without time it is -work"},
-    {"series/damped", "eV", per::block, "energy damped since the start"},
+     "work of the interface's force on the mean height since the start, ∫ F dz"},
+    {"series/damped", "eV", per::block,
+     "energy damped since the start, less the heat of the thermostat's noise"},
     {"series/dissipated", "eV", per::block, "energy dissipated at instabilities since the start"},
     {"series/balance_error", "1", "largest term",
-     "energy balance: work less change of energy less loss"},
+     "energy balance: work - energies - loss, over the largest energy or work so far"},
     {"series/contact_fraction", "1", per::sites,
      "sites closer to an atom than the inflection of the pair potential; over a wall as at zero "
      "load"},
@@ -281,8 +295,8 @@ inline constexpr Quantity run_quantities[] = {
     {"fields/*@slide_y", "Å", "", "the same along y"},
     {"fields/*@reference_height", "Å", "", "height of the undisplaced lowest layer"},
     {"substrate/height", "Å", "",
-     "heights of the atoms of the substrate, [y][x]; of atoms anywhere, those of the topmost one "
-     "near each site"},
+     "heights of the atoms of the substrate at (x a, y a), [y][x]; of atoms anywhere, those of the "
+     "topmost one nearest to there"},
     {"substrate/atoms", "Å", "", "of atoms anywhere, their positions, [atom][x, y, z]"},
     {"substrate/type", "1", "",
      "of atoms anywhere with interface.pairs, the entry there of each atom, [atom], from 1"},

@@ -86,21 +86,24 @@ ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int
 }
 
 /// Adds `add` to the velocity v(n+1/2) of a node and what follows from it to its displacement
-/// u(n+1). Returns the energy given, per mass.
-ASPERITY_INLINE double push(double& v, double& u, double add, double dt) {
-    const double before = v;
-    v = before + add;
-    u = u + dt * add;
-    return add * (before + 0.5 * add);
+/// u(n+1). old: v(n-1/2). Returns the energy given, per mass, to velocity and displacement: the
+/// second is minus the work of half the force F at n, m (v - old) = dt (F - Gamma m w) with the
+/// mean w of old and v; the other half is part of the work of the force at n+1.
+ASPERITY_INLINE double push(const ThermalNoise& noise, double old, double& v, double& u,
+                            double add) {
+    const double w = 0.5 * (old + v);
+    v = v + add;
+    u = u + noise.dt * add;
+    return add * ((2.0 - noise.drag) * w + 0.5 * add);
 }
 
 /// The noise of one node of mass m (eV fs^2/Å^2), added to v and u. Returns the energy given, eV.
 ASPERITY_INLINE double add_noise(const ThermalNoise& noise, double m, const Triple<double>& xi,
-                                 Triple<double>& v, Triple<double>& u) {
+                                 const Triple<double>& old, Triple<double>& v, Triple<double>& u) {
     const double sigma = std::sqrt(noise.strength / m) / noise.drag;
-    const double x = push(v.x, u.x, sigma * xi.x, noise.dt);
-    const double y = push(v.y, u.y, sigma * xi.y, noise.dt);
-    return m * (x + y + push(v.z, u.z, sigma * xi.z, noise.dt));
+    const double x = push(noise, old.x, v.x, u.x, sigma * xi.x);
+    const double y = push(noise, old.y, v.y, u.y, sigma * xi.y);
+    return m * (x + y + push(noise, old.z, v.z, u.z, sigma * xi.z));
 }
 
 } // namespace ASPERITY_VARIANT

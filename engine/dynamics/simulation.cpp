@@ -28,8 +28,17 @@ Simulation::~Simulation() = default;
 
 void Simulation::start(double height) {
     reference_height_ = height;
+    drive_ = Drive(options_.drive);
     drive_.begin_at(height);
     step_ = 0;
+    slide_ = {};
+    record_ = {};
+    balance_ = {};
+    energy_brought_.reset();
+    scale_ = 0.0;
+    has_previous_ = false;
+    pending_ = {};
+    external_pending_ = 0.0;
     block_.set_uniform(0.0, drive_.velocity(0.0));
     host_is_newer_ = true;
     device_is_newer_ = false;
@@ -152,6 +161,7 @@ double Simulation::velocity_of_top() const {
 
 void Simulation::advance_block(bool observe) {
     const double velocity = velocity_of_top();
+    if (thermostat_) thermostat_->keep_velocities(block_, options_.damping_from);
     kick_sums_ = {};
     block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
                    kick_sums_);
@@ -241,18 +251,13 @@ void Simulation::update_energy_balance() {
     record_.in_contact = contacts.in_contact;
     record_.repulsive = contacts.repulsive;
     record_.closest = contacts.closest;
-    if (!energy_at_start_) {
-        energy_at_start_ = lj + elastic + kinetic;
-        work_at_start_ = balance_.work();
-        damped_at_start_ = balance_.damped;
-    }
-    scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(balance_.work())});
-    const double change = lj + elastic + kinetic - *energy_at_start_;
-    record_.work = balance_.work();
+    const double energy = lj + elastic + kinetic;
+    if (!energy_brought_) energy_brought_ = energy + balance_.net_damped() - balance_.work();
+    record_.work = balance_.work() + *energy_brought_;
     record_.interface_work = balance_.interface;
-    record_.damped = balance_.damped;
-    const double balance =
-        (record_.work - work_at_start_) - change - (balance_.damped - damped_at_start_);
+    record_.damped = balance_.net_damped();
+    scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(record_.work)});
+    const double balance = record_.work - energy - record_.damped;
     record_.residual = scale_ > 0.0 ? balance / scale_ : 0.0;
 }
 

@@ -54,10 +54,12 @@ struct StepRecord {
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
     long long in_contact = 0, repulsive = 0; ///< sites
     double closest = 0.0;                    ///< smallest pair distance, Å
-    double work = 0.0, damped = 0.0;         ///< since the start, at that step
-    double interface_work = 0.0;             ///< int F dz of the mean height, likewise
-    /// (work - change of energy - damped) over the largest of these terms and of the
-    /// interface energy met so far.
+    /// Done on the solids by the drive and by forces from outside, from rest apart: it includes
+    /// what the block had at the start, and what was written to its fields.
+    double work = 0.0;
+    double damped = 0.0;         ///< since the start, less the heat that a thermostat's noise gave
+    double interface_work = 0.0; ///< int F dz of the mean height, likewise
+    /// (work - energy - damped) over the largest of the energies and of the work so far.
     double residual = 0.0;
 };
 
@@ -70,7 +72,10 @@ struct EnergyBalance {
     double heat = 0.0;      ///< given by the thermostat's noise
     double external = 0.0;  ///< done by forces from outside
     double interface = 0.0; ///< int F dz of the mean height
-    double work() const { return top_work + drag_work + heat + external; }
+    double drive() const { return top_work + drag_work; }
+    double work() const { return drive() + external; }
+    /// Net: both parts of the heat that goes to and fro at a temperature grow with time.
+    double net_damped() const { return damped - heat; }
 };
 
 class Simulation {
@@ -80,7 +85,8 @@ public:
     Simulation(Simulation&&) noexcept;
     ~Simulation();
 
-    /// The undeformed block at this height of its lowest layer, moving with the drive.
+    /// The undeformed block at this height of its lowest layer, moving with the drive; also after
+    /// steps, of which nothing is left.
     void start(double height);
     /// One time step. observe: sum the energies and contacts too.
     const StepRecord& step(bool observe);
@@ -111,7 +117,7 @@ public:
     void push(const VectorField<double>* external) { external_ = external; }
     /// After fields were written to from outside, which is no work: the energy balance starts anew
     /// with the next observed step.
-    void restart_balance() { energy_at_start_.reset(); }
+    void restart_balance() { energy_brought_.reset(); }
     Interface& interface() { return interface_; }
     const Interface& interface() const { return interface_; }
     const Phases& phases() const { return phases_; }
@@ -160,8 +166,8 @@ private:
     long long step_ = 0;
     StepRecord record_;
     EnergyBalance balance_;
-    std::optional<double> energy_at_start_; ///< set by the first observed step
-    double work_at_start_ = 0.0, damped_at_start_ = 0.0;
+    /// That no work has brought: set by the first observed step.
+    std::optional<double> energy_brought_;
     double scale_ = 0.0;        ///< largest energy seen, for the residual
     bool has_previous_ = false; ///< a step came before: trapezia can be formed
     struct Pending {
@@ -185,7 +191,6 @@ void Simulation::visit(Visitor& v) {
     v("reference_height", reference_height_);
     double top = block_.top();
     v("top", top);
-    if (top != block_.top()) block_.set_top(top), host_is_newer_ = true;
     v("drive", drive_);
     v("record.time", record_.time);
     v("record.top", record_.top);
@@ -206,9 +211,7 @@ void Simulation::visit(Visitor& v) {
     v("balance.damped", balance_.damped);
     v("balance.heat", balance_.heat);
     v("balance.interface", balance_.interface);
-    v("energy.at_start", energy_at_start_);
-    v("energy.work_at_start", work_at_start_);
-    v("energy.damped_at_start", damped_at_start_);
+    v("energy.brought", energy_brought_);
     v("energy.scale", scale_);
     v("has_previous", has_previous_);
     v("pending.dissipated", pending_.dissipated);
@@ -219,7 +222,11 @@ void Simulation::visit(Visitor& v) {
         v("record.slide", record_.slide);
         v("record.lateral_force", record_.lateral_force);
         v("balance.lateral", balance_.lateral);
-        interface_.slide_to(record_.slide[0], record_.slide[1]); // where the record is of
+    }
+    if constexpr (Visitor::restores) {
+        block_.set_top(top);
+        host_is_newer_ = true;
+        if (slides()) interface_.slide_to(record_.slide[0], record_.slide[1]);
     }
 }
 

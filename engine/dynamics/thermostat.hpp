@@ -21,6 +21,7 @@
 #include "kernels/thermal_noise.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace asperity {
 
@@ -33,6 +34,8 @@ public:
     /// That of a step.
     ThermalNoise noise(double dt, long long step) const;
 
+    /// Before a step: keeps v(n-1/2), of which the energy given depends.
+    void keep_velocities(const Block& block, double damping_from);
     /// Adds the noise of this step to v(n+1/2) and u(n+1). Returns this rank's share of the energy
     /// given to the nodes, eV.
     ExactSum kick(Block& block, double dt, double damping_from, long long step) const;
@@ -40,6 +43,7 @@ public:
 private:
     double temperature_, damping_;
     std::uint64_t seed_;
+    std::vector<std::vector<double>> old_; ///< of each level: rows of x, y and z of its planes
 };
 
 } // namespace asperity

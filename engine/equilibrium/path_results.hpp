@@ -45,8 +45,8 @@ struct ZeroLoad {
     }
 };
 
-/// Energies of an approach or a pull-off that has ended, meV/Å^2. Works are positive where the
-/// solids attract: taken up on the way in, given on the way out.
+/// Energies of an approach or a pull-off that has ended, meV/Å^2, from or to rest out of reach.
+/// Works are positive where the solids attract: taken up on the way in, given on the way out.
 struct WayEnergies {
     /// Of the interface's force on the mean height of the lowest layer, int F dz / A0. Empty at a
     /// held top without time, where the mean height jumps at instabilities.
@@ -54,9 +54,10 @@ struct WayEnergies {
     /// Of what drives or holds the block: the top plane (in time with the medium that damps, which
     /// moves along), or the holder of the mean height.
     std::optional<double> drive_work;
-    /// Damped or dissipated, or left in vibrations at the end (in time). Empty with a thermostat,
-    /// and where no state at zero load is known between approach and pull-off.
-    std::optional<double> lost;
+    std::optional<double> lost; ///< damped or dissipated; empty with a thermostat
+    /// What still moves at the end, in time at T = 0: kinetic energy and vibrations about the state
+    /// at zero load (empty where that is not known), or about the solids at rest apart.
+    std::optional<double> kinetic;
     std::optional<double> uncertainty; ///< of each of these; without time only
 
     template <class Visitor>
@@ -64,17 +65,20 @@ struct WayEnergies {
         v("interface_work", interface_work);
         v("drive_work", drive_work);
         v("lost", lost);
+        v("kinetic", kinetic);
         v("uncertainty", uncertainty);
     }
 };
 
 /// A segment of the path that has ended: what was done on the way, and where it ended.
 struct SegmentResults {
-    std::size_t number = 0;  ///< in the path
-    double drive_work = 0.0; ///< done on the block by what drives or holds it, meV/Å^2
+    std::size_t number = 0; ///< in the path
+    /// Done on the block by what drives or holds it, meV/Å^2. That of an approach from rest apart,
+    /// and of a pull-off, is minus and plus WayEnergies::drive_work.
+    double work = 0.0;
     std::optional<double> interface_work; ///< int F dz / A0, meV/Å^2; empty as above
     double lost = 0.0;                    ///< damped or dissipated, meV/Å^2
-    std::optional<double> uncertainty;    ///< of the drive's work; without time only, meV/Å^2
+    std::optional<double> uncertainty;    ///< of work and lost; without time only, meV/Å^2
     double attraction = 0.0;              ///< the largest, eV/Å
     std::optional<double> lateral_mean;   ///< force against a slide, work over distance, eV/Å
     std::optional<double> lateral_most;   ///< the largest of it, eV/Å
@@ -86,7 +90,7 @@ struct SegmentResults {
     template <class Visitor>
     void visit(Visitor& v) {
         v("number", number);
-        v("drive_work", drive_work);
+        v("work", work);
         v("interface_work", interface_work);
         v("lost", lost);
         v("uncertainty", uncertainty);
@@ -130,12 +134,11 @@ struct PathResults {
         return slide.amount > 0.0 ? -force : force;
     }
     /// Where the segment under way has ended: what of it follows from the last step or point.
-    /// drive_work: meV/Å^2; lateral_work: of what moves the block sideways, eV.
+    /// lateral_work: of what moves the block sideways, eV.
     SegmentResults ended(std::size_t number, const Segment& segment, const StepRecord& now,
-                         double drive_work, double lateral_work) const {
+                         double lateral_work) const {
         SegmentResults r;
         r.number = number;
-        r.drive_work = drive_work;
         r.attraction = attraction;
         if (segment.kind == Segment::slide) {
             r.lateral_mean = lateral_work / std::abs(segment.amount);

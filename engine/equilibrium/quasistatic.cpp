@@ -86,19 +86,19 @@ void QuasistaticPath::start() {
     points_.begin(options_.step);
     block_.set_uniform(0.0);
     points_.accept(0.0);
-    first_point(0.0);
+    first_point(0.0, true);
     predicts_ = reversible_ = true;
     direction_ = -1.0;
 }
 
-void QuasistaticPath::start_here() {
+void QuasistaticPath::start_here(bool apart) {
     const double top = options_.along == Constraint::Of::top ? block_.top() : block_.mean_height();
     points_.begin(top);
-    first_point(top);
+    first_point(top, apart);
     reversible_ = false;
 }
 
-void QuasistaticPath::first_point(double top) {
+void QuasistaticPath::first_point(double top, bool apart) {
     const RelaxedState state = points_.relax_at(top, false, {});
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
@@ -106,7 +106,9 @@ void QuasistaticPath::first_point(double top) {
                                "a larger drive.tolerance, or a height further from the substrate");
     points_.replace();
     record_.step = 0;
-    energy_at_start_ = state.interface_energy + state.elastic_energy;
+    const double energy = state.interface_energy + state.elastic_energy;
+    record_.work = apart ? energy : 0.0;
+    energy_at_start_ = energy - record_.work;
     set_record(state, top);
     trail_.begin(top, state.top_force);
 }
@@ -418,7 +420,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     record_.in_contact = state.in_contact;
     record_.repulsive = state.repulsive;
     record_.closest = state.closest;
-    const double change = state.interface_energy + state.elastic_energy - energy_at_start_;
+    const double gained = state.interface_energy + state.elastic_energy - energy_at_start_;
     scale_ = std::max(
         {scale_, std::abs(state.interface_energy), state.elastic_energy, std::abs(record_.work)});
     // Of energies that are still small the balance says nothing: of those below an eightieth of
@@ -427,7 +429,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     const double least = std::min(options_.scales.force * sites_ * (way_ + options_.step) / 80.0,
                                   0.05 * options_.depth);
     const double scale = std::max(scale_, least);
-    record_.residual = scale > 0.0 ? (record_.work - change - record_.damped) / scale : 0.0;
+    record_.residual = scale > 0.0 ? (record_.work - gained - record_.damped) / scale : 0.0;
 }
 
 Instability QuasistaticPath::describe(const RelaxedState& state, double energy) const {

@@ -65,8 +65,9 @@ public:
 
     /// The undisplaced block, where nothing is in reach.
     void start();
-    /// The block as it is.
-    void start_here();
+    /// The block as it is. apart: works are counted from the solids at rest apart, so that the
+    /// first point has the energy of this state; otherwise from here.
+    void start_here(bool apart = false);
 
     /// A segment of the path, and its number for what is recorded; amounts in the engine's units (a
     /// load in eV/Å).
@@ -153,7 +154,7 @@ private:
     void accept(const Trial& to, const StepCheck& step);
     Instability describe(const RelaxedState& state, double energy) const;
     void set_record(const RelaxedState& state, double at);
-    void first_point(double top);
+    void first_point(double top, bool apart);
     double smallest_step() const { return options_.step * 0x1p-16; }
     /// Of the work of a step with an instability, eV.
     double allowed_uncertainty() const { return options_.tolerance * sites_ * options_.step; }
@@ -180,9 +181,9 @@ private:
     double strongest_ = 0.0; ///< attraction so far, eV/Å
     double work_ = 0.0;      ///< of the segment, eV
     SegmentError error_;
-    double energy_at_start_ = 0.0;
-    double scale_ = 0.0; ///< largest energy seen, for the residual, eV
-    double way_ = 0.0;   ///< so far, in and out, Å
+    double energy_at_start_ = 0.0; ///< of where works are counted from, eV
+    double scale_ = 0.0;           ///< largest energy seen, for the residual, eV
+    double way_ = 0.0;             ///< so far, in and out, Å
     Dissipation dissipation_;
 };
 

@@ -64,6 +64,57 @@ struct Hermite {
     double slope(double t) const { return c[1] + t * (2.0 * c[2] + 3.0 * t * c[3]); }
 };
 
+/// A cubic spline and its values anywhere between its points.
+struct Spline {
+    std::span<const double> x, y;
+    std::vector<double> slope;
+    Spline(std::span<const double> at, std::span<const double> values)
+        : x(at), y(values), slope(spline_slopes(at, values)) {}
+    double operator()(double r) const {
+        const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, r);
+        const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
+        const double length = x[i + 1] - x[i];
+        return Hermite(length, y[i], slope[i], y[i + 1], slope[i + 1]).value((r - x[i]) / length);
+    }
+};
+
+/// Of the spline through all rows where it is negative, relative to the depth of its well: what a
+/// spline without every second row misses there, over 16, for the error of a spline goes with the
+/// fourth power of the distance of its points.
+double spline_error(std::span<const double> x, std::span<const double> y, double depth) {
+    std::vector<double> half_x, half_y;
+    const std::size_t n = x.size();
+    for (std::size_t i = 0; i < n; ++i)
+        if (i % 2 == 0 || i == n - 1) half_x.push_back(x[i]), half_y.push_back(y[i]);
+    const Spline half(half_x, half_y);
+    double largest = 0.0;
+    for (std::size_t i = 1; i + 1 < n; i += 2)
+        if (y[i] <= 0.0) largest = std::max(largest, std::abs(half(x[i]) - y[i]) / depth);
+    return largest / 16.0;
+}
+
+/// Largest spline_error(). It is an upper bound where the repulsion is steep: the work of adhesion
+/// of Lennard-Jones and Morse tables is then right to 2 %, and with twice as many rows to 0.1 %.
+constexpr double largest_spline_error = 0.25;
+
+/// Throws where the curve between the rows is not what they say: where the spline through half of
+/// them tells so, or a well lies between them that no row has.
+void require_enough_rows(std::span<const double> x, std::span<const double> y, double depth,
+                         double deepest) {
+    const double error = spline_error(x, y, depth), rows = static_cast<double>(x.size());
+    const bool hidden = deepest > (1.0 + largest_spline_error) * depth;
+    if (error <= largest_spline_error && !hidden) return;
+    // The fourth root is that of a spline that resolves the potential, twice as many where it does
+    // not yet.
+    const double enough = 2.0 * rows * std::pow(std::max(1.0, error / largest_spline_error), 0.25);
+    throw std::invalid_argument(fmt::format(
+        "its {} rows are too far apart: the curve through them is {:.3g} eV deep, the lowest row "
+        "{:.3g} eV, and without every second row it differs by {:.2g} times that; about {:.0f} "
+        "rows, "
+        "placed alike, would do",
+        x.size(), deepest, depth, 16.0 * error, std::max(64.0, std::ceil(enough))));
+}
+
 /// Where f turns from positive to negative.
 template <class F>
 double crossing(double low, double high, const F& f) {
@@ -131,6 +182,10 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
     whole_.cutoff = last_;
 
     const Pair<Tabulated> pair(whole_);
+    double lowest = energy[least];
+    for (std::size_t k = 0; k < cubics_.size(); k += 4)
+        lowest = std::min(lowest, cubics_[k]);
+    require_enough_rows(distance, energy, -energy[least], -lowest);
     Tabulated::Shape& shape = whole_.shape;
     const auto force = [&](double r) { return -r * pair.derivatives(r * r).slope; };
     shape.minimum = crossing(distance[least - 1], distance[least + 1], force);

@@ -18,8 +18,8 @@ namespace asperity {
 class PotentialTable {
 public:
     /// Distances, Å, ascending, and energies, eV. Throws std::invalid_argument where they are no
-    /// potential: fewer than 8 points, distances that do not ascend, no well, or a repulsion that
-    /// does not rise to ten times its depth.
+    /// potential: fewer than 8 points, distances that do not ascend, no well, a repulsion that does
+    /// not rise to ten times its depth, or rows too far apart for a spline.
     PotentialTable(std::span<const double> distance, std::span<const double> energy);
     PotentialTable(const PotentialTable&) = delete; ///< potentials point into it
     PotentialTable& operator=(const PotentialTable&) = delete;
@@ -28,7 +28,8 @@ public:
     /// not between the minimum and the last distance.
     Tabulated potential(double cutoff) const;
 
-    double last() const { return last_; } ///< distance, Å
+    double last() const { return last_; }               ///< distance, Å
+    double depth() const { return whole_.shape.depth; } ///< of the well, eV
     std::size_t numbers() const { return cubics_.size(); }
 
 private:

@@ -24,9 +24,8 @@ void DrivenPath::follow(const StepRecord& now) {
             simulation_.drive().velocity(0.0) != 0.0
                 ? now.kinetic_energy
                 : 0.5 * block.atom_mass * sites * sites * block.thickness * v * v;
-        const double moving = kinetic_as_top(0.0);
-        apart_ =
-            segment_start_ = {0.0, 0.0, start_.energy + moving, start_.energy, 0.0, moving, 0.0};
+        // The drive sets it in motion and brings it within reach before the first step.
+        segment_start_ = at_rest_apart({}, start_.energy, kinetic_as_top(0.0));
     }
     if (ended_)
         concluding_ = std::exchange(ended_, std::nullopt);
@@ -56,71 +55,40 @@ std::optional<std::size_t> DrivenPath::tell_drive(const StepRecord& now) {
 void DrivenPath::conclude(std::size_t number) {
     concluding_.reset();
     const Segment& segment = case_.path[number];
-    const Account now = account();
-    SegmentResults ended = results_.ended(number, segment, simulation_.now(),
-                                          per_area_ * (now.drive_work - segment_start_.drive_work),
-                                          now.lateral_work - segment_start_.lateral_work);
-    ended.interface_work = per_area_ * (now.interface_work - segment_start_.interface_work);
-    ended.lost = per_area_ * (now.lost - segment_start_.lost);
-    results_.segments.push_back(ended);
-    if (segment.kind == Segment::approach) conclude_approach(now);
-    if (segment.kind == Segment::pull_off) conclude_pull_off(now, number);
-    segment_start_ = now;
-    results_.begin_segment();
-}
-
-// The path is taken from rest to rest, out of reach: the drive also sets the block in motion
-// before the first step and stops it after the last, and brings it in and out as a rigid body
-// where what binds it then is the interface's energy.
-
-void DrivenPath::conclude_approach(const Account& now) {
-    WayEnergies& in = results_.approach;
-    in.interface_work = per_area_ * (now.interface_work - apart_.interface_work - apart_.bound);
-    in.drive_work =
-        -per_area_ * (now.drive_work - apart_.drive_work + apart_.bound + apart_.moving);
-    in.lost.reset();
-    if (reaches_the_state())
-        in.lost =
-            per_area_ * (lost_since_apart(now) + now.energy) + results_.zero_load->binding_energy;
-}
-
-void DrivenPath::conclude_pull_off(const Account& now, std::size_t number) {
-    WayEnergies& out = results_.pull_off;
-    const double interface_work = simulation_.balance().interface; // to where it is bound so much
-    out.interface_work = -per_area_ * (interface_work - segment_start_.interface_work + now.bound);
-    out.drive_work =
-        per_area_ * (now.drive_work - segment_start_.drive_work - now.bound - now.moving);
-    if (scene_.drive.temperature == 0.0) { // else heat goes both ways
-        results_.lost_in_cycle =
-            per_area_ * (lost_since_apart(now) + now.energy - now.bound - now.moving);
-        const bool straight = number > 0 && case_.path[number - 1].kind == Segment::approach;
-        out.lost.reset();
-        if (straight && reaches_the_state())
-            out.lost = *results_.lost_in_cycle - *results_.approach.lost;
+    const StepRecord& now = simulation_.now();
+    const double energy = now.interface_energy + now.elastic_energy + now.kinetic_energy;
+    Account end = account();
+    std::optional<double> kinetic;
+    if (segment.kind == Segment::pull_off) {
+        // It ends apart: the drive stops the block after the last step.
+        const double bound = now.interface_energy, moving = kinetic_as_top(now.time);
+        end.interface = simulation_.balance().interface; // to where it is bound so much
+        end = at_rest_apart(end, bound, moving);
+        kinetic = energy - bound - moving;
+    } else if (segment.kind == Segment::approach && results_.zero_load &&
+               scene_.drive.load == 0.0) {
+        kinetic =
+            energy + results_.zero_load->binding_energy * case_.area() / units::milli_per_unit;
     }
-    apart_ = now;
-}
-
-/// Damped since the solids were last apart, less what vibrated there, eV.
-double DrivenPath::lost_since_apart(const Account& now) const {
-    return now.lost - apart_.lost - (apart_.energy - apart_.bound - apart_.moving);
-}
-
-/// The approach ends, but for vibrations, in the state at zero load.
-bool DrivenPath::reaches_the_state() const {
-    return results_.zero_load && scene_.drive.temperature == 0.0 && scene_.drive.load == 0.0;
+    ledger_.conclude(number, now,
+                     {.on_solids = end.on_solids - segment_start_.on_solids,
+                      .lateral = end.lateral - segment_start_.lateral,
+                      .lost = end.lost - segment_start_.lost,
+                      .interface = end.interface - segment_start_.interface,
+                      .uncertainty = {}},
+                     kinetic);
+    segment_start_ = end;
 }
 
 DrivenPath::Account DrivenPath::account() const {
-    const StepRecord& now = simulation_.now();
     const EnergyBalance& balance = simulation_.balance();
-    return {balance.top_work + balance.drag_work,
-            balance.damped,
-            now.interface_energy + now.elastic_energy + now.kinetic_energy,
-            now.interface_energy,
-            interface_work_,
-            kinetic_as_top(now.time),
-            balance.lateral};
+    return {balance.drive(), balance.lateral, balance.net_damped(), interface_work_};
+}
+
+DrivenPath::Account DrivenPath::at_rest_apart(Account account, double bound, double moving) {
+    account.on_solids -= bound + moving;
+    account.interface += bound;
+    return account;
 }
 
 /// Of the block moving as the top plane does at that time, eV.

@@ -17,8 +17,8 @@
 #include "engine/dynamics/approach_start.hpp"
 #include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/path_results.hpp"
+#include "engine/run/ledger.hpp"
 #include "engine/setup/case.hpp"
-#include "engine/units.hpp"
 
 #include <optional>
 
@@ -29,7 +29,7 @@ public:
     /// All are used where they are. results: attractions, the end of the approach and the works of
     /// segments are noted there.
     DrivenPath(const Case& c, Simulation& simulation, PathResults& results)
-        : case_(c), simulation_(simulation), results_(results) {}
+        : case_(c), simulation_(simulation), results_(results), ledger_(c, results) {}
 
     /// The undeformed block where the path starts. A warm block starts where nothing is in reach:
     /// the way down is what warms it. Collective.
@@ -44,7 +44,7 @@ public:
     void follow(const StepRecord& now);
     /// The segment that ended the step before, if one did: before the next step it is concluded.
     const std::optional<std::size_t>& to_conclude() const { return concluding_; }
-    /// Its works, and what was lost where the state at zero load is among the results.
+    /// Its works and losses.
     void conclude(std::size_t segment);
 
     /// For checkpoints.
@@ -54,49 +54,41 @@ public:
         v("concluding", concluding_);
         v("start", start_);
         v("kinetic_at_full_speed", kinetic_at_full_speed_);
-        v("apart", apart_);
         v("segment_start", segment_start_);
         v("interface_work", interface_work_);
+        v("ledger", ledger_);
     }
 
 private:
-    /// At an observed step, eV.
+    /// Since the start of the path, eV: what the simulation has summed up.
     struct Account {
-        double drive_work = 0.0;     ///< of the top plane and the damping medium, which move alike
-        double lost = 0.0;           ///< damped
-        double energy = 0.0;         ///< kinetic, elastic and of the interface
-        double bound = 0.0;          ///< of the interface alone
-        double interface_work = 0.0; ///< int F dz of the mean height
-        double moving = 0.0;         ///< kinetic energy of the block moving as the top plane does
-        double lateral_work = 0.0;   ///< of what moves the block sideways
+        double on_solids = 0.0; ///< by the top plane and the damping medium, which move alike
+        double lateral = 0.0;   ///< of this, sideways
+        double lost = 0.0;      ///< net damped
+        double interface = 0.0; ///< int F dz of the mean height
 
         template <class Visitor>
         void visit(Visitor& v) {
-            v("drive_work", drive_work);
+            v("on_solids", on_solids);
+            v("lateral", lateral);
             v("lost", lost);
-            v("energy", energy);
-            v("bound", bound);
-            v("interface_work", interface_work);
-            v("moving", moving);
-            v("lateral_work", lateral_work);
+            v("interface", interface);
         }
     };
     std::optional<std::size_t> tell_drive(const StepRecord& now);
-    void conclude_approach(const Account& now);
-    void conclude_pull_off(const Account& now, std::size_t number);
-    double lost_since_apart(const Account& now) const;
-    bool reaches_the_state() const;
     Account account() const;
+    /// The same, if the block were brought to rest and out of reach from there as a rigid body:
+    /// bound, moving: its energies, eV.
+    static Account at_rest_apart(Account account, double bound, double moving);
     double kinetic_as_top(double time) const;
 
     const Case& case_;
     const Scene& scene_ = case_.scene;
     Simulation& simulation_;
     PathResults& results_;
-    const double per_area_ = units::milli_per_unit / (case_.area());
+    Ledger ledger_;
     ApproachStart start_;
     double kinetic_at_full_speed_ = 0.0;    ///< of the whole block at the drive's velocity, eV
-    Account apart_;                         ///< where the solids were last out of reach
     Account segment_start_;                 ///< where the segment under way began
     double interface_work_ = 0.0;           ///< int F dz to where the last segment ended, eV
     std::optional<std::size_t> ended_;      ///< the segment that the last step ended

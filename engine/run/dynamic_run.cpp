@@ -33,7 +33,10 @@ public:
     DynamicRun(const Case& c, const RunOptions& options, const Communicator& ranks)
         : run_(c, options, ranks), case_(c),
           simulation_(c.simulation, run_.surface, ranks, run_.grid),
-          path_(c, simulation_, run_.results) {}
+          path_(c, simulation_, run_.results) {
+        if (run_.maps.any() || !delayed_fields_.empty() || c.maps.segments)
+            layer_ = VectorField<double>(run_.grid.tile(0), 1);
+    }
 
     int carry_out() {
         const std::size_t bytes = simulation_.block().bytes() + simulation_.interface().bytes();
@@ -64,14 +67,17 @@ private:
             // The step after a segment and the last of all are observed, so that the guard has seen
             // the energy balance before anything is concluded.
             const bool due = simulation_.steps() % scene_.output.series == 0;
-            const StepRecord& now =
-                simulation_.step(due || path_.must_observe() || next_step_is_last());
+            const bool observed = due || path_.must_observe() || next_step_is_last();
+            keep_layer(observed);
+            const StepRecord& now = simulation_.step(observed);
             guard(now);
             if (frame) end_frame(*frame);
             if (now.observed) record_row();
             watch_step(now);
-            path_.follow(now);
             write_delayed_fields(now.time);
+            path_.follow(now);
+            if (path_.to_conclude() && case_.maps.segments)
+                write_maps(fmt::format("segment-{}", *path_.to_conclude()));
             if (run_.progress.due()) run_.progress.update(progress_state(now));
         }
     }
@@ -83,13 +89,29 @@ private:
         return scene_.output.trajectory && simulation_.steps() % *scene_.output.trajectory == 0;
     }
 
+    /// Before a step that maps may be written of: after it the block is at the next one, while the
+    /// interface and what was summed up are at this one.
+    void keep_layer(bool observed) {
+        const Segment::Kind kind = simulation_.drive().now().kind;
+        const bool kept = (case_.maps.pull_off && observed && kind == Segment::pull_off) ||
+                          run_.maps.due(simulation_.steps()) ||
+                          delayed_field_is_due(simulation_.time()) ||
+                          (case_.maps.segments && path_.must_observe());
+        if (!kept) return;
+        const auto t = run_.phases.time(Phase::output);
+        copy_layer(simulation_.block().lowest_layer(), layer_.plane(0));
+    }
+    VectorPlane<const double> layer() const { return layer_.plane(0); }
+    void write_maps(const std::string& state) {
+        const auto t = run_.phases.time(Phase::output);
+        run_.recorder().fields(state, layer(), run_.grid, simulation_.interface(),
+                               simulation_.reference_height());
+    }
+
     /// Maps that are due so long after the approach has ended.
     void write_delayed_fields(double time) {
-        while (!delayed_fields_.empty() && is_due(delayed_fields_.front().first, time)) {
-            const auto t = run_.phases.time(Phase::output);
-            run_.recorder().fields(delayed_fields_.front().second,
-                                   simulation_.block().lowest_layer(), run_.grid,
-                                   simulation_.interface(), simulation_.reference_height());
+        while (delayed_field_is_due(time)) {
+            write_maps(delayed_fields_.front().second);
             delayed_fields_.erase(delayed_fields_.begin());
             ++delayed_written_;
         }
@@ -101,9 +123,10 @@ private:
             run_.progress.say(
                 fmt::format("the maps \"{}\" were not written: the path ended before", name));
     }
-    bool is_due(double delay, double time) const { // ps, fs
-        return run_.results.contact_made &&
-               time >= *run_.results.contact_made + delay * units::picosecond;
+    bool delayed_field_is_due(double time) const { // fs
+        return !delayed_fields_.empty() && run_.results.contact_made &&
+               time >=
+                   *run_.results.contact_made + delayed_fields_.front().first * units::picosecond;
     }
 
     /// What a segment has come to. False: stopped on the way to it.
@@ -119,12 +142,6 @@ private:
             }
         }
         path_.conclude(number);
-        if (case_.maps.segments) {
-            const auto t = run_.phases.time(Phase::output);
-            run_.recorder().fields(fmt::format("segment-{}", number),
-                                   simulation_.block().lowest_layer(), run_.grid,
-                                   simulation_.interface(), simulation_.reference_height());
-        }
         if (!simulation_.drive().done())
             run_.progress.say(simulation_.drive().now().text + " begins");
         return true;
@@ -191,14 +208,13 @@ private:
         run_.recorder().end_frame(frame, simulation_);
     }
 
-    /// The block is a step further than what was observed: no more than it moves in one.
     void watch_step(const StepRecord& now) {
         if (!run_.maps.any()) return;
         if (!now.observed && !run_.maps.due(now.step)) return;
         const auto t = run_.phases.time(Phase::output);
         run_.maps.watch(now.step, simulation_.drive().now().kind, now.observed ? -now.force : 0.0,
-                        simulation_.block().lowest_layer(), simulation_.interface(),
-                        simulation_.reference_height(), run_.recorder());
+                        layer(), simulation_.interface(), simulation_.reference_height(),
+                        run_.recorder());
     }
 
     /// Goes on from a checkpoint if asked. True if it did.
@@ -259,6 +275,7 @@ private:
     std::optional<StepRecord> failed_; ///< the step that a guard ended the run at
     std::vector<std::pair<double, std::string>> delayed_fields_ = case_.maps.after_zero_load;
     std::size_t delayed_written_ = 0; ///< of these, the first
+    VectorField<double> layer_;       ///< the lowest one, at the step of the record
     Snapshot snapshot_;
     CollectNumbers snapshot_numbers_;
 };

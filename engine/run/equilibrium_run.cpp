@@ -7,6 +7,7 @@
 #include "engine/equilibrium/zero_load.hpp"
 #include "engine/interface/flat_reference.hpp"
 #include "engine/run/guard.hpp"
+#include "engine/run/ledger.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/units.hpp"
@@ -91,11 +92,10 @@ private:
 
     void begin_segment() {
         if (std::exchange(resumed_, false)) return;
-        run_.results.begin_segment();
         const bool first = segment_ == 0;
         const bool from_state = !first && case_.path[segment_ - 1].kind == Segment::zero_load;
         if (first) path_.start();
-        if (from_state) path_.start_here();
+        if (from_state) path_.start_here(true);
         path_.begin(case_.simulation.drive.path[segment_], segment_);
         if (first || from_state) run_.recorder().row(path_.now(), segment_, scene_.surface.sites);
     }
@@ -129,52 +129,29 @@ private:
 
     /// What a segment has come to. False where it was stopped on the way to it.
     bool conclude() {
-        const double per_area = units::milli_per_unit / (case_.area());
-        const double work = per_area * path_.work();
-        const double lost = per_area * path_.dissipation().in_segment;
-        const double uncertainty = per_area * path_.uncertainty();
-        PathResults& results = run_.results;
-        SegmentResults ended = results.ended(segment_, now(), path_.now(), work, path_.work());
-        ended.lost = lost;
-        ended.uncertainty = uncertainty;
-        if (scene_.drive.hold == Hold::mean_height)
-            ended.interface_work = now().kind == Segment::slide ? 0.0 : -work;
-
-        const bool in = now().kind == Segment::approach;
-        if (in || now().kind == Segment::pull_off) {
-            WayEnergies& here = in ? results.approach : results.pull_off;
-            here.drive_work = in ? -work : work;
-            here.lost = lost;
-            here.uncertainty = uncertainty;
-            if (scene_.drive.hold == Hold::mean_height) here.interface_work = here.drive_work;
-        }
-        if (now().kind == Segment::pull_off && results.approach.lost)
-            results.lost_in_cycle = lost + lost_since_apart();
-        if (in) {
-            require_load_reached(case_.simulation.drive.load_force, results.attraction_in,
+        const Segment::Kind kind = now().kind;
+        if (kind == Segment::approach) {
+            require_load_reached(case_.simulation.drive.load_force, run_.results.attraction_in,
                                  path_.slack(), case_.area());
             path_.put_back(); // as after a resume, to the same bits
             const bool found = find_state(0.0);
             path_.put_back();
             if (!found) return stop_at_last_point();
         }
-        results.segments.push_back(ended);
+        Works works{.on_solids = path_.work(),
+                    .lateral = kind == Segment::slide ? path_.work() : 0.0,
+                    .lost = path_.dissipation().in_segment,
+                    .interface = {},
+                    .uncertainty = path_.uncertainty()};
+        // A held mean height does not jump: the holder's force is that of the interface.
+        if (scene_.drive.hold == Hold::mean_height)
+            works.interface = kind == Segment::slide ? 0.0 : -path_.work();
+        ledger_.conclude(segment_, path_.now(), works, {});
         if (case_.maps.segments)
             run_.recorder().fields(fmt::format("segment-{}", segment_), block_.lowest_layer(),
                                    run_.grid, interface_, reference_height());
         return true;
     }
-    /// In the segments that have ended, back to where the solids were out of reach, meV/Å^2.
-    double lost_since_apart() const {
-        const auto& segments = run_.results.segments;
-        double lost = 0.0;
-        for (std::size_t i = segments.size(); i-- > 0;) {
-            if (case_.path[segments[i].number].kind == Segment::pull_off) break;
-            lost += segments[i].lost;
-        }
-        return lost;
-    }
-
     bool stop_at_last_point() {
         run_.stop_now(state_writer(), position());
         return false;
@@ -241,6 +218,7 @@ private:
         CollectNumbers collect;
         Place place{block_.top(), segment_, at_end_, points()};
         collect("place", place);
+        collect("ledger", ledger_);
         if (place.on_path) collect("path", path_);
         run_.collect(collect);
         write_checkpoint(file, run_.ranks, run_.grid, arrays(place), collect.numbers,
@@ -263,6 +241,7 @@ private:
         segment_ = place.segment;
         at_end_ = place.at_end;
         read_checkpoint(*from, run_.ranks, run_.grid, arrays(place), run_.fingerprint());
+        restore("ledger", ledger_);
         if (place.on_path) {
             restore("path", path_);
             path_.resume();
@@ -294,6 +273,7 @@ private:
     Interface interface_;
     SpectralBlock block_;
     QuasistaticPath path_;
+    Ledger ledger_{case_, run_.results};
     std::size_t segment_ = 0; ///< number of the one under way
     bool at_end_ = false;     ///< it has come to its end and is to be concluded
     bool resumed_ = false;    ///< it goes on from a checkpoint

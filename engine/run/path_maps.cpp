@@ -9,6 +9,14 @@
 
 namespace asperity {
 
+void copy_layer(const VectorPlane<const double>& from, const VectorPlane<double>& to) {
+    for (int y = 0; y < to.x.ny; ++y) {
+        std::copy_n(from.x.line(y), to.x.nx, to.x.line(y));
+        std::copy_n(from.y.line(y), to.y.nx, to.y.line(y));
+        std::copy_n(from.z.line(y), to.z.nx, to.z.line(y));
+    }
+}
+
 PathMaps::PathMaps(const MapTimes& times, const ProcessGrid& grid) : times_(times), grid_(grid) {
     if (times.pull_off) layer_ = VectorField<double>(grid.tile(0), 1);
 }
@@ -24,12 +32,7 @@ void PathMaps::watch(long long step, Segment::Kind kind, double attraction,
     place_ = interface.place();
     reference_height_ = reference_height;
     kept_ = true;
-    const VectorPlane<double> to = layer_.plane(0);
-    for (int y = 0; y < to.x.ny; ++y) {
-        std::copy_n(layer.x.line(y), to.x.nx, to.x.line(y));
-        std::copy_n(layer.y.line(y), to.y.nx, to.y.line(y));
-        std::copy_n(layer.z.line(y), to.z.nx, to.z.line(y));
-    }
+    copy_layer(layer, layer_.plane(0));
 }
 
 void PathMaps::write_kept(Interface& interface, Recorder& recorder) {

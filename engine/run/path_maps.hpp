@@ -14,6 +14,9 @@
 
 namespace asperity {
 
+/// The owned sites.
+void copy_layer(const VectorPlane<const double>& from, const VectorPlane<double>& to);
+
 class PathMaps {
 public:
     PathMaps(const MapTimes& times, const ProcessGrid& grid);
@@ -21,7 +24,7 @@ public:
     /// Whether watch() has anything to do at all, and at this step without an attraction.
     bool any() const { return times_.every || times_.pull_off; }
     bool due(long long step) const { return times_.every && step % *times_.every == 0; }
-    /// Collective.
+    /// layer: of the step or point, as the interface's place is. Collective.
     void watch(long long step, Segment::Kind kind, double attraction,
                const VectorPlane<const double>& layer, const Interface& interface,
                double reference_height, Recorder& recorder);

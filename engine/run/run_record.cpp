@@ -46,7 +46,8 @@ void add_zero_load(const ZeroLoad& z, io::Result& result) {
     result.set("run.iterations", static_cast<long long>(z.iterations));
 }
 
-void add_path(const PathResults& results, std::optional<double> radius, io::Result& result) {
+void add_path(const PathResults& results, const Case& c, io::Result& result) {
+    const std::optional<double> radius = c.scene.surface.radius;
     const WayEnergies &in = results.approach, &out = results.pull_off;
     result.set("work_of_adhesion.approach", in.interface_work);
     result.set("work_of_adhesion.pull_off", out.interface_work);
@@ -55,6 +56,8 @@ void add_path(const PathResults& results, std::optional<double> radius, io::Resu
     result.set("lost.approach", in.lost);
     result.set("lost.pull_off", out.lost);
     result.set("lost.cycle", results.lost_in_cycle);
+    result.set("kinetic.approach", in.kinetic);
+    result.set("kinetic.pull_off", out.kinetic);
     if (in.interface_work) result.set("work_of_adhesion.uncertainty.approach", in.uncertainty);
     if (out.interface_work) result.set("work_of_adhesion.uncertainty.pull_off", out.uncertainty);
     result.set("work_of_drive.uncertainty.approach", in.uncertainty);
@@ -64,6 +67,7 @@ void add_path(const PathResults& results, std::optional<double> radius, io::Resu
     if (in.drive_work) result.set("approach_force", results.attraction_in);
     if (out.drive_work) result.set("pull_off_force", results.attraction_out);
     if (!radius) return;
+    if (c.edge_pinning > 1.05 && out.drive_work) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, *radius);
     };
@@ -99,7 +103,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         };
         result.set("segments[].segment", i, static_cast<long long>(s.number));
         result.set("segments[].name", i, c.path[s.number].text);
-        result.set("segments[].work_of_drive", i, s.drive_work);
+        result.set("segments[].work", i, s.work);
         given("segments[].work_of_interface", s.interface_work);
         result.set("segments[].lost", i, s.lost);
         given("segments[].uncertainty", s.uncertainty);
@@ -172,7 +176,7 @@ io::Result surface_result(const Case& c, const Surface& surface) {
 io::Result run_result(const Case& c, const Surface& surface, const PathResults& results) {
     io::Result result = surface_result(c, surface);
     result.set("delta_gamma", c.flat.work_of_adhesion);
-    add_path(results, c.scene.surface.radius, result);
+    add_path(results, c, result);
     if (results.zero_load) add_zero_load(*results.zero_load, result);
     if (!results.segments.empty()) add_segments(results, c, result);
     if (results.dissipated) add_dissipation(results, c, result);

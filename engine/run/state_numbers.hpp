@@ -13,7 +13,10 @@
 //         v("jumps", jumps);   // a vector of these: "jumps.count", "jumps.0.energy",
 //         v("lost", lost);     // an optional of these: "lost.given", "lost"
 //         v("slide", slide);   // an array of these: "slide.0", "slide.1"
+//         if constexpr (Visitor::restores) ...; // what else follows from the new values
 //     }
+//
+// Collecting takes const objects and changes nothing.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +49,7 @@ public:
         } else if constexpr (std::is_enum_v<T>) {
             std::underlying_type_t<T> number = static_cast<std::underlying_type_t<T>>(value);
             (*this)(name, number);
-            value = static_cast<T>(number);
+            if constexpr (Self::restores) value = static_cast<T>(number);
         } else if constexpr (std::is_integral_v<T>) {
             using Limits = std::numeric_limits<T>;
             constexpr std::uint64_t largest = std::numeric_limits<std::int64_t>::max();
@@ -54,7 +57,7 @@ public:
             self().integer(prefix_ + name, number, static_cast<std::int64_t>(Limits::lowest()),
                            static_cast<std::int64_t>(
                                std::min(static_cast<std::uint64_t>(Limits::max()), largest)));
-            value = static_cast<T>(number);
+            if constexpr (Self::restores) value = static_cast<T>(number);
         } else {
             visit_members(name, value);
         }
@@ -70,15 +73,14 @@ private:
     void visit_members(const std::string& name, std::optional<T>& value) {
         bool given = value.has_value();
         (*this)(name + ".given", given);
-        if (!given) return value.reset();
-        if (!value) value.emplace();
-        (*this)(name, *value);
+        if constexpr (Self::restores) given ? void(value.emplace()) : value.reset();
+        if (given) (*this)(name, *value);
     }
     template <class T>
     void visit_members(const std::string& name, std::vector<T>& list) {
         auto count = static_cast<std::int64_t>(list.size());
         self().integer(prefix_ + name + ".count", count, 0, self().longest_list());
-        list.resize(static_cast<std::size_t>(count));
+        if constexpr (Self::restores) list.resize(static_cast<std::size_t>(count));
         for (std::size_t i = 0; i < list.size(); ++i)
             (*this)(name + "." + std::to_string(i), list[i]);
     }
@@ -95,7 +97,14 @@ private:
 
 class CollectNumbers : public NumberVisitor<CollectNumbers> {
 public:
+    static constexpr bool restores = false;
     StateNumbers numbers;
+
+    template <class T>
+    void operator()(const std::string& name, const T& value) {
+        // One visit() lists the members for both visitors; this one writes to none of them.
+        NumberVisitor::operator()(name, const_cast<T&>(value));
+    }
 
     /// Throw std::logic_error where the name is taken.
     void number(const std::string& name, double& value) { put(name, value); }
@@ -110,6 +119,8 @@ private:
 
 class RestoreNumbers : public NumberVisitor<RestoreNumbers> {
 public:
+    static constexpr bool restores = true;
+
     /// The numbers must outlive it.
     explicit RestoreNumbers(const StateNumbers& numbers) : numbers_(numbers) {}
 

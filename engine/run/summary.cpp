@@ -86,13 +86,16 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
                    "meV/Å²: hardly anything is lost.\n",
                    io::number(std::abs(lost), 2));
     else
-        fmt::print(to,
-                   "  The drive gives {} meV/Å² more on the way out than it takes up on the "
-                   "way in: energy that is lost\n  where the surfaces snap together and apart.\n",
-                   io::number(lost, 2));
+        fmt::print(
+            to,
+            "  The drive gives {} meV/Å² more on the way out than it takes up on the way in: "
+            "energy that is {}.\n",
+            io::number(lost, 2),
+            c.in_time ? "damped, or still\n  moves at the end" : "lost at\n  instabilities");
     if (of("lost.approach") && scene.drive.load == 0.0)
-        fmt::print(to, "  Work of the drive on the approach + energy lost there = binding energy = "
-                       "work of the drive on the\n  pull-off - energy lost there.\n");
+        fmt::print(to, "  Work of the drive on the approach + {} = binding energy{}.\n",
+                   c.in_time ? "energy lost + energy that still moves" : "energy lost there",
+                   c.in_time ? "" : " =\n  work of the drive on the pull-off - energy lost there");
     if (of("work_of_adhesion.approach") && c.in_time)
         fmt::print(to,
                    "  The work of the interface is that of its force on the mean height of the "
@@ -107,7 +110,7 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
 void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     const bool slides = c.on(Effect::sliding);
     std::vector<std::string> head = {"segment",
-                                     named("work of the drive", "segments[].work_of_drive"),
+                                     named("work on the solids", "segments[].work"),
                                      named("lost", "segments[].lost"),
                                      named("ends at", "segments[].pressure"),
                                      named("mean height", "segments[].mean_height"),
@@ -117,7 +120,7 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     for (const SegmentResults& s : results.segments) {
         std::vector<std::string> row = {
-            c.path[s.number].text,    number(s.drive_work, 2),
+            c.path[s.number].text,    number(s.work, 2),
             number(s.lost, 2),        number(s.force / (c.area() * units::megapascal), 1),
             number(s.mean_height, 2), number(static_cast<double>(s.in_contact) / sites, 4)};
         if (slides) row.push_back(number(s.lateral_mean, 2));
@@ -215,6 +218,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     }
     const Number lost_in = of("lost.approach"), lost_out = of("lost.pull_off");
     if (lost_in || lost_out) row("energy lost", "lost.approach", 2, lost_in, lost_out, {});
+    const Number moves_in = of("kinetic.approach"), moves_out = of("kinetic.pull_off");
+    if (moves_in || moves_out)
+        row("energy that still moves", "kinetic.approach", 2, moves_in, moves_out, {});
     const auto plus_minus = [](Number v) { return v ? fmt::format("{:.1e}", *v) : "-"; };
     if (state || drive_in)
         table.row({named("uncertainty of the above", "binding_energy_uncertainty"),
@@ -253,11 +259,16 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         fmt::print(to,
                    "  At finite strain no state at zero load is given: states are sums of waves, "
                    "which do not add up.\n");
+    if (const Number pinning = of("jkr.edge_pinning"))
+        fmt::print(to,
+                   "  Rows of sites hold the edge of the contact: the pull-off force, and as a JKR "
+                   "sphere what follows\n  from it, are about {:.3g} times too large.\n",
+                   *pinning);
     if (drive_in && drive_out) print_cycle(to, c, of, flat);
     if (const Number residual = of("energy.balance_error"))
         fmt::print(to,
-                   "  Energy balance: work done = energy gained + energy {}, to {:.1e} of the "
-                   "largest term.\n",
+                   "  Energy balance: work on the solids = kinetic + elastic + interface energy + "
+                   "energy {},\n  to {:.1e} of the largest so far.\n",
                    of("dissipated.energy") ? "dissipated" : "damped", std::abs(*residual));
     fmt::print(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",

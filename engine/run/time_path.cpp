@@ -234,7 +234,9 @@ std::shared_ptr<const void> TimePath::lease() {
     return held;
 }
 
-InterfaceMaps TimePath::maps() const {
+/// Positions are of the next step: so is the place of the block over the substrate.
+InterfaceMaps TimePath::maps() {
+    simulation_.interface().slide_to(simulation_.place()[0], simulation_.place()[1]);
     return simulation_.interface().maps(simulation_.block().lowest_layer(),
                                         simulation_.reference_height());
 }
@@ -276,13 +278,15 @@ RestState TimePath::relax(const Look& look) {
     take_in_writes();
     LookNowAndThen now_and_then(look);
     const double height = simulation_.reference_height();
+    const std::array<double, 2> place = simulation_.place(); // of the sites as they are now
+    simulation_.interface().slide_to(place[0], place[1]);
     const LayerAtRest found = bring_to_rest(
         simulation_.block(), surface_, height, case_,
         [&](long long, double) { // what it throws ends the search
             now_and_then();
             return false;
         },
-        simulation_.now().slide);
+        place);
     return {*found.numbers, simulation_.interface().maps(found.layer.view()[0], height)};
 }
 
@@ -361,7 +365,8 @@ struct TimePath::Saved {
         double velocity = drive.by_hand().value_or(0.0);
         v("top.by_hand", by_hand);
         v("top.velocity", velocity);
-        drive.take_over(by_hand ? std::optional(velocity) : std::nullopt);
+        if constexpr (Visitor::restores)
+            drive.take_over(by_hand ? std::optional(velocity) : std::nullopt);
         ExternalWork work{all.simulation_};
         v("external", work);
         bool pushed = all.external_ != nullptr;

@@ -110,7 +110,7 @@ public:
     View f();
     std::shared_ptr<const void> lease();
     Tile tile() const { return grid_.tile(0); }
-    InterfaceMaps maps() const; ///< of the sites as they are now
+    InterfaceMaps maps(); ///< of the sites as they are now
 
     /// Forces on the sites beside the substrate's, eV/Å, from the next step on; they are copied.
     void set_external(const VectorPlane<const double>& field);

@@ -196,6 +196,12 @@ io::Schema bind(Scene& scene) {
         "of the block for its shortest wave, 500 π E* / spacing, and at least 50 adhesion / "
         "range²");
 
+    schema.choice<EdgePinning>(
+        "edge_pinning", interface.edge_pinning,
+        {{"refuse", EdgePinning::refuse}, {"allow", EdgePinning::allow}},
+        "pull-off of a sphere whose force is more than 1.3 times too large because rows of sites "
+        "hold the edge of the contact: a range that the spacing does not resolve");
+
     auto& drive = scene.drive;
     schema.section("drive", "What is done to the top plane, and how time passes.");
     schema.choice<DriveMode>(

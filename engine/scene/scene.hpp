@@ -34,6 +34,8 @@ enum class BlockModel { lattice, multiscale };
 enum class Strain { linear, finite };
 enum class InterfaceKind { atoms, wall };
 enum class WallLawKind { smeared, exponential };
+/// Of rows of sites that hold the edge of a contact.
+enum class EdgePinning { refuse, allow };
 enum class DriveMode { dynamic, quasistatic };
 enum class Hold { top, mean_height };
 using theory::AreaFactor;
@@ -96,6 +98,7 @@ struct Scene {
         double adhesion = 100.0;                    ///< meV/Å^2, exponential
         double range = 1.0;                         ///< Å, exponential
         std::optional<double> stiffness;            ///< GPa/Å, exponential; empty: by the block
+        EdgePinning edge_pinning = EdgePinning::refuse;
 
         std::string potential_name() const;
     } interface;

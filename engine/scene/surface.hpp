@@ -71,7 +71,7 @@ struct Surface {
     double length = 0.0;        ///< Å
     double radius = 0.0;        ///< of the cap that the heights hold, Å; 0: none
     std::vector<double> height; ///< height[y * sites + x] of the atom at (x, y) length / sites, Å;
-                                ///< where there are `atoms`, of the topmost one near it
+                                ///< where there are `atoms`, of the topmost one nearest to it
     AtomPositions atoms;        ///< in the box [0, length); empty: one for each height
     SurfaceStatistics statistics;
     std::string origin; ///< of a measured map: whose it is, where its file says so

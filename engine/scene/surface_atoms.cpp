@@ -78,12 +78,19 @@ Surface surface_from_atoms(const SurfaceOptions& o, AtomPositions atoms) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> height(n * n, none);
     const double spacing = o.length / o.sites;
-    for (std::size_t i = 0; i < atoms.size(); ++i) {
-        const auto nearest = [&](double place) {
-            return static_cast<std::size_t>(std::lround(place / spacing)) % n;
-        };
-        double& top = height[nearest(atoms.y[i]) * n + nearest(atoms.x[i])];
-        if (!(top >= atoms.z[i])) top = atoms.z[i];
+    // The points of the map are at (i, j) times the spacing, as the atoms of a lattice. An atom
+    // half way between some of them (files have three digits and more) is nearest to each.
+    constexpr double half_way = 0.5 + 1e-3;
+    for (std::size_t k = 0; k < atoms.size(); ++k) {
+        const double x = atoms.x[k] / spacing, y = atoms.y[k] / spacing;
+        for (double j = std::ceil(y - half_way); j <= y + half_way; ++j)
+            for (double i = std::ceil(x - half_way); i <= x + half_way; ++i) {
+                const auto periodic = [&](double at) {
+                    return static_cast<std::size_t>(at + o.sites) % n;
+                };
+                double& top = height[periodic(j) * n + periodic(i)];
+                if (!(top >= atoms.z[k])) top = atoms.z[k];
+            }
     }
     const auto empty = static_cast<std::size_t>(
         std::count_if(height.begin(), height.end(), [](double h) { return std::isnan(h); }));
@@ -98,8 +105,9 @@ Surface surface_from_atoms(const SurfaceOptions& o, AtomPositions atoms) {
     as_they_are.rms = 0.0;
     Surface s = surface_from_heights(as_they_are, std::move(height), o.sites, o.sites);
     s.atoms = std::move(atoms);
-    s.notes.push_back(fmt::format("heights are those of the topmost atom nearest to each of "
-                                  "{0} x {0} sites, from their mean (z = {1:.6g} Å in the file)",
+    s.notes.push_back(fmt::format("heights are those of the topmost atom nearest to each of {0} x "
+                                  "{0} points (i a, j a), from their mean (z = {1:.6g} Å in the "
+                                  "file)",
                                   o.sites, mean));
     if (empty > 0)
         s.notes.push_back(fmt::format("{} of {} sites have no atom nearest to them: filled by "

@@ -58,7 +58,10 @@ struct Case {
     std::string force_scale; ///< what scales.force is, in words
     double tolerance = 0.0;  ///< drive.tolerance of it, eV/Å
     /// Bounds: of flat on flat, and of flat layers of each type of atoms.
-    double largest_tension = 0.0;   ///< GPa
+    double largest_tension = 0.0; ///< GPa
+    /// Factor by which rows of sites that hold the edge of a contact make a sphere's pull-off force
+    /// too large; 1 where the spacing resolves what attracts beside the edge.
+    double edge_pinning = 1.0;
     double longest_step = HUGE_VAL; ///< of a path without time, Å: half the potential's width
     double longest_timestep = 0.0;  ///< stability limit 2/omega_max at the bottom of the well, fs
     std::vector<std::string> notes; ///< worth knowing, not wrong

@@ -3,6 +3,7 @@
 //
 // The surface of a case: made from its spectrum, or from the map or the atoms of its file.
 #include "engine/setup/case.hpp"
+#include "engine/setup/spacing_limits.hpp"
 
 #include "io/atoms_file.hpp"
 #include "io/error.hpp"
@@ -209,6 +210,13 @@ Surface surface_of(const Case& c, const Communicator& world) {
                         std::filesystem::path(s.file).filename().string(), points, points,
                         edge / points, edge, map.unit));
         surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
+        const double softness = lattice_softness(c.simulation.block, surface.statistics);
+        if (softness < 0.97)
+            surface.notes.push_back(fmt::format(
+                "the roughness has waves of a few spacings, for which a lattice is softer than a "
+                "continuum: to flatten this map takes {:.0f} % less energy than q E*/2 for each "
+                "wave; resample it on more sites (surface.resample) for a continuum's numbers",
+                100.0 * (1.0 - softness)));
         return surface;
     } catch (const std::invalid_argument& e) {
         io::Problems problems = scene.problems();

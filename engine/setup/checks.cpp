@@ -6,6 +6,7 @@
 #include "engine/setup/resolving.hpp"
 
 #include "engine/interface/sweep_limits.hpp"
+#include "engine/setup/spacing_limits.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
 
@@ -345,24 +346,14 @@ std::vector<std::string> notes_on_keys(const Case& c) {
         list.push_back(fmt::format("a load of {:.4g} MPa strains the block by {:.2g} %, and "
                                    "block.strain = \"linear\" describes small strains",
                                    load, 100.0 * strain));
+    if (const auto note = note_on_contact_edge(scene)) list.push_back(*note);
+    for (std::size_t i = 0; i < c.table_files.size(); ++i) // no pair of atoms binds with more
+        if (const double depth = c.simulation.interface.tables[i]->depth(); depth > 10.0)
+            list.push_back(fmt::format("the well of {} is {:.4g} eV deep: its energies are read in "
+                                       "eV, and may be meV",
+                                       c.table_files[i], depth));
     const bool wall = scene.interface.kind == InterfaceKind::wall;
     const bool exponential = wall && scene.interface.law == WallLawKind::exponential;
-    if (exponential) {
-        // The gap opens as the root of the distance from the edge of a contact.
-        const double modulus = scene.block.young * units::gigapascal /
-                               (1.0 - scene.block.poisson * scene.block.poisson);
-        const double adhesion = scene.interface.adhesion / units::milli_per_unit;
-        const double range = scene.interface.range, strip = modulus * range * range / adhesion;
-        const double enough = std::sqrt(2.0 * surface.spacing * adhesion / modulus);
-        if (strip < 2.0 * surface.spacing)
-            list.push_back(fmt::format(
-                "the attraction reaches {:.2g} Å beside the edge of a contact (E* range^2 / "
-                "adhesion), less than two spacings: single rows of sites hold the edge in place, "
-                "and "
-                "a sphere's pull-off force can be 12 % off; interface.range = {:.3g} Å or more, or "
-                "surface.spacing = {:.3g} Å or less, avoids that",
-                strip, enough, 0.5 * strip));
-    }
     const auto idle = [&](const std::string& key, const std::string& reason) {
         if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
     };

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 #include "engine/setup/resolving.hpp"
+#include "engine/setup/spacing_limits.hpp"
 
 #include "engine/units.hpp"
 #include "io/error.hpp"
@@ -312,6 +313,8 @@ void look_at_ranks(Case& c, io::Problems& refused) {
 void derive(Case& c, io::Problems& problems) {
     io::Problems refused = c.scene.problems();
     refuse_what_is_not_there_yet(c, refused);
+    c.edge_pinning = edge_pinning(c.scene);
+    refuse_pinned_edge(c, refused);
     c.notes = notes_on_keys(c);
     fill_interface(c);
     fill_flat_reference(c, problems);

@@ -238,6 +238,10 @@ struct Advance {
                                         : small_force<Face::inner>(u, at, level.inner);
         PassSums sums;
         const Kick& kick = s.kicks[l](z);
+        [[maybe_unused]] const std::ptrdiff_t of_v = z * level.v.x.plane + y * level.v.x.row + x;
+        [[maybe_unused]] Triple<double> old{};
+        if constexpr (noisy)
+            old = {level.v.x.origin[of_v], level.v.y.origin[of_v], level.v.z.origin[of_v]};
         const Triple<Number> v = kick.damped ? kicked<true>(kick, level, z, y, x, f, sums)
                                              : kicked<false>(kick, level, z, y, x, f, sums);
         const Number dt(s.dt);
@@ -249,8 +253,7 @@ struct Advance {
                 Triple<double> speed = {v.x.r, v.y.r, v.z.r};
                 const auto xi = normals(s.noise, level.number, level.x0 + x, level.y0 + y, z);
                 sums.sum[AdvanceSum::heat].add(
-                    add_noise(s.noise, 2.0 * kick.half_mass, xi, speed, moved));
-                const std::ptrdiff_t of_v = z * level.v.x.plane + y * level.v.x.row + x;
+                    add_noise(s.noise, 2.0 * kick.half_mass, xi, old, speed, moved));
                 level.v.x.origin[of_v] = speed.x;
                 level.v.y.origin[of_v] = speed.y;
                 level.v.z.origin[of_v] = speed.z;

@@ -163,12 +163,14 @@ PYBIND11_MODULE(_engine, m) {
         .def_readonly("interface", &StepRecord::interface_energy,
                       "energy of the interface, eV; negative where it binds")
         .def_readonly("kinetic", &StepRecord::kinetic_energy, "kinetic energy of the block, eV")
-        .def_readonly("work", &StepRecord::work,
-                      "work done on the block, eV: by the top plane, the medium that damps, noise, "
-                      "and an external field")
-        .def_readonly("damped", &StepRecord::damped, "energy lost to the medium that damps, eV")
+        .def_readonly(
+            "work", &StepRecord::work,
+            "work done on the solids since they were at rest apart, eV: by the top plane, "
+            "the medium that damps, an external field, and what was written to u and v")
+        .def_readonly("damped", &StepRecord::damped,
+                      "energy lost to the medium that damps, less the heat of the noise, eV")
         .def_readonly("balance_error", &StepRecord::residual,
-                      "what the energy balance is off by, over the largest of its terms")
+                      "work - energies - damped, over the largest energy or work so far")
         .def("__repr__", shown);
 
     py::class_<BothWays>(
@@ -245,7 +247,7 @@ PYBIND11_MODULE(_engine, m) {
             "Writes everything but the observers into one file (HDF5), for Simulation.resume().\n\n"
             "A file of an earlier save() is replaced, nothing else is: that raises SceneError.")
         .def(
-            "maps", [](const Sim& sim) { return working([&] { return sim.maps(); }); },
+            "maps", [](Sim& sim) { return working([&] { return sim.maps(); }); },
             "The SiteMaps of the sites as they are now: gap, contact, pressure.")
         .def_property_readonly(
             "done", &Sim::done,
@@ -293,7 +295,7 @@ PYBIND11_MODULE(_engine, m) {
             "work that the drive takes up and gives, meV/Å²: .approach, .pull_off")
         .def_property_readonly(
             "lost_in_cycle", [](const Sim& sim) { return sim.results().lost_in_cycle; },
-            "energy lost over approach and pull-off, meV/Å²; None before")
+            "energy lost over approach and pull-off, and still moving then, meV/Å²; None before")
         .def_property_readonly(
             "u", [](Sim& sim) { return arrays_of(sim, sim.u()); },
             "displacements of the lowest layer, Å: views .x, .y, .z, [y, x]; what is written is "

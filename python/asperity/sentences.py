@@ -113,7 +113,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
                 "pull-off stress, the largest attraction on the way out", f"{force / NANONEWTON:.4g} nN in all")
     if (lost := run.number("lost.cycle")) is not None:
         add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
-            "lost in a cycle (hysteresis)", "where surfaces snap together and apart")
+            "lost in a cycle (hysteresis)", _loss(run))
     if not run.curved:
         for key, name in (("work_of_adhesion", "work of the interface"), ("work_of_drive", "work of the drive")):
             gamma(key + ".approach", name + ", approach")
@@ -150,6 +150,11 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
     return text
 
 
+def _loss(run: Result) -> str:
+    """What the loss of a cycle was measured as."""
+    return "damped, or still moving at the end" if run.find("dissipated") is None else "dissipated at instabilities"
+
+
 def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
     lost, *parts = (run.number("lost." + k) for k in ("cycle", "approach", "pull_off"))
     if lost is None:
@@ -163,7 +168,7 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
     if abs(lost) < 0.01 * flat:
         text += f" The two agree to {energy(abs(lost))}: hardly anything is lost on the way."
     else:
-        text += f" The difference, {energy(lost)}, is lost where the surfaces snap together and apart (hysteresis)."
+        text += f" The difference, {energy(lost)}, is lost (hysteresis): {_loss(run)}."
     own = [run.number("work_of_adhesion." + k) for k in ("approach", "pull_off")]
     if None not in own and run.find("dissipated") is None:  # in time; without it is the same work
         text += (f" The work of the interface’s force on the mean height is {energy(own[0])} and {energy(own[1])}: a "
@@ -180,6 +185,9 @@ def results(run: Result) -> list[str]:
         text.append(_state_sentence(run, state, flat))
     if into is not None and out is not None and flat > 0 and set(run.segments) <= {"approach", "pull-off", "zero-load"}:
         text.append(_cycle_sentence(run, into, out, flat))
+    if (pinning := run.number("jkr.edge_pinning")) is not None:
+        text.append("Rows of sites hold the edge of the contact: the pull-off force, and the work of adhesion that JKR "
+                    f"makes of it, are about {pinning:.3g} times too large.")
     theory = run.number("theory.gamma_eff")
     if theory is not None and flat > 0:
         (at, pressed), given = run.load_words, reference(run, "theory.gamma_eff")

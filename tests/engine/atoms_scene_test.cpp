@@ -121,6 +121,26 @@ TEST(AtomsScene, HasTheHeightsOfItsTopmostAtoms) {
     EXPECT_TRUE(std::isfinite(with_hole.height[0]));
     EXPECT_NE(with_hole.notes.back().find("1 of 256 sites"), std::string::npos)
         << with_hole.notes.back();
+    // Atoms half way between points, to the digits of a file: each point has the topmost of four.
+    io::AtomsFile between = atoms;
+    for (auto* axis : {&between.x, &between.y})
+        for (double& at : *axis)
+            at = std::round(1e3 * (at + 0.5 * surface.length / 16)) / 1e3;
+    const Surface above = surface_of(case_over(write_atoms(scratch / "d.h5", between)));
+    EXPECT_EQ(above.notes.back().find("no atom nearest"), std::string::npos);
+    const auto height = [&](const Surface& s, int x, int y) {
+        return s.height[static_cast<std::size_t>((y + 16) % 16 * 16 + (x + 16) % 16)];
+    };
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const double topmost =
+                std::max({height(surface, x, y), height(surface, x - 1, y),
+                          height(surface, x, y - 1), height(surface, x - 1, y - 1)});
+            EXPECT_NEAR(height(above, x, y) - height(above, 0, 0),
+                        topmost - std::max({height(surface, 0, 0), height(surface, -1, 0),
+                                            height(surface, 0, -1), height(surface, -1, -1)}),
+                        1e-9);
+        }
 }
 
 /// All that a scene is refused for.

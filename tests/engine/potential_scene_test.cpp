@@ -118,6 +118,20 @@ TEST(PotentialOfAScene, RefusesByName) {
     for (const auto& [keys, said] : cases)
         EXPECT_NE(refusal(keys).find(said), std::string::npos) << said << "\n" << refusal(keys);
     EXPECT_EQ(refusal({"interface.potential=table", file}), "");
+    // Twelve rows of Lennard-Jones, and one in meV.
+    std::string coarse;
+    for (int i = 0; i < 12; ++i) {
+        const double r = 2.4 + 10.8 * i / 11, s6 = std::pow(3.28 / r, 6);
+        coarse += fmt::format("{} {}\n", r, 0.4 * s6 * (s6 - 1.0));
+    }
+    EXPECT_NE(refusal({"interface.potential=table",
+                       "interface.table=" + scratch.write("coarse.txt", coarse)})
+                  .find("its 12 rows are too far apart"),
+              std::string::npos);
+    const Case milli =
+        case_of({"interface.potential=table", "interface.table=" + table(scratch, 300, 100.0)});
+    EXPECT_NE(fmt::format("{}", fmt::join(milli.notes, "\n")).find("100 eV deep"),
+              std::string::npos);
     const Case idle = case_of({"interface.morse_a=2"});
     EXPECT_NE(fmt::format("{}", fmt::join(idle.notes, "\n")).find("morse_a has no effect"),
               std::string::npos);

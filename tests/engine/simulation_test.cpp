@@ -3,6 +3,7 @@
 //
 // Decisions of the drive; the sums and the energy balance of a simulation.
 #include "engine/interface/flat_reference.hpp"
+#include "engine/run/state_numbers.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>
@@ -128,6 +129,36 @@ TEST(Simulation, TheForceAndHeightOfARigidBlockAreThoseOfTheFlatSum) {
         EXPECT_EQ(now.elastic_energy, 0.0);
         EXPECT_EQ(now.step, 0);
     }
+}
+
+TEST(Simulation, ASecondStartLeavesNothingOfTheFirst) {
+    SimulationOptions options = test::free_contact(10.0);
+    options.drive = both_ways();
+    options.damping = 1e-3;
+    options.interface.slides = true;
+    options.temperature = 100.0;
+    const auto numbers = [](const Simulation& simulation) {
+        CollectNumbers collect;
+        collect("simulation", simulation);
+        return collect.numbers;
+    };
+    const auto steps = [](Simulation& simulation, int count) {
+        for (int n = 0; n < count; ++n)
+            simulation.step(n % 7 == 0);
+    };
+    Simulation again = test::simulation(options, test::flat_surface(8)),
+               once = test::simulation(options, test::flat_surface(8));
+    again.start(5.0);
+    steps(again, 300);
+    const StateNumbers before = numbers(again);
+    EXPECT_EQ(numbers(again), before) << "collecting changes nothing";
+    again.start(3.5);
+    once.start(3.5);
+    EXPECT_EQ(numbers(again), numbers(once));
+    for (Simulation* simulation : {&again, &once})
+        steps(*simulation, 50);
+    EXPECT_EQ(numbers(again), numbers(once));
+    EXPECT_NE(once.now().work, 0.0);
 }
 
 TEST(Simulation, NothingHappensOutOfReach) {

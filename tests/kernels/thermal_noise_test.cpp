@@ -78,16 +78,26 @@ TEST(ThermalNoise, NumbersAreNormalAndIndependent) {
         EXPECT_NEAR(product / count, 0.0, 4.0 * sigma);
 }
 
-TEST(ThermalNoise, HeatIsTheGainOfKineticEnergy) {
-    const ThermalNoise noise{7, 11, 0.02, 1.01, 5.0};
-    const double m = 300.0;
-    const Triple<double> xi = {0.3, -1.2, 0.8};
-    Triple<double> v = {1e-3, 2e-3, -1e-3}, u = {0.1, 0.2, 0.3};
-    const auto kinetic = [&] { return 0.5 * m * (v.x * v.x + v.y * v.y + v.z * v.z); };
-    const double before = kinetic();
-    const double heat = add_noise(noise, m, xi, v, u);
-    EXPECT_NEAR(heat, kinetic() - before, 1e-15);
+TEST(ThermalNoise, HeatIsTheEnergyGivenToVelocityAndDisplacement) {
+    const double gamma = 0.004, dt = 5.0, m = 300.0;
+    const ThermalNoise noise{7, 11, 0.02, 1.0 + 0.5 * gamma * dt, dt};
+    const Triple<double> xi = {0.3, -1.2, 0.8}, force = {0.5, -0.02, 0.1}; // eV/Å
+    const Triple<double> old = {1e-3, 2e-3, -1e-3};
+    // The step's kick: m (v - old) = dt (F - gamma m (v + old)/2).
+    const auto kicked = [&](double v, double f) {
+        return ((1.0 - 0.5 * gamma * dt) * v + dt * f / m) / (1.0 + 0.5 * gamma * dt);
+    };
+    Triple<double> v = {kicked(old.x, force.x), kicked(old.y, force.y), kicked(old.z, force.z)};
+    Triple<double> u = {0.1, 0.2, 0.3};
+    const Triple<double> v0 = v, u0 = u;
+    const auto dot = [](const Triple<double>& a, const Triple<double>& b) {
+        return a.x * b.x + a.y * b.y + a.z * b.z;
+    };
+    const double before = 0.5 * m * dot(v, v);
+    const double heat = add_noise(noise, m, xi, old, v, u);
+    const Triple<double> moved = {u.x - u0.x, u.y - u0.y, u.z - u0.z};
+    EXPECT_NEAR(heat, 0.5 * m * dot(v, v) - before - 0.5 * dot(force, moved), 1e-15);
     const double sigma = std::sqrt(noise.strength / m) / noise.drag;
-    EXPECT_NEAR(v.x, 1e-3 + sigma * 0.3, 1e-15);
-    EXPECT_NEAR(u.y, 0.2 + 5.0 * sigma * -1.2, 1e-15);
+    EXPECT_NEAR(v.x, v0.x + sigma * 0.3, 1e-15);
+    EXPECT_NEAR(u.y, u0.y + dt * sigma * -1.2, 1e-15);
 }

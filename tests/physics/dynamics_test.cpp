@@ -231,10 +231,12 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
     check("elastic energy", block_average(elastic, 40), all / n);
     check("level 0", block_average(by_level[0], 40), by_half_step[0] / freedoms[0]);
     check("level 1", block_average(by_level[1], 40), by_half_step[1] / freedoms[1]);
-    // What the noise gives and the damping takes, over the change of energy: the books of a warm
-    // run.
+    // What the noise gives and the damping takes, over the change of energy: the balance is of
+    // what is left of them, which does not grow.
     EXPECT_NEAR(simulation.balance().heat, simulation.balance().damped,
                 0.02 * simulation.balance().damped);
+    EXPECT_LT(std::abs(simulation.now().damped), 2.0 * kt * n);
+    EXPECT_GT(simulation.balance().damped, 1000.0 * kt * n);
     EXPECT_LT(std::abs(simulation.now().residual), 0.02);
 }
 

@@ -45,7 +45,7 @@ def stop(out, limit, *sets):
 
 
 def test_a_path_and_the_same_at_a_held_mean_height(place):
-    run("whole", says="energy gained + energy dissipated")
+    run("whole", says="interface energy + energy dissipated")
     whole = asperity.load("whole")
     # The balance: approach + lost = state = pull-off - lost, to the tolerance on the way.
     work, lost = whole.work_of_drive, whole.lost
@@ -83,7 +83,7 @@ def test_two_cycles(place):
 
 def test_walls(place):
     wall = ["interface.kind=wall", "interface.adhesion=60", 'output.fields=["zero-load"]']
-    run("wall", *wall, says="energy gained + energy dissipated")
+    run("wall", *wall, says="interface energy + energy dissipated")
     stop("parts", "0.02s", *wall)
     resume("parts", *wall)
     assert found("parts") == found("wall")

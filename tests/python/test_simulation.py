@@ -75,6 +75,18 @@ def test_relax_is_the_state_of_a_run_and_changes_nothing(path_run):
     assert sim.work_of_adhesion.pull_off == path_run.work_of_adhesion.pull_off
 
 
+def test_maps_of_a_slide_are_of_one_step():
+    """The force of the next step, which starts from the sites and the place that the maps show."""
+    sim = tiny(drive__path=["approach", "slide x 5 Å"])
+    while sim.segment != "slide x 5 Å":
+        sim.step(50)
+    for _ in range(3):
+        sim.step(37)
+        pressed = sim.maps().pressure.sum() * 2.6**2 / 160.2176634
+        sim.step(1)
+        assert pressed == pytest.approx(sim.force, abs=1e-6)
+
+
 @pytest.mark.parametrize("device", ["none", "emulated"])
 def test_views_are_views(device):
     sim = in_contact(numerics__device=device)

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What the spacing does not resolve, and by how much: rows of sites that hold the edge of a contact
+// over a wall of short range, and waves of a few spacings.
+#include "engine/setup/spacing_limits.hpp"
+#include "engine/units.hpp"
+#include "support/message.hpp"
+#include "support/run_scene.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace asperity {
+namespace {
+
+/// A smooth sphere; range in nm.
+Case sphere(double range, const char* more) {
+    return read_case_text(
+        fmt::format("[surface]\nkind = \"flat\"\nsites = 32\nspacing = \"10 nm\"\n"
+                    "radius = \"1 µm\"\n[block]\nyoung = \"3 GPa\"\npoisson = 0.33\n[interface]\n"
+                    "kind = \"wall\"\nadhesion = \"70 mJ/m²\"\nrange = \"{} nm\"\n{}\n[drive]\n"
+                    "mode = \"quasistatic\"\n[theory]\nrenormalised = false\n",
+                    range, more),
+        "sphere.toml");
+}
+
+TEST(SpacingLimits, TheFactorOfThePullOffForceIsThatOfASphere) {
+    for (const double range : {0.25, 0.4, 0.6}) {
+        const Case c = sphere(range, "edge_pinning = \"allow\"");
+        const io::Scratch scratch;
+        const io::Json result = test::run_scene(c, scratch / "run");
+        const double adhesion = 70.0 / 16.02176634 * 1e-3; // eV/Å^2
+        const double found =
+            test::number(result, "pull_off_force") / (1.5 * std::numbers::pi * adhesion * 1e4);
+        // The contact is 7 spacings wide; of larger ones the factor is nearer.
+        EXPECT_NEAR(found / c.edge_pinning, 1.0, 0.15) << range << ": " << found;
+        if (c.edge_pinning > 1.05) {
+            EXPECT_EQ(test::number(result, "jkr.edge_pinning"), c.edge_pinning);
+        } else {
+            EXPECT_EQ(io::find(result, "jkr.edge_pinning"), nullptr);
+        }
+    }
+}
+
+TEST(SpacingLimits, APullOffForceThatIsMuchTooLargeIsRefused) {
+    const auto refusal = [](const Case& c) {
+        return test::message_of<io::SceneError>([&] { c.require_runnable(); });
+    };
+    const Case coarse = sphere(0.3, "");
+    EXPECT_GT(coarse.edge_pinning, 1.3);
+    const std::string said = refusal(coarse);
+    EXPECT_NE(said.find("interface.range = 3 Å is not resolved"), std::string::npos) << said;
+    EXPECT_NE(said.find("interface.edge_pinning = \"allow\""), std::string::npos) << said;
+    EXPECT_EQ(refusal(sphere(0.3, "edge_pinning = \"allow\"")), "");
+    EXPECT_EQ(refusal(sphere(0.5, "")), "") << "1.1 times";
+    // What the message offers resolves the edge.
+    const std::size_t at = said.find("interface.range = ", said.find("fix"));
+    ASSERT_NE(at, std::string::npos) << said;
+    const double enough = 0.1 * std::stod(said.substr(at + 18));
+    EXPECT_LT(sphere(enough, "").edge_pinning, 1.05);
+}
+
+TEST(SpacingLimits, ALatticeIsSofterForShortWaves) {
+    BlockOptions block;
+    block.spacing = 2.6;
+    block.young = 77.2 * units::gigapascal;
+    block.poisson = 0.42;
+    const auto of = [&](double spacings) {
+        SurfaceStatistics surface;
+        surface.spectrum = {{2.0 * std::numbers::pi / (spacings * 2.6), 1.0, 0.0, 8}};
+        return lattice_softness(block, surface);
+    };
+    // Along the axes and the diagonals: 0.9797 and 0.9840, 0.9992 and 0.9998
+    // (surface_stiffness_test).
+    EXPECT_GT(of(8.0), 0.9797);
+    EXPECT_LT(of(8.0), 0.9840);
+    EXPECT_NEAR(of(32.0), 0.9995, 3e-4);
+    EXPECT_LT(of(2.5), 0.9);
+}
+
+} // namespace
+} // namespace asperity
