@@ -50,6 +50,13 @@ std::vector<LevelShape> level_shapes(const BlockOptions& options) {
     }
 }
 
+double nodes_of(const std::vector<LevelShape>& levels) {
+    double nodes = 0.0;
+    for (const LevelShape& l : levels)
+        nodes += static_cast<double>(l.sites) * l.sites * l.cells;
+    return nodes;
+}
+
 std::size_t Block::Level::bytes() const {
     return u.bytes() + v.bytes() + transferred.bytes() + upper_force.bytes();
 }
@@ -184,15 +191,10 @@ void Block::add_lowest_z(ExactSum& sum) const {
     }
 }
 
-std::size_t Block::finite_bytes() const {
+std::size_t Block::bytes() const {
     std::size_t total = 0;
     for (const VectorField<double>& planes : scratch_)
         total += planes.bytes();
-    return total;
-}
-
-std::size_t Block::bytes() const {
-    std::size_t total = finite_bytes();
     for (const Level& level : levels_)
         total += level.bytes();
     return total;

@@ -68,6 +68,8 @@ struct LevelShape {
 /// Levels that fill the thickness exactly, each at least layers_per_level cells thick, coarsening
 /// twofold while the box and the remaining thickness allow it.
 std::vector<LevelShape> level_shapes(const BlockOptions& options);
+/// Nodes of all of them together.
+double nodes_of(const std::vector<LevelShape>& levels);
 
 /// Parameters of a step (drive.hpp), from which the block makes coefficients for each plane.
 struct StepParameters {
@@ -161,10 +163,6 @@ public:
     /// Sum of u_z over the lowest layer, Å.
     void add_lowest_z(ExactSum& sum) const;
     std::size_t bytes() const;
-    /// Of these, what lies in levels coarser than the first.
-    std::size_t coarse_bytes() const { return bytes() - levels_.front().bytes() - finite_bytes(); }
-    /// Of these, what a path in time at finite strain needs: nothing before its first step.
-    std::size_t finite_bytes() const;
     std::size_t halo_bytes() const { return halo_.bytes_sent(); }
 
     /// True if this rank counts a level's nodes in global sums (levels held whole count once).

@@ -130,7 +130,7 @@ int check_command(const Case& c, bool json, const Communicator& world) {
     fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
                scene.surface.sites, scene.edge(), scene.block.thickness, c.levels.size(),
                c.levels.size() == 1 ? "" : "s");
-    if (c.on(Effect::observation))
+    if (c.effects.observation)
         fmt::print("  time step {:.4g} fs, stable up to {:.4g} fs\n", scene.drive.timestep,
                    c.longest_timestep);
     for (const std::string& note : notes)
@@ -141,7 +141,10 @@ int check_command(const Case& c, bool json, const Communicator& world) {
 int plan_command(const Case& c, const Communicator& world) {
     examine(c, world);
     const int cores = omp_get_max_threads() * world.size();
-    world.on_root([&] { print_plan(stdout, c, make_plan(c, std::max(1, cores / c.ranks))); });
+    world.on_root([&] {
+        const int threads = std::max(1, cores / c.ranks);
+        print_plan(stdout, c, threads, make_plan(c, threads));
+    });
     return io::exit_code::done;
 }
 

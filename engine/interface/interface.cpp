@@ -262,7 +262,8 @@ Interface::Tables Interface::tables() const {
 }
 
 std::size_t Interface::bytes() const {
-    std::size_t all = map_.heights().size() * sizeof(double) + tail_bytes() +
+    std::size_t all = map_.heights().size() * sizeof(double) +
+                      (mean_height_.empty() ? 0 : mean_height_.bytes()) +
                       3 * atoms_.size() * sizeof(double) + (slid_.empty() ? 0 : slid_.bytes());
     std::visit(
         [&](const auto& substrate) {

@@ -100,7 +100,6 @@ public:
     int substrate_sites() const { return map_.sites(); }
     const InterfaceOptions& options() const { return options_; }
     std::size_t bytes() const;
-    std::size_t tail_bytes() const { return mean_height_.empty() ? 0 : mean_height_.bytes(); }
 
 private:
     /// None: the reference loop over the map.

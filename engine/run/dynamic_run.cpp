@@ -132,7 +132,7 @@ private:
     /// What a segment has come to. False: stopped on the way to it.
     bool conclude(std::size_t number) {
         const Segment& segment = case_.path[number];
-        if (segment.kind == Segment::approach && case_.on(Effect::relaxation)) {
+        if (segment.kind == Segment::approach && case_.effects.relaxation) {
             // The block is not touched: a run that is stopped here starts the relaxation again.
             run_.save_if_on(state_writer());
             run_.progress.say("contact is made; relaxing a copy of its lowest layer under no load");

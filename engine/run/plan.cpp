@@ -4,7 +4,9 @@
 
 #include "engine/device/device_block.hpp"
 #include "engine/equilibrium/zero_load.hpp"
-#include "engine/units.hpp"
+#include "engine/run/expected_path.hpp"
+#include "io/atoms_file.hpp"
+#include "io/error.hpp"
 #include "io/machine.hpp"
 #include "io/terminal.hpp"
 #include "kernels/variant.hpp"
@@ -13,113 +15,69 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 namespace asperity {
 
 namespace {
 
-/// Typical: writing a checkpoint or maps, bytes/s.
-constexpr double disk = 2e8;
-/// Sites up to which a surface is made to know its highest point; typical: that of larger ones over
-/// their rms height.
-constexpr int largest_surface = 512;
-constexpr double highest_over_rms = 4.5;
-/// Typical of a quasi-static path (first-contact, N = 32 to 128): points, over those of steps of
-/// the full length; iterations of a point.
-constexpr double points_over_steps = 1.5, iterations_of_point = 40.0;
-
-std::string time_text(double seconds) {
-    if (seconds < 0.0005) return "0";
-    if (seconds < 1.0) return fmt::format("{:.2g} s", seconds);
-    if (seconds < 120.0) return fmt::format("{:.0f} s", seconds);
-    if (seconds < 7200.0) return fmt::format("{:.0f} min", seconds / 60.0);
-    return fmt::format("{:.1f} h", seconds / 3600.0);
-}
+/// For states and paths of pieces, s.
+constexpr double rehearsal_seconds = 1.5;
+/// Sites across the largest piece and the smallest.
+constexpr int most_sites = 256, least_sites = 16;
+/// A run of no more nodes and sites than these fits anywhere.
+constexpr double small_nodes = 2e5, small_sites = 65536.0;
+/// Typical: highest point of a surface over its rms height; power of the width by which states and
+/// paths take longer, and bounds of a measured one.
+constexpr double highest_over_rms = 4.5, power = 2.2, least_power = 2.0, most_power = 3.0;
 
 std::string memory_text(double bytes) {
-    if (bytes <= 0.0) return "0";
-    if (bytes < 1e5) return "< 0.1 MB";
-    if (bytes < 1e7) return fmt::format("{:.1f} MB", bytes / 1e6);
-    if (bytes < 1e9) return fmt::format("{:.0f} MB", bytes / 1e6);
-    return fmt::format("{:.1f} GB", bytes / 1e9);
+    if (bytes <= 0.0) return "";
+    return bytes < 1e9 ? fmt::format("{:.3g} MB", bytes / 1e6)
+                       : fmt::format("{:.3g} GB", bytes / 1e9);
 }
 
-} // namespace
-
-ExpectedPath expected_path(const Case& c, double start) {
-    const BlockOptions& block = c.simulation.block;
-    const double contact = c.flat.separation - start; // displacement of the top plane
-    const double modulus = block.lame() + 2.0 * block.shear_modulus(); // eV/Å^3
-    const double yields = block.thickness * block.spacing / modulus;   // under a pressure
-    ExpectedPath path;
-    double at = 0.0, pressure = 0.0;
-    for (const Segment& segment : c.path) {
-        double to = at, way = 0.0;
-        switch (segment.kind) {
-        case Segment::approach:
-            to = contact;
-            pressure = 0.0;
-            break;
-        case Segment::pull_off: {
-            // Elongation of the block when it separates, at half the largest tension.
-            const double stretch = 0.5 * c.largest_tension * units::gigapascal * yields;
-            way = std::max(-at, stretch);
-            to = 0.0;
-            break;
-        }
-        case Segment::load: {
-            const double asked = segment.amount * units::megapascal;
-            to = std::min(at, contact) + (pressure - asked) * yields;
-            pressure = asked;
-            break;
-        }
-        case Segment::height:
-            to = segment.amount - start;
-            break;
-        case Segment::slide:
-            way = std::abs(segment.amount);
-            break;
-        case Segment::hold:
-            path.at_rest += segment.amount * units::picosecond;
-            break;
-        case Segment::zero_load:
-            break;
-        }
-        way = std::max(way, std::abs(to - at));
-        at = to;
-        path.ways.push_back(way);
-        path.deepest = std::max(path.deepest, -at);
-        if (segment.kind == Segment::approach || segment.kind == Segment::pull_off)
-            path.free += way;
+/// Of growing width; the last is the largest that there is time for.
+std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double atoms) {
+    // The box of a piece is twice the cutoff at least.
+    const double reach = 2.0 * c.simulation.interface.pairs().cutoff / c.scene.surface.spacing;
+    const int least = std::max(least_sites, static_cast<int>(reach) + 1);
+    const int sites = c.scene.surface.sites;
+    int halvings = 0;
+    while (sites >> (halvings + 1) >= least)
+        ++halvings;
+    std::vector<Piece> pieces;
+    double left = rehearsal_seconds;
+    for (; halvings >= 0 && sites >> halvings <= most_sites; --halvings) {
+        // Twice the width takes four to eight times as long.
+        if (!pieces.empty() && 5.0 * (pieces.back().making + pieces.back().resting) > left) break;
+        const Piece piece = rehearse(c, sites >> halvings, left, of_file, atoms);
+        left -= piece.making + piece.resting;
+        if (piece.ended || pieces.empty()) pieces.push_back(piece);
+        if (!piece.ended) break;
     }
-    if (c.path.size() > 1)
-        path.turns = c.simulation.drive.ramp * static_cast<double>(c.path.size() - 1);
-    return path;
+    return pieces;
 }
 
-long long expected_steps(const Case& c, double start) {
-    if (!c.in_time) return 0;
-    const ExpectedPath path = expected_path(c, start);
-    const double time = path.way() / c.simulation.drive.velocity + path.at_rest + path.turns;
-    const long long steps = std::llround(time / c.simulation.dt);
-    const long long most = c.scene.drive.max_steps;
-    return most > 0 ? std::min(steps, most) : steps;
-}
-
-namespace {
-
-/// Height of the lowest layer at the start, Å.
-double start_of(const Case& c, const Surface* of_file) {
-    double highest = 0.0;
-    if (of_file)
-        highest = of_file->statistics.highest;
-    else if (c.scene.surface.sites <= largest_surface)
-        highest = surface_of(c).statistics.highest;
-    else if (c.scene.surface.kind != SurfaceKind::flat)
-        highest = highest_over_rms * c.scene.surface.rms;
-    return highest + reach_of(c.simulation.interface);
+/// Of a part on one rank of the case.
+double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, double atoms) {
+    const Tile tile = c.grid(rank).tile(0);
+    const double one = std::pow(piece.sites, 2), h = 2.0 * halo_width;
+    const double whole = std::pow(c.scene.surface.sites, 2) / one;
+    const double here = static_cast<double>(tile.nx) * tile.ny / one;
+    const double bytes = piece.bytes[part];
+    if (part == Piece::surface) return bytes * (std::pow(c.substrate(), 2) + atoms) / piece.atoms;
+    if (part == Piece::maps) return rank == 0 ? bytes * whole : 0.0; // the root collects them
+    if (c.in_time && (part == Piece::block || part == Piece::kept))
+        return bytes * nodes_of(c.levels) / piece.nodes / whole * (tile.nx + h) * (tile.ny + h) /
+               std::pow(piece.sites + h, 2);
+    // Each rank has the table of the waves whole, and a relaxation half of it again.
+    const double tables = part == Piece::rest    ? (c.in_time ? 1.5 : 0.5)
+                          : part == Piece::block ? 1.0
+                                                 : 0.0;
+    return bytes * here + tables * piece.table * (whole - here);
 }
 
 /// What the tolerance is a fraction of.
@@ -135,113 +93,112 @@ void print_scales(std::FILE* to, const Case& c, double height) {
 } // namespace
 
 Plan make_plan(const Case& c, int threads) {
-    using Part = Rehearsal::Part;
-    const auto begin = std::chrono::steady_clock::now();
+    const Scene::Surface& own = c.scene.surface;
+    const bool timed = threads > 0;
     std::optional<Surface> of_file;
-    if (c.scene.surface.reads_file()) of_file = surface_of(c);
+    if (timed && own.reads_file()) of_file = surface_of(c);
+    double atoms = 0.0;
+    if (own.kind == SurfaceKind::atoms)
+        atoms = static_cast<double>(of_file ? of_file->atoms.size() : io::atoms_announced(c.file));
     const Surface* const surface = of_file ? &*of_file : nullptr;
-    const double start = start_of(c, surface);
-    const Rehearsal rehearsal(c, Rehearsal::Kind::timed, surface);
+    const int threads_here = omp_get_max_threads();
+    omp_set_num_threads(1);
+    int sites = own.sites;
+    while (sites > most_sites &&
+           sites / 2.0 * own.spacing >= 2.0 * c.simulation.interface.pairs().cutoff)
+        sites /= 2;
+    const Piece room = rehearse(c, sites, 0.0, surface, atoms);
+    const std::vector<Piece> pieces = timed ? timed_pieces(c, surface, atoms) : std::vector{room};
+    omp_set_num_threads(threads_here);
 
     Plan plan;
-    plan.threads = threads;
-    plan.start = start;
-    const auto bytes = [&](Part part) {
-        double sum = 0.0;
-        for (int rank = 0; rank < c.ranks; ++rank)
-            sum += rehearsal.bytes(part, rank);
-        return sum;
-    };
-    for (int rank = 0; rank < c.ranks; ++rank)
-        plan.whole.bytes += rehearsal.most_bytes(rank);
-    // The slowest rank's share of the work, with its threads over those of the rehearsal.
-    const double alone = static_cast<double>(omp_get_max_threads()) / threads;
-    const double fraction = alone * (1.0 + c.grid(0).imbalance()) / c.ranks;
+    for (int rank = 0; rank < c.ranks; ++rank) {
+        std::array<double, Piece::parts> bytes{};
+        for (std::size_t part = 0; part < Piece::parts; ++part) {
+            bytes[part] = bytes_of(static_cast<Piece::Part>(part), rank, c, room, atoms);
+            plan.bytes[part] += bytes[part];
+        }
+        // Neither states nor maps are there at the same time.
+        plan.bytes_of_rank.push_back(std::accumulate(bytes.begin(), bytes.end(), 0.0) -
+                                     std::min(bytes[Piece::rest], bytes[Piece::maps]));
+    }
+    if (!timed) return plan;
+    const Piece& piece = pieces.back();
 
-    plan.making = {bytes(Part::surface) + bytes(Part::interface), alone * rehearsal.making()};
-    plan.steps = expected_steps(c, start);
-    const auto steps = static_cast<double>(plan.steps);
-    const ExpectedPath path = expected_path(c, start);
-    // During approach and pull-off the cost of a step changes between that out of reach and that in
-    // contact; elsewhere the block is in contact.
-    const double free = path.free / c.simulation.drive.velocity;
-    const double near =
-        steps > 0.0 ? 1.0 - 0.5 * std::min(1.0, free / (steps * c.simulation.dt)) : 1.0;
-    plan.block = {bytes(Part::block),
-                  fraction * steps *
-                      ((1.0 - near) * rehearsal.far_step() + near * rehearsal.near_step())};
-    plan.snapshots = {bytes(Part::snapshots), fraction * steps /
-                                                  static_cast<double>(c.scene.output.series) *
-                                                  rehearsal.observing()};
-    plan.state.bytes = bytes(Part::state);
-    if (c.on(Effect::relaxation)) {
-        plan.typical = !c.in_time && c.on(Effect::observation);
-        plan.state_ended = rehearsal.state_ended();
-        plan.iterations = rehearsal.iterations();
-        if (plan.typical)
-            plan.iterations += std::llround(iterations_of_point * points_over_steps * path.way() /
-                                            std::min(c.scene.drive.step, c.longest_step));
-        plan.state.seconds =
-            fraction * static_cast<double>(plan.iterations) * rehearsal.iteration();
+    // The share of the work of each thread of the slowest rank.
+    const double share = (1.0 + c.grid(0).imbalance()) / c.ranks / threads;
+    const double wider = static_cast<double>(own.sites) / piece.sites;
+    plan.making = piece.making * wider * wider / threads;
+    const double highest = surface                         ? surface->statistics.highest
+                           : own.kind == SurfaceKind::flat ? 0.0
+                                                           : highest_over_rms * own.rms;
+    plan.start = highest + reach_of(c.simulation.interface);
+    if (c.in_time) {
+        plan.steps = std::llround(expected_path(c, plan.start).time / c.simulation.dt);
+        if (const long long most = c.scene.drive.max_steps; most > 0)
+            plan.steps = std::min(plan.steps, most);
+        // An approach and a pull-off are half of their way out of reach.
+        const double far = c.guided() ? 0.0 : 0.5;
+        plan.moving = share * static_cast<double>(plan.steps) * nodes_of(c.levels) / piece.nodes *
+                      (far * piece.far_step + (1.0 - far) * piece.near_step);
     }
-    plan.maps = {bytes(Part::maps), bytes(Part::maps) / disk};
-    for (const Cost* cost : {&plan.making, &plan.block, &plan.snapshots, &plan.state, &plan.maps})
-        plan.whole.seconds += cost->seconds;
-    if (c.on(Effect::checkpoints)) {
-        const double files = std::floor(plan.whole.seconds / c.scene.output.checkpoint);
-        plan.checkpoints.seconds = files * bytes(c.in_time ? Part::block : Part::snapshots) / disk;
-        plan.whole.seconds += plan.checkpoints.seconds;
+    double grows = power;
+    if (pieces.size() > 1) {
+        const Piece& before = pieces[pieces.size() - 2];
+        grows = std::log(piece.resting / before.resting) /
+                std::log(static_cast<double>(piece.sites) / before.sites);
     }
-    plan.rates =
-        fmt::format("rehearsed in {:.1f} s on {} x {} sites with {} thread{}, kernels for {}",
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-                    rehearsal.sites(), rehearsal.sites(), omp_get_max_threads(),
-                    omp_get_max_threads() == 1 ? "" : "s", name(processor_level()));
+    plan.rest = share * piece.resting * std::pow(wider, std::clamp(grows, least_power, most_power));
+    if (wider > 1.0)
+        plan.factor = pieces.size() > 1 ? 2.0 * std::sqrt(std::max(1.0, wider / 4.0)) : 3.0;
+    plan.ended = piece.ended;
+    plan.sites = piece.sites;
     return plan;
 }
 
-void print_plan(std::FILE* to, const Case& c, const Plan& plan) {
+void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
     const Scene& scene = c.scene;
+    const auto s = [](auto count) { return count == 1 ? "" : "s"; };
     fmt::print(to, "{}: {} x {} sites, box {:.6g} Å, {} layers in {} level{}\n\n", scene.name,
                scene.surface.sites, scene.surface.sites, scene.edge(), scene.block.thickness,
-               c.levels.size(), c.levels.size() == 1 ? "" : "s");
+               c.levels.size(), s(c.levels.size()));
     io::Table effects({"effect", "", "because"}, "<<<");
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        const auto effect = static_cast<Effect>(i);
-        effects.row(
-            {std::string(name(effect)), c.on(effect) ? "on" : "off", c.effects.why(effect)});
-    }
+    for (const auto& [name, effect] : c.effects.list())
+        effects.row({name, effect ? "on" : "off", effect.why});
     effects.print(to);
     fmt::print(to, "\n");
     io::Table table({"part of the run", "memory", "time", ""}, "<>><");
-    const auto line = [&](const char* what, const Cost& cost, const std::string& remark) {
-        table.row({what, memory_text(cost.bytes), time_text(cost.seconds), remark});
+    const auto line = [&](const char* what, double bytes, double seconds,
+                          const std::string& remark) {
+        if (bytes > 0.0)
+            table.row({what, memory_text(bytes), seconds > 0.0 ? io::duration_text(seconds) : "",
+                       remark});
     };
-    line("surface and interface", plan.making, "made before the first step");
-    line("block", plan.block,
-         plan.steps > 0
-             ? fmt::format("{} steps of {:.4g} fs{}", plan.steps, c.simulation.dt,
-                           plan.steps == scene.drive.max_steps ? " (drive.max_steps)" : "")
-             : "");
-    if (c.on(Effect::observation) || plan.snapshots.bytes > 0.0)
-        line("states kept", plan.snapshots,
-             c.in_time ? "for the energy guard; rows of the series" : "to go back to");
-    if (c.on(Effect::relaxation))
-        line("relaxation", plan.state,
-             fmt::format("{}{} iterations{}", plan.state_ended ? "about " : "more than ",
-                         plan.iterations, plan.typical ? " (typical of a path)" : ""));
-    if (c.on(Effect::maps)) line("maps", plan.maps, "while nothing is relaxed");
-    if (c.on(Effect::checkpoints)) line("checkpoints", plan.checkpoints, "");
+    const bool path = !c.in_time && c.effects.observation;
+    const std::string steps = fmt::format("{} steps of {:.4g} fs", plan.steps, c.simulation.dt);
+    const std::string range = fmt::format("{} to {}", io::duration_text(plan.rest / plan.factor),
+                                          io::duration_text(plan.rest * plan.factor));
+    line("surface", plan.bytes[Piece::surface], plan.making, "made before the first step");
+    line("interface", plan.bytes[Piece::interface], 0.0, "");
+    line("block", plan.bytes[Piece::block], plan.moving, c.in_time ? steps : "");
+    line("states kept", plan.bytes[Piece::kept], 0.0,
+         path ? "to go back to" : "for the energy guard");
+    line(path ? "path" : "relaxation", plan.bytes[Piece::rest], plan.rest,
+         !plan.ended         ? "or longer: a piece of it did not come to its end"
+         : plan.factor > 1.0 ? range
+                             : "");
+    line("maps", plan.bytes[Piece::maps], 0.0, "while nothing is relaxed");
     table.rule();
-    line("altogether", plan.whole,
-         fmt::format("{} rank{} of {} thread{}; memory: the most at once", c.ranks,
-                     c.ranks == 1 ? "" : "s", plan.threads, plan.threads == 1 ? "" : "s"));
+    const double bytes = std::accumulate(plan.bytes_of_rank.begin(), plan.bytes_of_rank.end(), 0.0);
+    line("altogether", bytes, plan.making + plan.moving + plan.rest,
+         fmt::format("{} rank{} of {} thread{}; memory: the most at once", c.ranks, s(c.ranks),
+                     threads, s(threads)));
     table.print(to);
     fmt::print(to, "\n");
-    if (c.on(Effect::relaxation)) print_scales(to, c, plan.start);
+    if (c.effects.relaxation) print_scales(to, c, plan.start);
     const io::AvailableMemory there = io::available_memory();
     fmt::print(to, "memory      {} available here ({})\n", memory_text(there.bytes), there.because);
-    if (plan.whole.bytes > there.bytes)
+    if (bytes > there.bytes)
         fmt::print(to, "            The run does not fit into this machine: `asperity run` will "
                        "refuse it here. Fewer sites, coarser or\n            fewer layers, or more "
                        "machines\n");
@@ -250,8 +207,33 @@ void print_plan(std::FILE* to, const Case& c, const Plan& plan) {
                    describe_device(device),
                    memory_text(static_cast<double>(
                        DeviceLayout(c.simulation.block, c.grid(0), c.simulation.interface).bytes)));
-    fmt::print(to, "wall time   without messages between machines; {}\n", plan.rates);
-    fmt::print(to, "Nothing was run or written.\n");
+    fmt::print(to,
+               "wall time   of idle processors, without messages between machines; measured on "
+               "{0} x {0} sites, kernels for {1}\nNothing was run or written.\n",
+               plan.sites, name(processor_level()));
+}
+
+void require_memory(const Case& c, const Communicator& ranks) {
+    // The same on all ranks.
+    if (nodes_of(c.levels) <= small_nodes && std::pow(c.scene.surface.sites, 2) <= small_sites)
+        return;
+    const double mine = make_plan(c, 0).bytes_of_rank[static_cast<std::size_t>(ranks.rank())];
+    const double needed = ranks.sum_on_machine(mine);
+    const io::AvailableMemory there = io::available_memory();
+    // All ranks refuse alike, with the numbers of the machine that is worst off.
+    const double worst = ranks.max(needed / there.bytes);
+    if (worst <= 1.0) return;
+    const bool coarser = c.in_time && c.scene.block.model == BlockModel::lattice;
+    io::Problems problems = c.scene.problems();
+    problems.add(
+        "surface.sites",
+        fmt::format("= {}: the run does not fit into memory", c.scene.surface.sites),
+        fmt::format("{:.3g} GB are needed on this machine, and {:.3g} GB are available ({})",
+                    worst * there.bytes / 1e9, there.bytes / 1e9, there.because),
+        fmt::format("take fewer sites{}, more machines (`asperity plan --ranks N` counts), or "
+                    "close what else runs here",
+                    coarser ? ", block.model = \"multiscale\"" : ""));
+    problems.throw_if_any();
 }
 
 } // namespace asperity

@@ -59,7 +59,7 @@ const RecordColumn record_columns[] = {
 };
 
 bool is_in(const RecordColumn& c, DriveMode mode, const Effects& effects) {
-    if (c.in == In::sliding) return effects.on(Effect::sliding);
+    if (c.in == In::sliding) return effects.sliding;
     return c.in == In::both || (c.in == In::dynamic) == (mode == DriveMode::dynamic);
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run.hpp"
 
-#include "engine/run/rehearsal.hpp"
+#include "engine/run/plan.hpp"
 #include "engine/run/run_session.hpp"
 
 namespace asperity {

@@ -114,7 +114,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].mean_height", i, s.mean_height);
         result.set("segments[].top_displacement", i, s.top);
         result.set("segments[].contact_fraction", i, static_cast<double>(s.in_contact) / sites);
-        if (c.on(Effect::sliding))
+        if (c.effects.sliding)
             result.set("segments[].slide", i, std::vector{s.slide[0], s.slide[1]});
     }
 }
@@ -132,7 +132,7 @@ void add_dissipation(const PathResults& results, const Case& c, io::Result& resu
         result.set("dissipated.jumps[].segment", i, static_cast<long long>(jump.segment));
         result.set("dissipated.jumps[].energy", i, jump.energy);
         result.set("dissipated.jumps[].top_displacement", i, jump.top);
-        if (c.on(Effect::sliding))
+        if (c.effects.sliding)
             result.set("dissipated.jumps[].slide", i, std::vector{jump.slide[0], jump.slide[1]});
         result.set("dissipated.jumps[].mean_height", i,
                    both(jump.height_before, jump.height_after));
@@ -149,10 +149,9 @@ void add_dissipation(const PathResults& results, const Case& c, io::Result& resu
 }
 
 void add_effects(const Effects& effects, io::Result& result) {
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        const auto effect = static_cast<Effect>(i);
-        result.set("run.effects.*.on", name(effect), effects.on(effect));
-        result.set("run.effects.*.why", name(effect), effects.why(effect));
+    for (const auto& [name, effect] : effects.list()) {
+        result.set("run.effects.*.on", name, effect.on);
+        result.set("run.effects.*.why", name, effect.why);
     }
 }
 

@@ -3,7 +3,7 @@
 #include "engine/run/run_session.hpp"
 
 #include "engine/run/curve.hpp"
-#include "engine/run/plan.hpp"
+#include "engine/run/expected_path.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/summary.hpp"
 #include "io/json.hpp"
@@ -60,8 +60,7 @@ std::string physics_of(const Case& c, const Surface& surface) {
 RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& on)
     : case_(c), options_(options), ranks(on), surface(surface_of(c, ranks)),
       grid(c.grid(ranks.rank())), storage_(options, c.scene.name, ranks),
-      interruptions_(options, c.on(Effect::checkpoints) ? c.scene.output.checkpoint : HUGE_VAL,
-                     ranks),
+      interruptions_(options, c.effects.checkpoints ? c.scene.output.checkpoint : HUGE_VAL, ranks),
       progress(options.progress, !ranks.root()), maps(c.maps, grid),
       fingerprint_(physics_of(c, surface)) {
     print_notes();
@@ -168,7 +167,7 @@ void RunSession::save(const WriteState& write) {
 }
 
 void RunSession::save_if_on(const WriteState& write) {
-    if (case_.on(Effect::checkpoints)) save(write);
+    if (case_.effects.checkpoints) save(write);
 }
 
 io::FilePlace RunSession::file(const std::string& name) const {

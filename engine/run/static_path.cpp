@@ -3,7 +3,7 @@
 #include "engine/run/static_path.hpp"
 
 #include "engine/run/guard.hpp"
-#include "engine/run/rehearsal.hpp"
+#include "engine/run/plan.hpp"
 #include "engine/units.hpp"
 #include "io/units.hpp"
 

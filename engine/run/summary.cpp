@@ -4,7 +4,6 @@
 
 #include "engine/device/device_block.hpp"
 #include "engine/equilibrium/zero_load.hpp"
-#include "engine/run/rehearsal.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/units.hpp"
 #include "io/terminal.hpp"
@@ -108,7 +107,7 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
 
 /// The segments of a path that does more than to approach and to pull off.
 void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
-    const bool slides = c.on(Effect::sliding);
+    const bool slides = c.effects.sliding;
     std::vector<std::string> head = {"segment",
                                      named("work on the solids", "segments[].work"),
                                      named("lost", "segments[].lost"),

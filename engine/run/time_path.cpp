@@ -5,7 +5,7 @@
 #include "engine/equilibrium/zero_load.hpp"
 #include "engine/run/checkpoint.hpp"
 #include "engine/run/guard.hpp"
-#include "engine/run/rehearsal.hpp"
+#include "engine/run/plan.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"

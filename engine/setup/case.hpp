@@ -68,7 +68,6 @@ struct Case {
     /// What a run would refuse; theory and surface can do with the case.
     std::vector<io::Problem> refused;
 
-    bool on(Effect effect) const { return effects.on(effect); }
     bool has(Segment::Kind kind) const;
     /// The path does more than to approach and to pull off.
     bool guided() const;

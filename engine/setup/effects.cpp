@@ -12,174 +12,105 @@ namespace asperity {
 
 namespace {
 
-using Switch = Effects::Switch;
-
-/// What several rules ask of a case.
-bool follows_path(const Case& c) {
-    return std::any_of(c.path.begin(), c.path.end(),
-                       [](const Segment& s) { return s.kind != Segment::zero_load; });
+Effect device_effect(const Case& c) {
+    const DeviceChoice& asked = c.scene.numerics.device;
+    if (!asked) return {false, "numerics.device = \"none\""};
+    if (asked.kind == DeviceChoice::Kind::emulated) return {true, "numerics.device = \"emulated\""};
+    if (asked.kind != DeviceChoice::Kind::automatic)
+        return {true, fmt::format("numerics.device = {}", asked.index)};
+    const std::string any = "numerics.device = \"auto\"";
+    if (cuda_device_count() == 0) return {false, any + ": no CUDA device is here"};
+    const auto problems = device_problems(c);
+    if (!problems.empty()) return {false, any + ": it " + problems.front().what};
+    return {true, any};
 }
-std::string equilibria(const Case& c) {
-    return c.has(Segment::zero_load) ? "drive.path = [\"zero-load\"]"
-                                     : "drive.mode = \"quasistatic\"";
-}
-Switch off_without_time(const Case& c) { return {false, "no time passes: " + equilibria(c)}; }
-
-Switch damping(const Case& c) {
-    if (!c.in_time) return off_without_time(c);
-    const Scene::Drive& drive = c.scene.drive;
-    if (drive.damping == 0.0) return {false, "drive.damping = 0"};
-    if (drive.damping_from >= 1.0)
-        return {false,
-                fmt::format("drive.damping_from = {:.4g}: no layer is damped", drive.damping_from)};
-    return {true, fmt::format("drive.damping = {:.4g} 1/ps", drive.damping)};
-}
-
-Switch temperature(const Case& c) {
-    if (!c.in_time) return off_without_time(c);
-    const double temperature = c.scene.drive.temperature;
-    return {temperature > 0.0, fmt::format("drive.temperature = {:.4g} K", temperature)};
-}
-
-Switch coarse_levels(const Case& c) {
-    if (!c.in_time) return off_without_time(c);
-    const Scene::Block& block = c.scene.block;
-    if (block.model == BlockModel::lattice) return {false, "block.model = \"lattice\""};
-    if (c.levels.size() == 1)
-        return {false, fmt::format("{} layers make one level", block.thickness)};
-    return {true,
-            fmt::format("block.model = \"multiscale\", {} layers a level", block.layers_per_level)};
-}
-
-Switch relaxation(const Case& c) {
-    if (!c.in_time) return {true, equilibria(c)};
-    if (c.scene.block.strain == Strain::finite)
-        return {false, "block.strain = \"finite\": states are found wave by wave, and waves do not "
-                       "add up"};
-    return {true, "a copy of the lowest layer is relaxed where the approach ends"};
-}
-
-Switch observation(const Case& c) {
-    if (!follows_path(c)) return off_without_time(c);
-    return {true, c.in_time ? fmt::format("output.series = {}: every so many steps",
-                                          c.scene.output.series)
-                            : "always: at every point of a quasi-static path"};
-}
-
-Switch maps(const Case& c) {
-    const MapTimes& m = c.maps;
-    if (m.zero_load || m.pull_off || m.segments || (follows_path(c) && m.every) ||
-        !m.after_zero_load.empty())
-        return {true, "output.fields asks for them"};
-    return {false, "output.fields asks for no state of this path"};
-}
-
-struct Rule {
-    Effect effect;
-    std::string_view name;
-    Switch (*decide)(const Case&);
-};
-
-/// In the order of Effect.
-constexpr std::array<Rule, effect_count> rules = {{
-    {Effect::inertia, "inertia",
-     [](const Case& c) {
-         return c.in_time ? Switch{true, "drive.path is followed in time"} : off_without_time(c);
-     }},
-    {Effect::lateral, "lateral displacements",
-     [](const Case& c) {
-         if (c.scene.interface.kind == InterfaceKind::wall)
-             return Switch{false, "interface.kind = \"wall\""};
-         return c.scene.interface.frictionless ? Switch{false, "interface.frictionless = true"}
-                                               : Switch{true, "three components a node"};
-     }},
-    {Effect::damping, "damping", damping},
-    {Effect::temperature, "temperature", temperature},
-    {Effect::finite_strain, "finite strain",
-     [](const Case& c) {
-         return c.scene.block.strain == Strain::finite ? Switch{true, "block.strain = \"finite\""}
-                                                       : Switch{false, "block.strain = \"linear\""};
-     }},
-    {Effect::coarse_levels, "coarse levels", coarse_levels},
-    {Effect::skipping, "skipping of far sites",
-     [](const Case& c) {
-         if (c.scene.interface.kind == InterfaceKind::wall)
-             return Switch{false, "interface.kind = \"wall\": one gap a site"};
-         return Switch{true, "always: what is beyond interface.cutoff adds exact zeros"};
-     }},
-    {Effect::sliding, "sliding",
-     [](const Case& c) {
-         return c.has(Segment::slide) ? Switch{true, "drive.path has a \"slide\""}
-                                      : Switch{false, "drive.path has no \"slide\""};
-     }},
-    {Effect::tail, "long-range tail",
-     [](const Case& c) {
-         if (c.scene.interface.kind == InterfaceKind::wall)
-             return Switch{false, "interface.kind = \"wall\": a part of its law"};
-         return Switch{c.scene.interface.tail,
-                       fmt::format("interface.tail = {}", c.scene.interface.tail)};
-     }},
-    {Effect::curvature, "curvature",
-     [](const Case& c) {
-         return c.scene.surface.radius ? Switch{true, fmt::format("surface.radius = {:.6g} Å",
-                                                                  *c.scene.surface.radius)}
-                                       : Switch{false, "surface.radius = \"none\""};
-     }},
-    {Effect::relaxation, "relaxation", relaxation},
-    {Effect::observation, "energies and contact", observation},
-    {Effect::maps, "maps", maps},
-    {Effect::trajectory, "trajectory",
-     [](const Case& c) {
-         const auto& every = c.scene.output.trajectory;
-         return every ? Switch{true, fmt::format("output.trajectory = {}", *every)}
-                      : Switch{false, "output.trajectory = \"none\""};
-     }},
-    {Effect::checkpoints, "checkpoints",
-     [](const Case& c) {
-         return Switch{
-             c.scene.output.checkpoint > 0.0,
-             fmt::format("output.checkpoint = {:.4g} s of wall time", c.scene.output.checkpoint)};
-     }},
-    {Effect::theory, "theory",
-     [](const Case& c) {
-         if (c.scene.surface.kind == SurfaceKind::atoms)
-             return Switch{false, "surface.kind = \"atoms\": the theory is of one layer with "
-                                  "heights"};
-         return Switch{true, "always: one solution for each result"};
-     }},
-    {Effect::device, "device",
-     [](const Case& c) {
-         const DeviceChoice& asked = c.scene.numerics.device;
-         if (!asked) return Switch{false, "numerics.device = \"none\""};
-         if (asked.kind == DeviceChoice::Kind::automatic) {
-             const std::string any = "numerics.device = \"auto\"";
-             if (cuda_device_count() == 0) return Switch{false, any + ": no CUDA device is here"};
-             const auto problems = device_problems(c);
-             if (!problems.empty()) return Switch{false, any + ": it " + problems.front().what};
-             return Switch{true, any};
-         }
-         return Switch{true, asked.kind == DeviceChoice::Kind::emulated
-                                 ? "numerics.device = \"emulated\""
-                                 : fmt::format("numerics.device = {}", asked.index)};
-     }},
-}};
-
-constexpr bool in_order() {
-    for (std::size_t i = 0; i < effect_count; ++i)
-        if (rules[i].effect != static_cast<Effect>(i)) return false;
-    return true;
-}
-static_assert(in_order(), "a rule for each effect, in the order of the enumeration");
 
 } // namespace
 
-std::string_view name(Effect effect) { return rules[static_cast<std::size_t>(effect)].name; }
+std::vector<std::pair<const char*, Effect>> Effects::list() const {
+    // clang-format off
+    return {{"inertia", inertia}, {"lateral displacements", lateral}, {"damping", damping},
+            {"temperature", temperature}, {"finite strain", finite_strain},
+            {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
+            {"sliding", sliding}, {"long-range tail", tail}, {"curvature", curvature},
+            {"relaxation", relaxation},
+            {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
+            {"checkpoints", checkpoints}, {"theory", theory}, {"device", device}};
+    // clang-format on
+}
 
 Effects effects_of(const Case& c) {
-    Effects effects;
-    for (std::size_t i = 0; i < effect_count; ++i)
-        effects.switches[i] = rules[i].decide(c);
-    return effects;
+    const Scene& s = c.scene;
+    const bool wall = s.interface.kind == InterfaceKind::wall, in_time = c.in_time;
+    const bool follows_path = std::any_of(c.path.begin(), c.path.end(), [](const Segment& segment) {
+        return segment.kind != Segment::zero_load;
+    });
+    const std::string rest =
+        c.has(Segment::zero_load) ? "drive.path = [\"zero-load\"]" : "drive.mode = \"quasistatic\"";
+    const std::string no_time = "no time passes: " + rest;
+    const auto timed = [&](bool on, std::string why) {
+        return in_time ? Effect{on, std::move(why)} : Effect{false, no_time};
+    };
+    const auto pairs = [&](bool on, std::string why, const char* of_wall) {
+        return wall ? Effect{false, std::string("interface.kind = \"wall\"") + of_wall}
+                    : Effect{on, std::move(why)};
+    };
+    Effects e;
+    e.inertia = timed(true, "drive.path is followed in time");
+    e.lateral = pairs(
+        !s.interface.frictionless,
+        s.interface.frictionless ? "interface.frictionless = true" : "three components a node", "");
+    const bool nowhere = s.drive.damping > 0.0 && s.drive.damping_from >= 1.0;
+    e.damping = timed(s.drive.damping > 0.0 && !nowhere,
+                      nowhere ? fmt::format("drive.damping_from = {:.4g}: no layer is damped",
+                                            s.drive.damping_from)
+                              : fmt::format("drive.damping = {:.4g} 1/ps", s.drive.damping));
+    e.temperature = timed(s.drive.temperature > 0.0,
+                          fmt::format("drive.temperature = {:.4g} K", s.drive.temperature));
+    const bool finite = s.block.strain == Strain::finite;
+    e.finite_strain = {finite, finite ? "block.strain = \"finite\"" : "block.strain = \"linear\""};
+    const bool lattice = s.block.model == BlockModel::lattice;
+    e.coarse_levels = timed(!lattice && c.levels.size() > 1,
+                            lattice ? "block.model = \"lattice\""
+                            : c.levels.size() == 1
+                                ? fmt::format("{} layers make one level", s.block.thickness)
+                                : fmt::format("block.model = \"multiscale\", {} layers a level",
+                                              s.block.layers_per_level));
+    e.skipping =
+        pairs(true, "always: what is beyond interface.cutoff adds exact zeros", ": one gap a site");
+    e.sliding.on = c.has(Segment::slide);
+    e.sliding.why = fmt::format("drive.path has {} \"slide\"", e.sliding ? "a" : "no");
+    e.tail = pairs(s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail),
+                   ": a part of its law");
+    e.curvature = {s.surface.radius.has_value(),
+                   s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
+                                    : "surface.radius = \"none\""};
+    e.relaxation = {!in_time || !finite,
+                    !in_time ? rest
+                    : finite ? "block.strain = \"finite\": states are found wave by wave, and "
+                               "waves do not add up"
+                             : "a copy of the lowest layer is relaxed where the approach ends"};
+    e.observation = {follows_path,
+                     !follows_path ? no_time
+                     : in_time
+                         ? fmt::format("output.series = {}: every so many steps", s.output.series)
+                         : "always: at every point of a quasi-static path"};
+    const MapTimes& m = c.maps;
+    e.maps.on = m.zero_load || m.pull_off || m.segments || (follows_path && m.every) ||
+                !m.after_zero_load.empty();
+    e.maps.why =
+        e.maps ? "output.fields asks for them" : "output.fields asks for no state of this path";
+    e.trajectory = {s.output.trajectory.has_value(),
+                    s.output.trajectory
+                        ? fmt::format("output.trajectory = {}", *s.output.trajectory)
+                        : "output.trajectory = \"none\""};
+    e.checkpoints = {s.output.checkpoint > 0.0,
+                     fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
+    const bool atoms = s.surface.kind == SurfaceKind::atoms;
+    e.theory = {!atoms, atoms ? "surface.kind = \"atoms\": the theory is of one layer with heights"
+                              : "always: one solution for each result"};
+    e.device = device_effect(c);
+    return e;
 }
 
 } // namespace asperity

@@ -113,7 +113,7 @@ std::string why_in_double(const Case& c) {
     if (scene.surface.kind == SurfaceKind::atoms) return "over a substrate of atoms anywhere";
     if (scene.surface.lattice_ratio != 1.0) return "over a substrate of another spacing";
     if (scene.interface.potential_name() == Tabulated::name) return "with a tabulated potential";
-    if (c.on(Effect::device)) return "on a device";
+    if (c.effects.device) return "on a device";
     return {};
 }
 
@@ -269,19 +269,19 @@ void fill_motion(Case& c, io::Problems& refused) {
         if (segment.kind == Segment::load) segment.amount *= units::megapascal * c.area();
         if (segment.kind == Segment::hold) segment.amount *= units::picosecond;
     }
-    c.simulation.interface.slides = c.on(Effect::sliding);
+    c.simulation.interface.slides = c.effects.sliding;
 
     c.simulation.dt = scene.drive.timestep;
-    if (c.on(Effect::damping)) {
+    if (c.effects.damping) {
         c.simulation.damping = scene.drive.damping * units::per_picosecond;
         c.simulation.damping_from = scene.drive.damping_from;
     }
-    if (c.on(Effect::temperature)) c.simulation.temperature = scene.drive.temperature;
+    if (c.effects.temperature) c.simulation.temperature = scene.drive.temperature;
     c.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
 
     c.longest_timestep = 2.0 / block.highest_frequency(c.scales.stiffness);
     const double period = std::numbers::pi * c.longest_timestep; // of the fastest vibration
-    if (c.on(Effect::inertia) && scene.drive.timestep >= c.longest_timestep)
+    if (c.effects.inertia && scene.drive.timestep >= c.longest_timestep)
         refused.add(
             "drive.timestep",
             fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",
@@ -298,7 +298,7 @@ void fill_motion(Case& c, io::Problems& refused) {
 void look_at_ranks(Case& c, io::Problems& refused) {
     try {
         const ProcessGrid grid = c.grid(0);
-        if (c.on(Effect::relaxation)) ProcessGrid::slabs(c.ranks, 0, c.scene.surface.sites);
+        if (c.effects.relaxation) ProcessGrid::slabs(c.ranks, 0, c.scene.surface.sites);
         if (grid.imbalance() > 0.1)
             c.notes.push_back(
                 fmt::format("{} ranks share {} sites unevenly: the largest tile has {:.0f} % "
@@ -320,7 +320,7 @@ void derive(Case& c, io::Problems& problems) {
     fill_flat_reference(c, problems);
     limit_steps(c, refused);
     note_coarse_tolerance(c);
-    if (c.on(Effect::device)) c.simulation.device = device_of(c.scene, refused);
+    if (c.effects.device) c.simulation.device = device_of(c.scene, refused);
     fill_motion(c, refused);
     look_at_ranks(c, refused);
     c.refused = refused.list();

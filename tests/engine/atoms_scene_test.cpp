@@ -3,7 +3,7 @@
 //
 // Scenes whose substrate is a file of atoms: a surface written out as atoms gives the run of the
 // surface, boxes are compared, and what does not go together is refused.
-#include "engine/run/rehearsal.hpp"
+#include "engine/run/plan.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/setup/case.hpp"
 #include "io/error.hpp"
@@ -285,11 +285,10 @@ TEST(AtomsScene, CountsItsMemoryAndHasNoTheory) {
             const Surface surface = surface_of(c);
             const Interface interface(surface, c.grid(0).tile(0), 2.6, c.simulation.interface);
             // As large as the case: what is rehearsed is what it takes, whatever the heights.
-            const Rehearsal rehearsal(c, Rehearsal::Kind::memory);
-            const double tables = rehearsal.bytes(Rehearsal::Part::interface, 0);
+            const double tables = make_plan(c, 0).bytes[Piece::interface];
             EXPECT_GE(tables, 0.8 * static_cast<double>(interface.bytes())) << ratio;
             EXPECT_LE(tables, 2.0 * static_cast<double>(interface.bytes())) << ratio;
-            EXPECT_FALSE(c.on(Effect::theory));
+            EXPECT_FALSE(c.effects.theory);
             const io::Json result = run_result(c, surface, {}).json();
             EXPECT_EQ(result["surface"]["atoms"], surface.atoms.size());
             EXPECT_TRUE(result["theory"].contains("note"));

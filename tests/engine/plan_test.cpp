@@ -1,121 +1,79 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a run is rehearsed to take is what it takes; steps and costs follow the scene.
-#include "engine/run/memory_meter.hpp"
+// What a plan says of a run follows the scene, and is what runs take: their time here, their memory
+// in tests/python/test_result.py.
 #include "engine/run/plan.hpp"
-#include "engine/run/rehearsal.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/run/time_path.hpp"
+#include "io/terminal.hpp"
 #include "support/cases.hpp"
 #include "support/message.hpp"
 #include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
-#include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
+#include <numeric>
 
 using namespace asperity;
-using Part = Rehearsal::Part;
 
 namespace {
 
 Case case_with(const std::vector<std::string>& overrides, int ranks = 1) {
     return read_case_text("[surface]\nsites = 32\nrms = 1.0\n", "test.toml", overrides, ranks);
 }
+double bytes_of(const Plan& plan) {
+    return std::accumulate(plan.bytes_of_rank.begin(), plan.bytes_of_rank.end(), 0.0);
+}
 
 } // namespace
 
-TEST(Rehearsal, MemoryIsWhatALargerRunAllocates) {
-    // In time with a state, on a plain lattice and on levels; at rest; along a path; all
-    // of them larger than the pieces that are rehearsed.
-    const std::vector<std::string> in_time = {
-        "surface.sites=192",  "surface.rms=0.3",     "block.thickness=12", "block.model=lattice",
-        "drive.velocity=800", "drive.timestep=20",   "drive.ramp=0",       "drive.tolerance=2.5e-2",
-        "output.series=100",  "drive.path=approach", "output.checkpoint=0"};
-    const auto with = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> keys = in_time;
-        keys.insert(keys.end(), more.begin(), more.end());
-        return keys;
+TEST(Plan, MemoryGrowsWithTheSitesAndTheNodes) {
+    const auto bytes = [](const std::vector<std::string>& keys) {
+        return bytes_of(make_plan(case_with(keys), 0));
     };
-    for (const auto& keys :
-         {in_time,
-          with({"block.model=multiscale", "block.layers_per_level=8", "block.thickness=192"}),
-          with({"surface.sites=320", "drive.path=zero-load"}),
-          with({"surface.sites=256", "drive.path=zero-load", "interface.kind=wall"}),
-          with({"surface.sites=256", "drive.mode=quasistatic", "drive.max_steps=3"})}) {
-        const Case c = case_with(keys);
-        const double rehearsed = Rehearsal(c, Rehearsal::Kind::memory).most_bytes(0);
-        const io::Scratch scratch;
-        // To the byte, by the rehearsal's counter; tests/python/test_result.py asks the system.
-        MemoryMeter meter;
-        test::run_scene(c, scratch / "out");
-        const double most = meter.take_peak();
-        EXPECT_NEAR(most / rehearsed, 1.0, 0.1) << keys.back();
+    const std::string rest = "drive.path=zero-load";
+    EXPECT_NEAR(bytes({"surface.sites=1024", rest}) / bytes({"surface.sites=512", rest}), 4.0, 0.1);
+    // Against a piece that is the case itself.
+    EXPECT_NEAR(bytes({"surface.sites=512", rest}) / bytes({"surface.sites=256", rest}), 4.0, 0.2);
+    const std::vector<std::string> lattice = {"surface.sites=64", "block.model=lattice"};
+    const auto block = [&](const char* layers) {
+        std::vector<std::string> keys = lattice;
+        keys.emplace_back(layers);
+        return make_plan(case_with(keys), 0).bytes[Piece::block];
+    };
+    EXPECT_NEAR(block("block.thickness=200") / block("block.thickness=100"), 2.0, 0.05);
+}
+
+TEST(Plan, RanksShareTheBlockAndHaveTheSurfaceEach) {
+    const Plan alone = make_plan(case_with({"surface.sites=96"}), 0),
+               shared = make_plan(case_with({"surface.sites=96"}, 4), 0);
+    EXPECT_NEAR(shared.bytes[Piece::surface] / alone.bytes[Piece::surface], 4.0, 0.1);
+    EXPECT_NEAR(shared.bytes[Piece::maps] / alone.bytes[Piece::maps], 1.0, 0.1) << "the root's";
+    for (const Piece::Part part : {Piece::block, Piece::rest}) {
+        EXPECT_GT(shared.bytes[part], alone.bytes[part]) << "halos; tables that each rank has";
+        EXPECT_LT(shared.bytes[part], 1.6 * alone.bytes[part]);
     }
 }
 
-TEST(MemoryMeter, CountsOneInsideAnother) {
-    MemoryMeter outer;
-    auto kept = std::make_unique<std::vector<double>>(1000);
-    {
-        MemoryMeter inner;
-        std::vector<double> gone(5000);
-        EXPECT_NEAR(inner.held(), 4e4, 100.0);
-        gone = {};
-        gone.shrink_to_fit();
-        EXPECT_NEAR(inner.take_peak(), 4e4, 100.0);
-        EXPECT_NEAR(inner.take_peak(), 0.0, 100.0);
-    }
-    EXPECT_NEAR(outer.held(), 8e3, 200.0);
-    EXPECT_NEAR(outer.take_peak(), 4.8e4, 200.0);
-    EXPECT_EQ(kept->size(), 1000u);
+TEST(Plan, WhatTheSceneDoesNotCallForTakesNothing) {
+    const Plan finite =
+        make_plan(case_with({"output.fields=[]", "block.strain=finite", "block.thickness=8"}), 1);
+    EXPECT_EQ(finite.bytes[Piece::maps], 0.0);
+    EXPECT_EQ(finite.bytes[Piece::rest], 0.0) << "no state at finite strain";
+    EXPECT_GT(finite.bytes[Piece::kept], 0.0);
+    const Plan rest = make_plan(case_with({"drive.path=zero-load"}), 1);
+    EXPECT_EQ(rest.bytes[Piece::kept], 0.0);
+    EXPECT_EQ(rest.steps, 0);
+    EXPECT_EQ(rest.moving, 0.0);
+    EXPECT_GT(rest.rest, 0.0);
 }
 
-TEST(Rehearsal, ContinuesWhatGrowsWithSitesAndNodes) {
-    // The same from the same pieces, four times as large.
-    const auto of = [](const char* sites, const char* rolloff, const char* cutoff) {
-        return case_with({sites, rolloff, cutoff, "drive.path=zero-load"});
-    };
-    const Case once = of("surface.sites=512", "surface.rolloff=3", "surface.cutoff=256"),
-               twice = of("surface.sites=1024", "surface.rolloff=6", "surface.cutoff=512");
-    const Rehearsal small(once, Rehearsal::Kind::memory), large(twice, Rehearsal::Kind::memory);
-    EXPECT_NEAR(large.most_bytes(0) / small.most_bytes(0), 4.0, 0.1);
-    // Twice the layers of a lattice are twice its nodes.
-    const auto lattice = [](const char* layers) {
-        return case_with({"surface.sites=256", "block.model=lattice", layers});
-    };
-    const Case thin = lattice("block.thickness=100"), thick = lattice("block.thickness=200");
-    EXPECT_NEAR(Rehearsal(thick, Rehearsal::Kind::memory).bytes(Part::block, 0) /
-                    Rehearsal(thin, Rehearsal::Kind::memory).bytes(Part::block, 0),
-                2.0, 0.05);
-}
-
-TEST(Rehearsal, RanksShareTheBlockAndHaveTheSurfaceEach) {
-    const Case one = case_with({"surface.sites=96"}), four = case_with({"surface.sites=96"}, 4);
-    const Rehearsal alone(one, Rehearsal::Kind::memory), shared(four, Rehearsal::Kind::memory);
-    // Of an allocation malloc counts 16 bytes more where what is left of a piece is too small to be
-    // one itself.
-    EXPECT_NEAR(shared.bytes(Part::surface, 3), alone.bytes(Part::surface, 0), 256.0);
-    EXPECT_LT(shared.bytes(Part::block, 3), 0.5 * alone.bytes(Part::block, 0)) << "halos";
-    EXPECT_GT(shared.bytes(Part::block, 3), 0.25 * alone.bytes(Part::block, 0));
-    EXPECT_LT(shared.bytes(Part::state, 1), 0.5 * alone.bytes(Part::state, 0));
-    EXPECT_EQ(shared.bytes(Part::maps, 1), 0.0) << "the root collects them";
-}
-
-TEST(Rehearsal, WhatTheSceneDoesNotCallForTakesNothing) {
-    const Case c = case_with({"output.fields=[]", "block.strain=finite"});
-    const Rehearsal rehearsal(c, Rehearsal::Kind::memory);
-    EXPECT_EQ(rehearsal.bytes(Part::maps, 0), 0.0);
-    EXPECT_EQ(rehearsal.bytes(Part::state, 0), 0.0) << "no state at finite strain";
-    EXPECT_GT(rehearsal.bytes(Part::snapshots, 0), 0.0);
-    const Case rest = case_with({"drive.path=zero-load"});
-    EXPECT_EQ(Rehearsal(rest, Rehearsal::Kind::memory).bytes(Part::snapshots, 0), 0.0);
-}
-
-TEST(Rehearsal, WhatDoesNotFitIsRefusedBeforeItIsMade) {
+TEST(Plan, WhatDoesNotFitIsRefusedBeforeItIsMade) {
     const Case c = case_with({"surface.sites=32768", "block.thickness=32768", "block.model=lattice",
                               "surface.cutoff=16384"});
     RunOptions options;
@@ -127,44 +85,45 @@ TEST(Rehearsal, WhatDoesNotFitIsRefusedBeforeItIsMade) {
     EXPECT_FALSE(std::filesystem::exists("no-such-directory"));
     // A plan makes neither the surface nor the block.
     const Plan plan = make_plan(c, 1);
-    EXPECT_GT(plan.whole.bytes, 1e15);
-    EXPECT_GT(plan.whole.seconds, 0.0);
+    EXPECT_GT(bytes_of(plan), 1e15);
+    EXPECT_GT(plan.moving, 0.0);
     EXPECT_GT(plan.steps, 0);
 }
 
-TEST(Plan, StepsAndCostsFollowTheScene) {
-    const Plan plan = make_plan(case_with({"block.thickness=32"}), 1);
+TEST(Plan, StepsFollowThePathAndAllWorkIsSharedAmongTheThreads) {
+    const std::string thin = "block.thickness=32";
+    const Plan plan = make_plan(case_with({thin}), 1);
     // Down and up 13.12 Å and more at 5 m/s in steps of 10 fs.
-    const double least = 2.0 * 13.12 / 5e-5 / 10.0;
-    EXPECT_GT(static_cast<double>(plan.steps), least);
-    EXPECT_LT(static_cast<double>(plan.steps), 2.0 * least);
-    EXPECT_GT(plan.block.seconds, 0.0);
-    EXPECT_GT(plan.iterations, 10);
-    EXPECT_TRUE(plan.state_ended);
-
-    const Plan twice = make_plan(case_with({"block.thickness=32", "drive.velocity=2.5"}), 1);
-    EXPECT_NEAR(static_cast<double>(twice.steps), 2.0 * static_cast<double>(plan.steps),
-                0.1 * static_cast<double>(plan.steps));
-    EXPECT_EQ(make_plan(case_with({"drive.max_steps=7"}), 1).steps, 7);
-    const Plan timeless = make_plan(case_with({"drive.path=zero-load"}), 1);
-    EXPECT_EQ(timeless.steps, 0);
-    EXPECT_GT(timeless.iterations, 10);
-    EXPECT_EQ(timeless.block.seconds, 0.0);
+    const double least = 2.0 * 13.12 / 5e-5 / 10.0, steps = static_cast<double>(plan.steps);
+    EXPECT_GT(steps, least);
+    EXPECT_LT(steps, 2.0 * least);
+    const Plan slow = make_plan(case_with({thin, "drive.velocity=2.5"}), 1);
+    EXPECT_NEAR(static_cast<double>(slow.steps), 2.0 * steps, 0.1 * steps);
+    EXPECT_EQ(make_plan(case_with({thin, "drive.max_steps=7"}), 1).steps, 7);
+    // Times are measured anew for each plan: against a factor of a million they do not matter.
+    constexpr int many = 1'000'000;
+    const Plan shared = make_plan(case_with({thin}), many);
+    for (double Plan::*time : {&Plan::making, &Plan::moving, &Plan::rest})
+        EXPECT_NEAR(std::log10(plan.*time / shared.*time), 6.0, 2.0);
 }
 
-TEST(Plan, AllWorkIsSharedAmongTheThreads) {
-    // Times are rehearsed anew for each plan: against a factor of a million they do not matter.
-    constexpr int many = 1'000'000;
-    const Case c = case_with({"block.thickness=32", "output.checkpoint=0"});
-    const Plan one = make_plan(c, 1), shared = make_plan(c, many);
-    const auto expect_shared = [&](const Cost& cost, const Cost& alone) {
-        EXPECT_GT(alone.seconds, 0.0);
-        EXPECT_LT(shared.threads * cost.seconds, 1e3 * alone.seconds);
-        EXPECT_GT(shared.threads * cost.seconds, 1e-3 * alone.seconds);
-    };
-    expect_shared(shared.making, one.making);
-    expect_shared(shared.block, one.block);
-    expect_shared(shared.state, one.state);
+TEST(Plan, PathsAndStatesTakeTheTimeThatItSays) {
+    // Twice as wide as a piece. In processor time, which other programs hardly change.
+    omp_set_num_threads(1);
+    const std::string path = "drive.mode=quasistatic";
+    for (const auto& keys : std::vector<std::vector<std::string>>{
+             {path, "surface.sites=48", "surface.rms=1.5"},
+             {path, "drive.hold=mean-height", "interface.kind=wall"},
+             {"drive.path=zero-load", "surface.sites=256", "surface.rms=3"}}) {
+        const Case c = case_with(keys);
+        const Plan plan = make_plan(c, 1);
+        const io::Scratch scratch;
+        const std::clock_t begin = std::clock();
+        test::run_scene(c, scratch / "out");
+        const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        EXPECT_LT(plan.rest, 3.0 * took) << keys.back();
+        EXPECT_GT(plan.rest, took / 3.0) << keys.back();
+    }
 }
 
 TEST(Plan, ProgressGoesWithTheTimeOfTheRun) {

@@ -5,6 +5,9 @@
 #include "engine/setup/case.hpp"
 #include "io/json.hpp"
 #include "io/quantities.hpp"
+#include "kernels/device/device.hpp"
+#include "kernels/variant.hpp"
+#include "support/message.hpp"
 #include "support/scratch.hpp"
 
 #include <fmt/format.h>
@@ -156,7 +159,7 @@ TEST(Scene, Paths) {
     EXPECT_EQ(guided.path[4].amount, 20.0);
     EXPECT_EQ(guided.path[5].kind, Segment::pull_off);
     EXPECT_EQ(guided.simulation.drive.path[4].amount, 20000.0) << "fs";
-    EXPECT_TRUE(guided.on(Effect::sliding));
+    EXPECT_TRUE(guided.effects.sliding);
 }
 
 TEST(Scene, Ranges) {
@@ -290,6 +293,24 @@ TEST(Scene, ScenesThatComeWithAsperity) {
     flat.drive.timestep = Scene{}.drive.timestep; // the rest is the defaults, spelt out
     flat.numerics.precision = Scene{}.numerics.precision;
     EXPECT_EQ(scene_toml(flat, false), scene_toml(Scene{}, false));
+}
+
+TEST(Scene, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
+    if (!fuses(processor_level())) return; // refused for another reason
+    if (cuda_device_count() >= 8) return;  // more have no number
+    const std::string beyond = "numerics.device=" + std::to_string(cuda_device_count());
+    const std::string refused = test::message_of<io::SceneError>(
+        [&] { read_case_text("", "s.toml", {beyond}).require_runnable(); });
+    for (const char* part : {"numerics.device", "not there", "auto"})
+        EXPECT_TRUE(test::has(refused, part)) << part << " not in: " << refused;
+    for (const char* path : {"drive.path=zero-load", "drive.path=[\"approach\"]"}) {
+        const Case c = read_case_text("", "s.toml", {"numerics.device=auto", path});
+        EXPECT_EQ(c.effects.device.on, bool(c.simulation.device))
+            << path << ": " << c.effects.device.why;
+        if (cuda_device_count() == 0) {
+            EXPECT_FALSE(c.effects.device) << path;
+        }
+    }
 }
 
 TEST(Scene, ReferencePagesAreUpToDate) {

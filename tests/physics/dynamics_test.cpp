@@ -255,6 +255,46 @@ TEST(Temperature, OnlyTheDampedDepthIsDriven) {
     });
 }
 
+TEST(Temperature, AnotherSeedIsAnotherNoise) {
+    const auto heat = [](std::uint64_t seed) {
+        SimulationOptions options = test::free_contact(10.0);
+        options.damping = 2e-3;
+        options.temperature = 300.0;
+        options.seed = seed;
+        Simulation s = released(options);
+        for (int n = 0; n < 3; ++n)
+            s.step(false);
+        return s.balance().heat;
+    };
+    EXPECT_EQ(heat(1), heat(1));
+    EXPECT_NE(heat(1), heat(2));
+}
+
+TEST(Damping, ActsOnTheLayersItIsGivenAlone) {
+    // One step of the same state, with and without: the layers below damping_from keep their bits.
+    SimulationOptions without = test::free_contact(10.0);
+    without.block = test::paper_block(8, 8, 0);
+    SimulationOptions with = without;
+    with.damping = 5e-3;
+    with.damping_from = 0.5;
+    Simulation plain = released(without), damped = released(with);
+    for (Simulation* s : {&plain, &damped}) {
+        Block& block = s->block_to_write();
+        auto& v = block.fields(block.levels().front()).v; // faster than the medium
+        for (int z = 0; z < 8; ++z)
+            v.plane(z).z(3, 5) = 1e-3;
+        s->step(false);
+    }
+    for (int z = 0; z < 8; ++z) {
+        const double free = plain.block().levels().front().v.view()[z].z(3, 5);
+        const double slowed = damped.block().levels().front().v.view()[z].z(3, 5);
+        if (z < 4)
+            EXPECT_EQ(slowed, free) << z;
+        else
+            EXPECT_LT(std::abs(slowed), std::abs(free)) << z;
+    }
+}
+
 namespace {
 
 struct Approach {

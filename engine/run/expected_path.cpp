@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/expected_path.hpp"
+
+#include "engine/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity {
+
+ExpectedPath expected_path(const Case& c, double start) {
+    const BlockOptions& block = c.simulation.block;
+    const double contact = c.flat.separation - start; // displacement of the top plane
+    const double modulus = block.lame() + 2.0 * block.shear_modulus(); // eV/Å^3
+    const double yields = block.thickness * block.spacing / modulus;   // under a pressure
+    ExpectedPath path;
+    path.time = c.simulation.drive.ramp * static_cast<double>(c.path.size() - 1); // turns
+    double at = 0.0, pressure = 0.0;
+    for (const Segment& segment : c.path) {
+        double to = at, way = 0.0;
+        if (segment.kind == Segment::approach) {
+            to = contact;
+            pressure = 0.0;
+        } else if (segment.kind == Segment::pull_off) {
+            // The block separates when it is stretched by half of the largest tension.
+            way = std::max(-at, 0.5 * c.largest_tension * units::gigapascal * yields);
+            to = 0.0;
+        } else if (segment.kind == Segment::load) {
+            const double asked = segment.amount * units::megapascal;
+            to = std::min(at, contact) + (pressure - asked) * yields;
+            pressure = asked;
+        } else if (segment.kind == Segment::height) {
+            to = segment.amount - start;
+        } else if (segment.kind == Segment::slide) {
+            way = std::abs(segment.amount);
+        } else if (segment.kind == Segment::hold) {
+            path.time += segment.amount * units::picosecond;
+        }
+        way = std::max(way, std::abs(to - at));
+        at = to;
+        path.ways.push_back(way);
+        path.time += way / c.simulation.drive.velocity;
+        path.deepest = std::max(path.deepest, -at);
+    }
+    return path;
+}
+
+} // namespace asperity
