@@ -22,7 +22,7 @@ Case sphere(double range, const char* more) {
         fmt::format("[surface]\nkind = \"flat\"\nsites = 32\nspacing = \"10 nm\"\n"
                     "radius = \"1 µm\"\n[block]\nyoung = \"3 GPa\"\npoisson = 0.33\n[interface]\n"
                     "kind = \"wall\"\nadhesion = \"70 mJ/m²\"\nrange = \"{} nm\"\n{}\n[drive]\n"
-                    "mode = \"quasistatic\"\n[theory]\nrenormalised = false\n",
+                    "mode = \"quasistatic\"\n",
                     range, more),
         "sphere.toml");
 }
