@@ -56,7 +56,7 @@ void Continuation::put_back() {
 }
 
 bool Continuation::predicts(double at) const {
-    constexpr double furthest = 0.57; // ranges, out of which a site in contact still comes back
+    constexpr double furthest = 0.58; // ranges, out of which a site in contact still comes back
     return at_ != before_at_ &&
            std::abs((at - at_) / (at_ - before_at_)) * moved_ <= furthest * options_.scales.length;
 }

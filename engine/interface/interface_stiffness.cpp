@@ -34,6 +34,7 @@ double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<co
 void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<const double>& u,
                                  const VectorPlane<const double>& force, double reference_height) {
     const VectorPlane<const double> moved = std::as_const(force_).plane(0);
+    difference_ = -difference_;
     const double step = difference_;
     const auto stiffness = [step](const PlaneView<const double>& there,
                                   const PlaneView<const double>& here, int x, int y) {

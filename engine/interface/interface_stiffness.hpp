@@ -7,7 +7,9 @@
 // interface's whole Hessian is this map of 3 x 3 matrices. Three sweeps, all sites displaced by a
 // little along x, y and z, give it by differences; the normal component alone takes one. The
 // displacement is a compromise: the force's own curvature requires a small one, its steps at the
-// cutoff (1.2e-4 of a site's largest attraction a pair, at 4 r0) a large one.
+// cutoff (1.2e-4 of a site's largest attraction a pair, at 4 r0) a large one. Each measurement
+// displaces the other way than the last: a site beside such a step, of which a difference makes a
+// stiffness that is far off, is then measured on its other side.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -36,7 +38,7 @@ private:
     PlaneView<const float> entry(Entry e) const { return map_[e].plane(0); }
 
     double sites_;                          ///< across the box
-    double difference_;                     ///< Å
+    double difference_;                     ///< Å, of either sign
     SiteField<float> map_;                  ///< eV/Å^2, by Entry
     VectorField<double> displaced_, force_; ///< displaced_: of three components
 };

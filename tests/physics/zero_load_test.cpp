@@ -101,7 +101,8 @@ TEST_P(ReferenceCase, LatticeAndSpectral) {
         const auto r = lattice ? test::relax_levels(block, interface, surface, 1e-6)
                                : test::relax_spectral(block, interface, surface, 1e-6);
         const double first_order = (lattice ? 10.0 : 1.0) * c.first_order;
-        ASSERT_TRUE(r.state.converged);
+        ASSERT_TRUE(r.state.converged)
+            << why_not_converged(r.state, 1e-6) << " after " << r.state.iterations;
         EXPECT_NEAR(r.binding_energy, c.binding, c.binding_tolerance * c.binding);
         EXPECT_NEAR(r.pairwise, c.pairwise, first_order * c.pairwise);
         EXPECT_NEAR(r.state.elastic_energy, c.elastic, 2.0 * first_order * c.elastic);
@@ -122,7 +123,8 @@ TEST_P(ReferenceCase, Multiscale) {
         const auto r = test::relax_levels(test::paper_block(c.sites, c.thickness, layers),
                                           test::paper_interface(c.cutoff),
                                           test::reference_surface(c.map), 1e-5);
-        ASSERT_TRUE(r.state.converged);
+        ASSERT_TRUE(r.state.converged)
+            << why_not_converged(r.state, 1e-6) << " after " << r.state.iterations;
         const double off = r.binding_energy / c.binding - 1.0;
         EXPECT_LT(std::abs(off), layers == 4 ? 5e-3 : 5e-4);
         EXPECT_LT(off, 1e-7) << "constraints cannot lower the energy";
