@@ -75,5 +75,5 @@ TEST(Effects, OffMakesNoCall) {
         EXPECT_TRUE(on.file->exists(group)) << group;
     }
     EXPECT_EQ(off("energy.damped"), 0.0);
-    EXPECT_GT(on("energy.damped"), 0.0);
+    EXPECT_NE(on("energy.damped"), 0.0); // net of the noise: of either sign
 }

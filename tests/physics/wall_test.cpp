@@ -317,7 +317,7 @@ TEST(Wall, NarrowAttractionsAndCoarseTolerancesAreNoted) {
     for (const auto& [range, narrow] : {std::pair{"0.89", true}, {"0.92", false}})
         EXPECT_EQ(noted({"block.young=77", "surface.spacing=2.6",
                          std::string("interface.range=") + range},
-                        "less than two spacings"),
+                        "single rows of sites hold the edge"),
                   narrow);
     for (const auto& [young, coarse] : {std::pair{"0.0001", true}, {"77", false}})
         EXPECT_EQ(noted({std::string("block.young=") + young, "drive.tolerance=0.02"},
