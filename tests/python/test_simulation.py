@@ -476,7 +476,7 @@ def test_statics_refuses():
             wrong()
     timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
     held = asperity.Statics(STATIC, {"surface.sites": 64, "drive.tolerance": 1e-6})
-    held.mean_height = 1.0
+    held.mean_height = 2.9
     timer.start()
     with pytest.raises(KeyboardInterrupt):
         held.relax()

@@ -108,7 +108,7 @@ def test_lateral_forces_on_a_soft_steep_surface(place):
     assert found["approach_less_run"] == by["approach"]["binding_energy"] - by["run"]["binding_energy"]
     assert abs(found["approach_less_run"]) > 0.1 and f"{found['approach_less_run']:+.3g} meV/Å²" in said
     pressed = found["states"][-1]
-    assert pressed["found"] == ["outwards"] and pressed["binding_energy"] > by["run"]["binding_energy"] + 0.2
+    assert pressed["found"] == ["outwards"] and abs(pressed["binding_energy"] - by["run"]["binding_energy"]) > 0.2
     assert by["random start"]["binding_energy"] > by["run"]["binding_energy"] + 0.2
     assert by["approach"]["barrier"] > 21.6  # MPa; a path of its own found this at least
     assert found["pressed_to"] == pytest.approx(0.125 * 8000 / (1 - 0.42**2), rel=1e-3)
