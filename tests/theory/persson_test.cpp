@@ -258,7 +258,9 @@ void expect_solved(AdhesiveContact c, const std::string& what) {
         };
         double area = 0;
         EXPECT_GE(excess(s.gamma_eff + step, &area), -1e-9) << fraction;
-        if (s.gamma_eff > step) EXPECT_LE(excess(s.gamma_eff - step), 1e-9) << fraction;
+        if (s.gamma_eff > step) {
+            EXPECT_LE(excess(s.gamma_eff - step), 1e-9) << fraction;
+        }
         EXPECT_NEAR(s.area, area, 0.03) << fraction;
     }
     c.spectrum = c.spectrum.with_rms_height(1.003 * h_c);
