@@ -217,6 +217,11 @@ void require_memory(const Case& c, const Communicator& ranks) {
     // The same on all ranks.
     if (nodes_of(c.levels) <= small_nodes && std::pow(c.scene.surface.sites, 2) <= small_sites)
         return;
+    // Nor is anything made to be counted where several times what the fields of any run take is
+    // there.
+    const double fields = 4096.0 * std::pow(c.scene.surface.sites, 2) + 512.0 * nodes_of(c.levels);
+    if (!c.scene.surface.reads_file() && ranks.max(fields / io::available_memory().bytes) < 0.5)
+        return;
     const double mine = make_plan(c, 0).bytes_of_rank[static_cast<std::size_t>(ranks.rank())];
     const double needed = ranks.sum_on_machine(mine);
     const io::AvailableMemory there = io::available_memory();
