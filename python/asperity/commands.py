@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 from . import files, program
-from .cost import TARGETS, Cost, Runs, target_of
+from .cost import TARGETS, Cost, target_of
 from .cost_parameters import cost_case
 from .errors import SceneError
 from .plots.sweep import write_plots
 from .pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
 from .report_cost import answer_of, text_of, write
 from .sweeps import TABLES, Carried
+from .variations import Runs
 
 
 def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 """`asperity cost`: runs the reference, the scene as it is, every value of every parameter (cost_parameters.py), and then
-combinations: a value of each parameter, the cheapest whose own errors add up to no more than a target. Each is a process
-of its own with one thread, in a directory of its own; those that are there are not run again. For a target of the user a
-combination is chosen once it was run and its error against the reference is within the target.
+combinations: a value of each parameter, the cheapest whose own errors add up to no more than a target. For a target of
+the user a combination is chosen once it was run and its error against the reference is within the target.
 """
 
 from __future__ import annotations
@@ -11,29 +10,17 @@ from __future__ import annotations
 import contextlib
 import functools
 import itertools
-import json
 import math
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 
-from . import program
-from .cost_parameters import ASKED, NAN, Base, CostCase, Row, joined
+from .cost_parameters import ASKED, Base, CostCase, Row
 from .errors import SceneError
-from .pool import DONE, WAITING, Job, Pool, PoolOptions, look_at_all
-from .result import Values
+from .variations import NAN, joined
 
 TARGETS = (0.05, 0.01, 0.001)
 TRIES = 4  # combinations that are run for a target
-
-
-def numbers_of(result: Values) -> np.ndarray:
-    """One number a quantity; NaN: none."""
-    flat, *numbers = (result.number(key, NAN) for key in ("delta_gamma", "binding_energy", "contact_fraction",
-                      "work_of_drive.approach", "work_of_drive.pull_off", "pull_off_force"))
-    flat = flat or NAN
-    return np.array(numbers) / (flat, 1.0, flat, flat, 1.0)
 
 
 def errors_of(measured: np.ndarray, reference: np.ndarray) -> np.ndarray:
@@ -134,38 +121,6 @@ class Cost:
             # Own errors added up to less than it has, or its run failed: the next has to promise half.
             left = [one for one in left if one[1] <= 0.5 * added]
         return True
-
-
-class Runs:
-    """Settings that make the same scene are one run."""
-
-    def __init__(self, scene: str, overrides: list[str], directory: Path, options: PoolOptions):
-        self.scene, self.directory, self.options = scene, directory, options
-        self.common = joined(overrides, ["output.fields=zero-load", "output.trajectory=none"])  # those would be timed too
-        self.made: dict[str, Job] = {}
-
-    def run(self, rows: list[Row]) -> bool:
-        """Runs the rows and fills in their numbers. False: stopped before the end."""
-        overrides = [joined(self.common, row.setting) for row in rows]
-        points = program.theory_points(self.scene, overrides, runnable=True)
-        program.complaints(points)
-        jobs: dict[str, Job] = {}
-        for row, given, point in zip(rows, overrides, points):
-            name = ",".join(one.partition(".")[2] for one in sorted(row.setting)) or "scene"
-            key = json.dumps(point["scene"])
-            jobs[key] = self.made.setdefault(key, Job(name, self.directory / name, self.scene, given, point))
-        outcomes = look_at_all(list(jobs.values()), print)
-        there = sum(o.status != WAITING for o in outcomes)
-        print(f"{len(jobs)} run{'s' * (len(jobs) != 1)} in {self.directory}" + f"; {there} are there already" * (there > 0),
-              flush=True)
-        complete = Pool(list(jobs.values()), outcomes, self.options, self.directory).run()
-        of_scene = dict(zip(jobs, outcomes))
-        for row, point in zip(rows, points):
-            row.outcome = of_scene[json.dumps(point["scene"])]
-            if row.outcome.status == DONE:
-                row.numbers = numbers_of(row.outcome.result)
-                row.seconds = row.outcome.result.number("run.processor_seconds", NAN)
-        return complete
 
 
 def target_of(text: str) -> float:

@@ -11,10 +11,11 @@ from matplotlib.axes import Axes
 
 from . import files, terminal
 from .cost import TARGETS, Cost, errors_of
-from .cost_parameters import ASKED, NAN, QUANTITIES
+from .cost_parameters import ASKED, QUANTITIES
 from .plots import style as figures
 from .plots.style import BLUE, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, finish
 from .pool import FAILED
+from .variations import NAN
 
 GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"),
           ("layers, block model", ("layers", "model"), RED, "s"), ("time step", ("timestep",), GREEN, "^"),

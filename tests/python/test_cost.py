@@ -10,15 +10,16 @@ import pytest
 
 import asperity
 from asperity import cost, program, report_cost
-from asperity.cost_parameters import NAN, Base, CostCase, Parameter, Row, cost_case, joined
+from asperity.cost_parameters import Base, CostCase, Parameter, Row, cost_case, numbers_of
 from asperity.result import Values
 from asperity.scene import scene_file
+from asperity.variations import NAN, joined
 from conftest import command, rows, started, wait_for
 
 
 def test_energies_are_compared_over_their_own_flat():
-    a = cost.numbers_of(Values({"delta_gamma": 50.0, "binding_energy": 30.0, "contact_fraction": 0.5}))
-    b = cost.numbers_of(Values({"delta_gamma": 100.0, "binding_energy": 60.0, "contact_fraction": 0.49}))
+    a = numbers_of(Values({"delta_gamma": 50.0, "binding_energy": 30.0, "contact_fraction": 0.5}))
+    b = numbers_of(Values({"delta_gamma": 100.0, "binding_energy": 60.0, "contact_fraction": 0.49}))
     errors = cost.errors_of(b, a)
     assert errors[0] == 0 and errors[1] == pytest.approx(-0.02) and math.isnan(errors[2])
     assert cost.largest_error(b, a, "state") == pytest.approx(0.02)
@@ -57,6 +58,9 @@ def test_parameters_are_those_that_the_scene_has():
     assert "damping" not in parameters(drive={"damping": 0})
     for other in ({"interface": {"kind": "wall"}, "drive": {"path": ["zero-load"]}}, {"surface": {"sites": 16, "lattice_ratio": 2.0}}):
         assert "precision" not in parameters(**other)  # pairs are in double
+    wall = {"kind": "wall"}
+    assert parameters(interface=wall, drive={"path": ["zero-load"]}) == ["thickness", "tolerance"]  # it has no cutoff
+    assert "tail" in parameters(interface={**wall, "law": "smeared"}, drive={"path": ["zero-load"]})
     for parameter in case(surface={"sites": 32}).parameters:  # no value comes twice
         assert len({tuple(row.setting) for row in parameter.rows}) == len(parameter.rows) > 1, parameter.name
     for bad in ({"block": {"strain": "finite"}}, {"drive": {"temperature": 300}}, {"drive": {"max_steps": 10}}):

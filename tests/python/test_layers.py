@@ -11,7 +11,7 @@ import asperity
 ORDER = """errors units terminal
     files program scene convert
     result grid theory sphere theories
-    pool runs tables sweeps cost_parameters cost
+    pool runs tables sweeps variations cost_parameters cost
     plots.__init__ plots.style plots.run plots.sweep
     page sentences report report_cost report_sweep export commands theory_command
     forms engine state_search __init__ __main__""".split()
