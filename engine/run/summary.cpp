@@ -222,7 +222,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         row("energy that still moves", "kinetic.approach", 2, moves_in, moves_out, {});
     const auto plus_minus = [](Number v) { return v ? fmt::format("{:.1e}", *v) : "-"; };
     if (state || drive_in)
-        table.row({named("uncertainty of the above", "binding_energy_uncertainty"),
+        table.row({named("convergence of the above", "binding_energy_uncertainty"),
                    plus_minus(of("work_of_drive.uncertainty.approach")),
                    plus_minus(of("work_of_drive.uncertainty.pull_off")),
                    plus_minus(of("binding_energy_uncertainty"))});
@@ -269,6 +269,10 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    "  Energy balance: work on the solids = kinetic + elastic + interface energy + "
                    "energy {},\n  to {:.1e} of the largest so far.\n",
                    of("dissipated.energy") ? "dissipated" : "damped", std::abs(*residual));
+    if (state || drive_in)
+        fmt::print(to,
+                   "  Convergence is what the solver leaves. Cutoff, spacing, thickness, width, "
+                   "velocity and the choice of the\n  surface are not in it: asperity estimate.\n");
     fmt::print(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

@@ -10,6 +10,7 @@
     result.plot.separation()                            # draws into a matplotlib axes
     sweep = asperity.sweep("scene.toml", {"surface.rms": [0.5, 1, 2]}, jobs=2)
     sweep.table["binding_energy"]                       # numpy array, a value a point
+    asperity.estimate("scene.toml").quote()             # "γ_eff = 1170 ± 14 mJ/m² ...": with its error, and of what
     sim = asperity.Simulation("scene.toml")             # the engine in a loop of your own (docs/howto/python-engine.md)
     sim.step(500); sim.force; sim.u.z                   # eV/Å; a view of the displacements, Å
 
@@ -24,18 +25,18 @@ from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneE
 if TYPE_CHECKING:
     from .engine import Simulation as Simulation
     from .engine import Statics as Statics
-    from .forms import Result, Sweep, load, load_sweep, run, sweep
+    from .forms import Estimate, Result, Sweep, estimate, load, load_estimate, load_sweep, run, sweep
     from .state_search import states as states
 
-__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "SceneWarning",
-           "Stopped", "Sweep", "load", "load_sweep", "run", "sweep"]
+__all__ = ["Error", "Estimate", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "SceneWarning",
+           "Stopped", "Sweep", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
 
 
 def __getattr__(name: str):
     # numpy and h5py are imported with the first name that needs them, so that --help needs neither.
     import importlib
 
-    if name in ("Result", "Sweep", "load", "load_sweep", "run", "sweep"):
+    if name in ("Estimate", "Result", "Sweep", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"):
         return getattr(importlib.import_module(".forms", __name__), name)
     if name in ("Simulation", "Statics"):
         return getattr(importlib.import_module(".engine", __name__), name)

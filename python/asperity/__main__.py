@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The command line: `python3 -m asperity` is `asperity`.
 
-theory, sweep, cost, states, report, export and convert are carried out here; the program hands them over. Every other
+theory, sweep, cost, estimate, states, report, export and convert are carried out here; the program hands them over. Every other
 command is handed to the program.
 """
 
@@ -51,6 +51,14 @@ def _parser() -> argparse.ArgumentParser:
         if command.prog.split()[-1] != "theory":
             command.add_argument("--progress", default="auto", metavar="MODE", help="auto, bar, lines or off")
 
+    def varied(command: argparse.ArgumentParser) -> None:
+        command.add_argument("--jobs", type=_many, default=1, metavar="N",
+                             help="runs side by side; they share the processors")
+        command.add_argument("--seeds", type=_many, metavar="N",
+                             help="surfaces of a self-affine scene to average over (default: 8, or 4 with a path)")
+        command.add_argument("--parts", default="", metavar="NAMES", help="only these parts of the error: tail,seeds,...")
+        command.add_argument("--plan", action="store_true", help="say what would be run and how long it takes; run nothing")
+
     theory = add("theory", "the theories of a scene, without simulating it")
     scene(theory, "results/<scene>-theory")
     theory.add_argument("--points", help=argparse.SUPPRESS)
@@ -80,6 +88,11 @@ def _parser() -> argparse.ArgumentParser:
     cost.add_argument("--target", metavar="ERROR",
                       help="find the cheapest numerical settings that keep this error: 1%%, 0.01")
     cost.add_argument("--parameters", default="", metavar="NAMES", help="only these: timestep,cutoff,layers,...")
+    estimate = add("estimate", "the numbers of a scene with their errors, from runs with one setting varied at a time",
+                   "Parts of the error: convergence, tail, spacing, levels, timestep, thickness, width, edge (of a map), rate,\n"
+                   "seeds, places (of a map). The same command goes on where it stopped.")
+    scene(estimate, "results/<scene>-estimate")
+    varied(estimate)
     states = add("states", "the stable states of a contact under its load",
                  "A path at a held mean height goes inwards and back; the states are told with the pressures between\n"
                  "them. The same command goes on where it was stopped.")
@@ -133,6 +146,18 @@ def _one_scene(given: argparse.Namespace) -> str:
     return scenes[0]
 
 
+def _names(text: str) -> list[str]:
+    return [name.strip() for name in text.split(",") if name.strip()]
+
+
+def _pool_options(given: argparse.Namespace):
+    from .pool import PoolOptions
+    from .terminal import Progress
+
+    Progress(given.progress)  # refuses what is no mode before anything is done
+    return PoolOptions(given.jobs, progress=given.progress)
+
+
 def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "report":
         from .report_sweep import write_page
@@ -165,6 +190,11 @@ def _carry_out(given: argparse.Namespace) -> int:
 
         return states_command(_one_scene(given), given.sets, given.out, given.starts, given.progress)
     from .pool import PoolOptions, executor_of
+    if given.command == "estimate":
+        from .commands import estimate_command
+
+        return estimate_command(_one_scene(given), given.sets, given.out, _pool_options(given), given.seeds,
+                                _names(given.parts), given.plan)
     from .commands import cost_command, sweep_command
     from .terminal import Progress, parse_duration
 
@@ -180,8 +210,7 @@ def _carry_out(given: argparse.Namespace) -> int:
             return 0  # a rank that has worked for the first one
         options.executor = executor
         if cost:
-            names = [name for name in given.parameters.split(",") if name]
-            return cost_command(scenes[0], given.sets, names, given.out, options, given.target)
+            return cost_command(scenes[0], given.sets, _names(given.parameters), given.out, options, given.target)
         return sweep_command(scenes, given.sets, given.out, given.theory_only, options)
 
 

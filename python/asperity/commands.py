@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""`asperity sweep` and `cost`: each carries out, writes, prints, and returns the exit code."""
+"""`asperity sweep`, `cost` and `estimate`: each carries out, writes, prints, and returns the exit code."""
 
 from __future__ import annotations
 
-from . import files, program
+from . import files, program, report_estimate
 from .cost import TARGETS, Cost, target_of
 from .cost_parameters import cost_case
 from .errors import SceneError
+from .estimates import Estimating
 from .plots.sweep import write_plots
 from .pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
 from .report_cost import answer_of, text_of, write
@@ -72,3 +73,28 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
     if asked is not None:
         print("\n" + answer_of(cost))
     return 0 if asked is None or cost.chosen else PHYSICS
+
+
+def estimate_command(scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
+                     parts: list[str], plan: bool, spacing_also: list[str] | None = None) -> int:
+    """Its exit code: 75 if stopped before the end, that of the scene if it failed."""
+    def say(text: str) -> None:
+        print(text, flush=True)
+
+    making = Estimating(scene, overrides, out, options, seeds, parts, spacing_also or (), say)
+    say(making.told())
+    if plan:
+        return 0
+    with files.in_use(making.place):
+        found, complete = making.carry_out()
+        outcome = making.plan.scene.outcome
+        if complete and found is None:
+            print(f"The scene itself failed, and there is nothing to vary: {outcome.reason}")
+            return outcome.exit_code or PHYSICS
+        written = report_estimate.write(found) if complete else []
+    if not complete:
+        print("Stopped early: the same command goes on from here.")
+        return STOPPED
+    print(report_estimate.text_of(found))
+    print(f"in {making.place}: {', '.join(written)}")
+    return 0

@@ -34,6 +34,8 @@ STYLES = {"atomic": (1, 2, 5), "charge": (1, 3, 6), "bond": (2, 3, 6), "angle": 
 SIZE = r"([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)"
 HEADERS = ("width", "height", "edge", "x-length", "y-length", "value units", "x-unit", "y-unit", "z-unit", "bit2nm")
 """Of which _matrix() takes sizes and units."""
+PICTURES = {"PNG": b"\x89PNG", "JPEG": b"\xff\xd8\xff", "GIF": b"GIF8", "BMP": b"BM"}
+"""How files of colours begin. TIFF is one of the formats of instruments."""
 FARTHEST = 1e7
 """Å; coordinates beyond (1 mm) lose the digits that forces need."""
 
@@ -321,6 +323,10 @@ def _found(source: str, channel: str | None) -> dict:
     try:
         with path.open("rb") as file:
             head = file.read(8)
+        for kind, first in PICTURES.items():
+            if head.startswith(first):
+                raise _refuse(path, f"is a picture ({kind}), not a map of heights", "its colours are no heights",
+                              "export the heights, as text with a header or in the instrument's own format")
         for kind, first in (("HDF5", b"\x89HDF\r\n\x1a\n"), (".npy", b"\x93NUMPY")):
             if head.startswith(first):
                 raise _refuse(path, "needs no conversion", f"the program reads {kind}", "name it in the scene")
@@ -345,6 +351,14 @@ def _found(source: str, channel: str | None) -> dict:
         raise _refuse(source, "cannot be read", "there is no such file", "check the path") from None
     except Exception as error:  # every library has its own
         raise _refuse(source, "cannot be read", f"{type(error).__name__}: {error}") from None
+
+
+def read_heights(source: str, channel: str | None = None) -> dict:
+    """Of a file that convert() takes as a map: heights, unit, scale, size, size_unit, notes, as far as it tells them."""
+    found = _found(source, channel)
+    if "heights" not in found:
+        raise _refuse(source, "holds atoms, not a map of heights", "", "name it in a scene: surface.kind = \"atoms\"")
+    return found
 
 
 def convert(source: str | Path, target: str | Path, channel: str | None = None) -> str:

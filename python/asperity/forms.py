@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from .estimates import Estimate, estimate, load_estimate
 from .result import Result, load
 from .runs import run
 from .sweeps import Sweep, load_sweep, sweep
 
-__all__ = ["Result", "Sweep", "load", "load_sweep", "run", "sweep"]
+__all__ = ["Estimate", "Result", "Sweep", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
 
 
 def _plot_of_run(self: Result):
@@ -45,6 +46,40 @@ def _report_of_sweep(self: Sweep) -> Path:
     return write_sweep_page(self.directory).path
 
 
+def _plot_of_estimate(self: Estimate, ax=None):
+    """The shifts of the first number and their errors, as bars."""
+    from .plots.style import drawn_into
+    from .report_estimate import chart
+
+    return drawn_into(ax, lambda a: chart(self, a), self.name, "estimate", "it has no number")
+
+
+def _quote(self: Estimate, path: str = "") -> str:
+    """A number as it is published, with its error and the parts of it; "": the first one."""
+    from .report_estimate import quote
+
+    return quote(self.numbers[path] if path else self.first)
+
+
+def _text_of_estimate(self: Estimate) -> str:
+    from .report_estimate import text_of
+
+    return text_of(self)
+
+
+def _report_of_estimate(self: Estimate) -> Path:
+    """Writes report.html into the directory; its path."""
+    from .report_estimate import page_of
+
+    page = page_of(self)
+    page.write()
+    return page.path
+
+
+Estimate.plot = _plot_of_estimate
+Estimate.quote = _quote
+Estimate.report = _report_of_estimate
+Estimate.__str__ = _text_of_estimate
 Result.plot = property(_plot_of_run)
 Result.report = _report_of_run
 Sweep.plot = _plot_of_sweep

@@ -15,6 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .errors import Error
+from .estimates import RESULT, load_estimate
 from .grid import is_seed, shown
 from .page import Page, file_name, minus
 from .plots import run as run_plots
@@ -22,6 +23,7 @@ from .plots import sweep as plots
 from .plots.style import COLOURS, CONTACT, DASHES, GREY, KINDS, curve, finish
 from .pool import DONE, FAILED
 from .report import end, write_run_page
+from .report_estimate import page_of
 from .result import Result, Values, expect
 from .scene import toml_of
 from .sweeps import Sweep, load_sweeps
@@ -36,7 +38,7 @@ FIGURES = {
     "gamma": ("Binding energy",
               "Binding energy and works over the binding energy of two flat surfaces: theory, and what was simulated. "
               "Of a sphere, γ by JKR from the largest attraction and from the energy at zero load. Bars: standard "
-              "deviation over seeds and uncertainty of a run, added in squares."),
+              "deviation over seeds and convergence of a run, added in squares."),
     "area": ("Contact area", "Projected contact area over the nominal area."),
     "separation": ("Mean separation", "Mean height of the lowest layer above the substrate’s mean plane."),
     "radius": ("Contact radius", "Radius of a circle as large as the area in contact."),
@@ -218,7 +220,11 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
 
 
 def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
-    """DIR/report.html of what it holds: a sweep, those of several scenes in its folders, or a run."""
+    """DIR/report.html of what it holds: an estimate, a sweep, those of several scenes in its folders, or a run."""
+    if (directory / RESULT).exists():
+        page = page_of(load_estimate(directory))
+        page.write()
+        return page
     run = (directory / "result.json").exists()
     if (directory / "sweep.json").exists() or not run and any(directory.glob("*/sweep.json")):
         return write_sweep_page(directory, kinds)

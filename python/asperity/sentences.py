@@ -89,7 +89,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         if value is not None and flat > 0:
             parent, _, leaf = key.rpartition(".")
             error = run.number(key + "_uncertainty") or run.number(f"{parent}.uncertainty.{leaf}")
-            add(number(value / flat, 3), symbol, name, energy(value) + (f" ± {error:.2g}" if error else ""))
+            add(number(value / flat, 3), symbol, name, energy(value) + (f"; solver converged to {error:.2g}" if error else ""))
 
     force = run.number("pull_off_force")
     if run.curved:  # energies over the nominal area mean nothing

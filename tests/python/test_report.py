@@ -136,8 +136,8 @@ def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
     assert numbers["binding energy at zero load"].value == "0.500"
     assert "(50.0\u00a0% of its Δγ, 100.00 meV/Å²)" in sentences.results(run)[2]
     assert "(75.0\u00a0% of Δγ)" in sentences.results(run)[2]
-    assert numbers["work of the drive, approach"].note == "30.00 meV/Å² ± 3"
-    assert numbers["work of the drive, pull-off"].note == "50.00 meV/Å² ± 0.25"
+    assert numbers["work of the drive, approach"].note == "30.00 meV/Å²; solver converged to 3"
+    assert numbers["work of the drive, pull-off"].note == "50.00 meV/Å²; solver converged to 0.25"
     assert numbers["work of the interface, pull-off"].note == "44.00 meV/Å²"
     assert numbers["lost in a cycle (hysteresis)"].value == "20"
     cycle = sentences.results(run)[1]
@@ -272,7 +272,7 @@ def test_the_page_of_a_sweep(tmp_path):
     (out / "sweep.json").write_text(json.dumps(stored))
     found = page(out)
     assert (out / "rms=0.6,seed=1/report.html").stat().st_mtime_ns == before  # not made again
-    assert "Bars: standard deviation over seeds and uncertainty of a run, added in squares." in found.text
+    assert "Bars: standard deviation over seeds and convergence of a run, added in squares." in found.text
     assert "rms=0.2,seed=1 failed" in found.text and "the balance is off" in found.text
     assert "This sweep is not finished" in found.text
 

@@ -194,7 +194,7 @@ def test_plots_of_a_sweep_read_back_are_the_same(tmp_path):
         assert plots.plot([of], "gamma", ax)
         return [(c.label, c.x.tolist(), c.y.tolist()) for c in drawn(ax).curves]
     head = csv(sweep.plot("gamma", Figure().add_subplot()).figure).splitlines()[0]
-    assert "state at zero load: γeff / Δγ, deviation over seeds and uncertainty of a run, added in squares" in head
+    assert "state at zero load: γeff / Δγ, deviation over seeds and convergence of a run, added in squares" in head
     here = curves(sweep)
     assert here == curves(load_sweep(tmp_path))
     assert [label for label, _, _ in here] == ["theory", "renormalised theory", "state at zero load"]

@@ -222,7 +222,7 @@ def csv(fig: Figure) -> str:
         heads += [x, name]
         columns += [one.x, one.y]
         if one.spread is not None:
-            heads.append(name + ", deviation over seeds and uncertainty of a run, added in squares")
+            heads.append(name + ", deviation over seeds and convergence of a run, added in squares")
             columns.append(one.spread)
     return files.csv_text([heads, *itertools.zip_longest(*columns, fillvalue=np.nan)], 9)
 

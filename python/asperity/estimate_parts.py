@@ -1,0 +1,288 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The parts of the error of a scene's number: which runs show each, and what follows from them.
+
+A part has a shift, which corrects a bias, and a standard error. What a finer setting changes is measured; what lies beyond
+it follows from the order of the error and is counted as its standard error in full. Every part varies one setting of a
+base: the scene, or the scene without time where its path can be followed so.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from scipy.special import stdtrit
+
+from .pool import DONE
+from .result import Values
+from .units import GIGAPASCAL
+from .variations import AT_REST, NAN, Choice, Setting, Variation, Variations, joined
+
+GROUPS = ("convergence", "truncation", "discretisation", "geometry", "rate", "realisation")
+
+
+class Quantity(NamedTuple):
+    path: str
+    """Of result.json; binding_energy_ratio: over delta_gamma; pull_off_stress: pull_off_force over the area."""
+    symbol: str
+    name: str
+    order: float
+    """Of the error of a finite spacing, as measured (docs/howto/estimate.md)."""
+
+
+FLAT = (Quantity("binding_energy", "γ_eff", "binding energy at zero load", 2),
+        Quantity("binding_energy_ratio", "γ_eff/Δγ", "the same over that of flat surfaces", 2),
+        Quantity("contact_fraction", "A/A₀", "contact area fraction", 1),
+        Quantity("work_of_drive.approach", "w_in", "work of the drive, approach", 2),
+        Quantity("work_of_drive.pull_off", "w_out", "work of the drive, pull-off", 2),
+        Quantity("lost.cycle", "w_lost", "energy lost in a cycle", 1),
+        Quantity("pull_off_stress", "σ_off", "pull-off stress", 1))
+CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.out", "γ_JKR", "work of adhesion by JKR", 1),
+          Quantity("contact_radius.zero_load", "a", "contact radius at zero load", 1))
+
+
+def number_of(result: Values, path: str) -> float:
+    """NaN: it has none."""
+    if path == "binding_energy_ratio":
+        return result.number("binding_energy", NAN) / (result.number("delta_gamma") or NAN)
+    if path == "pull_off_stress":
+        edge = result.number("scene.surface.sites", NAN) * result.number("scene.surface.spacing", NAN)
+        return result.number("pull_off_force", NAN) / edge**2 / (1e-3 * GIGAPASCAL)
+    return result.number(path, NAN)
+
+
+def convergence_of(result: Values, path: str) -> float:
+    """The bound that a result states on what its solver leaves; NaN: none."""
+    parent, _, leaf = path.rpartition(".")
+    if path == "binding_energy_ratio":
+        return result.number("binding_energy_uncertainty", NAN) / (result.number("delta_gamma") or NAN)
+    if path == "lost.cycle":
+        return sum(result.number(f"lost.uncertainty.{way}", NAN) for way in ("approach", "pull_off"))
+    return result.number(path + "_uncertainty", result.number(f"{parent}.uncertainty.{leaf}", NAN))
+
+
+class Found(NamedTuple):
+    shift: float
+    error: float
+
+
+Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]
+"""From the number of the base, those of the rows, and the rows' results."""
+
+
+def finer(ratio: float, order: float | None = None) -> Rule:
+    """One row, finer by the ratio. order: None: that of the quantity."""
+    def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
+        beyond = (rows[0] - base) / (ratio ** (q.order if order is None else order) - 1.0)
+        return Found(rows[0] - base + beyond, abs(beyond))
+    return rule
+
+
+def coarser(ratio: float, order: float) -> Rule:
+    """One row, coarser by the ratio: cheaper than the base."""
+    def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
+        beyond = (base - rows[0]) / (ratio**order - 1.0)
+        return Found(beyond, abs(beyond))
+    return rule
+
+
+def limit(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
+    """The last row is taken; what it changed last is the standard error."""
+    return Found(rows[-1] - base, abs(rows[-1] - (rows[-2] if len(rows) > 1 else base)))
+
+
+def solved(q: Quantity, base: float, rows: np.ndarray, results: list[Values]) -> Found:
+    """A row of a better solution: the bound that it states, or what it changed."""
+    stated = convergence_of(results[0], q.path)
+    return Found(rows[0] - base, max(abs(rows[0] - base), stated if stated == stated else 0.0))
+
+
+def standard_error(values: np.ndarray) -> float:
+    """Of their mean; of a few, so much larger that twice it holds the mean with 95 % (Student's t)."""
+    n = len(values)
+    return float(stdtrit(n - 1, 0.975) / 1.96 * np.std(values, ddof=1) / math.sqrt(n))
+
+
+def mean(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
+    """Rows of other surfaces of the same statistics."""
+    values = np.array([base, *rows])
+    return Found(float(values.mean()) - base, standard_error(values))
+
+
+def widened(count: int, wider: bool) -> Rule:
+    """`count` rows of other surfaces of the base's width, then count + 1 of half of it, or of twice. The error falls between
+    the inverse of the width (waves that are missing) and of the area (means over a finite one)."""
+    def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
+        here, there = np.array([base, *rows[:count]]), rows[count:]
+        difference = float(there.mean() - here.mean()) if wider else float(here.mean() - there.mean())
+        beyond = 1.0 / (2.0**1.5 - 1.0)
+        factor = 1.0 + beyond if wider else beyond
+        noise = math.hypot(standard_error(here), standard_error(there))
+        if abs(difference) <= 2.0 * noise:  # nothing that the scatter would not do
+            return Found(0.0, factor * max(abs(difference), noise))
+        return Found(factor * difference, max(beyond * abs(difference), factor * noise))
+    return rule
+
+
+def places(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
+    """Rows of the quarters of a map: the scatter that other places on the sample would have, on the area of all."""
+    return Found(0.0, standard_error(rows))
+
+
+def edges(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
+    """A row of the map in its mirror images: neither of the two treatments is right, and the number is not corrected."""
+    return Found(0.0, 0.5 * abs(rows[0] - base))
+
+
+@dataclass(eq=False)
+class Part:
+    """rows: what is run; of none `what` says why."""
+
+    name: str
+    group: str
+    what: str
+    rows: list[Variation] = field(default_factory=list)
+    rule: Rule = limit
+    base: Variation | None = None
+
+    @property
+    def failed(self) -> str:
+        """Why it has no number though it was to be run; "" if it has, or was not."""
+        for row in [self.base, *self.rows] if self.rows and self.base else []:
+            if row.outcome.status != DONE:
+                return f"{row.label}: {row.outcome.reason or 'it was not run'}"
+        return ""
+
+    def found(self, q: Quantity) -> Found | None:
+        if not self.rows or self.failed:
+            return None
+        base, *rows = (number_of(row.outcome.result, q.path) for row in (self.base, *self.rows))
+        if math.isnan(base) or np.isnan(rows).any():
+            return None
+        return self.rule(q, base, np.array(rows), [row.outcome.result for row in self.rows])
+
+
+class Plan(NamedTuple):
+    scene: Variation
+    rest: Variation | None
+    """The scene without time, which the parts of a path in time take as their base."""
+    parts: list[Part]
+
+
+def _box(scene: Variations, factor: float) -> Setting:
+    """The box wider or narrower at the same spacing; a block as thick as wide stays so."""
+    return [f"surface.sites={scene.sites * factor:.0f}"] + [
+        f"block.thickness={scene.sites * factor:.0f}"] * (scene.thickness == scene.sites)
+
+
+def plan_of(scene: Variations, seeds: int, spacing_also: Setting = (), maps: tuple[Part, ...] = ()) -> Plan:
+    """The parts of a scene. seeds: surfaces of a self-affine one, itself included. spacing_also: what is set with half of
+    the spacing. maps: parts of a measured surface, which take the base of the others."""
+    own, rest = scene.own, None
+    start = Variation("scene", "the scene", [])
+    if scene.dynamic and not scene.finite:
+        rest = Variation("rate", "without time", AT_REST)
+    base, moved = rest or start, AT_REST if rest else []
+    parts: list[Part] = []
+
+    def part(name: str, group: str, what: str, choices: list[Choice] = (), rule: Rule = limit, of: Variation | None = None,
+             ) -> None:
+        of = of or base
+        common = moved if of is base else []
+        rows = [Variation(name, label, joined(common, setting)) for label, setting in choices]
+        parts.append(Part(name, group, what, rows, rule, of))
+
+    if scene.moves and (rest or not scene.dynamic):
+        part("convergence", "convergence", f"drive.step {0.5 * own('drive.step'):.4g} Å and the bound of the result",
+             scene.scaled("drive.step", 0.5), solved)
+    else:
+        part("convergence", "convergence", f"drive.tolerance {0.1 * own('drive.tolerance'):.2g}",
+             scene.scaled("drive.tolerance", 0.1), solved)
+    if scene.mixed and scene.scene.text("numerics.precision") == "mixed":
+        part("precision", "convergence", "double precision", scene.precisions("double"))
+    _truncation(scene, part)
+    _discretisation(scene, part, start, spacing_also)
+    _geometry(scene, part)
+    if rest:
+        parts.append(Part("rate", "rate", "velocity to 0: the path without time", [rest], limit, start))
+    elif scene.dynamic:
+        part("rate", "rate", f"velocity {2 * own('drive.velocity'):.4g} m/s, to 0", scene.scaled("drive.velocity", 2),
+             coarser(2, 1), start)
+    else:
+        part("rate", "rate", "none: the scene has no time")
+    if scene.scene.text("surface.kind") == "self-affine" and own("surface.rms") > 0:
+        _surfaces(scene, part, seeds)
+    elif not maps:
+        part("width", "geometry", "not varied: the surface has no statistics to continue it by")
+        part("seeds", "realisation", "none: there is one such surface")
+    for one in maps:
+        one.base = base
+        for row in one.rows:
+            row.setting = joined(moved, row.setting)
+    parts += maps
+    return Plan(start, rest, sorted(parts, key=lambda one: GROUPS.index(one.group)))
+
+
+def _truncation(scene: Variations, part: Callable) -> None:
+    cutoff = scene.own("interface.cutoff")
+    wide = min(2 * cutoff, 0.5 * scene.edge)
+    if not scene.length:
+        law = scene.scene.text("interface.law") == "exponential" and scene.wall
+        part("tail", "truncation", "none: " + ("the law has no cutoff" if law else "a table ends where it says"))
+    elif scene.scene.find("interface.pairs"):
+        part("tail", "truncation", "not varied: interface.pairs have cutoffs of their own")
+    elif scene.scene.find("interface.tail"):
+        part("tail", "truncation", f"cutoff {wide:.4g} Å", scene.cut(True, wide))
+    else:
+        part("tail", "truncation", f"tail, cutoff {wide:.4g} Å", scene.cut(True, cutoff, wide))
+
+
+def _discretisation(scene: Variations, part: Callable, start: Variation, spacing_also: Setting) -> None:
+    own = scene.own
+    if scene.wall and scene.scene.text("interface.law") == "exponential":
+        setting = [f"surface.spacing={0.5 * own('surface.spacing'):.10g}", f"surface.sites={2 * scene.sites}",
+                   f"block.thickness={2 * scene.thickness}", *spacing_also]
+        if scene.scene.text("surface.kind") == "self-affine":  # the same waves
+            setting.append(f"surface.cutoff={min(own('surface.cutoff'), scene.sites // 2):.10g}")
+        elif scene.scene.text("surface.kind") == "file":
+            setting.append("surface.resample=band-limited")
+        part("spacing", "discretisation", f"spacing {0.5 * own('surface.spacing'):.4g} Å", [("half the spacing", setting)],
+             finer(2))
+    else:
+        part("spacing", "discretisation", "not varied: the spacing is that of the atoms")
+    if not scene.dynamic:
+        return
+    if scene.scene.text("block.model") == "multiscale":
+        layers = int(own("block.layers_per_level"))
+        fewer = layers // 2 if layers >= 4 else 2 * layers
+        part("levels", "discretisation", f"{fewer} layers a level", scene.layers(fewer),
+             coarser(layers / fewer, 2) if fewer < layers else finer(2, 2), start)
+    longer = scene.stable(2)
+    part("timestep", "discretisation", f"time step {(2 if longer else 0.5) * own('drive.timestep'):.4g} fs",
+         longer or scene.scaled("drive.timestep", 0.5), coarser(2, 2) if longer else finer(2, 2), start)
+
+
+def _geometry(scene: Variations, part: Callable) -> None:
+    part("thickness", "geometry", f"{2 * scene.thickness} layers", scene.scaled("block.thickness", 2))
+
+
+def _surfaces(scene: Variations, part: Callable, seeds: int) -> None:
+    own, first = scene.own, int(scene.own("surface.seed"))
+    numbers = range(first, first + seeds)
+    others = [(f"seed {n}", [f"surface.seed={n}"]) for n in numbers[1:]]
+    curved, wider = own("surface.radius") > 0, own("surface.rolloff") < 2 or scene.sites % 2 > 0 or scene.sites < 32
+    factor = 2.0 if wider else 0.5
+    if curved:
+        part("width", "geometry", "not varied: images of the sphere are in it")
+    else:
+        cutoff = min(own("surface.cutoff"), scene.sites // 2)
+        box = [*_box(scene, factor), f"surface.rolloff={factor * own('surface.rolloff'):.10g}",
+               f"surface.cutoff={factor * cutoff:.10g}"]
+        part("width", "geometry", f"{seeds} surfaces of {factor * scene.sites:.0f} x {factor * scene.sites:.0f} sites",
+             others + [(f"{factor:g} of the width, seed {n}", [*box, f"surface.seed={n}"]) for n in numbers],
+             widened(len(others), wider))
+    part("seeds", "realisation", f"{seeds} surfaces", others, mean)

@@ -1,0 +1,324 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity estimate`: the numbers of a scene with their errors, from runs of the scene itself with one setting varied at a
+time (estimate_parts.py).
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import tempfile
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import files, maps, program
+from .errors import BY_CODE, Error, InternalError, SceneError, Stopped
+from .estimate_parts import CURVED, FLAT, Found, Part, Plan, Quantity, edges, number_of, places, plan_of
+from .pool import DONE, PoolOptions
+from .result import Values, read_json
+from .scene import Overrides, SceneLike, assignments, scene_file, toml_of
+from .terminal import duration
+from .variations import Runs, Setting, Variation, Variations
+
+RESULT = "estimate.json"
+NAMES = ("convergence", "precision", "tail", "spacing", "levels", "timestep", "thickness", "width", "edge", "rate", "seeds",
+         "places")
+"""Of the parts."""
+START = 0.3
+"""s; what a run takes beside its simulation."""
+SURFACES = {False: 8, True: 4}
+"""Surfaces of a scene without and with a path."""
+
+
+@dataclass
+class Number:
+    """A number of the scene: value as it is run, estimate with the biases corrected, its standard error, and the shift
+    and error of each part by name."""
+
+    path: str
+    symbol: str
+    name: str
+    unit: str
+    value: float
+    parts: dict[str, Found] = field(default_factory=dict)
+
+    @property
+    def estimate(self) -> float:
+        return self.value + sum(found.shift for found in self.parts.values())
+
+    @property
+    def error(self) -> float:
+        return math.sqrt(sum(found.error**2 for found in self.parts.values()))
+
+
+@dataclass
+class Estimate:
+    """numbers: those of the scene by their paths in result.json, the first is what it is mostly asked for; parts: of the
+    error, as they are listed: name, group, what (was varied, or why nothing was), failed; notes."""
+
+    name: str
+    numbers: dict[str, Number]
+    parts: list[dict[str, str]]
+    notes: list[str]
+    scene: dict[str, Any]
+    run: dict[str, Any]
+    directory: Path
+
+    @property
+    def first(self) -> Number:
+        return next(iter(self.numbers.values()))
+
+    @property
+    def unseen(self) -> list[str]:
+        """What is not in the error: parts that were not measured."""
+        return [f"{p['name']}: {p['failed'] or p['what']}" for p in self.parts
+                if p["failed"] or p["what"].startswith(("not varied", "left out"))]
+
+    def json(self) -> dict[str, Any]:
+        return {"name": self.name, "numbers": {path: {
+            "symbol": n.symbol, "meaning": n.name, "unit": n.unit, "scene": n.value, "estimate": n.estimate,
+            "standard_error": n.error, "parts": {part: {"shift": f.shift, "standard_error": f.error}
+                                                 for part, f in n.parts.items()}} for path, n in self.numbers.items()},
+            "parts": self.parts, "notes": self.notes, "scene": self.scene, "run": self.run}
+
+    def __repr__(self) -> str:
+        return f"<Estimate {self.name}: {self.first.symbol} = {self.first.estimate:.4g} ± {self.first.error:.2g} {self.first.unit}>"
+
+
+def load_estimate(directory: str | os.PathLike) -> Estimate:
+    """The estimate in a directory. Raises InputOutputError where there is none."""
+    found = read_json(Path(directory) / RESULT)
+    numbers = {}
+    for path, n in found.part("numbers").items():
+        one = Values(n)
+        parts = {name: Found(Values(f).number("shift", math.nan), Values(f).number("standard_error", math.nan))
+                 for name, f in one.part("parts").items()}
+        numbers[path] = Number(path, one.text("symbol"), one.text("meaning"), one.text("unit"), one.number("scene", math.nan), parts)
+    return Estimate(found.text("name"), numbers, found.listed("parts", dict), found.listed("notes", str), found.part("scene"),
+                    found.part("run"), Path(directory))
+
+
+# Planning.
+
+def _file_of(name: str, scene: str) -> str:
+    """A file that a scene names, as the program finds it: beside the scene, or in the working directory."""
+    beside = Path(scene).parent / name
+    return str(beside if Path(str(beside).partition(":/")[0]).exists() else name)
+
+
+def _map_parts(keys: dict[str, Any], scene: str, place: Path) -> tuple[Part, ...]:
+    """Of a measured map: its quarters, and the map in its mirror images; each a scene of its own in `place`."""
+    of = Values(keys)
+    sites, edge = int(of.number("surface.sites", 0)), of.number("surface.sites", 0) * of.number("surface.spacing", 0)
+    unit = of.text("surface.file_unit")
+    there = maps.read_map(_file_of(of.text("surface.file"), scene), "Å" if unit in ("", "auto") else unit)
+    heights = maps.square(there.heights)
+    size = of.number("surface.file_size") or (min(there.size) if there.size else edge)
+    if size > 1.005 * edge:  # the program takes its middle
+        n = max(2, round(len(heights) * edge / size))
+        start = (len(heights) - n) // 2
+        heights = heights[start:start + n, start:start + n]
+    if of.number("surface.rms") is not None:
+        made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
+        made["surface"].update(rms=None, file=str(Path(_file_of(of.text("surface.file"), scene)).resolve()))
+        with scene_file(made) as file:
+            heights = heights * (of.number("surface.rms") / _rms_as_measured(file))
+
+    def scenes(name: str, pieces: list[np.ndarray], factor: float, **more: Any) -> list[Variation]:
+        rows = []
+        for i, piece in enumerate(pieces, 1):
+            stem = f"{name}-{i}" if len(pieces) > 1 else name
+            box = int(sites * factor)
+            made = {section: dict(values) for section, values in keys.items() if isinstance(values, dict)}
+            made["surface"] |= {"file": f"{stem}.npy", "file_unit": "Å", "file_size": box * of.number("surface.spacing"),
+                                "sites": box, "rms": None, "resample": "band-limited", **more}
+            if of.number("block.thickness") == sites:
+                made["block"]["thickness"] = box
+            made["output"] |= {"fields": ["zero-load"], "trajectory": "none"}
+            if of.text("interface.potential") == "table":
+                made["interface"]["table"] = str(Path(_file_of(of.text("interface.table"), scene)).resolve())
+            made.pop("sweep", None)
+            files.directory(place)
+            with files.replacing(place / f"{stem}.npy") as beside, open(beside, "wb") as file:
+                np.save(file, piece)
+            files.write(place / f"{stem}.toml", toml_of(made))
+            rows.append(Variation(name, stem, [], scene=str(place / f"{stem}.toml")))
+        return rows
+
+    parts = []
+    detrend = of.text("surface.detrend")
+    flat = heights if detrend == "none" else maps.without_plane(heights)
+    if detrend == "none" and maps.jump(heights) < maps.PERIODIC:
+        parts.append(Part("edge", "geometry", "none: the map is periodic"))
+    else:
+        parts.append(Part("edge", "geometry", "the map in its mirror images in place of surface.detrend=" + detrend,
+                          scenes("mirrored", [maps.mirrored(flat)], 2, detrend="none"), edges))
+    if sites % 2 or sites < 32:
+        parts.append(Part("places", "realisation", "not varied: the map has too few sites for quarters"))
+    else:
+        parts.append(Part("places", "realisation", "the quarters of the map",
+                          scenes("quarter", maps.quarters(heights), 0.5, detrend="periodic" if detrend == "none" else detrend),
+                          places))
+    return tuple(parts)
+
+
+def _rms_as_measured(file: str) -> float:
+    """Of the map that a scene makes of its file before it is scaled, Å."""
+    with tempfile.TemporaryDirectory(prefix="asperity-") as place:
+        program.call(["surface", file, "--out", str(Path(place) / "surface")])
+        return read_json(Path(place) / "surface/result.json").number("surface.rms", math.nan)
+
+
+def _seconds(scene: str, sets: list[str]) -> float:
+    """Of a run, as `asperity plan` has it; NaN: it does not tell."""
+    try:
+        text = program.call(["plan", scene, *program.sets(sets)])
+    except Error:
+        return math.nan
+    found = re.search(r"^ *altogether +[\d.]+ \w+ +((?:[\d.]+ (?:s|min|h|d) ?)+)", text, re.M)
+    units = {"s": 1, "min": 60, "h": 3600, "d": 86400}
+    return sum(float(v) * units[u] for v, u in re.findall(r"([\d.]+) (s|min|h|d)\b", found[1])) if found else math.nan
+
+
+def work_of(setting: Setting, scene: Variations) -> float:
+    """What a setting takes over what the scene takes, roughly."""
+    set_to = dict(one.split("=", 1) for one in setting)
+
+    def ratio(key: str) -> float:
+        return float(set_to[key]) / scene.own(key) if key in set_to and scene.own(key) else 1.0
+
+    return (ratio("surface.sites") ** 2 * max(1.0, ratio("interface.cutoff")) * max(1.0, ratio("drive.step") ** -0.5)
+            / (ratio("drive.timestep") * ratio("drive.velocity")))
+
+
+# Carrying it out.
+
+def _numbers(plan: Plan, curved: bool) -> dict[str, Number]:
+    base = plan.scene.outcome.result
+    found: dict[str, Number] = {}
+    for q in CURVED if curved else FLAT:
+        value = number_of(base, q.path)
+        if math.isnan(value):
+            continue
+        unit = {"binding_energy_ratio": "", "pull_off_stress": "MPa"}.get(q.path)
+        if unit is None:
+            unit = program.quantity(q.path)["unit"]
+        found[q.path] = number = Number(q.path, q.symbol, q.name, unit, value)
+        for part in plan.parts:
+            if (one := part.found(q)) is not None:
+                number.parts[part.name] = one
+        if plan.rest and "rate" in number.parts:
+            # The path without time has no levels and no time steps either: what these have shifted is part of it.
+            others = sum(number.parts[n].shift for n in ("levels", "timestep") if n in number.parts)
+            number.parts["rate"] = Found(number.parts["rate"].shift - others, 0.0)
+    return found
+
+
+class Estimating:
+    """The estimate of a scene in a directory, planned; `carry_out` makes it."""
+
+    def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
+                 only: Iterable[str] = (), spacing_also: Setting = (), say: Callable[[str], None] = print):
+        answer = program.check(scene, overrides)
+        keys = answer["scene"]
+        varied = Variations(keys, answer.get("longest_timestep", 0.0))
+        if answer["problems"]:
+            raise SceneError("\n".join(answer["problems"]))
+        path = keys["drive"]["path"]
+        if not {"zero-load", "approach", "pull-off"} & set(path):
+            raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "
+                             "and no pull-off", 'for example --set drive.path=zero-load')
+        if seeds is not None and not 2 <= seeds <= 1000:
+            raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "")
+        self.name, self.keys, self.varied, self.say = answer["name"], keys, varied, say
+        self.place = files.chosen(out, f"results/{self.name}-estimate")
+        of_file = keys["surface"]["kind"] == "file"
+        map_parts = _map_parts(keys, scene, self.place / "maps") if of_file else ()
+        self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
+        for name in only:
+            if name not in [part.name for part in self.plan.parts]:
+                raise SceneError(f"--parts {name}", "is none of them", "this scene has "
+                                 + ", ".join(part.name for part in self.plan.parts), "name some of these")
+        for part in self.plan.parts if only else []:
+            if part.name not in only and part.rows:
+                part.rows, part.what = [], "left out: --parts"
+        self.rows = [self.plan.scene]
+        if self.plan.rest and any(part.rows and part.base is self.plan.rest for part in self.plan.parts):
+            self.rows.append(self.plan.rest)
+        self.rows += [row for part in self.plan.parts for row in part.rows if row is not self.plan.rest
+                      or self.plan.rest not in self.rows]
+        self.runs = Runs(scene, overrides, self.place, options, say)
+        self.jobs = self.runs.jobs(self.rows)
+
+    def told(self) -> str:
+        """What will be run, and about how long it takes."""
+        once, work = {id(job): row for job, row in zip(self.jobs, self.rows)}, 0.0
+        base = {(): _seconds(self.runs.scene, self.runs.common)}
+        for row in once.values():
+            still = "drive.mode=quasistatic" in row.setting and self.varied.dynamic
+            key = ("drive.mode=quasistatic",) * still
+            if key not in base:
+                base[key] = _seconds(self.runs.scene, [*self.runs.common, *key])
+            factor = {"mirrored": 4.0, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
+            work += START + factor * base[key]
+        return f"{self.name}: {len(once)} runs, about {_about(work / max(1, self.runs.options.jobs))}"
+
+    def carry_out(self) -> tuple[Estimate | None, bool]:
+        """The estimate, None if the scene itself has no result; False: stopped before the end."""
+        complete = self.runs.run(self.rows)
+        if self.plan.scene.outcome.status != DONE:
+            return None, complete
+        result = self.plan.scene.outcome.result
+        parts = [{"name": p.name, "group": p.group, "what": p.what, "failed": p.failed if complete else ""}
+                 for p in self.plan.parts]
+        notes = []
+        if self.varied.moves and self.keys["drive"]["hold"] == "top":
+            notes.append("Works and losses of a path with its top held depend on the block's thickness as on the stiffness of "
+                         'a machine; drive.hold="mean-height" has none.')
+        for one in self.plan.parts:
+            if one.rule is edges and one.rows and not one.failed:
+                here, there = (number_of(row.outcome.result, "binding_energy") for row in (one.base, one.rows[0]))
+                notes.append(f"The map in its mirror images binds by {there:.4g} in place of {here:.4g} meV/Å²: neither way to "
+                             "make it periodic is right, and twice the error of the part edge is their difference.")
+        estimate = Estimate(self.name, _numbers(self.plan, result.number("scene.surface.radius") is not None), parts, notes,
+                            self.keys, {k: result.part("run").get(k) for k in ("version", "git", "machine")}
+                            | {"processor_seconds": sum(row.seconds for row in {id(j): r for j, r in
+                               zip(self.jobs, self.rows)}.values() if row.seconds == row.seconds)}, self.place)
+        if complete:
+            files.write(self.place / RESULT, files.sealed_json(estimate.json()))
+        return estimate, complete
+
+
+def _about(seconds: float) -> str:
+    return "a time that is not known" if math.isnan(seconds) else duration(seconds)
+
+
+def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, jobs: int = 1,
+             seeds: int | None = None, parts: Iterable[str] = ()) -> Estimate:
+    """The numbers of a scene with their errors: .numbers["binding_energy"].estimate and .error (a standard error), and of
+    each part of the error what it shifts. Runs that are there are not run again.
+
+    out      the directory; None: results/<scene>-estimate
+    jobs     runs side by side; they share the processors
+    seeds    surfaces of a self-affine scene that are averaged over; None: 8, or 4 with a path
+    parts    only these parts of the error: "tail", "seeds", ...
+    """
+    program.refuse_ranks()
+    with scene_file(scene) as file:
+        said: list[str] = []
+        making = Estimating(file, assignments(overrides), None if out is None else str(out),
+                            PoolOptions(jobs=jobs, progress="off"), seeds, parts, say=said.append)
+        with files.in_use(making.place):
+            found, complete = making.carry_out()
+        if not complete:
+            raise Stopped(f"{making.place}: the estimate stopped early", fix="the same call goes on from here")
+        if found is None:
+            outcome = making.plan.scene.outcome
+            raise BY_CODE.get(outcome.exit_code, InternalError)(str(making.place), "the scene itself failed", outcome.reason)
+        return found
