@@ -21,8 +21,14 @@ namespace asperity {
 
 PathOptions path_options(const Case& c, const Interface& interface,
                          std::function<bool(long long, double)> report) {
-    PathOptions o{sequence_options(c, interface, std::move(report))};
+    PathOptions o;
     o.along = c.scene.drive.hold == Hold::top ? Constraint::Of::top : Constraint::Of::mean_height;
+    o.step = std::min(c.scene.drive.step, c.longest_step);
+    o.tolerance = c.tolerance;
+    o.scales = c.scales;
+    o.load = c.simulation.drive.load_force;
+    o.reference_height = interface.start_height();
+    o.report = std::move(report);
     const double flat = c.flat.work_of_adhesion / units::milli_per_unit;
     if (flat > 0.0) o.depth = flat * c.area();
     return o;
@@ -74,37 +80,28 @@ void refuse_deep(double height, const Interface& interface, const SpectralBlock&
 QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options)
     : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
-      points_(
+      last_(
           block, interface,
           {options_.along, 0.25 * options_.tolerance, options_.scales, options_.reference_height}),
       length_(options_.step) {}
 
 void QuasistaticPath::start() {
-    // Out of reach the block follows the top plane as a whole: that is what the first steps
-    // continue.
-    block_.set_uniform(options_.step);
-    points_.begin(options_.step);
     block_.set_uniform(0.0);
-    points_.accept(0.0);
     first_point(0.0, true);
-    predicts_ = reversible_ = true;
-    direction_ = -1.0;
 }
 
 void QuasistaticPath::start_here(bool apart) {
-    const double top = options_.along == Constraint::Of::top ? block_.top() : block_.mean_height();
-    points_.begin(top);
-    first_point(top, apart);
-    reversible_ = false;
+    first_point(options_.along == Constraint::Of::top ? block_.top() : block_.mean_height(), apart);
 }
 
 void QuasistaticPath::first_point(double top, bool apart) {
-    const RelaxedState state = points_.relax_at(top, false, {});
+    last_.accept(top);
+    const RelaxedState state = last_.relax_at(top, {});
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
                                why_not_converged(state, 0.25 * options_.tolerance),
                                "a larger drive.tolerance, or a height further from the substrate");
-    points_.replace();
+    last_.accept(top);
     record_.step = 0;
     const double energy = state.interface_energy + state.elastic_energy;
     record_.work = apart ? energy : 0.0;
@@ -119,37 +116,35 @@ void QuasistaticPath::resume() {
 }
 
 void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
-    segment_ = number;
-    kind_ = segment.kind;
-    end_.reset();
-    load_.reset();
-    const Along along = kind_ != Segment::slide ? Along::z
-                        : segment.axis == 0     ? Along::x
-                                                : Along::y;
-    const double from = points_.lead(along);
+    course_.number = number;
+    course_.kind = segment.kind;
+    course_.end.reset();
+    course_.load.reset();
+    const Along along = segment.kind != Segment::slide ? Along::z
+                        : segment.axis == 0            ? Along::x
+                                                       : Along::y;
+    const double from = last_.lead(along);
     double direction = 0.0;
-    switch (kind_) {
+    switch (segment.kind) {
     case Segment::approach:
         direction = -1.0;
         break;
     case Segment::load: {
-        load_ = segment.amount;
+        course_.load = segment.amount;
         const double slack = this->slack(record_.in_contact);
         const bool apart = record_.in_contact == 0 && std::abs(record_.force) <= slack;
-        if (apart || record_.force < *load_ - slack)
+        if (apart || record_.force < segment.amount - slack)
             direction = -1.0;
-        else if (record_.force > *load_ + slack)
+        else if (record_.force > segment.amount + slack)
             direction = 1.0;
         break;
     }
     case Segment::height:
-        if (options_.along == Constraint::Of::mean_height)
-            refuse_deep(segment.amount, interface_, block_, options_.scales);
-        [[fallthrough]];
+        begin_to(segment.amount - options_.reference_height);
+        return;
     case Segment::slide:
-        end_ = kind_ == Segment::height ? segment.amount - options_.reference_height
-                                        : from + segment.amount;
-        if (*end_ != from) direction = *end_ < from ? -1.0 : 1.0;
+        course_.end = from + segment.amount;
+        if (*course_.end != from) direction = *course_.end < from ? -1.0 : 1.0;
         break;
     default: // a pull-off
         direction = 1.0;
@@ -160,122 +155,118 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
 void QuasistaticPath::begin_to(double at) {
     if (options_.along == Constraint::Of::mean_height)
         refuse_deep(options_.reference_height + at, interface_, block_, options_.scales);
-    kind_ = Segment::height;
-    load_.reset();
-    end_ = at;
-    const double from = points_.lead(Along::z);
+    course_.kind = Segment::height;
+    course_.load.reset();
+    course_.end = at;
+    const double from = last_.lead(Along::z);
     begin(Along::z, at == from ? 0.0 : at < from ? -1.0 : 1.0);
 }
 
 void QuasistaticPath::begin(Along along, double direction) {
-    if (along != along_ || direction != direction_) {
+    if (along != course_.along || direction != course_.direction) {
         // No points of the segment before for the integral.
-        along_ = along;
-        direction_ = direction;
+        course_.along = along;
+        course_.direction = direction;
         trail_.begin(at(), force());
-        bracket_.known = false;
-        predicts_ = reversible_;
+        bracket_.reset();
     }
-    const double load = to_load() ? load_.value_or(options_.load) : 0.0;
     // Beside a load, or where a pull-off ends, forces within the tolerance would add up to a force
     // on the top plane that is none of the contact's.
     double balance = HUGE_VAL;
-    if (load != 0.0) balance = 0.5 * load_accuracy * std::abs(load);
-    if (kind_ == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
-    points_.balance_to(balance);
-    attracted_ = bracketed_ = false;
-    work_ = 0.0;
-    error_ = {};
+    if (to_load() && load() != 0.0) balance = 0.5 * load_accuracy * std::abs(load());
+    if (course_.kind == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
+    last_.balance_to(balance);
+    course_.attracted = course_.bracketed = false;
+    course_.work = course_.gap = course_.squares = 0.0;
     dissipation_.begin_segment();
 }
 
 QuasistaticPath::Outcome QuasistaticPath::advance() {
-    if (direction_ == 0.0) return load_ ? Outcome::at_load : Outcome::there;
-    const double load = load_.value_or(options_.load);
-    if (load_) // it may be beyond that load already
-        attracted_ = attracted_ || record_.force < load - slack(record_.in_contact);
-    const bool down = direction_ < 0.0;
-    const double aim = !down || attracted_ ? load : std::max(load, 0.0); // through attraction
+    if (course_.direction == 0.0) return course_.load ? Outcome::at_load : Outcome::there;
+    // It may be beyond that load already.
+    if (course_.load && record_.force < load() - slack(record_.in_contact))
+        course_.attracted = true;
+    const double aim = course_.direction < 0.0 ? approach_load() : load();
     for (;;) {
-        const Bracket bracket = bracket_;
+        const std::optional<Bracket> bracket = bracket_;
         const bool all_the_way = bisect();
-        const double left = end_ ? direction_ * (*end_ - at()) : HUGE_VAL;
+        const double left = course_.end ? course_.direction * (*course_.end - at()) : HUGE_VAL;
         const double planned = length_;
         const bool arrives = left <= length_;
         if (arrives) length_ = left;
-        const double there = arrives ? *end_ : at() + direction_ * length_;
-        predicts_ = predicts_ && points_.predicts(there);
-        const long long iterations = points_.iterations();
+        const double there = arrives ? *course_.end : at() + course_.direction * length_;
         const bool last_try = length_ <= smallest_step();
-        const bool any_force = all_the_way || last_try || along_ != Along::z;
-        const RelaxedState state = points_.relax_at(
-            there, predicts_, options_.report, any_force ? ForceWindow{} : acceptable_force(there));
+        const bool any_force = all_the_way || last_try || course_.along != Along::z;
+        const long long iterations = last_.iterations();
+        const RelaxedState state = last_.relax_at(
+            there, options_.report, any_force ? ForceWindow{} : acceptable_force(there));
         if (state.interrupted) { // resumed, the same step is made
             bracket_ = bracket;
             length_ = planned;
             put_back();
-            points_.set_iterations(iterations);
+            last_.set_iterations(iterations);
             return Outcome::interrupted;
         }
-        if (!state.converged && !predicts_ && last_try)
-            throw io::PhysicsError(
-                fmt::format("no equilibrium was found with the {} {:.6g} Å",
-                            along_ != Along::z                      ? "block moved sideways by"
-                            : options_.along == Constraint::Of::top ? "top plane displaced by"
-                                                                    : "mean height displaced by",
-                            there),
-                fmt::format("after {} iterations {}", state.iterations,
-                            why_not_converged(state, 0.25 * options_.tolerance)),
-                "a larger drive.tolerance, or a height further from the substrate");
+        if (!state.converged && last_try) refuse_place(state, there);
         // A load is met by shorter steps than instabilities are followed with.
         const bool shortens = length_ > 1e-6 * smallest_step();
         if (state.converged && to_load() && passes_load(state, aim) && shortens) {
             const double part = (aim - record_.force) / (state.force - record_.force);
             length_ *= std::clamp(part, 0.02, 0.98);
-            bracketed_ = true;
+            course_.bracketed = true;
             continue;
         }
-        const Trial trial{state, there,
-                          along_ == Along::z ? state.top_force : lateral_force()[axis()]};
-        StepCheck step;
-        if (state.converged) step = check(trial);
-        if (last_try) step.accepted = state.converged;
-        if (step.accepted && (!predicts_ || step.dissipated == 0.0)) {
-            accept(trial, step);
-            if (arrives) length_ = std::max(length_, planned);
-            break;
+        if (state.converged) {
+            const PathPoint trial = point(state, there);
+            const StepDecision step =
+                decide(point(), trial, trail_,
+                       {allowed_missing(std::abs(there - at())), allowed_uncertainty(), last_try});
+            if (step.verdict != StepDecision::halve) {
+                accept(state, there, step);
+                if (arrives) length_ = std::max(length_, planned);
+                return outcome();
+            }
+            if (!step.excess) bracket_ = {there, trial.force};
+        } else if (state.jumped) {
+            bracket_ = {there, state.force};
         }
-        // What looks like an instability after a prediction is looked at again without.
-        if (std::exchange(predicts_, false) && !state.jumped) continue;
-        if (state.jumped) bracket_ = {true, there, state.force};
-        if (state.converged && !step.excess) bracket_ = {true, there, trial.force};
         length_ *= 0.5;
-        predicts_ = reversible_;
     }
-    return outcome();
 }
 
 /// Of a step that was made.
 QuasistaticPath::Outcome QuasistaticPath::outcome() {
-    if (end_) return at() == *end_ ? Outcome::there : Outcome::point;
-    const double load = load_.value_or(options_.load), slack = this->slack(record_.in_contact);
-    if (direction_ < 0.0) {
-        const double aim = attracted_ ? load : std::max(load, 0.0);
-        attracted_ = attracted_ || record_.force < std::min(load, 0.0) - slack;
-        const bool back = attracted_ && record_.force >= load;
+    if (course_.end) return at() == *course_.end ? Outcome::there : Outcome::point;
+    const double load = this->load(), slack = this->slack(record_.in_contact);
+    if (course_.direction < 0.0) {
+        const double aim = approach_load();
+        if (record_.force < std::min(load, 0.0) - slack) course_.attracted = true;
+        const bool back = course_.attracted && record_.force >= load;
         const bool there =
-            back || (std::exchange(bracketed_, false) && record_.force >= aim - slack);
-        if (there && load_ && load < -slack && !attracted_) refuse_pull(load);
+            back || (std::exchange(course_.bracketed, false) && record_.force >= aim - slack);
+        if (there && course_.load && load < -slack && !course_.attracted) refuse_pull(load);
         return there ? Outcome::at_load : Outcome::point;
     }
-    if (load_ && std::exchange(bracketed_, false) && record_.force <= load + slack)
+    if (course_.load && std::exchange(course_.bracketed, false) && record_.force <= load + slack)
         return Outcome::at_load;
     const bool apart = options_.reference_height + record_.top >= interface_.start_height() &&
                        std::abs(record_.force) <= 1e-6 * strongest_;
     if (!apart) return Outcome::point;
-    if (!load_) return Outcome::apart;
+    if (!course_.load) return Outcome::apart;
     if (load < -slack) refuse_pull(load);
     return Outcome::at_load; // an attraction too weak to be told from none
+}
+
+void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
+    throw io::PhysicsError(fmt::format("no equilibrium was found with the {} {:.6g} Å",
+                                       course_.along != Along::z ? "block moved sideways by"
+                                       : options_.along == Constraint::Of::top
+                                           ? "top plane displaced by"
+                                           : "mean height displaced by",
+                                       at),
+                           fmt::format("after {} iterations {}", state.iterations,
+                                       why_not_converged(state, 0.25 * options_.tolerance)),
+                           "a larger drive.tolerance, or a height further from the substrate");
 }
 
 void QuasistaticPath::refuse_pull(double load) const {
@@ -302,7 +293,7 @@ double QuasistaticPath::slack(std::int64_t in_contact) const {
     const bool all = options_.along == Constraint::Of::top;
     const double count = all ? sites_ : std::max(static_cast<double>(in_contact), 1.0);
     const double slack = 0.25 * options_.tolerance * count;
-    const double load = to_load() ? load_.value_or(options_.load) : 0.0;
+    const double load = to_load() ? this->load() : 0.0;
     return load == 0.0 ? slack : std::min(slack, load_accuracy * std::abs(load));
 }
 
@@ -310,29 +301,28 @@ double QuasistaticPath::slack(std::int64_t in_contact) const {
 /// was too weak to be told from the slack.
 bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
     const double slack = this->slack(state.in_contact);
-    if (direction_ > 0.0) return record_.force >= aim - slack && state.force < aim - slack;
+    if (course_.direction > 0.0) return record_.force >= aim - slack && state.force < aim - slack;
     return record_.force <= aim + slack && state.force > aim + slack;
 }
 
 /// The next step goes half of the way to the far end of the bracket; or all of it, once the work of
 /// such a step is known well enough: then true.
 bool QuasistaticPath::bisect() {
-    if (!bracket_.known) return false;
-    const double way = std::abs(bracket_.at - at());
-    if (way > smallest_step() && !work_is_known(bracket_.at, bracket_.force)) {
+    if (!bracket_) return false;
+    const double way = std::abs(bracket_->at - at());
+    if (way > smallest_step() && !work_is_known(bracket_->at, bracket_->force)) {
         length_ = std::min(length_, 0.5 * way);
         return false;
     }
     length_ = way;
-    predicts_ = false;
-    bracket_.known = false;
+    bracket_.reset();
     return true;
 }
 
-/// As check() has it where energy is missing.
+/// As decide() has it where energy is missing.
 bool QuasistaticPath::work_is_known(double to, double there) const {
     const double step = std::abs(to - at());
-    return trail_.to(to, there).error <= options_.tolerance * sites_ * step ||
+    return trail_.to(to, there).error <= allowed_missing(step) ||
            0.5 * step * std::abs(there - force()) <= allowed_uncertainty();
 }
 
@@ -342,71 +332,39 @@ ForceWindow QuasistaticPath::acceptable_force(double to) const {
     return {trail_.continued(to), 1.5 * 2.0 * allowed_uncertainty() / std::abs(to - at())};
 }
 
-QuasistaticPath::StepCheck QuasistaticPath::check(const Trial& to) const {
-    const RelaxedState& state = to.state;
-    const double step = std::abs(to.at - at());
-    const double gained = state.interface_energy + state.elastic_energy - record_.interface_energy -
-                          record_.elastic_energy;
-    const double allowed = options_.tolerance * sites_ * step;
-    const ForceTrail::Integral integral = trail_.to(to.at, to.force);
-    StepCheck v;
-    v.work = -integral.value;
-    const double missing = v.work - gained;
-    const double error = std::min(integral.error, std::abs(missing));
-    v.margin = allowed / std::max(error, 1e-6 * allowed);
-    if (std::abs(missing) <= allowed) {
-        v.accepted = true;
-        v.gap = missing;
-        return v;
-    }
-    // What is less than the work may be wrong by, or allowed, is left unaccounted for: it shows in
-    // the residual.
-    double uncertain = integral.error;
-    v.smooth = uncertain <= allowed;
-    v.accepted = v.smooth;
-    if (!v.smooth) {
-        v.work = -trail_.trapezium(to.at, to.force);
-        uncertain = 0.5 * step * std::abs(to.force - force());
-        v.accepted = uncertain <= allowed_uncertainty();
-    }
-    if (v.work - gained > std::max(uncertain, allowed)) v.dissipated = v.work - gained;
-    v.gap = v.work - gained - v.dissipated;
-    v.uncertain = uncertain;
-    v.excess = gained - v.work > std::max(uncertain, allowed);
-    v.accepted = v.accepted && !v.excess;
-    return v;
+PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
+    return {at, course_.along == Along::z ? state.top_force : lateral_force()[axis()],
+            state.interface_energy + state.elastic_energy};
 }
 
-void QuasistaticPath::accept(const Trial& to, const StepCheck& step) {
-    work_ += step.work;
-    error_.gap += std::abs(step.gap);
-    error_.squares += step.uncertain * step.uncertain;
+void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDecision& step) {
+    course_.work += step.work;
+    course_.gap += std::abs(step.gap);
+    course_.squares += step.uncertain * step.uncertain;
     record_.work += step.work;
     if (step.dissipated > 0.0) {
-        dissipation_.add(describe(to.state, step.dissipated));
+        dissipation_.add(describe(state, step.dissipated));
         record_.damped = dissipation_.total();
     }
+    const double force = point(state, at).force;
     if (step.smooth)
-        trail_.add(to.at, to.force);
+        trail_.add(at, force);
     else
-        trail_.begin(to.at, to.force);
-    points_.accept(to.at);
-    predicts_ = reversible_ = step.dissipated == 0.0;
-    if (bracket_.known && direction_ * (bracket_.at - to.at) <= 0.0) bracket_.known = false;
+        trail_.begin(at, force);
+    last_.accept(at);
+    if (bracket_ && course_.direction * (bracket_->at - at) <= 0.0) bracket_.reset();
     ++record_.step;
-    way_ += std::abs(to.at - at());
-    set_record(to.state, to.at);
+    way_ += std::abs(at - this->at());
+    set_record(state, at);
     strongest_ = std::max(strongest_, -record_.force);
-    // The error of a smooth step goes with the fourth power of its length, for each Å.
-    const double growth = std::clamp(0.8 * std::sqrt(std::sqrt(step.margin)), 0.5, 2.0);
-    length_ *= growth;
+    length_ *= step.growth;
     // An instability was bracketed with ever smaller steps; beyond it there is no reason for them.
     if (!step.smooth) length_ = std::max(length_, options_.step / 4.0);
     length_ = std::clamp(length_, smallest_step(), options_.step);
 }
 
 void QuasistaticPath::set_record(const RelaxedState& state, double at) {
-    if (along_ == Along::z)
+    if (course_.along == Along::z)
         record_.top = at;
     else
         record_.slide[axis()] = at;
@@ -435,18 +393,18 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
 Instability QuasistaticPath::describe(const RelaxedState& state, double energy) const {
     Instability instability;
     instability.energy = energy;
-    instability.segment = segment_;
+    instability.segment = course_.number;
     instability.top = record_.top;
     instability.height_before = record_.mean_height;
     instability.height_after = options_.reference_height + state.mean_height;
     instability.slide = record_.slide;
     instability.force_before = force();
-    instability.force_after = along_ == Along::z ? state.top_force : lateral_force()[axis()];
+    instability.force_after = point(state, at()).force;
     instability.contact_before = record_.in_contact;
     instability.contact_after = state.in_contact;
-    const LargestSite most = points_.largest_move();
+    const LargestSite most = last_.largest_move();
     std::array<std::int64_t, 1> count = {0};
-    const auto moved = points_.moves();
+    const auto moved = last_.moves();
     const auto layer = block_.lowest_layer();
     for (int y = 0; y < layer.x.ny; ++y)
         for (int x = 0; x < layer.x.nx; ++x)

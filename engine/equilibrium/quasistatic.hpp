@@ -30,32 +30,37 @@
 // through the instability: its step would, with few exceptions, be halved anyway.
 // "Nothing" is drive.tolerance for each site and Å of the step: errors of the energy are then
 // bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
-//
-// Where the last steps were reversible, the next one starts from their linear continuation
-// (continuation.hpp). That is given up as soon as Newton's method does not help; over a wall none
-// is taken. What is not accepted after a prediction, or would be counted as dissipated, is computed
-// again without.
+// decide() (step_decision.hpp) says which of the three it is.
 #pragma once
 
 #include "engine/dynamics/simulation.hpp"
-#include "engine/equilibrium/continuation.hpp"
 #include "engine/equilibrium/dissipation.hpp"
-#include "engine/equilibrium/force_trail.hpp"
+#include "engine/equilibrium/last_point.hpp"
+#include "engine/equilibrium/step_decision.hpp"
+#include "engine/setup/case.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace asperity {
 
-/// step: the largest; load: at which the approach ends.
-struct PathOptions : SequenceOptions {
+struct PathOptions {
     Constraint::Of along = Constraint::Of::top; ///< or mean_height
-    double depth = HUGE_VAL; ///< energy that flat surfaces of this area bind with, eV
+    double step = 0.25;                         ///< the largest of what is led, Å
+    double tolerance = 0.0;                     ///< eV/Å
+    Scales scales;
+    double load = 0.0;             ///< at which the approach ends, eV/Å
+    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    double depth = HUGE_VAL;       ///< energy that flat surfaces of this area bind with, eV
+    /// Called during relaxations with their iteration and residual. True: stop.
+    std::function<bool(long long, double)> report;
 };
 
-/// As a case has them, over its interface.
+/// As a case has them, over its interface; report: as above.
 PathOptions path_options(const Case& c, const Interface& interface,
                          std::function<bool(long long, double)> report = {});
 
@@ -87,104 +92,117 @@ public:
     const StepRecord& now() const { return record_; }
     /// Work that was done on the block in the segment under way, eV. At a held mean height it is
     /// minus that of the interface's force, for the mean height does not jump.
-    double work() const { return work_; }
+    double work() const { return course_.work; }
     /// What this, and what was dissipated in the segment, may be wrong by, eV: the sum of the gaps
     /// in the energy balance of its steps, and three times the root of the sum of squares of what
     /// the work of each step with an instability is not known by. (Three, for these errors are not
     /// independent: measured in docs/explanation/relaxation.md.)
-    double uncertainty() const { return error_.gap + 3.0 * std::sqrt(error_.squares); }
+    double uncertainty() const { return course_.gap + 3.0 * std::sqrt(course_.squares); }
     const Dissipation& dissipation() const { return dissipation_; }
     /// What the force of the last point may be wrong by, eV/Å.
     double slack() const { return slack(record_.in_contact); }
-    long long iterations() const { return points_.iterations(); }
+    long long iterations() const { return last_.iterations(); }
     /// Puts the block back to the last point, from wherever it was taken.
-    void put_back() { points_.put_back(); }
+    void put_back() { last_.put_back(); }
 
-    /// For checkpoints: all numbers of the path, and the displacements at its last two points. A
-    /// path that has read both and is resumed makes the same points, bit for bit, as one that never
+    /// For checkpoints: all numbers of the path, and the displacements at its last point. A path
+    /// that has read both and is resumed makes the same points, bit for bit, as one that never
     /// stopped.
     template <class Visitor>
     void visit(Visitor& v);
-    std::vector<StateArray> states() { return points_.states(); }
+    std::vector<StateArray> states() { return last_.states(); }
     void resume();
 
 private:
-    struct StepCheck {
-        bool accepted = false;
-        double work = 0.0;       ///< of the top plane in this step, eV
-        double dissipated = 0.0; ///< eV
-        double gap = 0.0;        ///< work less energy gained and dissipated, eV
-        double uncertain = 0.0;  ///< of the work, where energy is missing, eV
-        bool smooth = true;      ///< the force did not jump
-        bool excess = false;     ///< more energy gained than the work can have brought
-        double margin = 0.0;     ///< allowed error over the one found: how much the step may grow
-    };
-    struct SegmentError {
-        double gap = 0.0, squares = 0.0; ///< eV, eV^2
+    using Along = LastPoint::Along;
+    /// Of the segment under way.
+    struct Course {
+        Segment::Kind kind = Segment::approach;
+        std::size_t number = 0;     ///< in the path
+        Along along = Along::z;     ///< what it leads
+        double direction = -1.0;    ///< of that; 0: the segment ends where it began
+        std::optional<double> end;  ///< where it ends, Å; none: at a load, or apart
+        std::optional<double> load; ///< eV/Å; none: an approach's, or apart
+        bool attracted = false;     ///< the force has been beyond the load
+        bool bracketed = false;     ///< the load at which the segment ends
+        double work = 0.0;          ///< of the top plane, eV
+        double gap = 0.0;           ///< the sum of those of its steps, eV
+        double squares = 0.0;       ///< of what the works of its steps are not known by, eV^2
+        template <class Visitor>
+        void visit(Visitor& v) {
+            v("kind", kind);
+            v("number", number);
+            v("along", along);
+            v("direction", direction);
+            v("end", end);
+            v("load", load);
+            v("attracted", attracted);
+            v("bracketed", bracketed);
+            v("work", work);
+            v("gap", gap);
+            v("squares", squares);
+        }
     };
     /// The far end of an interval that is bisected, and the force there. Between the last point and
     /// it the block becomes unstable, or the force is not smooth enough to tell.
     struct Bracket {
-        bool known = false;
         double at = 0.0, force = 0.0;
+        template <class Visitor>
+        void visit(Visitor& v) {
+            v("at", at);
+            v("force", force);
+        }
     };
-    using Along = Continuation::Along;
-    /// Equilibrium at a place of what is led, and the force that leading it there takes, eV/Å.
-    struct Trial {
-        const RelaxedState& state;
-        double at, force;
-    };
-    double at() const { return along_ == Along::z ? record_.top : record_.slide[axis()]; }
+    double at() const { return course_.along == Along::z ? record_.top : record_.slide[axis()]; }
     double force() const {
-        return along_ == Along::z ? record_.top_force : record_.lateral_force[axis()];
+        return course_.along == Along::z ? record_.top_force : record_.lateral_force[axis()];
     }
-    std::size_t axis() const { return static_cast<std::size_t>(along_); }
+    std::size_t axis() const { return static_cast<std::size_t>(course_.along); }
+    double energy() const { return record_.interface_energy + record_.elastic_energy; }
+    PathPoint point() const { return {at(), force(), energy()}; }
+    /// An equilibrium with what is led there.
+    PathPoint point(const RelaxedState& state, double at) const;
     std::array<double, 2> lateral_force() const;
     void begin(Along along, double direction);
     Outcome outcome();
     [[noreturn]] void refuse_pull(double load) const;
-    StepCheck check(const Trial& to) const;
+    [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
     double slack(std::int64_t in_contact) const;
+    double load() const { return course_.load.value_or(options_.load); }
+    /// At which an approach ends: on the way to a pull, no sooner than the force has been there.
+    double approach_load() const { return course_.attracted ? load() : std::max(load(), 0.0); }
     /// The segment under way ends at a load.
-    bool to_load() const { return !end_ && kind_ != Segment::pull_off; }
+    bool to_load() const { return !course_.end && course_.kind != Segment::pull_off; }
     bool passes_load(const RelaxedState& state, double aim) const;
     bool bisect();
     bool work_is_known(double at, double force) const;
     ForceWindow acceptable_force(double at) const;
-    void accept(const Trial& to, const StepCheck& step);
+    void accept(const RelaxedState& state, double at, const StepDecision& step);
     Instability describe(const RelaxedState& state, double energy) const;
     void set_record(const RelaxedState& state, double at);
     void first_point(double top, bool apart);
     double smallest_step() const { return options_.step * 0x1p-16; }
+    /// What energy may be missing in a step of this length, eV.
+    double allowed_missing(double step) const { return options_.tolerance * sites_ * step; }
     /// Of the work of a step with an instability, eV.
-    double allowed_uncertainty() const { return options_.tolerance * sites_ * options_.step; }
+    double allowed_uncertainty() const { return allowed_missing(options_.step); }
 
     SpectralBlock& block_;
     Interface& interface_;
     PathOptions options_;
     double sites_ = 0.0; ///< N^2
-    Continuation points_;
 
-    StepRecord record_;
-    bool reversible_ = false; ///< the last step was: good for a prediction
-    bool predicts_ = false;   ///< the next relaxation starts from a prediction
-    bool bracketed_ = false;  ///< the load at which the segment ends
-    double length_ = 0.0;     ///< of the next step, Å
-    Bracket bracket_;
-    Segment::Kind kind_ = Segment::approach; ///< of the segment under way
-    std::size_t segment_ = 0;                ///< its number
-    Along along_ = Along::z;                 ///< what it leads
-    double direction_ = 0.0;                 ///< of that; 0: the segment ends where it began
-    std::optional<double> end_, load_; ///< where it ends, Å or eV/Å; none: an approach's, or apart
+    LastPoint last_;
+    StepRecord record_; ///< of the last point
     ForceTrail trail_;
-    bool attracted_ = false;
-    double strongest_ = 0.0; ///< attraction so far, eV/Å
-    double work_ = 0.0;      ///< of the segment, eV
-    SegmentError error_;
+    Course course_;
+    double length_ = 0.0; ///< of the next step, Å
+    std::optional<Bracket> bracket_;
+    Dissipation dissipation_;
+    double strongest_ = 0.0;       ///< attraction so far, eV/Å
     double energy_at_start_ = 0.0; ///< of where works are counted from, eV
     double scale_ = 0.0;           ///< largest energy seen, for the residual, eV
     double way_ = 0.0;             ///< so far, in and out, Å
-    Dissipation dissipation_;
 };
 
 template <class Visitor>
@@ -202,32 +220,18 @@ void QuasistaticPath::visit(Visitor& v) {
     v("work", record_.work);
     v("dissipated", record_.damped);
     v("residual", record_.residual);
-    v("points", points_);
-    v("reversible", reversible_);
-    v("predicts", predicts_);
-    v("bracketed", bracketed_);
-    v("length", length_);
-    v("bracket.known", bracket_.known);
-    v("bracket.top", bracket_.at);
-    v("bracket.force", bracket_.force);
-    v("kind", kind_);
-    v("segment", segment_);
-    v("along", along_);
-    v("direction", direction_);
-    v("end", end_);
-    v("load", load_);
     v("slide", record_.slide);
     v("lateral_force", record_.lateral_force);
+    v("last", last_);
     v("trail", trail_);
-    v("attracted", attracted_);
+    v("course", course_);
+    v("length", length_);
+    v("bracket", bracket_);
+    v("dissipation", dissipation_);
     v("strongest", strongest_);
-    v("work_of_segment", work_);
-    v("gap", error_.gap);
-    v("squares", error_.squares);
     v("energy_at_start", energy_at_start_);
     v("scale", scale_);
     v("way", way_);
-    v("dissipation", dissipation_);
 }
 
 } // namespace asperity

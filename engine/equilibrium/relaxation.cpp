@@ -93,14 +93,10 @@ public:
     }
     const InterfaceSums& sums() const { return sums_; }
 
-    /// One step downhill. False where the start was a prediction that leads nowhere.
-    bool step() {
-        if (spreading_ || !newton_step()) {
-            if (options_.start == Start::predicted) return false;
-            move_sites();
-        }
+    /// One step downhill.
+    void step() {
+        if (spreading_ || !newton_step()) move_sites();
         find_forces();
-        return true;
     }
 
 private:
@@ -231,7 +227,7 @@ RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptio
             state.converged = state.residual <= options.tolerance && state.balanced;
             if (over || state.interrupted || state.converged) break;
         }
-        if (!minimiser.step()) return state;
+        minimiser.step();
         if (!std::isfinite(window.furthest) || state.iterations < Constants::first_look ||
             state.iterations % Constants::look != 0)
             continue;

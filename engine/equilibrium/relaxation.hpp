@@ -18,9 +18,7 @@
 //
 // A relaxation that starts near an equilibrium (Start::near, as at a point of a path) begins with
 // Newton's method; steps that would move a site further than it may, but no further than ten times
-// that, are then shortened. One that starts from a prediction ends where Newton's method does not
-// help: a surface that has become unstable is then followed from its last equilibrium, not from a
-// guess.
+// that, are then shortened.
 //
 // Sweeps are rough (SweepOptions: in mixed precision over a lattice) until the forces are near
 // their error; the last ones, and the state that is reported, are not.
@@ -48,8 +46,7 @@ namespace asperity {
 /// What is known of the state that a relaxation starts from.
 enum class Start {
     anywhere,
-    near,      ///< close to an equilibrium, which may have just been lost
-    predicted, ///< a guess at an equilibrium: where none is close, there is no point in going on
+    near, ///< close to an equilibrium, which may have just been lost
 };
 
 /// Where the interface's force is worth having at the end, eV/Å.

@@ -43,27 +43,10 @@ void StateCopy::restore(const std::vector<StateArray>& arrays) const {
         arrays[i].field->copy_from(copies_[i]);
 }
 
-void StateCopy::extrapolate(double ratio, const std::vector<StateArray>& arrays) const {
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
-        const auto to = arrays[i].field->view();
-        const auto from = copies_[i].view();
-#pragma omp parallel for schedule(static)
-        for (int row = 0; row < arrays[i].planes * to.ny; ++row) {
-            double* x = to[row / to.ny].line(row % to.ny);
-            const double* old = from[row / to.ny].line(row % to.ny);
-            for (int k = 0; k < to.nx; ++k)
-                x[k] += ratio * (x[k] - old[k]);
-        }
-    }
-}
-
-std::vector<StateArray> StateCopy::arrays(const std::vector<StateArray>& like,
-                                          const std::string& prefix) {
+std::vector<StateArray> StateCopy::arrays(const std::vector<StateArray>& like) {
     std::vector<StateArray> list = like;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        list[i].name.insert(list[i].name.rfind('/') + 1, prefix);
+    for (std::size_t i = 0; i < list.size(); ++i)
         list[i].field = &copies_[i];
-    }
     return list;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A state as a list of arrays: what is copied, extrapolated and written to checkpoints, whoever
+// A state as a list of arrays: what is copied and written to checkpoints, whoever
 // owns it.
 #pragma once
 
@@ -36,11 +36,9 @@ public:
     void take(const std::vector<StateArray>& arrays);
     /// The arrays as they were taken, bit for bit, halos included.
     void restore(const std::vector<StateArray>& arrays) const;
-    /// x <- x + ratio (x - copy) on the owned nodes; halos are left to the caller.
-    void extrapolate(double ratio, const std::vector<StateArray>& arrays) const;
-    /// The copies as a list like the one they were taken from, with this before the last part of
-    /// the names: to be written to a checkpoint, or read from one (halos are then not current).
-    std::vector<StateArray> arrays(const std::vector<StateArray>& like, const std::string& prefix);
+    /// The copies as a list like the one they were taken from: to be written to a checkpoint, or
+    /// read from one (halos are then not current).
+    std::vector<StateArray> arrays(const std::vector<StateArray>& like);
     bool empty() const { return copies_.empty(); }
     const Field<double>& operator[](std::size_t i) const { return copies_[i]; }
 

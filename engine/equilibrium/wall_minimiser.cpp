@@ -40,8 +40,7 @@ WallMinimiser::WallMinimiser(SpectralBlock& block, const Interface& interface,
                                          : constraint.load() / (n * n);
 }
 
-bool WallMinimiser::step() {
-    if (options_.start == Start::predicted) return false;
+void WallMinimiser::step() {
     const auto t = phases_.time(Phase::advance);
     single_ = single_ && estimate_ > Constants::rounding * spring_ * widest_;
     double reversal = 0.0;
@@ -57,7 +56,6 @@ bool WallMinimiser::step() {
     const double following = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * sequence_ * sequence_));
     momentum_ = (sequence_ - 1.0) / following;
     sequence_ = following;
-    return true;
 }
 
 double WallMinimiser::conclude() {

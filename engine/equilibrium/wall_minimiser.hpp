@@ -48,9 +48,8 @@ public:
     /// The residual of the state as it is reported; energies in sums().
     double conclude();
     const InterfaceSums& sums() const { return sums_; }
-    /// One iteration. Collective. False from a prediction: the steps that go on from the last
-    /// equilibrium are as good, and do not jump over a barrier.
-    bool step();
+    /// One iteration. Collective.
+    void step();
 
 private:
     template <class T>

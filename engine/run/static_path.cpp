@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/static_path.hpp"
 
+#include "engine/equilibrium/zero_load.hpp"
 #include "engine/run/guard.hpp"
 #include "engine/run/plan.hpp"
 #include "engine/units.hpp"

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/equilibrium/last_point.hpp"
+
+namespace asperity {
+
+double LastPoint::lead(Along along) {
+    if (along == along_) return at_;
+    along_ = along;
+    at_ = along == Along::z ? normal_ : place_[static_cast<std::size_t>(along)];
+    return at_;
+}
+
+/// Over the substrate, with the coordinate there.
+void LastPoint::place_block(double at) {
+    std::array<double, 2> place = place_;
+    if (along_ != Along::z) place[static_cast<std::size_t>(along_)] = at;
+    interface_.slide_to(place[0], place[1]);
+}
+
+void LastPoint::accept(double at) {
+    state_.take(state_of(block_));
+    at_ = at;
+    if (along_ == Along::z) normal_ = at;
+    place_ = interface_.place();
+}
+
+void LastPoint::put_back() {
+    state_.restore(state_of(block_));
+    block_.apply_constraint(constraint(at_));
+    place_block(at_);
+}
+
+RelaxedState LastPoint::relax_at(double at, const Report& report, const ForceWindow& window) {
+    state_.restore(state_of(block_));
+    place_block(at);
+    RelaxOptions options;
+    options.start = Start::near;
+    options.tolerance = options_.tolerance;
+    options.scales = options_.scales;
+    options.balance = balance_;
+    options.report = report;
+    options.force_window = window;
+    const RelaxedState state =
+        relax(block_, interface_, options_.reference_height, constraint(at), options, phases_);
+    iterations_ += state.iterations;
+    return state;
+}
+
+std::function<double(int, int)> LastPoint::moves() const {
+    const auto layer = block_.lowest_layer();
+    const VectorPlane<const double> old = {state_[0].plane(0), state_[1].plane(0),
+                                           state_[2].plane(0)};
+    return [=](int x, int y) {
+        return std::hypot(layer.x(x, y) - old.x(x, y), layer.y(x, y) - old.y(x, y),
+                          layer.z(x, y) - old.z(x, y));
+    };
+}
+
+std::vector<StateArray> LastPoint::states() {
+    const auto arrays = state_of(block_);
+    if (state_.empty()) state_.take(arrays);
+    return state_.arrays(arrays);
+}
+
+} // namespace asperity
