@@ -25,18 +25,20 @@ from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneE
 if TYPE_CHECKING:
     from .engine import Simulation as Simulation
     from .engine import Statics as Statics
-    from .forms import Estimate, Result, Sweep, estimate, load, load_estimate, load_sweep, run, sweep
+    from .forms import (Adhesion, Estimate, Result, Sweep, adhesion, estimate, load, load_estimate, load_sweep, run,
+                        sweep)
     from .state_search import states as states
 
-__all__ = ["Error", "Estimate", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "SceneWarning",
-           "Stopped", "Sweep", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
+__all__ = ["Adhesion", "Error", "Estimate", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "SceneWarning",
+           "Stopped", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
 
 
 def __getattr__(name: str):
     # numpy and h5py are imported with the first name that needs them, so that --help needs neither.
     import importlib
 
-    if name in ("Estimate", "Result", "Sweep", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"):
+    if name in ("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run",
+                "sweep"):
         return getattr(importlib.import_module(".forms", __name__), name)
     if name in ("Simulation", "Statics"):
         return getattr(importlib.import_module(".engine", __name__), name)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The command line: `python3 -m asperity` is `asperity`.
 
-theory, sweep, cost, estimate, states, report, export and convert are carried out here; the program hands them over. Every other
+theory, sweep, cost, estimate, adhesion, states, report, export and convert are carried out here; the program hands them over. Every other
 command is handed to the program.
 """
 
@@ -32,6 +32,12 @@ class _Parser(argparse.ArgumentParser):
 def _many(text: str) -> int:
     if not text.strip().isdecimal() or not 1 <= int(text) <= 1024:
         raise argparse.ArgumentTypeError(f"{text} is no number from 1 to 1024")
+    return int(text)
+
+
+def _sites(text: str) -> int:
+    if not text.strip().isdecimal() or not 16 <= int(text) <= 32768:
+        raise argparse.ArgumentTypeError(f"{text} is no number of sites from 16 to 32768")
     return int(text)
 
 
@@ -93,6 +99,21 @@ def _parser() -> argparse.ArgumentParser:
                    "seeds, places (of a map). The same command goes on where it stopped.")
     scene(estimate, "results/<scene>-estimate")
     varied(estimate)
+    adhesion = add("adhesion", "from a measured map of heights to its adhesion with an error",
+                   "An elastic half-space on the rigid map, bound by an exponential attraction: run, path at a held mean\n"
+                   "height, estimate, report. The same command goes on where it stopped.")
+    adhesion.add_argument("map", metavar="MAP", help="HDF5, .npy, or any map that convert reads")
+    adhesion.add_argument("--E", required=True, metavar="100GPa", help="Young's modulus of the half-space")
+    adhesion.add_argument("--nu", required=True, type=float, metavar="0.25", help="its Poisson's ratio")
+    adhesion.add_argument("--work", required=True, metavar="200mJ/m2", help="work of adhesion of flat surfaces")
+    adhesion.add_argument("--range", metavar="3Å", help="of the attraction (default: 3 Å, or what the spacing resolves)")
+    adhesion.add_argument("--size", metavar="100nm", help="length of the map's edge, of a file that does not tell it")
+    adhesion.add_argument("--unit", metavar="nm", help="of the heights, of a file that does not tell it")
+    adhesion.add_argument("--channel", metavar="NAME", help="of an instrument's file: this channel, by name or number")
+    adhesion.add_argument("--sites", type=_sites, metavar="N", help="along an edge (default: the map's points, 256 at most)")
+    adhesion.add_argument("--out", metavar="DIR", help="result directory (default: results/<map>-adhesion)")
+    adhesion.add_argument("--jobs", type=_many, default=1, metavar="N", help="runs side by side; they share the processors")
+    adhesion.add_argument("--progress", default="auto", metavar="MODE", help="auto, bar, lines or off")
     states = add("states", "the stable states of a contact under its load",
                  "A path at a held mean height goes inwards and back; the states are told with the pressures between\n"
                  "them. The same command goes on where it was stopped.")
@@ -185,6 +206,11 @@ def _carry_out(given: argparse.Namespace) -> int:
             raise SceneError("--points", "is no option of theory any more", "it is for programs",
                              "asperity theory-points SCENE --points FILE")
         return theory_command(_one_scene(given), given.sets, given.out, given.json)
+    if given.command == "adhesion":
+        from .measured import adhesion_command
+
+        return adhesion_command(given.map, given.E, given.nu, given.work, given.out, _pool_options(given),
+                                reach=given.range, size=given.size, unit=given.unit, channel=given.channel, sites=given.sites)
     if given.command == "states":
         from .state_search import states_command
 

@@ -76,12 +76,12 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
 
 
 def estimate_command(scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
-                     parts: list[str], plan: bool, spacing_also: list[str] | None = None) -> int:
+                     parts: list[str], plan: bool) -> int:
     """Its exit code: 75 if stopped before the end, that of the scene if it failed."""
     def say(text: str) -> None:
         print(text, flush=True)
 
-    making = Estimating(scene, overrides, out, options, seeds, parts, spacing_also or (), say)
+    making = Estimating(scene, overrides, out, options, seeds, parts, say=say)
     say(making.told())
     if plan:
         return 0

@@ -82,10 +82,10 @@ def finer(ratio: float, order: float | None = None) -> Rule:
     return rule
 
 
-def coarser(ratio: float, order: float) -> Rule:
-    """One row, coarser by the ratio: cheaper than the base."""
+def coarser(ratio: float, order: float | None = None) -> Rule:
+    """One row, coarser by the ratio: cheaper than the base. order: None: that of the quantity."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-        beyond = (base - rows[0]) / (ratio**order - 1.0)
+        beyond = (base - rows[0]) / (ratio ** (q.order if order is None else order) - 1.0)
         return Found(beyond, abs(beyond))
     return rule
 
@@ -179,20 +179,41 @@ def _box(scene: Variations, factor: float) -> Setting:
         f"block.thickness={scene.sites * factor:.0f}"] * (scene.thickness == scene.sites)
 
 
-def plan_of(scene: Variations, seeds: int, spacing_also: Setting = (), maps: tuple[Part, ...] = ()) -> Plan:
-    """The parts of a scene. seeds: surfaces of a self-affine one, itself included. spacing_also: what is set with half of
-    the spacing. maps: parts of a measured surface, which take the base of the others."""
+SpacingAlso = Callable[[float], Setting]
+"""What is set too with so many times the spacing."""
+
+
+def is_coarse(scene: Variations) -> bool:
+    """Whether a lattice of twice the spacing is as good to measure on: of a path, whose runs are long, on a lattice that is
+    no solid's own and whose waves all fit."""
+    waves = scene.scene.text("surface.kind") != "self-affine" or 4 * scene.own("surface.cutoff") <= scene.sites
+    return scene.moves and scene.continuous and waves and scene.sites % 4 == scene.thickness % 2 == 0 and scene.sites >= 64
+
+
+def spaced(scene: Variations, factor: float, also: SpacingAlso) -> Setting:
+    """The same surface and block at another spacing."""
+    own, kind = scene.own, scene.scene.text("surface.kind")
+    waves = [f"surface.cutoff={min(own('surface.cutoff'), scene.sites // 2):.10g}"] if kind == "self-affine" else [
+        "surface.resample=band-limited"] * (kind == "file")
+    return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={scene.sites / factor:.0f}",
+            f"block.thickness={scene.thickness / factor:.0f}", *waves, *also(factor)]
+
+
+def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _: [], maps: tuple[Part, ...] = ()) -> Plan:
+    """The parts of a scene. seeds: surfaces of a self-affine one, itself included. maps: parts of a measured surface, which
+    take the base of the others."""
     own, rest = scene.own, None
     start = Variation("scene", "the scene", [])
     if scene.dynamic and not scene.finite:
         rest = Variation("rate", "without time", AT_REST)
     base, moved = rest or start, AT_REST if rest else []
+    coarse = Variation("spacing", "twice the spacing", joined(moved, spaced(scene, 2, spacing_also))) if is_coarse(scene) else None
     parts: list[Part] = []
 
     def part(name: str, group: str, what: str, choices: list[Choice] = (), rule: Rule = limit, of: Variation | None = None,
              ) -> None:
         of = of or base
-        common = moved if of is base else []
+        common = coarse.setting if of is coarse else moved if of is base else []
         rows = [Variation(name, label, joined(common, setting)) for label, setting in choices]
         parts.append(Part(name, group, what, rows, rule, of))
 
@@ -205,8 +226,16 @@ def plan_of(scene: Variations, seeds: int, spacing_also: Setting = (), maps: tup
     if scene.mixed and scene.scene.text("numerics.precision") == "mixed":
         part("precision", "convergence", "double precision", scene.precisions("double"))
     _truncation(scene, part)
-    _discretisation(scene, part, start, spacing_also)
-    _geometry(scene, part)
+    if coarse:
+        parts.append(Part("spacing", "discretisation", f"spacing {2 * own('surface.spacing'):.4g} Å", [coarse], coarser(2), base))
+    elif scene.continuous:
+        part("spacing", "discretisation", f"spacing {0.5 * own('surface.spacing'):.4g} Å",
+             [("half the spacing", spaced(scene, 0.5, spacing_also))], finer(2))
+    else:
+        part("spacing", "discretisation", "not varied: the spacing is that of the atoms")
+    _in_time(scene, part, start)
+    part("thickness", "geometry", f"{2 * scene.thickness} layers",
+         scene.at("block.thickness", scene.thickness if coarse else 2 * scene.thickness), limit, coarse or base)
     if rest:
         parts.append(Part("rate", "rate", "velocity to 0: the path without time", [rest], limit, start))
     elif scene.dynamic:
@@ -220,7 +249,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: Setting = (), maps: tup
         part("width", "geometry", "not varied: the surface has no statistics to continue it by")
         part("seeds", "realisation", "none: there is one such surface")
     for one in maps:
-        one.base = base
+        one.base = coarse if coarse and one.name == "edge" else base
         for row in one.rows:
             row.setting = joined(moved, row.setting)
     parts += maps
@@ -231,29 +260,21 @@ def _truncation(scene: Variations, part: Callable) -> None:
     cutoff = scene.own("interface.cutoff")
     wide = min(2 * cutoff, 0.5 * scene.edge)
     if not scene.length:
-        law = scene.scene.text("interface.law") == "exponential" and scene.wall
-        part("tail", "truncation", "none: " + ("the law has no cutoff" if law else "a table ends where it says"))
+        part("tail", "truncation", "none: " + ("the law has no cutoff" if scene.continuous else "a table ends where it says"))
     elif scene.scene.find("interface.pairs"):
         part("tail", "truncation", "not varied: interface.pairs have cutoffs of their own")
+    elif wide < 1.05 * cutoff:
+        part("tail", "truncation", "not varied: the box allows no larger cutoff")
+    elif scene.scene.text("surface.kind") == "atoms" or any("slide" in one for one in scene.scene.find("drive.path")):
+        part("tail", "truncation", f"cutoff {wide:.4g} Å: no tail acts here", scene.cut(False, wide), finer(wide / cutoff, 4))
     elif scene.scene.find("interface.tail"):
         part("tail", "truncation", f"cutoff {wide:.4g} Å", scene.cut(True, wide))
     else:
         part("tail", "truncation", f"tail, cutoff {wide:.4g} Å", scene.cut(True, cutoff, wide))
 
 
-def _discretisation(scene: Variations, part: Callable, start: Variation, spacing_also: Setting) -> None:
+def _in_time(scene: Variations, part: Callable, start: Variation) -> None:
     own = scene.own
-    if scene.wall and scene.scene.text("interface.law") == "exponential":
-        setting = [f"surface.spacing={0.5 * own('surface.spacing'):.10g}", f"surface.sites={2 * scene.sites}",
-                   f"block.thickness={2 * scene.thickness}", *spacing_also]
-        if scene.scene.text("surface.kind") == "self-affine":  # the same waves
-            setting.append(f"surface.cutoff={min(own('surface.cutoff'), scene.sites // 2):.10g}")
-        elif scene.scene.text("surface.kind") == "file":
-            setting.append("surface.resample=band-limited")
-        part("spacing", "discretisation", f"spacing {0.5 * own('surface.spacing'):.4g} Å", [("half the spacing", setting)],
-             finer(2))
-    else:
-        part("spacing", "discretisation", "not varied: the spacing is that of the atoms")
     if not scene.dynamic:
         return
     if scene.scene.text("block.model") == "multiscale":
@@ -264,10 +285,6 @@ def _discretisation(scene: Variations, part: Callable, start: Variation, spacing
     longer = scene.stable(2)
     part("timestep", "discretisation", f"time step {(2 if longer else 0.5) * own('drive.timestep'):.4g} fs",
          longer or scene.scaled("drive.timestep", 0.5), coarser(2, 2) if longer else finer(2, 2), start)
-
-
-def _geometry(scene: Variations, part: Callable) -> None:
-    part("thickness", "geometry", f"{2 * scene.thickness} layers", scene.scaled("block.thickness", 2))
 
 
 def _surfaces(scene: Variations, part: Callable, seeds: int) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 
 from . import files, maps, program
 from .errors import BY_CODE, Error, InternalError, SceneError, Stopped
-from .estimate_parts import CURVED, FLAT, Found, Part, Plan, Quantity, edges, number_of, places, plan_of
+from .estimate_parts import CURVED, FLAT, Found, Part, Plan, SpacingAlso, edges, is_coarse, number_of, places, plan_of
 from .pool import DONE, PoolOptions
 from .result import Values, read_json
 from .scene import Overrides, SceneLike, assignments, scene_file, toml_of
@@ -27,9 +27,6 @@ from .terminal import duration
 from .variations import Runs, Setting, Variation, Variations
 
 RESULT = "estimate.json"
-NAMES = ("convergence", "precision", "tail", "spacing", "levels", "timestep", "thickness", "width", "edge", "rate", "seeds",
-         "places")
-"""Of the parts."""
 START = 0.3
 """s; what a run takes beside its simulation."""
 SURFACES = {False: 8, True: 4}
@@ -112,8 +109,9 @@ def _file_of(name: str, scene: str) -> str:
     return str(beside if Path(str(beside).partition(":/")[0]).exists() else name)
 
 
-def _map_parts(keys: dict[str, Any], scene: str, place: Path) -> tuple[Part, ...]:
-    """Of a measured map: its quarters, and the map in its mirror images; each a scene of its own in `place`."""
+def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | None) -> tuple[Part, ...]:
+    """Of a measured map: its quarters, and the map in its mirror images; each a scene of its own in `place`. coarse: the
+    mirror images have twice the spacing, and this too."""
     of = Values(keys)
     sites, edge = int(of.number("surface.sites", 0)), of.number("surface.sites", 0) * of.number("surface.spacing", 0)
     unit = of.text("surface.file_unit")
@@ -128,18 +126,19 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path) -> tuple[Part, ...
         made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
         made["surface"].update(rms=None, file=str(Path(_file_of(of.text("surface.file"), scene)).resolve()))
         with scene_file(made) as file:
-            heights = heights * (of.number("surface.rms") / _rms_as_measured(file))
+            heights = heights * (of.number("surface.rms") / surface_made(file)[0])
 
-    def scenes(name: str, pieces: list[np.ndarray], factor: float, **more: Any) -> list[Variation]:
+    def scenes(name: str, pieces: list[np.ndarray], factor: float, detrend: str, spacing: float = 1.0,
+               setting: Setting = ()) -> list[Variation]:
         rows = []
         for i, piece in enumerate(pieces, 1):
             stem = f"{name}-{i}" if len(pieces) > 1 else name
-            box = int(sites * factor)
+            box = int(sites * factor / spacing)
             made = {section: dict(values) for section, values in keys.items() if isinstance(values, dict)}
-            made["surface"] |= {"file": f"{stem}.npy", "file_unit": "Å", "file_size": box * of.number("surface.spacing"),
-                                "sites": box, "rms": None, "resample": "band-limited", **more}
-            if of.number("block.thickness") == sites:
-                made["block"]["thickness"] = box
+            made["surface"] |= {"file": f"{stem}.npy", "file_unit": "Å", "file_size": factor * edge, "sites": box,
+                                "spacing": factor * edge / box, "rms": None, "resample": "band-limited", "detrend": detrend}
+            thickness = of.number("block.thickness")
+            made["block"]["thickness"] = box if thickness == sites else int(thickness / spacing)
             made["output"] |= {"fields": ["zero-load"], "trajectory": "none"}
             if of.text("interface.potential") == "table":
                 made["interface"]["table"] = str(Path(_file_of(of.text("interface.table"), scene)).resolve())
@@ -148,7 +147,7 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path) -> tuple[Part, ...
             with files.replacing(place / f"{stem}.npy") as beside, open(beside, "wb") as file:
                 np.save(file, piece)
             files.write(place / f"{stem}.toml", toml_of(made))
-            rows.append(Variation(name, stem, [], scene=str(place / f"{stem}.toml")))
+            rows.append(Variation(name, stem, list(setting), scene=str(place / f"{stem}.toml")))
         return rows
 
     parts = []
@@ -157,22 +156,25 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path) -> tuple[Part, ...
     if detrend == "none" and maps.jump(heights) < maps.PERIODIC:
         parts.append(Part("edge", "geometry", "none: the map is periodic"))
     else:
-        parts.append(Part("edge", "geometry", "the map in its mirror images in place of surface.detrend=" + detrend,
-                          scenes("mirrored", [maps.mirrored(flat)], 2, detrend="none"), edges))
+        parts.append(Part("edge", "geometry", "the map in its mirror images",
+                          scenes("mirrored", [maps.mirrored(flat)], 2.0, "none", *(() if coarse is None else (2.0, coarse))),
+                          edges))
     if sites % 2 or sites < 32:
         parts.append(Part("places", "realisation", "not varied: the map has too few sites for quarters"))
     else:
         parts.append(Part("places", "realisation", "the quarters of the map",
-                          scenes("quarter", maps.quarters(heights), 0.5, detrend="periodic" if detrend == "none" else detrend),
+                          scenes("quarter", maps.quarters(heights), 0.5, "periodic" if detrend == "none" else detrend),
                           places))
     return tuple(parts)
 
 
-def _rms_as_measured(file: str) -> float:
-    """Of the map that a scene makes of its file before it is scaled, Å."""
+def surface_made(file: str) -> tuple[float, float]:
+    """Of the surface that a scene makes: its rms height (Å), and its rms slope by differences of neighbours."""
     with tempfile.TemporaryDirectory(prefix="asperity-") as place:
-        program.call(["surface", file, "--out", str(Path(place) / "surface")])
-        return read_json(Path(place) / "surface/result.json").number("surface.rms", math.nan)
+        text = program.call(["surface", file, "--out", str(Path(place) / "surface")])
+        slope = re.search(r"rms slope +(\S+) +differences", text.partition("the surface made")[2])
+        rms = read_json(Path(place) / "surface/result.json").number("surface.rms", math.nan)
+    return rms, float(slope[1]) if slope else math.nan
 
 
 def _seconds(scene: str, sets: list[str]) -> float:
@@ -224,7 +226,8 @@ class Estimating:
     """The estimate of a scene in a directory, planned; `carry_out` makes it."""
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
-                 only: Iterable[str] = (), spacing_also: Setting = (), say: Callable[[str], None] = print):
+                 only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] = (),
+                 say: Callable[[str], None] = print):
         answer = program.check(scene, overrides)
         keys = answer["scene"]
         varied = Variations(keys, answer.get("longest_timestep", 0.0))
@@ -236,10 +239,10 @@ class Estimating:
                              "and no pull-off", 'for example --set drive.path=zero-load')
         if seeds is not None and not 2 <= seeds <= 1000:
             raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "")
-        self.name, self.keys, self.varied, self.say = answer["name"], keys, varied, say
+        self.name, self.keys, self.varied, self.notes = answer["name"], keys, varied, list(notes)
         self.place = files.chosen(out, f"results/{self.name}-estimate")
         of_file = keys["surface"]["kind"] == "file"
-        map_parts = _map_parts(keys, scene, self.place / "maps") if of_file else ()
+        map_parts = _map_parts(keys, scene, self.place / "maps", spacing_also(2) if is_coarse(varied) else None) if of_file else ()
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
         for name in only:
             if name not in [part.name for part in self.plan.parts]:
@@ -249,10 +252,8 @@ class Estimating:
             if part.name not in only and part.rows:
                 part.rows, part.what = [], "left out: --parts"
         self.rows = [self.plan.scene]
-        if self.plan.rest and any(part.rows and part.base is self.plan.rest for part in self.plan.parts):
-            self.rows.append(self.plan.rest)
-        self.rows += [row for part in self.plan.parts for row in part.rows if row is not self.plan.rest
-                      or self.plan.rest not in self.rows]
+        for part in self.plan.parts:
+            self.rows += [row for row in ([part.base, *part.rows] if part.rows else []) if row not in self.rows]
         self.runs = Runs(scene, overrides, self.place, options, say)
         self.jobs = self.runs.jobs(self.rows)
 
@@ -265,7 +266,8 @@ class Estimating:
             key = ("drive.mode=quasistatic",) * still
             if key not in base:
                 base[key] = _seconds(self.runs.scene, [*self.runs.common, *key])
-            factor = {"mirrored": 4.0, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
+            mirrored = 1.0 if is_coarse(self.varied) else 4.0
+            factor = {"mirrored": mirrored, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
             work += START + factor * base[key]
         return f"{self.name}: {len(once)} runs, about {_about(work / max(1, self.runs.options.jobs))}"
 
@@ -277,7 +279,7 @@ class Estimating:
         result = self.plan.scene.outcome.result
         parts = [{"name": p.name, "group": p.group, "what": p.what, "failed": p.failed if complete else ""}
                  for p in self.plan.parts]
-        notes = []
+        notes = list(self.notes)
         if self.varied.moves and self.keys["drive"]["hold"] == "top":
             notes.append("Works and losses of a path with its top held depend on the block's thickness as on the stiffness of "
                          'a machine; drive.hold="mean-height" has none.')

@@ -11,11 +11,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from .estimates import Estimate, estimate, load_estimate
+from .measured import Adhesion, adhesion
 from .result import Result, load
 from .runs import run
 from .sweeps import Sweep, load_sweep, sweep
 
-__all__ = ["Estimate", "Result", "Sweep", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
+__all__ = ["Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
 
 
 def _plot_of_run(self: Result):

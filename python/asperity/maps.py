@@ -105,6 +105,18 @@ def without_plane(heights: numpy.ndarray) -> numpy.ndarray:
     return heights - (terms @ plane).reshape(heights.shape)
 
 
+def without_tilt(heights: numpy.ndarray) -> numpy.ndarray:
+    """Less the plane that makes opposite edges meet on the mean, as those of a periodic map do; and less its mean."""
+    found = heights
+    for axis in (0, 1):
+        first, second, before, last = (numpy.take(found, k, axis) for k in (0, 1, -2, -1))
+        # A point past each edge, continued straight, is the first one beyond the other.
+        rise = 0.5 * numpy.nanmean(3 * last - before + second - 3 * first)
+        tilt = rise / found.shape[axis] * numpy.arange(found.shape[axis])
+        found = found - (tilt[:, None] if axis == 0 else tilt)
+    return found - numpy.nanmean(found)
+
+
 def jump(heights: numpy.ndarray) -> float:
     """The rms difference of opposite edges over that of neighbours inside; of a periodic map about 1."""
     across = numpy.concatenate([heights[0] - heights[-1], heights[:, 0] - heights[:, -1]])

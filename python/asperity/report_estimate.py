@@ -31,10 +31,12 @@ def rounded(value: float, error: float) -> tuple[str, str]:
     if not error > 0.0:
         return f"{value:.6g}", "0"
     digits = max(0, 1 - math.floor(math.log10(error)))
+    if digits > 8:
+        return f"{value:.1e}", f"{error:.1e}"
     if digits == 0:
         step = 10.0 ** (math.floor(math.log10(error)) - 1)
         value, error = step * round(value / step), step * round(error / step)
-    return f"{value:.{min(digits, 12)}f}", f"{error:.{min(digits, 12)}f}"
+    return f"{value:.{digits}f}", f"{error:.{digits}f}"
 
 
 def _units(n: Number) -> list[tuple[float, str]]:
@@ -110,7 +112,8 @@ def text_of(estimate: Estimate) -> str:
         parts += [terminal.table(heads_of(columns), rows_of(estimate, columns), left=(0, 1, 2)), ""]
     parts += ["To quote:", *(f"  {quote(n)}" for n in estimate.numbers.values())]
     failed = [f"failed: {p['name']}: {p['failed']}" for p in estimate.parts if p["failed"]]
-    parts += ["Not in the error: " + "; ".join([*estimate.unseen, *LEFT_OUT]) + ".", *failed, *estimate.notes]
+    parts += ["Not in the error: " + "; ".join([*estimate.unseen, *LEFT_OUT]) + ".", *failed,
+              *(f"note: {note}" for note in estimate.notes)]
     return "\n".join(parts)
 
 

@@ -71,8 +71,8 @@ class Variations:
         self.wall = scene.text("interface.kind") == "wall"
         self.sites, self.thickness = int(self.own("surface.sites")), int(self.own("block.thickness"))
         self.edge = self.sites * self.own("surface.spacing")
-        tail = not self.wall or scene.text("interface.law") == "smeared"
-        self.length = tail * self.own(LENGTHS.get(scene.text("interface.potential"), ""))
+        self.continuous = self.wall and scene.text("interface.law") == "exponential"  # without atoms, and without a cutoff
+        self.length = (not self.continuous) * self.own(LENGTHS.get(scene.text("interface.potential"), ""))
         self.mixed = (not self.wall and scene.text("surface.kind") != "atoms"
                       and self.own("surface.lattice_ratio") == 1 and scene.text("interface.potential") != "table")
         self.longest_timestep = longest_timestep
@@ -129,22 +129,23 @@ class Runs:
         self.scene, self.directory, self.options, self.say = scene, directory, options, say
         self.common = joined(overrides, ["output.fields=zero-load", "output.trajectory=none"])  # those would be timed too
         self.made: dict[str, Job] = {}
+        self.known: dict[tuple[str, ...], Job] = {}
 
     def jobs(self, rows: list[Variation]) -> list[Job]:
         """The run of each row, checked. Raises SceneError with all that is wrong."""
-        found: list[Job | None] = [None] * len(rows)
-        for file in dict.fromkeys(row.scene for row in rows):
-            some = [i for i, row in enumerate(rows) if row.scene == file]
+        new = {(row.scene, *row.setting): row for row in rows if (row.scene, *row.setting) not in self.known}
+        for file in dict.fromkeys(row.scene for row in new.values()):
+            some = {key: row for key, row in new.items() if row.scene == file}
             place, common = file or self.scene, [] if file else self.common
-            overrides = [joined(common, rows[i].setting) for i in some]
+            overrides = [joined(common, row.setting) for row in some.values()]
             points = program.theory_points(place, overrides, runnable=True)
             program.complaints(points)
-            for i, given, point in zip(some, overrides, points):
-                parts = [Path(file).stem] * bool(file) + [one.partition(".")[2] for one in sorted(rows[i].setting)]
+            for (key, row), given, point in zip(some.items(), overrides, points):
+                parts = [Path(file).stem] * bool(file) + [one.partition(".")[2] for one in sorted(row.setting)]
                 name = ",".join(parts) or "scene"
-                found[i] = self.made.setdefault(json.dumps(point["scene"]),
-                                                Job(name, self.directory / name, place, given, point))
-        return found
+                self.known[key] = self.made.setdefault(json.dumps(point["scene"]),
+                                                       Job(name, self.directory / name, place, given, point))
+        return [self.known[(row.scene, *row.setting)] for row in rows]
 
     def run(self, rows: list[Variation]) -> bool:
         """Runs the rows and hands them their outcomes. False: stopped before the end."""

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """How often the truth lies within the error that `asperity estimate` states (docs/howto/estimate.md).
 
-    scenes/validation/coverage.py [--scenes 20] [--jobs 1] [--out results/coverage]
+    scenes/validation/coverage.py [--first 0] [--scenes 20] [--jobs 1] [--out results/coverage]
 
 Scenes are drawn at random: 64 to 128 sites, pairs by Lennard-Jones and by Morse with short cutoffs, and an exponential
 wall. The estimate of each is compared with 16 other surfaces of twice the width, with a tail and twice the cutoff, or
@@ -63,18 +63,19 @@ def compared(number: int, out: pathlib.Path, jobs: int = 1, seeds=SEEDS, **given
         mean, error = values.mean(), values.std(ddof=1) / len(values) ** 0.5
         rows.append({"scene": number, "kind": KINDS[number % 3], "sites": keys["surface.sites"], "quantity": path,
                      "as it is": n.value, "estimate": n.estimate, "error": n.error, "truth": mean, "of truth": error,
-                     "off": (n.estimate - mean) / n.error, "largest": max(n.parts, key=lambda p: n.parts[p].error)})
+                     "off": (n.estimate - mean) / max(n.error, 1e-6 * abs(mean)), "largest": max(n.parts, key=lambda p: n.parts[p].error)})
     return rows
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--scenes", type=int, default=20)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/coverage"))
     given = parser.parse_args()
     rows = []
-    for number in range(given.scenes):
+    for number in range(given.first, given.first + given.scenes):
         rows += (new := compared(number, given.out, given.jobs))
         for r in new:
             print(f"{r['scene']:3} {r['kind']:13} {r['sites']:4}  {r['quantity']:20} {r['as it is']:9.4f} "

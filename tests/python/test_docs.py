@@ -41,6 +41,8 @@ def test_commands(work, line):
     words = line.partition("#")[0]
     if " run scenes/atoms/" in words:  # as wide as its atoms
         words += SHORT + " --progress off"
+    elif " adhesion " in words:
+        words = words.replace("--sites 128", "--sites 16") + " --progress off"
     elif " estimate " in words:
         words += " --parts tail --progress off --set surface.sites=16 block.thickness=4 drive.path=zero-load"
     elif " cost " in words:

@@ -80,6 +80,9 @@ def test_a_scene_has_the_parts_that_apply():
     assert varied(drive=still, numerics={"precision": "mixed"})[:2] == ["convergence", "precision"]
     assert varied() == ["convergence", "tail", "levels", "timestep", "thickness", "width", "rate", "seeds"]
     assert "levels" not in varied(block={"model": "lattice"})
+    sliding = parts_of(drive={"path": ["approach", "slide x 5 Å"]})["tail"].rows  # no tail acts there
+    assert [row.setting[-2:] for row in sliding] == [["interface.cutoff=26.24", "interface.tail=false"]]
+    assert not parts_of(surface={"sites": 16}, interface={"cutoff": 20.5}, drive=still)["tail"].rows
     finite = parts_of(block={"strain": "finite"})
     assert finite["rate"].rows[0].setting == ["drive.velocity=10"] and finite["tail"].rows[0].setting[0] == "interface.cutoff=13.12"
     # In a path in time all but what belongs to time is varied without it.
@@ -173,3 +176,16 @@ def test_a_path_in_time_is_led_to_the_one_without(place):
     assert set(work.parts) == {"levels", "timestep", "rate"} and abs(work.value - work.estimate) > 1.0
     assert work.estimate == pytest.approx(still.work_of_drive.pull_off)
     assert {"lost.cycle", "pull_off_stress", "work_of_drive.approach"} < set(found.numbers)
+
+
+def test_a_path_measures_its_lattice_on_a_coarser_one():
+    """Which takes a quarter of the sites; the same waves fit on it."""
+    wall = {"interface": {"kind": "wall"}, "drive": {"mode": "quasistatic"}, "block": {"thickness": 64}}
+    parts = parts_of(surface={"sites": 64, "cutoff": 16}, **wall)
+    coarse, = parts["spacing"].rows
+    assert coarse.setting == ["surface.spacing=5.2", "surface.sites=32", "block.thickness=32", "surface.cutoff=16"]
+    assert parts["thickness"].base is coarse and "block.thickness=64" in parts["thickness"].rows[0].setting
+    assert parts["spacing"].found is not None and parts["seeds"].base is parts["spacing"].base is not coarse
+    for more in ({"cutoff": 17}, {"cutoff": 16, "sites": 62}):
+        fine, = parts_of(surface={"sites": 64, **more}, **wall)["spacing"].rows
+        assert "surface.spacing=1.3" in fine.setting

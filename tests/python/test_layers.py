@@ -13,7 +13,7 @@ ORDER = """errors units terminal
     result grid theory sphere theories
     pool runs tables sweeps variations cost_parameters cost estimate_parts estimates
     plots.__init__ plots.style plots.run plots.sweep
-    page sentences report report_cost report_estimate report_sweep export commands theory_command
+    page sentences report report_cost report_estimate measured report_sweep export commands theory_command
     forms engine state_search __init__ __main__""".split()
 PLACE = {name: place for place, name in enumerate(ORDER)}
 

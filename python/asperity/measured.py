@@ -1,0 +1,252 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity adhesion`: from a measured map to its adhesion with an error, in one call.
+
+The map is read, checked and made into a scene beside it: an elastic half-space on a wall with an exponential attraction of
+the given work, led in and out at a held mean height. What the estimate of this scene runs and says is `estimate`'s.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from . import files, maps, program, report_estimate
+from .errors import BY_CODE, InternalError, SceneError, Stopped
+from .estimate_parts import SpacingAlso
+from .estimates import Estimate, Estimating, surface_made
+from .pool import DONE, PHYSICS, STOPPED, PoolOptions
+from .report import write_run_page
+from .result import Result, Values
+from .scene import scene_file, toml_of
+
+SITES = 256
+"""Sites along an edge unless others are asked for: a path and its variations take minutes."""
+SITE_BYTES = 1200
+"""Of a path without time; the finest variation has four times as many sites."""
+RANGE = "3 Å"
+WIDEST_PIXEL = 1e4
+"""Å"""
+UNITS = {"E": "GPa", "work": "mJ/m^2", "range": "Å", "size": "nm"}
+
+
+@dataclass
+class Adhesion:
+    """What was found of a map: estimate (.numbers, .quote()), result (the run of its scene: series, fields), notes on
+    what was made of the map, scene (its file), directory."""
+
+    estimate: Estimate
+    result: Result
+    notes: list[str]
+    scene: Path
+    directory: Path
+
+    def quote(self, path: str = "") -> str:
+        """A number as it is published: "binding_energy", "lost.cycle", ...; "": the first one."""
+        return report_estimate.quote(self.estimate.numbers[path] if path else self.estimate.first)
+
+    def __repr__(self) -> str:
+        return f"<Adhesion {self.directory}: {self.quote()}>"
+
+
+def _with_unit(name: str, value: object) -> str:
+    """Text of a quantity with its unit, as scenes have it."""
+    text = re.sub(r"m2$", "m^2", str(value).strip())
+    if re.fullmatch(r"[-+\d.eE]*", text):
+        raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
+                         f'write one: "{text or 1} {UNITS[name]}"')
+    return text
+
+
+def _read(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
+    """Heights of a square map (Å, NaN where one is missing), its edge (Å), notes. Raises SceneError for what is no map
+    that adhesion can be computed of."""
+    found = maps.read_map(file, unit, size, channel)
+    heights, notes = found.heights, list(found.notes)
+
+    def refuse(what: str, why: str, fix: str) -> SceneError:
+        return SceneError(file, what, why, fix)
+
+    rows, columns = heights.shape
+    if min(rows, columns) < maps.FEWEST:
+        raise refuse(f"has {columns} x {rows} points", f"{maps.FEWEST} along an edge are the least of which a surface is "
+                     "made", "export the whole map")
+    if found.size is None:
+        raise refuse("does not tell how wide it is", "", 'name the length of its edge along x: --size "100 nm"')
+    missing = np.isnan(heights)
+    if missing.mean() > 0.5:
+        raise refuse("has no heights" if missing.all() else f"lacks {100 * missing.mean():.0f} % of its heights",
+                     f"{int(missing.sum())} of {missing.size} points are missing", "export a part that was measured")
+    pixel = [length / count for length, count in zip(found.size, (columns, rows))]
+    if abs(pixel[0] / pixel[1] - 1) > 0.005:
+        raise refuse("has pixels that are not square", f"{pixel[0]:.4g} x {pixel[1]:.4g} Å", "resample it before")
+    if pixel[0] > WIDEST_PIXEL:
+        raise refuse(f"has pixels of {pixel[0] / 1e4:.4g} µm", "adhesion is decided by roughness down to nanometres, which such "
+                     "a map does not show", "measure a smaller area, or correct the unit of the file")
+    if rows != columns:
+        notes.append(f"the map is not square: its middle is taken, {min(rows, columns)} points along an edge")
+        heights = maps.square(heights)
+    steepest = max(np.nanmax(abs(np.diff(heights, axis=axis))) for axis in (0, 1))
+    highest = float(np.nanmax(heights) - np.nanmin(heights))
+    if not highest > 0.0:
+        notes.append("the map is flat")
+    for axis in (0, 1):
+        along = np.abs(np.diff(heights, axis=axis)) > 0.5 * highest
+        if highest > 0.0 and along.any(axis=axis).mean() > 0.5:
+            raise refuse("has a step edge across it", f"most lines jump by more than half of its height, {highest:.4g} Å, "
+                         "from one point to the next, and a plane cannot be subtracted from it",
+                         "cut it to one side of the step, or write a scene of it (surface.detrend)")
+    if missing.any():
+        notes.append(f"{int(missing.sum())} points without a height are filled by Laplace's equation")
+    if steepest > pixel[0]:
+        notes.append(f"neighbouring points differ in height by up to {steepest / pixel[0]:.3g} pixels: so steep a map shows the side "
+                     "of the tip")
+    return heights, pixel[0] * len(heights), notes
+
+
+def _smooth_below(most: int) -> int:
+    """The largest even number up to it that has no prime factor above 5."""
+    def smooth(n: int) -> bool:
+        for p in (2, 3, 5):
+            while n % p == 0:
+                n //= p
+        return n == 1
+
+    return next(n for n in range(most - most % 2, 0, -2) if smooth(n))
+
+
+def scene_of(file: str, young: object, poisson: float, work: object, place: Path, *, reach: object = None,
+             size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
+             ) -> tuple[Path, list[str], SpacingAlso]:
+    """Writes the scene of a map and the map beside it; its file, notes, and what another spacing sets too."""
+    sections = {"block": {"young": _with_unit("E", young), "poisson": poisson}, "surface": {"kind": "flat", "sites": 32},
+                "interface": {"kind": "wall", "adhesion": _with_unit("work", work),
+                              "range": _with_unit("range", reach or RANGE)}, "drive": {"path": ["zero-load"]}}
+    if size is not None:
+        sections["surface"]["file_size"] = _with_unit("size", size)
+    try:
+        with scene_file(sections) as checked:  # the program reads the units
+            keys = Values(program.check(checked)["scene"])
+    except SceneError as error:
+        raise SceneError(re.sub(r"^\S*scene\.toml:\d+:\d+: ", "", str(error), flags=re.M)) from None
+    if not keys.number("interface.adhesion") > 0.0:
+        raise SceneError(f"work = {work}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
+    heights, edge, notes = _read(file, unit, keys.number("surface.file_size"), channel)
+    if edge > 0.0 and size is not None and abs(edge / keys.number("surface.file_size") - 1) > 0.01:
+        notes.append(f"the file says how wide it is, {edge:.6g} Å: --size is not used")
+    points = len(heights)
+    memory = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    most = min(points, sites or SITES, int(math.sqrt(memory / (2 * 4 * SITE_BYTES))))
+    n = _smooth_below(max(most, maps.FEWEST))
+    spacing = edge / n
+    stiff = keys.number("block.young") * 6.241509074e-3 / (1 - keys.number("block.poisson") ** 2)  # eV/Å³
+    adhesion, asked = keys.number("interface.adhesion") / 1e3, keys.number("interface.range")
+
+    def resolved(spacing: float) -> float:
+        """The range whose attraction reaches over two spacings beside an edge of the contact (docs/explanation/model.md)."""
+        return max(asked, math.sqrt(2 * spacing * adhesion / stiff))
+
+    used = resolved(spacing)
+    if used > 0.25 * edge:
+        raise SceneError(file, f"is too small for so soft a solid: its attraction would reach {used:.3g} Å, and the map is "
+                         f"{edge:.4g} Å wide", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with a range "
+                         f"of {used:.3g} Å (work / E* = {adhesion / stiff:.3g} Å)", "take more sites, a wider map, or a stiffer solid")
+    if used > 1.001 * asked:
+        notes.append(f"the range of the attraction is {used:.4g} Å in place of {asked:.4g} Å, which a spacing of "
+                     f"{spacing:.4g} Å does not resolve; the part spacing of the error follows it")
+    flat = maps.without_tilt(heights)
+    periodic = maps.jump(flat) < maps.PERIODIC
+    if periodic:
+        heights = flat
+    notes.append("its tilt is subtracted, and without it the map is periodic" if periodic else "the mean plane is subtracted, and "
+                 "a smooth part that contains the jumps between opposite edges: the part edge is its effect")
+    files.directory(place)
+    stem = re.sub(r"[^\w.-]", "-", Path(file.partition(":/")[0]).stem) or "map"
+    with files.replacing(place / "map.npy") as beside, open(beside, "wb") as opened:
+        np.save(opened, heights)
+    scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "Å", "file_size": edge, "file_missing": "fill",
+                         "sites": n, "spacing": spacing, "detrend": "none" if periodic else "periodic", "resample": "band-limited"},
+             "block": {"young": keys.number("block.young"), "poisson": poisson, "thickness": n},
+             "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": used,
+                           "frictionless": True},
+             "drive": {"mode": "quasistatic", "hold": "mean-height", "path": ["approach", "pull-off"], "step": 0.25 * used}}
+    files.write(place / f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
+    slope = math.sqrt(np.nanmean(np.diff(flat, axis=0) ** 2) + np.nanmean(np.diff(flat, axis=1) ** 2)) * points / edge
+    kept = surface_made(str(place / f"{stem}.toml"))[1]
+    if n < points:
+        notes.append(f"waves below {2 * spacing / 10:.3g} nm are lost: {n} of {points} points along an edge carry an rms slope of "
+                     f"{kept:.3g}; the map's neighbours have {slope:.3g}")
+    else:
+        notes.append(f"all {points} points along an edge are taken, {spacing / 10:.3g} nm apart; roughness below is not measured")
+    return place / f"{stem}.toml", notes, lambda factor: [f"interface.range={resolved(factor * spacing):.10g}"] * (used > asked)
+
+
+def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os.PathLike | None = None,
+             range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
+             sites: int | None = None, jobs: int = 1) -> Adhesion:
+    """The adhesion of a soft or hard elastic half-space on a measured, rigid map, with its error.
+
+        found = asperity.adhesion("scan.gwy", E="100 GPa", nu=0.25, work="200 mJ/m^2")
+        found.quote(), found.quote("lost.cycle"), found.notes
+
+    map      a file of heights: HDF5, .npy, or any that `convert` reads
+    E, nu, work   Young's modulus and Poisson's ratio of the half-space, work of adhesion of flat surfaces; quantities
+             are texts with units
+    out      the directory; None: results/<map>-adhesion. Runs that are there are not run again.
+    range    of the exponential attraction; None: 3 Å, or what the spacing resolves
+    size, unit, channel   of maps that do not tell their width or unit; of an instrument's file
+    sites    along an edge; None: as many as the map has, 256 at most
+    jobs     runs side by side; they share the processors
+    """
+    program.refuse_ranks()
+    place = files.chosen(None if out is None else str(out), _place(str(map)))
+    scene, notes, also = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel,
+                                  sites=sites)
+    making = Estimating(str(scene), [], str(place), PoolOptions(jobs=jobs, progress="off"), None, (), also, notes, lambda _: None)
+    found, complete = _carried_out(making)
+    if not complete:
+        raise Stopped(str(place), "the estimate stopped early", "", "the same call goes on from here")
+    if found is None:
+        outcome = making.plan.scene.outcome
+        raise BY_CODE.get(outcome.exit_code, InternalError)(str(place), "the run of the map failed", outcome.reason)
+    return Adhesion(found, Result(place / "scene"), notes, scene, place)
+
+
+def _place(file: str) -> str:
+    return f"results/{Path(file.partition(':/')[0]).stem}-adhesion"
+
+
+def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
+    """With the pages of the estimate and of its run."""
+    with files.in_use(making.place):
+        found, complete = making.carry_out()
+        if complete and found is not None:
+            report_estimate.write(found)
+            if not (making.place / "scene/report.html").exists():
+                write_run_page(Result(making.place / "scene"), ("png",))
+    return found, complete
+
+
+def adhesion_command(file: str, young: str, poisson: float, work: str, out: str | None, options: PoolOptions, **more) -> int:
+    """`asperity adhesion`: its exit code."""
+    place = files.chosen(out, _place(file))
+    scene, notes, also = scene_of(file, young, poisson, work, place, **more)
+    print(f"{file}: a scene of it is {scene}", *(f"note: {note}" for note in notes), sep="\n", flush=True)
+    making = Estimating(str(scene), [], str(place), options, None, (), also, notes, lambda text: print(text, flush=True))
+    print(making.told(), flush=True)
+    found, complete = _carried_out(making)
+    if not complete:
+        print("Stopped early: the same command goes on from here.")
+        return STOPPED
+    outcome = making.plan.scene.outcome
+    if found is None or outcome.status != DONE:
+        print(f"The run of the map failed: {outcome.reason}")
+        return outcome.exit_code or PHYSICS
+    print(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in notes])))
+    print(f"in {place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
+    return 0

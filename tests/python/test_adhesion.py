@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""From a map to its adhesion: a surface of known adhesion by way of an export, and what is no map."""
+
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+import asperity
+from asperity import convert, maps
+from conftest import command
+
+MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
+          "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["zero-load"]}}
+SURFACE = {"sites": 32, "spacing": 5, "rms": 2.5, "cutoff": 8, "seed": 3}
+GIVEN = dict(E="5 GPa", nu=0.3, work="200 mJ/m2")
+
+
+@pytest.fixture(scope="module")
+def known(tmp_path_factory):
+    """Heights of a periodic surface, Å, its binding energy, and that in the limit of a fine lattice."""
+    place = tmp_path_factory.mktemp("known")
+    scene = {"surface": SURFACE, **MATTER}
+    run = asperity.run(scene, out=place / "run")
+    fine = asperity.run(scene, {"surface.sites": 128, "surface.spacing": 1.25, "block.thickness": 128}, place / "fine")
+    return run.substrate["height"], run.binding_energy, fine.binding_energy
+
+
+def distorted(heights, missing=0.01, noise=0.02):
+    """As an instrument has them: tilted, with noise, some missing. Not those at the edges, nor the highest."""
+    draw = np.random.default_rng(1)
+    y, x = np.indices(heights.shape)
+    found = heights + 150.0 + 0.4 * x - 0.7 * y + draw.normal(0.0, noise, heights.shape)
+    found[draw.random(heights.shape) < missing] = np.nan
+    return found
+
+
+def write_text(path, heights):
+    """As Gwyddion exports it, in other units along and across."""
+    rows = "\n".join("\t".join("bad" if np.isnan(v) else f"{1e-1 * v:.6f}" for v in row) for row in heights)
+    edge = SURFACE["sites"] * SURFACE["spacing"] * 1e-4
+    path.write_text(f"# Channel: Height\n# Width: {edge} µm\n# Height: {edge} µm\n# Value units: nm\n{rows}\n")
+
+
+def test_a_surface_comes_back_from_an_export(place, known):
+    heights, binding, limit = known
+    write_text(place / "scan.txt", distorted(heights))
+    found = asperity.adhesion(place / "scan.txt", **GIVEN, jobs=2)
+    number = found.estimate.numbers["binding_energy"]
+    assert 0.3 * 12.48 < binding < 0.95 * 12.48  # partly in contact
+    assert number.value == pytest.approx(binding, rel=0.02)
+    assert abs(number.estimate - limit) <= 2 * number.error
+    assert found.result.binding_energy == number.value and "lost.cycle" in found.estimate.numbers
+    assert any("points without a height are filled" in note for note in found.notes)
+    assert any("the map is periodic" in note for note in found.notes) and "edge" not in number.parts
+    assert "γ_eff = " in found.quote()
+    for name in ("report.html", "scene/report.html", "estimate.json", "estimate.png"):
+        assert (place / "results/scan-adhesion" / name).exists()
+    before = {path: path.stat().st_mtime_ns for path in place.glob("results/*/*/result.json")}
+    again = asperity.adhesion(place / "scan.txt", **GIVEN)
+    assert again.quote() == found.quote() and before == {p: p.stat().st_mtime_ns for p in before}
+
+
+def test_every_form_of_a_map_is_the_same_scene(place, known):
+    """The state alone, of the scene that a map becomes."""
+    heights, binding, _ = known
+    edge = SURFACE["sites"] * SURFACE["spacing"]
+    numbers = {}
+    write_text(place / "text.txt", heights)
+    np.save(place / "plain.npy", 1e-1 * heights)
+    with h5py.File(place / "map.h5", "w") as file:
+        file["scan"] = 1e-4 * heights
+        file["scan"].attrs.update(unit="µm", size_x=0.1 * edge, size_y=0.1 * edge, size_unit="nm")
+    for name, more in (("text.txt", {}), ("plain.npy", dict(unit="nm", size="16 nm")), ("map.h5", {}), ("map.h5:/scan", {})):
+        from asperity.measured import scene_of
+
+        scene, _, also = scene_of(str(place / name), "5 GPa", 0.3, "0.2 J/m^2", place / re.sub(r"\W", "", name), **more)
+        numbers[name] = asperity.run(scene, {"drive.path": ["zero-load"]}).binding_energy
+        assert also(0.5) == []  # the range is resolved
+    assert all(n == pytest.approx(binding, rel=0.02) for n in numbers.values()), numbers
+    assert np.ptp(list(numbers.values())) < 1e-4 * binding
+
+
+def test_a_coarse_map_says_what_is_lost(place):
+    draw = np.random.default_rng(2)
+    np.save(place / "rough.npy", np.cumsum(np.cumsum(draw.normal(size=(64, 64)), axis=0), axis=1))
+    said = command("adhesion", "rough.npy", "--E", "1MPa", "--nu", "0.49", "--work", "50mJ/m2", "--unit", "nm", "--size",
+                   "1um", "--sites", "20", "--progress", "off", "--out", "lost", expect=2, env={"OMPI_COMM_WORLD_SIZE": "2"})
+    assert "not one of several ranks" in said
+    from asperity.measured import scene_of
+
+    _, notes, also = scene_of("rough.npy", "1MPa", 0.49, "50mJ/m2", place / "lost", size="1um", unit="nm", sites=20)
+    assert any("waves below 100 nm are lost: 20 of 64 points" in note for note in notes), notes
+    assert any("a smooth part that contains the jumps" in note for note in notes)
+    assert any("does not resolve" in note for note in notes) and also(0.5) < also(1) < also(2)
+
+
+STEP = np.where(np.arange(32) < 16, 0.0, 50.0) + np.zeros((32, 1))
+BAD = {"three pixels": (np.zeros((3, 3)), {}, "3 x 3 points"),
+       "all missing": (np.full((32, 32), np.nan), {}, "has no heights"),
+       "most missing": (np.where(np.arange(32) < 20, np.nan, np.zeros((32, 1))), {}, "lacks 62 % of its heights"),
+       "a step": (STEP, {}, "a step edge"),
+       "millimetres": (STEP, {"size": "5 mm"}, "pixels of 156.2 µm"),
+       "colours": (np.zeros((32, 32, 3), np.uint8), {}, "a picture of colours"),
+       "no width": (STEP, {"size": None}, "does not tell how wide"),
+       "no unit": (STEP, {"unit": None}, "does not tell the unit"),
+       "unit": (STEP, {"unit": "parsec"}, "none of length"),
+       "no number": (STEP, {"E": 100}, "has no unit"),
+       "no adhesion": (STEP, {"work": "0 mJ/m^2"}, "is no adhesion"),
+       "Poisson's ratio": (STEP, {"nu": 0.75}, "^block.poisson = 0.75"),
+       "jelly": (np.random.default_rng(1).normal(size=(32, 32)), {"E": "10 Pa"}, "too small for so soft"),
+       "stretched": (np.zeros((32, 40)), {"size": None, "square": True}, "not square")}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_what_is_no_map_is_refused_in_a_sentence(place, name):
+    heights, more, says = BAD[name]
+    given = {**GIVEN, "unit": "nm", "size": "100 nm", **more}
+    if given.pop("square", False):
+        with h5py.File("map.h5", "w") as file:
+            file["heights"] = heights
+            file["heights"].attrs.update(unit="nm", size_x=100.0, size_y=100.0)
+    np.save("map.npy", heights)
+    with pytest.raises(asperity.Error, match=says) as raised:
+        asperity.adhesion("map.h5" if name == "stretched" else "map.npy", **given)
+    assert "fix: " in str(raised.value) and not (place / "results").exists()
+
+
+def test_pictures_are_refused_by_what_they_are(place):
+    import matplotlib.image
+
+    matplotlib.image.imsave("scan.png", np.zeros((32, 32, 3)))
+    for call in (lambda: asperity.adhesion("scan.png", **GIVEN), lambda: convert.convert("scan.png", "scan.h5")):
+        with pytest.raises(asperity.InputOutputError, match="is a picture .PNG., not a map of heights"):
+            call()
+
+
+def test_pieces_of_maps():
+    draw = np.random.default_rng(3)
+    heights = draw.normal(size=(9, 9))
+    y, x = np.indices(heights.shape)
+    tilted = heights + 3.0 + 2.0 * x - y
+    tilted[2, 3] = heights[2, 3] = np.nan
+    np.testing.assert_allclose(maps.without_plane(tilted), maps.without_plane(heights), atol=1e-12)
+    pieces = maps.quarters(heights)
+    assert [p.shape for p in pieces] == [(5, 5)] * 4 and pieces[3][0, 0] == heights[4, 4]
+    whole = maps.mirrored(heights)
+    assert whole.shape == (18, 18) and maps.jump(whole) == 0.0
+    assert np.nanmean(whole) == pytest.approx(np.nanmean(heights)) and maps.square(np.zeros((5, 8))).shape == (5, 5)
+    wave = np.sin(2 * np.pi * np.arange(32) / 32) + np.zeros((32, 1))
+    slope = 0.3 * np.arange(32)
+    assert np.abs(maps.without_tilt(wave + slope[:, None] - slope) - wave).max() < 0.02
+    assert maps.jump(wave) == pytest.approx(1.0, abs=0.5) and maps.jump(wave[:, :12]) > maps.PERIODIC
